@@ -12,10 +12,10 @@ from typing import Any, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, known_name, unknown, unwarned
+from linkage.errors import DefinitionError, known_name, unknown
 from linkage.language import said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting
-from linkage.motion import Answer, Judge, Motion, Question, Span, below_zero, least, most, reached, require_motion
+from linkage.motion import Answer, Condition, Judge, Motion, Question, Span, at, below_zero, least, most, reached, require_motion
 from linkage.statics import Case, Loads, elements_of, same
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
@@ -23,7 +23,7 @@ from linkage.verdict import Verdict
 from .cylinder import standard_bores
 from .inputs import not_negative, one_number
 from .line import LiftLine
-from .member import PISTON, SIDES, Cylinder, Thrust, carries_loads, one_design, one_size
+from .member import PISTON, SIDES, Cylinder, Gauge, Thrust, carries_loads, one_design, one_size
 from .requests import GoingBack, Pressure, Reserve
 
 TRIES = 4
@@ -53,6 +53,9 @@ def lift_verdicts(
 def line_verdicts(circuit: LiftLine, judge: Judge, resistance: float = 0.0, unit: str = "bar") -> list[Verdict]:
     """Return the verdicts on a circuit and each of its cylinders."""
     cylinders = [LiftingCylinder(judge, circuit, ram, unit) for ram in circuit.rams(judge.motion)]
+    unplaced = [each.ram.unplaced for each in cylinders if not each.ram.is_placed(judge)]
+    if unplaced:
+        return [Verdict("lifting", False, " ".join(unplaced))]
     nothing = idle(cylinders)
     if nothing is not None:
         return [nothing, oil_verdict(circuit, judge)]
@@ -71,6 +74,17 @@ def line_questions(circuit: LiftLine, judge: Judge) -> list[Question]:
         return []
     cylinders = [LiftingCylinder(judge, circuit, ram) for ram in circuit.rams(judge.motion)]
     return [question for each in cylinders for question in each.questions()]
+
+
+def line_conditions(circuit: LiftLine, judge: Judge) -> dict[str, Condition]:
+    """Return those of the verdicts on a circuit that are plain conditions, by their rules; none where nothing is lifted."""
+    if not carries_loads(judge):
+        return {}
+    cylinders = [LiftingCylinder(judge, circuit, ram) for ram in circuit.rams(judge.motion)]
+    if idle(cylinders) is not None:
+        return {}
+    several = len(cylinders) > 1
+    return {f"{rule} {each.ram.name}" if several else rule: one for each in cylinders for rule, one in each.conditions().items()}
 
 
 def the_circuit(circuit: LiftLine | str, motion: Motion) -> LiftLine:
@@ -149,6 +163,17 @@ class LiftingCylinder:
         standing = [most(Pressure(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in SIDES]
         going = [most(self.back), least(replace(self.back, tells="load"))]
         return [*self.thrusts, least(Reserve(*self.asked)), *standing, *going]
+
+    def conditions(self) -> dict[str, Condition]:
+        """Return what it has to keep: it lifts, holds on both sides, and goes back."""
+        asked, name = (self.ram.name, Acting(), self.circuit.name), self.circuit.name
+        held, supply = (at(Gauge(f"{name} {word}", read)) for word, read in (("held", self.circuit.held), ("supply", self.circuit.supply)))
+        back = most(GoingBack(*asked, way=self.way_back))
+        return {
+            "lifting": least(Reserve(*asked)) >= 1.0,
+            "holding": most(Pressure(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held,
+            "lowering": back <= supply if self.ram.works == "both" else back <= 0.0,
+        }
 
     def show(self, pressure: Any) -> str:
         """Return a pressure in the unit of the sentences."""
@@ -291,12 +316,8 @@ class LiftingCylinder:
 
     @property
     def way_back(self) -> str:
-        """The direction in which it goes back: against its working one; of both the way the load drives it at most ends of the strokes."""
-        if self.ram.works != "both":
-            return "retracting" if self.ram.works == "piston" else "extending"
-        with unwarned():
-            ends = Thrust(self.ram, Acting(self.judge.acting.loads)).of(self.judge.motion)
-        return "retracting" if float(np.nan_to_num(np.sign(ends)).sum()) >= 0.0 else "extending"
+        """The direction in which it goes back, told at the ends of the strokes."""
+        return self.ram.way_back(self.judge.motion, self.judge.acting.loads)
 
     def stuck(self, back: GoingBack) -> str:
         """Return where it does not go back, in words."""
@@ -312,6 +333,8 @@ def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     """Return how much oil the machine takes over all that it runs, and how long the pump's flow needs for it."""
     rams = circuit.rams(judge.motion)
     ways = [ram.travelled(judge) for ram in rams]
+    if np.isnan(ways).any():
+        return Verdict("oil", None, said("nothing is left to judge: every place is unlimited, left out or lost"))
     oil = sum(way * float(np.ravel(ram.sized(judge.motion).area)[0]) for ram, way in zip(rams, ways, strict=True))
     both = [(ram, way) for ram, way in zip(rams, ways, strict=True) if ram.works == "both"]
     back = sum(way * float(np.ravel(ram.sized(judge.motion).pull_area)[0]) for ram, way in both)

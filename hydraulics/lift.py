@@ -24,7 +24,7 @@ from linkage.frozen import refuses_changes
 from linkage.language import with_and
 from linkage.loads import DIRECTIONS, Force, ForceElement, Load, Parameter, Poses, require_poses
 from linkage.loads.element import Formulas
-from linkage.motion import Judge, Motion, Question
+from linkage.motion import Condition, Judge, Motion, Question
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of
 from linkage.statics import AnyMotion, Case, Loads, elements_of, same
@@ -43,8 +43,8 @@ from .inputs import (
     positive,
     proper_share,
 )
-from .judged import line_questions, line_verdicts
-from .line import Choice, Holding, LiftLine, Lowering, Work
+from .judged import line_conditions, line_questions, line_verdicts
+from .line import Choice, Holding, LiftLine, Lowering, WayBack, Work
 from .member import Cylinder, Reading, the_cylinder, thrust_along
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
@@ -253,6 +253,10 @@ class LiftCircuit(LiftLine):
         """Return what is asked of each of its cylinders: whether it carries anything, lifts, holds."""
         return line_questions(self, judge)
 
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return that each of its cylinders lifts, holds and goes back."""
+        return line_conditions(self, judge)
+
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the verdicts on lifting, oil, holding and lowering."""
         try:
@@ -371,28 +375,15 @@ class LiftCircuit(LiftLine):
     ) -> Lowering:
         """Return how it goes back against its working direction, the oil flowing out against a `resistance` [Pa].
 
-        Friction acts against the lowering: the load brings T k_m where it drives and takes T / k_m where it resists. Of a line of several
-        cylinders it is the one that goes back hardest, unless one is named.
+        Of a cylinder that works with both sides it is the way that the load drives it at most of the poses. Of a line of several cylinders
+        it is the one that goes back hardest, unless one is named.
         """
         against, k_m = fitted(motion, not_negative(resistance, "Return resistance")), self.efficiency(motion, "mechanical")
-        working, push, by_itself = [], [], []
-        area: float | Array
-        other: float | Array
-        for ram in self.meant(motion, cylinder):
-            size = ram.sized(motion)
-            if size.works == "both":
-                out, back = both_ways(ram, motion, loads, case)
-                pushes = out + back >= 0.0
-                force, area = np.where(pushes, back, -out), np.where(pushes, size.push_area, size.pull_area)
-                other = np.where(pushes, size.pull_area, size.push_area)
-            else:
-                way = "retracting" if size.works == "piston" else "extending"
-                force, area, other = size.sense * ram.thrust(motion, loads, case=case, direction=way), size.area, size.back_area
-            brings = np.where(force > 0.0, force * k_m, force / k_m)
-            working.append(np.maximum(brings, 0.0) / area)
-            push.append(np.maximum(against * area - brings, 0.0) / other)
-            by_itself.append(np.asarray(brings > against * area))
-        return Lowering(np.min(working, axis=0), np.max(push, axis=0), np.all(by_itself, axis=0))
+        found = [
+            WayBack.of(ram, motion, loads, case, ram.way_back(motion, loads, case), against, k_m) for ram in self.meant(motion, cylinder)
+        ]
+        push = np.max([each.push for each in found], axis=0)
+        return Lowering(np.min([each.working for each in found], axis=0), np.maximum(push, 0.0), np.asarray(push < 0.0))
 
 
 IDLE = 1e-12

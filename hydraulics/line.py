@@ -102,6 +102,31 @@ class Lowering:
     by_itself: Array
 
 
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class WayBack:
+    """A cylinder on its way back, `way` "extending" or "retracting", against a resistance of the returning oil [Pa].
+
+    Friction acts against it: the load brings T k_m where it drives and takes T / k_m where it resists. `working` is the pressure that the
+    load alone makes in the side that empties, `push` what the other side must give, below zero where the load does it by itself [Pa].
+    """
+
+    working: Array
+    push: Array
+
+    @classmethod
+    def of(
+        cls, ram: Cylinder, motion: AnyMotion, loads: Loads, case: Case, way: str, against: Array | float, k_m: Array
+    ) -> WayBack:
+        """Return how a cylinder goes back at a motion's poses."""
+        size, thrust = ram.sized(motion), ram.thrust(motion, loads, case=case, direction=way)
+        drives = thrust if way == "retracting" else -thrust
+        empties, other = (size.push_area, size.pull_area) if way == "retracting" else (size.pull_area, size.push_area)
+        brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
+        return cls(np.asarray(np.maximum(brings, 0.0) / empties)[()], np.asarray((against * empties - brings) / other)[()])
+
+
 class LiftLine(Circuit):
     """The base of what lifts by cylinders of one line: pressures [Pa gauge], forces [N] in the working direction, oil [m3], time [s]."""
 

@@ -41,6 +41,8 @@ from linkage.loads import (
 from linkage.loads.element import Formulas
 from linkage.motion import (
     Column,
+    Condition,
+    Constraint,
     Judge,
     Judging,
     Motion,
@@ -48,6 +50,7 @@ from linkage.motion import (
     Request,
     SmoothPiece,
     Tabled,
+    at,
     greatest,
     least,
     lowest,
@@ -227,6 +230,14 @@ class Cylinder(TwoPoint, Tabled, Judging):
         """The directions in which the side that works drives it."""
         return {"piston": ("extending",), "rod": ("retracting",)}.get(self.works, ("extending", "retracting"))
 
+    def way_back(self, motion: AnyMotion, loads: Loads = None, case: Case = None) -> str:
+        """Return the direction in which it goes back: against its working one; of both the way the load drives it at most of the poses."""
+        if self.works != "both":
+            return "retracting" if self.works == "piston" else "extending"
+        with unwarned():
+            drives = np.sign(self.thrust(motion, loads, case=case))
+        return "retracting" if float(np.nan_to_num(drives).sum()) >= 0.0 else "extending"
+
     def pressure_on(
         self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None, *, below: bool = False
     ) -> Array:
@@ -263,11 +274,24 @@ class Cylinder(TwoPoint, Tabled, Judging):
     def questions(self, judge: Judge) -> list[Question]:
         """Return its least and greatest length, and the utilisation of its rod."""
         ends = distance(self.A, self.B)
-        return [least(ends), most(ends), *([most(BucklingUse(self, Acting()))] if carries_loads(judge) else [])]
+        return [least(ends), most(ends), *([most(BucklingUse(self, Acting())) <= 1.0] if carries_loads(judge) else [])]
+
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return that it fits, where its stroke is declared, and that its rod does not buckle."""
+        found: dict[str, Condition] = {}
+        ends = distance(self.A, self.B)
+        closed, stroke = (at(Gauge(f"{self.name} {name}", partial(self._length_given, name))) for name in ("closed", "stroke"))
+        if self.stroke is not None and self.closed is None:
+            found["length"] = most(ends) - least(ends) <= stroke
+        elif self.closed is not None:
+            found["length"] = AllOf((least(ends) >= closed, *((most(ends) <= closed + stroke,) if self.stroke is not None else ())))
+        return found | ({"buckling": most(BucklingUse(self.name, Acting())) <= 1.0} if carries_loads(judge) else {})
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it fits wherever the machine runs, is of a standard size, and whether a rod that carries something buckles."""
         try:
+            if not self.is_placed(judge):
+                return [Verdict("length", False, self.unplaced), self.standard(judge.motion)]
             rod = self.buckling_verdicts(judge) if carries_loads(judge) else []
             return [*self.length_verdicts(judge), self.standard(judge.motion), *rod]
         except DefinitionError as error:
@@ -285,7 +309,7 @@ class Cylinder(TwoPoint, Tabled, Judging):
 
     def _length_given(self, name: str, motion: AnyMotion) -> Array:
         """Return its closed length or its stroke as it is given [m]."""
-        return positive(stroke_in_metres(number_set(self, motion, name), LENGTHS[name], self.sized(motion).bore), LENGTHS[name])
+        return positive(stroke_in_metres(number_set(self, motion, name), LENGTHS[name]), LENGTHS[name])
 
     def formulas(self, written: Formulas) -> None:
         """Write its area, and its pressure where no circuit says it."""
@@ -334,10 +358,23 @@ class Cylinder(TwoPoint, Tabled, Judging):
         closed, stroke = (None if each is None else one_number(np.squeeze(each), "Length") for each in self.closed_and_stroke(judge.motion))
         if closed is None and stroke is None:
             return []
-        low, high = (float(each.value) for each in judge.answers([least(distance(self.A, self.B)), most(distance(self.A, self.B))]))
+        ends = judge.answers([least(distance(self.A, self.B)), most(distance(self.A, self.B))])
+        low, high = (float(each.value) for each in ends)
+        if np.isnan(low):
+            return [Verdict("length", None, said("nothing is left to judge: every place is unlimited, left out or lost"), answer=ends[0])]
         if closed is not None:
-            return [self._reaches(low, high, closed, closed + stroke if stroke is not None else np.inf)]
-        return [] if stroke is None else [self._travels(high - low, stroke)]
+            opened = closed + stroke if stroke is not None else np.inf
+            return [self._reaches(low, high, closed, opened).answered(ends[0] if low - closed < opened - high else ends[1])]
+        return [] if stroke is None else [self._travels(high - low, stroke).answered(ends[1])]
+
+    def is_placed(self, judge: Judge) -> bool:
+        """Return whether its pins have a place anywhere that a judge looks at: a fixed one may have none in a design."""
+        return bool(np.isfinite(judge.answer(least(distance(self.A, self.B))).value))
+
+    @property
+    def unplaced(self) -> str:
+        """That its pins have no place, in words."""
+        return said("{pins} has no length at any pose that is looked at: one of its pins has no place there.", pins=self._pins)
 
     def travelled(self, judge: Judge) -> float:
         """Return greatest less least length over all that a judge looks at [m], of one design."""
@@ -411,14 +448,14 @@ class Cylinder(TwoPoint, Tabled, Judging):
     def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the same over all that a judge looks at."""
         rod = Buckling(one_size(self.sized(judge.motion)).rod, self.mounting, self.safety)
-        worst = judge.answer(most(BucklingUse(self, Acting())))
+        worst = judge.answer(most(BucklingUse(self, Acting())) <= 1.0)
         if np.isnan(worst.value) or not worst.value > 0.0:
             return [never_pushed()]
         with unwarned():  # the verdict itself says what comes of it
             place, acting = judge.there(worst), judge.situation(worst)
             push = float(self.thrust(place, acting.loads, case=acting.case, direction=acting.movement)) / self.count
             length = float(place.distance(self.A, self.B))
-        return [rod.judged(length, push, worst.place, unbounded=bool(worst.unbounded))]
+        return [rod.judged(length, push, worst.place, unbounded=bool(worst.unbounded)).answered(worst)]
 
     def buckling_use(self, motion: AnyMotion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
         """Return the utilisation of a rod, shape (...): a cylinder's push times the safety over the force at which it buckles; 0 in a pull.
@@ -439,6 +476,20 @@ class Cylinder(TwoPoint, Tabled, Judging):
     @property
     def _pins(self) -> str:
         return "".join(label(end) for end in (self.A, self.B))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class AllOf(Condition):
+    """Several conditions as one: the worst counts."""
+
+    each: tuple[Condition, ...]
+
+    def constraints(self, machine: Any) -> tuple[Constraint, ...]:
+        return tuple(one for condition in self.each for one in condition.constraints(machine))
+
+    def __str__(self) -> str:
+        return " and ".join(map(str, self.each))
 
 
 # What is asked of one cylinder.

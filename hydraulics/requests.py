@@ -22,7 +22,7 @@ from linkage.statics import AnyMotion, Case, same, situation_of
 
 from .cylinder import CylinderSize
 from .inputs import Array, direction_of, follows, only_where, proper_share
-from .line import LiftLine, Work
+from .line import LiftLine, WayBack, Work
 from .member import PISTON, ROD, SIDES, BucklingUse, Circuit, CylinderRequest, Thrust, circuit_having, found_in
 
 
@@ -233,11 +233,7 @@ def driving_side(direction: str | None) -> str:
 @final
 @dataclass(frozen=True, eq=False)
 class GoingBack(CircuitRequest):
-    """What the other side must give while a cylinder goes back against a resistance [Pa]; below zero where the load does it by itself.
-
-    `tells="load"` is the pressure that the load alone makes in the side it leaves. Friction acts against the movement: the load
-    brings T k_m where it drives and takes T / k_m where it resists.
-    """
+    """What the other side must give while a cylinder goes back against a resistance [Pa]; `tells="load"` what the load alone makes."""
 
     way: str = "retracting"
     resistance: float = 0.0
@@ -253,15 +249,9 @@ class GoingBack(CircuitRequest):
         return (self.way,)
 
     def law(self, motion: AnyMotion) -> Array:
-        ram, given = self.ram(motion.plan), self.acting
-        size, k_m = ram.sized(motion), self.circuit_of(motion.plan).efficiency(motion, "mechanical")
-        thrust = ram.thrust(motion, given.loads, case=given.case, direction=self.way)
-        drives = thrust if self.way == "retracting" else -thrust
-        leaves, other = (size.push_area, size.pull_area) if self.way == "retracting" else (size.pull_area, size.push_area)
-        brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
-        if self.tells == "load":
-            return np.asarray(np.maximum(brings, 0.0) / leaves)[()]
-        return np.asarray((self.resistance * leaves - brings) / other)[()]
+        ram, given, k_m = self.ram(motion.plan), self.acting, self.circuit_of(motion.plan).efficiency(motion, "mechanical")
+        found = WayBack.of(ram, motion, given.loads, given.case, self.way, self.resistance, k_m)
+        return found.working if self.tells == "load" else found.push
 
 
 @final

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .formulas import Equations
+    from .loads import Acting
     from .motion.measures import Measure
     from .pictures import Drawing
     from .pictures.film import Progress
@@ -296,6 +297,8 @@ def report(
     language: str | None = None,
     units: str | None = None,
     case: Any = None,
+    over: Any = None,
+    acting: Acting | None = None,
     at: Mapping[str, Any] = NOTHING,
     count: int = 11,
     columns: Sequence[str] | None = None,
@@ -308,19 +311,21 @@ def report(
 
     It has the inputs with units and sources, drawings with dimensions, the numbered equations with numbers filled in, from `start` on,
     tables and curves, the largest pin forces, limits of motion, checks with their measured figures, verdicts, the version and a hash of
-    the inputs. The same inputs give the same bytes.
+    the inputs. The same inputs give the same bytes. Tables and curves run along one stroke; what is judged, the verdicts, the largest
+    forces and the worst places, is over all that the machine runs, its `overs` or what is given as `over`.
 
     `language` ("en", "ru") and `units` ("si", "bar-mm", "kgf", "us") are those that hold already unless named. `case` names one load
-    case; without it all are looked at. `at` holds strokes or says between which values one runs [m or rad], as for `animate`; `count` is
-    the number of rows of the tables, `columns` the results shown, `trace` the points whose paths are drawn, `limits` as `plot` takes
-    them. `title_block` adds rows to the title block, `{"Checked by": "N. N.", "Date": "2026-05-01"}`. What stood at the path is replaced
-    whole. Raises DefinitionError for a batch of designs, another kind of file or an unknown name, AssemblyError where no pose is in reach.
+    case; without it all are looked at, or `acting` says loads, case and direction in one. `at` holds strokes or says between which
+    values one runs [m or rad], as for `animate`; `count` is the number of rows of the tables, `columns` the results shown, `trace` the
+    points whose paths are drawn, `limits` as `plot` takes them. `title_block` adds rows to the title block, `{"Checked by": "N. N.",
+    "Date": "2026-05-01"}`. What stood at the path is replaced whole. Raises DefinitionError for a batch of designs, another kind of file
+    or an unknown name, AssemblyError where no pose is in reach.
     """
     from .documents import report
 
     return report(
-        machine, path, language=language, units=units, case=case, at=at, count=count, columns=columns, trace=trace, limits=limits,
-        title_block=title_block, start=start,
+        machine, path, language=language, units=units, case=case, over=over, acting=acting, at=at, count=count, columns=columns,
+        trace=trace, limits=limits, title_block=title_block, start=start,
     )  # fmt: skip
 
 

@@ -84,15 +84,20 @@ def of_own_motion(method: Callable[[Mechanism, Motion], Result]) -> Callable[[Me
 
     @wraps(method)
     def checked(machine: Mechanism, motion: Motion) -> Result:
-        require_motion(motion)
-        missing = [name for name in machine.plan.members if name not in motion.plan.members]
-        if missing:
-            said = f"{method.__name__}(...) is given a motion of {motion.plan.title}, which has no {missing[0]}"
-            raise DefinitionError(f"{machine.plan.title}: {said}; give one of {machine.plan.title}.")
+        check_motion(machine, motion, method.__name__)
         with told(f"{machine.plan.title}.{method.__name__}(motion)"):
             return method(machine, motion)
 
     return checked
+
+
+def check_motion(machine: Mechanism, motion: object, what: str) -> None:
+    """Raise DefinitionError for what is no motion, or one of a machine that has not what this one has."""
+    found = require_motion(motion)
+    missing = [name for name in machine.plan.members if name not in found.plan.members]
+    if missing:
+        said = f"{what}(...) is given a motion of {found.plan.title}, which has no {missing[0]}"
+        raise DefinitionError(f"{machine.plan.title}: {said}; give one of {machine.plan.title}.")
 
 
 @final
@@ -347,8 +352,13 @@ class Mechanism(Shown, metaclass=MechanismType):
         """
         if motion is not None and over is not None:
             raise DefinitionError(f"{self.plan.title}.verdicts: a motion and over= both say where is looked; give one of them.")
-        judge = self.judge(require_motion(motion) if motion is not None else over, acting)
-        return ShownList([*judge_verdicts(judge), *self.rules(judge.motion if motion is None else motion)])
+        if motion is not None:
+            check_motion(self, motion, "verdicts")
+        judge = self.judge(over if motion is None else motion, acting)
+        own: object = self.rules(judge.motion if motion is None else motion)
+        if not isinstance(own, (list, tuple)) or not all(isinstance(each, str) for each in own):
+            raise DefinitionError(f"{self.plan.title}: rules(motion) gives {cited(own)}; a list of sentences is expected.")
+        return ShownList([*judge_verdicts(judge), *own])
 
     @of_a_design
     def rules(self, motion: Motion) -> list[str]:
@@ -375,10 +385,11 @@ class Mechanism(Shown, metaclass=MechanismType):
     def judge(self, over: Any = None, acting: Acting | None = None) -> Judge:
         """Return who answers questions of this design, over what is given or what it runs."""
         given = self.overs if over is None else over if isinstance(over, (list, tuple)) else (over,)
-        overs = [Over(**each) if isinstance(each, Mapping) else each for each in given]
-        wrong = next((each for each in overs if not isinstance(each, (Over, Motion))), None)
-        if wrong is not None or not overs:
+        known = [isinstance(each, (Over, Motion)) or is_strokes(each) for each in given]
+        if not all(known) or not known:
+            wrong = given[known.index(False)] if known else over
             raise DefinitionError(f"{self.plan.title}: over={cited(wrong)}: an Over is expected, such as Over(S=(0.0, 0.2)), or several.")
+        overs = [Over(**each) if isinstance(each, Mapping) else each for each in given]
         return Judge(self.plan, self._values, overs, acting, self)
 
     @of_a_design
@@ -506,6 +517,11 @@ def check_no_member(title: str, name: str, value: object) -> None:
     if lost:
         what = f"{title}.{name} holds {len(lost)} member{'s' if len(lost) > 1 else ''} in a {type(value).__name__}, which declares nothing"
         raise DefinitionError(f"{what}; bind each to a name of its own, and look for a comma too many at the end of the line.")
+
+
+def is_strokes(given: object) -> bool:
+    """Return whether something is a dictionary by names, which is short for an `Over`."""
+    return isinstance(given, Mapping) and all(isinstance(name, str) for name in given)
 
 
 def require_mechanism(given: object) -> None:

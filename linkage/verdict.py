@@ -45,6 +45,10 @@ class Verdict(str, Shown):
         """Return it with a name added to its rule, where several members follow the same one."""
         return type(self)(f"{self.rule} {name}", self.ok, self.sentence, f"{self.heading} {name}", self.answer)
 
+    def answered(self, answer: Any) -> Self:
+        """Return it with what the judge found."""
+        return type(self)(self.rule, self.ok, self.sentence, self.heading, answer)
+
     def __bool__(self) -> bool:
         return self.ok is True
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from linkage import drive_force, kN, mm
+from linkage import drive_force, kN, mm, most
 from linkage.pictures import plot_bands, plot_tornado
-from linkage.study import Tolerance, monte_carlo, most, tornado
+from linkage.study import Tolerance, monte_carlo, tornado
 from mechanisms.three_point_hitch import ThreePointHitch
 
 IMAGES = Path(__file__).parents[1] / "images"

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from ..disk import check_place
 from ..errors import DefinitionError
+from ..language import said
 
 if TYPE_CHECKING:
     from ..mechanism import Mechanism
@@ -37,11 +38,11 @@ class Command(ABC):
 
 def machine_arguments(parser: ArgumentParser, default: str | None = None) -> None:
     """Declare the arguments that every command on a machine has; with a `default` the machine need not be named."""
-    said = "a machine of `list`, package.module:Class, file.py, file.py:Class or file.toml"
+    what = "a machine of `list`, package.module:Class, file.py, file.py:Class or file.toml"
     if default is None:
-        parser.add_argument("machine", metavar="NAME", help=said)
+        parser.add_argument("machine", metavar="NAME", help=what)
     else:
-        parser.add_argument("machine", metavar="NAME", nargs="?", default=default, help=f"{said} (default {default})")
+        parser.add_argument("machine", metavar="NAME", nargs="?", default=default, help=f"{what} (default {default})")
     parser.add_argument(
         "--set", dest="settings", metavar="OB=180mm", action="append", default=[],
         help="change a design variable, with its unit (without: SI); a point: M=0.22,0.95 or M.x=220mm; repeatable",
@@ -117,6 +118,14 @@ def figure_path(options: Namespace, machine: type[Mechanism], command: str) -> P
     if options.output is None and options.figure is None:
         return None
     return picture(options.output, machine, f"{command}_{options.figure}")
+
+
+# What is said beside the results, on stderr, so that they can go into a pipe.
+
+
+def say_remark(text: str) -> None:
+    """Say on stderr, in one line, what is to be known of the results."""
+    print(f"hydrolinkage: {said('remark')}: {' '.join(text.split())}", file=sys.stderr)
 
 
 # A progress bar on a terminal, nothing in a pipe.

@@ -9,7 +9,7 @@ import numpy as np
 
 from .command import Command, machine_arguments, picture, pose_count
 from .machines import find
-from .settings import design, stroke_values
+from .settings import design, stroke_values, tell_gaps
 
 ENDINGS_OF_FILES = (".xlsx", ".csv", ".dxf", ".svg")
 
@@ -42,7 +42,8 @@ class ExportCommand(Command):
             first = next((name for name in machine.strokes if name not in at), None)
             if first is not None:
                 at[first] = np.linspace(machine.strokes[first].start, machine.strokes[first].end, options.poses)
-        from ..exports import export
+        from ..exports import export, exported_motion
 
+        tell_gaps(exported_motion(machine, path, at, options.count))
         print(export(machine, path, at=at, count=options.count, trace=options.path))
         return 0

@@ -9,23 +9,24 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..loads import LoadCase
-from ..mechanism import Mechanism
-from ..motion import Column, Motion, columns_of, geometry_verdicts
+from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, limits_over
 from ..reports import force_columns, is_loaded
 from ..statics import PinForces
 from .command import Command, machine_arguments, motion_arguments
 from .machines import find
 from .settings import (
-    DIRECTIONS,
     Acting,
     acting_of,
     check_argument,
     design,
     force_arguments,
     judged_code,
+    judged_over,
     motion_at,
-    verdicts_of,
+    over_argument,
+    overs_of,
+    plain_value,
+    poses_at,
 )
 from .table import csv_argument, pins_of, worst_pins, write_table
 
@@ -35,39 +36,38 @@ class ForcesCommand(Command):
     """Prints what a machine's drives, cylinders and pins carry."""
 
     name = "forces"
-    help = "what drives, cylinders and pins carry over the stroke, in a load case, and the worst of every pin"
+    help = "what drives, cylinders and pins carry over the stroke, and the worst of every pin over all load cases and directions"
 
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
         csv_argument(parser)
         motion_arguments(parser, 11)
         force_arguments(parser)
-        parser.add_argument("--all", action="store_true", help="the worst of every pin over all load cases and directions")
+        over_argument(parser)
         parser.add_argument("--poses", action="store_true", help="the force of every pin at every pose too")
         parser.add_argument("--on", metavar="BODY", help="all forces on this body at every pose, which balance, instead: for FEM")
         check_argument(parser)
 
     def run(self, options: Namespace) -> int:
         machine = design(find(options.machine), options.settings)
-        over, acting = motion_at(machine, options.strokes, options.count), acting_of(machine, options)
-        if not is_loaded(over):
+        acting, motion = acting_of(machine, options), motion_at(machine, options.strokes, options.count)
+        over = judged_over(machine, options, motion)
+        if not is_loaded(motion):
             what = f"{machine.plan.title} declares no load, so that there is no force; declare one, load = Weight(G, mass=100)"
             raise DefinitionError(f'{what}, or in a file: load = {{ Weight = "G", mass = 100 }}.')
-        if options.all and (options.case, options.direction) != (None, None):
-            raise DefinitionError("--all takes every load case and direction; leave out --case and --direction, or --all.")
-        pins = pins_of(over, acting)
-        columns = list(force_table(over, pins, acting, options))
+        pins = pins_of(motion, plain_value(acting))
+        columns = list(force_table(motion, pins, plain_value(acting), options))
         if options.csv != "-":
             signs = "Drive forces are positive the way the stroke grows, thrusts in a push."
             print(f"{machine.plan.title}, {pins.case}, {pins.direction}. {signs}\n")
-        write_table(columns, over.reached.size, options.csv)
+        write_table(columns, motion.reached.size, options.csv)
         if options.csv == "-":
             return 0
-        print(f"\n{worst_pins(over, *(every_acting(machine, acting) if options.all else [acting]))}\n")
+        print(f"\n{worst_pins(machine, over, acting)}\n")
         print(f"residual of equilibrium {pins.residual:.0e}", *pins.remarks, sep="\n")
         if not options.check:
             return 0
-        verdicts = verdicts_of(machine, over)
+        verdicts = machine.verdicts(over=over)
         print("", *verdicts, sep="\n")
         return judged_code(verdicts, options)
 
@@ -88,12 +88,6 @@ def force_table(motion: Motion, pins: PinForces, acting: Acting, options: Namesp
             yield Column(name, joint.size, "kN", 3) if joint.has_force else Column(f"{name} couple", np.asarray(joint.couple), "Nm", 3)
 
 
-def every_acting(machine: Mechanism, acting: Acting) -> list[Acting]:
-    """Return all load cases, the plain loads first, each in every direction."""
-    cases = [None, *machine.plan.of_kind(LoadCase)]
-    return [Acting(case, direction, acting.drive) for case in cases for direction in DIRECTIONS]
-
-
 @final
 class LimitsCommand(Command):
     """Prints how far a machine goes."""
@@ -106,14 +100,16 @@ class LimitsCommand(Command):
         parser.add_argument(
             "--at", dest="strokes", metavar="S=0.6", action="append", default=[], help="where other strokes are held; repeatable"
         )
+        over_argument(parser)
         check_argument(parser)
 
     def run(self, options: Namespace) -> int:
         machine = design(find(options.machine), options.settings)
         if not machine.strokes:
             raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")
-        over = motion_at(machine, options.strokes, POSES, unreachable="nan")
-        print(over.limits())
+        motion = machine.at(unreachable="nan", **poses_at(machine, options.strokes, POSES))
+        over = judged_over(machine, options, motion)
+        print(limits_over(motion, overs_of(machine, options.over) or [Over()]))
         print(f"mobility {machine.mobility}; Gruebler count {machine.gruebler}")
         for each in machine.four_bars:
             print(each)

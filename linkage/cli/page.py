@@ -10,7 +10,7 @@ from ..plan import Plan, plan_measure
 from ..units import parse
 from .command import Command, machine_arguments, picture, run_arguments
 from .machines import find
-from .settings import design, motion_along, stroke_values
+from .settings import design, motion_along, over_argument, overs_of, stroke_values, with_overs
 
 SUFFIXES = (".html",)
 
@@ -31,12 +31,14 @@ class PageCommand(Command):
         )  # fmt: skip
         parser.add_argument("--column", metavar="I", help="the column of `table` that is shown first")
         parser.add_argument("--path", metavar="G", action="append", help="draw this point's path; repeatable")
+        over_argument(parser)
         run_arguments(parser, 101, "poses of the curve")
 
     def run(self, options: Namespace) -> int:
         found = find(options.machine)
         path = picture(options.output, found, options.machine, SUFFIXES)
         machine = design(found, options.settings)
+        machine = with_overs(machine, overs_of(machine, options.over))
         at = dict(stroke_values(machine.plan, text) for text in options.strokes)
         motion_along(machine, options.count, at)
         vary = dict(slider_range(machine.plan, text) for text in options.vary) or None

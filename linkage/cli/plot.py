@@ -9,7 +9,7 @@ from typing import Any, final
 from ..errors import DefinitionError
 from ..mechanism import Mechanism
 from ..motion import Column
-from ..reports import results
+from ..reports import results, stroke_middles
 from .command import Command, machine_arguments, motion_arguments, path_argument, picture, picture_argument, progress_bar, run_arguments
 from .machines import find
 from .settings import (
@@ -21,8 +21,10 @@ from .settings import (
     motion_along,
     motion_at,
     parse_limit,
+    plain_value,
     stroke_values,
     traced_points,
+    with_gaps,
 )
 
 
@@ -59,7 +61,7 @@ def curves(machine: Mechanism, options: Namespace) -> Any:
     given = dict(stroke_values(machine.plan, text) for text in options.strokes)
     many = [name for name, values in given.items() if len(values) > 1]
     over = motion_at(machine, options.strokes, options.count) if many else motion_along(machine, options.count, given)
-    columns = columns_picked(machine, over, options.columns, [], acting_of(machine, options))
+    columns = columns_picked(machine, over, options.columns, [], plain_value(acting_of(machine, options)))
     names = [column.name for column in columns]
     limits: dict[str, Sequence[Any]] = {name: limit for name, limit in machine.featured().limits.items() if name in names}
     limits |= dict(parse_limit(text, columns) for text in options.limits)
@@ -72,7 +74,7 @@ def poses(machine: Mechanism, options: Namespace) -> Any:
     """Return the figure of the machine at the strokes chosen, else at its ends."""
     at = dict(stroke_values(machine.plan, text) for text in options.strokes)
     if at:
-        machine.at(**{name: 0.5 * (stroke.start + stroke.end) for name, stroke in machine.strokes.items()} | at)
+        with_gaps(machine, stroke_middles(machine) | at)
     else:
         motion_along(machine, options.count)
     from ..pictures import draw

@@ -10,7 +10,7 @@ from ..disk import check_place
 from ..errors import DefinitionError
 from .command import Command, machine_arguments, motion_arguments, path_argument
 from .machines import find
-from .settings import design, pair, stroke_values
+from .settings import design, over_argument, overs_of, pair, stroke_values
 
 KINDS = (".html", ".pdf", ".md")
 
@@ -28,7 +28,8 @@ class ReportCommand(Command):
         parser.add_argument("-o", "--output", metavar="FILE", help=f"{', '.join(KINDS)} (default: the machine's name with .html)")
         motion_arguments(parser, 11)
         path_argument(parser)
-        parser.add_argument("--case", metavar="CASE", help="this load case alone (default: all)")
+        over_argument(parser)
+        parser.add_argument("--case", metavar="CASE", help="this load case alone, plain: the machine's own loads (default: all)")
         parser.add_argument("--start", metavar="N", type=int, default=1, help="the first equation's number (default 1)")
         parser.add_argument(
             "--row", dest="rows", metavar="NAME=TEXT", action="append", default=[], help="a row of the title block; repeatable"
@@ -46,7 +47,7 @@ class ReportCommand(Command):
         at = dict(stroke_values(machine.plan, text) for text in options.strokes)
         rows = dict(pair(text, "--row", '"Checked by=N. N."') for text in options.rows)
         print(report(
-            machine, path, case=options.case, at=at, count=options.count, columns=options.columns or None, trace=options.path,
-            title_block=rows, start=options.start,
+            machine, path, case=options.case, over=overs_of(machine, options.over), at=at, count=options.count,
+            columns=options.columns or None, trace=options.path, title_block=rows, start=options.start,
         ))  # fmt: skip
         return 0

@@ -5,20 +5,23 @@ from __future__ import annotations
 import re
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from dataclasses import replace
+from typing import Any, cast
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, known_name, unknown
-from ..loads import DIRECTIONS, PLAIN, Acting, LoadCase
+from ..errors import AssemblyError, DefinitionError, SingularError, known_name, unknown
+from ..language import said, said_of
+from ..loads import DIRECTIONS, PLAIN, PLAIN_CASE, Acting, LoadCase
 from ..mechanism import Mechanism
-from ..motion import Column, Motion, Request, RequestLike, columns_of, stroke_unit
+from ..motion import Column, Motion, Over, Request, RequestLike, columns_of, out_of_reach, stroke_unit
 from ..plan import Plan, plan_measure
 from ..quantities import Dimension, Quantity, Stroke
 from ..reports import NOTHING, At, force_columns, results, run_of
 from ..steps import Point
 from ..units import UNITS, parse
 from ..verdict import Verdict
+from .command import say_remark
 
 FAILED = 1
 """The exit code of `--check` where a verdict fails."""
@@ -26,7 +29,7 @@ FAILED = 1
 
 def force_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments that choose the loads."""
-    parser.add_argument("--case", metavar="CASE", help="the load case of this name instead of the loads as they are declared")
+    parser.add_argument("--case", metavar="CASE", help=f"the load case of this name; {PLAIN_CASE}: the loads as they are declared")
     parser.add_argument(
         "--direction", choices=DIRECTIONS, help="with the declared friction of this direction: of the stroke, or of each cylinder"
     )
@@ -38,17 +41,82 @@ def check_argument(parser: ArgumentParser) -> None:
     parser.add_argument("--check", action="store_true", help="leave with exit code 1 where a verdict fails")
 
 
-def verdicts_of(machine: Mechanism, motion: Motion) -> list[str]:
-    """Return a machine's verdicts; DefinitionError where its own `verdicts` gives something else than sentences."""
-    verdicts: Any = machine.verdicts(motion)
-    if not isinstance(verdicts, (list, tuple)) or not all(isinstance(each, str) for each in verdicts):
-        raise DefinitionError(f"{machine.plan.title}: verdicts(motion) gives {cited(verdicts)}; a list of sentences is expected.")
-    return list(verdicts)
+def over_argument(parser: ArgumentParser) -> None:
+    """Declare the argument that says where a judgement looks."""
+    parser.add_argument(
+        "--over", metavar='"phi=15deg:80deg,t=0"', action="append", default=[],
+        help="where verdicts and largest values are looked for: a declared Over by its name, or strokes, two ends or one value of each; "
+        "others run; repeatable (default: all declared ones, else the box of all strokes)",
+    )  # fmt: skip
+
+
+def overs_of(machine: Mechanism, texts: Sequence[str]) -> list[Over] | None:
+    """Return where `--over` says that is looked, None where it is not given; DefinitionError for what is no Over of the machine."""
+    return [parsed_over(machine, text) for text in texts] or None
+
+
+def parsed_over(machine: Mechanism, text: str) -> Over:
+    """Return what one text means: a declared Over by its name, or strokes such as `phi=15deg:80deg,t=0`."""
+    declared, title = machine.plan.of_kind(Over), machine.plan.title
+    if "=" not in text:
+        if text.strip() in declared:
+            return declared[text.strip()]
+        example = f"{next(iter(machine.strokes), 'S')}=...:..."
+        raise DefinitionError(f"--over {text}: {unknown('Over', text.strip(), declared, where=title)} Or name strokes, --over {example}.")
+    strokes: dict[str, float | tuple[float, float]] = {}
+    for part in text.split(","):
+        name, given = pair(part, "--over", "phi=15deg:80deg,t=0")
+        if name not in machine.strokes:
+            raise unknown("Stroke", name, machine.strokes, where=f"--over {text}")
+        if name in strokes:
+            raise DefinitionError(f"--over {text}: {name} stands twice; give it two ends, {name}=LOW:HIGH.")
+        strokes[name] = parsed_ends(machine.plan, name, given)
+    return Over(**strokes)  # type: ignore[arg-type]
+
+
+def parsed_ends(plan: Plan, name: str, text: str) -> float | tuple[float, float]:
+    """Return one value of a stroke, or two ends [m or rad]; a unit behind the second holds for the first too, as in `15:80deg`."""
+    from ..files.study_file import span_said
+
+    kind, parts = stroke_kind(plan, name), [part.strip() for part in text.split(":")]
+    if len(parts) == 1:
+        return si_value(parts[0], kind, f"--over {name}")
+    span = span_said(" to ".join(parts), kind) if len(parts) == 2 and all(parts) else None
+    if span is None or len(span) != 2:
+        raise DefinitionError(f"--over {name}={text}: one value or two ends are expected, such as {name}=15deg:80deg.")
+    return span[0], span[1]
+
+
+def with_overs(machine: Mechanism, overs: Sequence[Over] | None) -> Mechanism:
+    """Return the same design of a machine that runs only over what is given; itself where nothing is."""
+    if overs is None:
+        return machine
+    cls, own = type(machine), machine.plan.of_kind(Over)
+    members: dict[str, Any] = {name: None for name, over in own.items() if over not in overs}
+    fresh = [over for over in overs if not over.name]
+    members |= {f"over_{number}": over for number, over in enumerate(fresh, 1)}
+    contents = {"__doc__": cls.__doc__, "__module__": cls.__module__, **members}
+    return cast(Mechanism, type(cls)(cls.__name__, (cls,), contents)(**machine.dimensions))  # type: ignore[misc]
+
+
+def judged_over(machine: Mechanism, options: Namespace, motion: Motion) -> list[Over | Motion] | None:
+    """Return where a judgement looks: what `--over` says, else the poses that `--at` chose, else None, all that the machine runs."""
+    chosen = overs_of(machine, options.over)
+    return [*chosen] if chosen else [motion] if options.strokes else None
 
 
 def judged_code(verdicts: Sequence[str], options: Namespace) -> int:
-    """Return the exit code of what was judged: 1 where that is asked for and a verdict fails; a plain sentence does not."""
-    return FAILED if options.check and any(isinstance(each, Verdict) and not each.ok for each in verdicts) else 0
+    """Return the exit code of what was judged: 1 where that is asked for and a verdict fails; a plain sentence does not.
+
+    Rules that say nothing do not fail; how many there are is said.
+    """
+    if not options.check:
+        return 0
+    judged = [each for each in verdicts if isinstance(each, Verdict)]
+    silent = sum(each.ok is None for each in judged)
+    if silent:
+        say_remark(said_of(silent, "{n} rule says nothing: nothing is left to judge.", "{n} rules say nothing: nothing is left to judge."))
+    return FAILED if any(each.ok is False for each in judged) else 0
 
 
 def design(machine: type[Mechanism], texts: Sequence[str]) -> Mechanism:
@@ -94,24 +162,50 @@ def si_value(text: str, kind: str, what: str) -> float:
         raise DefinitionError(f"{what}: {error}") from None
 
 
-def motion_at(machine: Mechanism, texts: Sequence[str], count: int, unreachable: str = "raise") -> Motion:
+def motion_at(machine: Mechanism, texts: Sequence[str], count: int) -> Motion:
     """Return the motion at strokes such as `S=0.6,650mm`; those not given go over their range at `count` poses.
 
-    Several that take more than one value make a grid.
+    Several that take more than one value make a grid. Places that cannot be assembled are gaps, and one remark says so.
     """
+    return with_gaps(machine, poses_at(machine, texts, count))
+
+
+def poses_at(machine: Mechanism, texts: Sequence[str], count: int) -> dict[str, Any]:
+    """Return the strokes of such a motion, arrays of one shape."""
     given = dict(stroke_values(machine.plan, text) for text in texts)
     axes = {name: given.get(name, np.linspace(stroke.start, stroke.end, count)) for name, stroke in machine.strokes.items()}
     many = {name: axis for name, axis in axes.items() if len(axis) > 1 or name not in given}
     grids = dict(zip(many, np.meshgrid(*many.values(), indexing="ij"), strict=True)) if many else {}
-    return machine.at(unreachable=unreachable, **{name: grids.get(name, axis[0]) for name, axis in axes.items()})
+    return {name: grids.get(name, axis[0]) for name, axis in axes.items()}
+
+
+def with_gaps(machine: Mechanism, strokes: Mapping[str, Any]) -> Motion:
+    """Return the motion at strokes, NaN where it cannot be assembled, of which one remark says where, what is missing and the remedy.
+
+    Raises AssemblyError where nothing can be assembled, SingularError at a change point.
+    """
+    try:
+        return machine.at(**strokes)
+    except SingularError:
+        raise
+    except AssemblyError as error:
+        motion = machine.at(unreachable="nan", **strokes)
+        if not motion.reached.any():
+            raise
+        tell_gaps(motion, error)
+        return motion
+
+
+def tell_gaps(motion: Motion, error: AssemblyError | None = None) -> None:
+    """Say in one remark where a motion cannot be assembled, what is missing there and the remedy; `error` is what says so."""
+    if error is not None or not motion.reached.all():
+        gaps = "" if motion.reached.all() else said("What cannot be assembled is left empty.")
+        say_remark(f"{error or out_of_reach(motion)} {gaps}")
 
 
 def motion_along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
-    """Return the motion along one stroke or several together, the others held as `at` says, else in their middle.
-
-    Raises AssemblyError where it cannot be assembled; a picture would leave those poses out.
-    """
-    return machine.at(**run_of(machine, at).over(np.linspace(0.0, 1.0, count)))
+    """Return the motion along one stroke or several together, the others held as `at` says, else in their middle; with gaps."""
+    return with_gaps(machine, run_of(machine, at).over(np.linspace(0.0, 1.0, count)))
 
 
 def stroke_values(plan: Plan, text: str) -> tuple[str, Any]:
@@ -119,22 +213,39 @@ def stroke_values(plan: Plan, text: str) -> tuple[str, Any]:
     name, values = pair(text, "--at", "S=0.6,650mm")
     if name not in plan.strokes:
         raise unknown("Stroke", name, plan.strokes, where=plan.title)
-    kind = "angle" if stroke_unit(plan, name) == "rad" else "length"
-    return name, np.array([si_value(value, kind, f"--at {name}") for value in values.split(",")])
+    return name, np.array([si_value(value, stroke_kind(plan, name), f"--at {name}") for value in values.split(",")])
+
+
+def stroke_kind(plan: Plan, name: str) -> str:
+    """Return what a stroke measures: "angle" or "length"."""
+    return "angle" if stroke_unit(plan, name) == "rad" else "length"
 
 
 # -- columns -----------------------------------------------------------------------------------------------
 
 
 def acting_of(machine: Mechanism, options: Namespace) -> Acting:
-    """Return the load case and the direction that options mean; DefinitionError for a case or a drive that is not there."""
-    cases = {name: each for name, each in machine.plan.of_kind(LoadCase).items()}
-    if options.case is not None and options.case not in cases:
-        remedy = "" if cases else f" {machine.plan.title} declares none; write {options.case} = LoadCase({options.case!r}, scale=...)."
-        raise DefinitionError(f"{unknown('Load case', options.case, cases, where=machine.plan.title)}{remedy}")
+    """Return the load case and the direction that options mean; DefinitionError for a case or a drive that is not there.
+
+    In a judgement a case or a direction that is not given means all that occur.
+    """
+    check_case(machine, options.case)
     if options.drive is not None and options.drive not in machine.strokes:
         raise unknown("Stroke", options.drive, machine.strokes, where=machine.plan.title)
-    return Acting(options.case, options.direction, options.drive)
+    return Acting(case=options.case, direction=options.direction, drive=options.drive)
+
+
+def check_case(machine: Mechanism, case: str | None) -> None:
+    """Raise DefinitionError for a load case that is not there."""
+    cases = machine.plan.of_kind(LoadCase)
+    if case not in (None, PLAIN_CASE, *cases):
+        remedy = "" if cases else f" {machine.plan.title} declares none; write {case} = LoadCase({case!r}, scale=...)."
+        raise DefinitionError(f"{unknown('Load case', case, [PLAIN_CASE, *cases], where=machine.plan.title)}{remedy}")
+
+
+def plain_value(acting: Acting) -> Acting:
+    """Return the situation of values at poses: where no load case is named, or the plain one, the machine's own loads."""
+    return replace(acting, case=None) if acting.case == PLAIN_CASE else acting
 
 
 def columns_picked(

@@ -15,14 +15,10 @@ from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
 from .command import Command, lined_up, machine_arguments, picture, picture_argument
 from .machines import find
-from .settings import check_argument, design, judged_code, motion_at, stroke_values, verdicts_of
+from .settings import check_argument, design, judged_code, over_argument, overs_of, stroke_values
 
 if TYPE_CHECKING:
     from ..formulas import Equations
-
-POSES = {0: 1, 1: 101, 2: 21}
-MANY = 7  # poses of each of three or more strokes
-
 
 @final
 class ShowCommand(Command):
@@ -33,6 +29,7 @@ class ShowCommand(Command):
 
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
+        over_argument(parser)
         check_argument(parser)
         group = parser.add_argument_group("equations")
         group.add_argument("--equations", action="store_true", help="the vector equations too, numbered")
@@ -50,6 +47,7 @@ class ShowCommand(Command):
     def run(self, options: Namespace) -> int:
         check_asked(options)
         machine = design(find(options.machine), options.settings)
+        over = overs_of(machine, options.over)
         if options.modes:
             path = None if options.output is None else picture(options.output, type(machine), options.machine)
             return show_modes(machine, dict(value_at(machine, text) for text in options.strokes), path)
@@ -60,8 +58,7 @@ class ShowCommand(Command):
             print_section(title, lines)
         if options.equations:
             print_section("Equations", str(listed(machine, options)).splitlines())
-        poses = POSES.get(len(machine.strokes), MANY)
-        verdicts = verdicts_of(machine, motion_at(machine, [], poses))
+        verdicts = machine.verdicts(over=over)
         print_section("Verdict", verdicts)
         return judged_code(verdicts, options)
 

@@ -11,7 +11,8 @@ from typing import TextIO, final
 
 from ..disk import replacing_text
 from ..errors import DefinitionError
-from ..motion import Column, Motion
+from ..mechanism import Mechanism
+from ..motion import Column, Motion, Over
 from ..reports import is_loaded, rich_tables, text_table, write_csv
 from ..statics import PinForces, max_table, pin_forces, table_text
 from .command import Command, machine_arguments, motion_arguments, progress_bar
@@ -24,9 +25,11 @@ from .settings import (
     design,
     force_arguments,
     judged_code,
+    judged_over,
     motion_at,
+    over_argument,
+    plain_value,
     ratio_columns,
-    verdicts_of,
 )
 
 COLUMNS = "only these columns (default: all), or what is asked for in words: 'pressure(lift)', 'ratio(G.y)'"
@@ -47,7 +50,8 @@ class TableCommand(Command):
         motion_arguments(parser, 11)
         ratio_arguments(parser)
         force_arguments(parser)
-        parser.add_argument("--pins", action="store_true", help="the largest force of every pin too, its direction and pose")
+        over_argument(parser)
+        parser.add_argument("--pins", action="store_true", help="the largest force of every pin too, its load case, direction and pose")
         parser.add_argument("--limits", action="store_true", help="how far each stroke goes too, dead points, transmission angles")
         check_argument(parser)
 
@@ -55,12 +59,13 @@ class TableCommand(Command):
         if options.csv == "-" and (options.pins or options.limits):
             raise DefinitionError("--pins and --limits do not go into CSV; leave them out, or write it into a file, --csv table.csv.")
         machine = design(find(options.machine), options.settings)
-        poses, acting = motion_at(machine, options.strokes, options.count), acting_of(machine, options)
+        acting, poses = acting_of(machine, options), motion_at(machine, options.strokes, options.count)
+        over = judged_over(machine, options, poses)
         strokes = list(poses.strokes)
         names = options.columns or (strokes if options.ratio else [])  # ratios alone stand beside their strokes
-        columns = columns_picked(machine, poses, names, strokes, acting)
+        columns = columns_picked(machine, poses, names, strokes, plain_value(acting))
         columns += ratio_columns(machine, poses, options.ratio, options.wrt)
-        pins = worst_pins(poses, acting) if options.pins else ""
+        pins = worst_pins(machine, over, acting) if options.pins else ""
         write_table(columns, poses.reached.size, options.csv)
         if pins:
             print(f"\n{pins}")
@@ -68,7 +73,7 @@ class TableCommand(Command):
             print(f"\n{poses.limits()}")
         if not options.check:
             return 0
-        verdicts = verdicts_of(machine, poses)
+        verdicts = machine.verdicts(over=over)
         if options.csv != "-":
             print("", *verdicts, sep="\n")
         return judged_code(verdicts, options)
@@ -80,16 +85,20 @@ def ratio_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--wrt", metavar="S", help="the stroke of these derivatives (default: each)")
 
 
-def worst_pins(motion: Motion, *actings: Acting) -> str:
-    """Return the table of the largest force of every joint, over some load cases and directions; DefinitionError where nothing acts."""
-    if not is_loaded(motion):
-        raise DefinitionError(f"{motion.plan.title} declares no load, so that no pin carries anything; declare one, Weight(G, mass=100).")
-    return table_text(max_table([pins_of(motion, each) for each in actings]))
+def worst_pins(machine: Mechanism, over: Sequence[Over | Motion] | None, acting: Acting) -> str:
+    """Return the table of the largest force of every joint over what is given, else over all that the machine runs.
+
+    In all load cases and directions that `acting` leaves open; DefinitionError where nothing acts.
+    """
+    judge = machine.judge(over, acting)
+    if not is_loaded(judge.motion):
+        raise DefinitionError(f"{machine.plan.title} declares no load, so that no pin carries anything; declare one, Weight(G, mass=100).")
+    return table_text(max_table(machine, over, acting))
 
 
 def pins_of(motion: Motion, acting: Acting) -> PinForces:
     """Return the joint forces of a motion in a load case and a direction."""
-    return pin_forces(motion, case=acting.case, direction=acting.direction or "frictionless", drive=acting.drive)
+    return pin_forces(motion, case=acting.case, direction=acting.movement, drive=acting.drive)
 
 
 def csv_argument(parser: ArgumentParser) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from math import cos, sin
@@ -13,23 +13,26 @@ from matplotlib.axes import Axes
 
 from ..errors import LinkageError, unknown, unwarned
 from ..language import noted, said, translated
-from ..motion import Column, Motion, Tabled, stroke_display_unit
+from ..loads import PLAIN_CASE, Acting
+from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, most, stroke_display_unit
 from ..motion.limits import StrokeLimits
+from ..motion.measures import Least, Most
 from ..pictures import mechanism
-from ..pictures.curves import panel
+from ..pictures.curves import limit_of, panel
 from ..pictures.dimensioned import dimensioned
 from ..pictures.scene import Scene
-from ..pictures.style import ACCENT, INK, THIN, TITLE
+from ..pictures.style import ACCENT, INK, SMALL, THIN, TITLE
 from ..plan import Plan
+from ..program import FloatArray
 from ..reports import results
 from ..reports.table import cells as text_cells
 from ..reports.table import column_blocks, flat
-from ..statics import PinForces, max_table
-from ..units import show, shown_number, unit_sign
+from ..statics import MemberThrust, PinLoad, drive_force, judged_table
+from ..units import factor, show, shown_number, unit_sign
 from .calculation import has_loads
 from .content import Block, Cell, Illustration, Paragraph, Section, TableBlock
 from .inputs import length_unit
-from .run import Looked
+from .run import Looked, member_tables
 
 WIDE = 6.6
 """The width of a picture across the page [inch]."""
@@ -120,13 +123,17 @@ def results_section(looked: Looked, names: Sequence[str] | None, first: str, lim
     whole = curve_columns(looked)
     coordinates = {f"{point}_{axis}" for point in looked.machine.plan.points for axis in "xy"}
     drawn = [name for name in whole if name != first and (name in names if names is not None else name not in coordinates)]
+    beyond = wider_answers(looked, {name: whole[name] for name in [first, *drawn]}, limits)
+    along, over = ", ".join(looked.run.ways), looked.words(dict(looked.run.held))
     for name in [first, *drawn]:
-        bound = limits.get(name)
-        caption = said("{column} over the stroke.", column=whole[name].heading)
-        if bound is not None:
-            caption += said(" Shaded: what its limit excludes.")
+        bound, further = limits.get(name), beyond.get(name, [])
+        caption = said("{column} along {stroke}; {held} held.", column=whole[name].heading, stroke=along, held=over) if over else said(
+            "{column} along {stroke}.", column=whole[name].heading, stroke=along
+        )  # fmt: skip
+        caption += said(" Shaded: what its limit excludes.") if bound is not None else ""
+        caption += beyond_words(further, whole[name]) if further else ""
         size = (WIDE, 2.6) if name == first else (HALF, 2.15)
-        paint = partial(curve, motion=looked.curve, column=whole[name], bound=bound)
+        paint = partial(curve, motion=looked.curve, column=whole[name], bound=bound, beyond=further)
         blocks.append(Illustration(f"curve_{safe(name)}", caption, size, (0.62, 0.12, 0.46, 0.32 if bound is None else 0.48), paint))
     return Section(said("Results"), tuple(blocks))
 
@@ -142,19 +149,79 @@ def curve_columns(looked: Looked) -> dict[str, Column]:
 
 def member_curves(looked: Looked) -> Iterator[Column]:
     """Yield what members show of themselves, with their names; nothing of one that is refused."""
-    for name, member in looked.machine.plan.of_kind(Tabled).items():
-        try:
-            columns = member.columns(looked.curve)
-        except LinkageError:
-            continue
-        yield from (replace(column, name=f"{column.name} {name}") for column in columns)
+    yield from (replace(column, name=f"{column.name} {name}") for name, column in member_tables(looked.machine, looked.curve))
 
 
-def curve(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None) -> None:
-    """Draw a column over the stroke with its limit."""
+# Beside each curve, what the judge finds over all that the machine runs: a line where that lies beyond the curve.
+
+BEYOND = 1e-6
+"""Of a curve's range: what lies no further beyond it is not marked."""
+
+
+def wider_answers(looked: Looked, columns: Mapping[str, Column], limits: Mapping[str, Sequence[Any]]) -> dict[str, list[Answer]]:
+    """Return, by column, the least and the greatest over all that the machine runs, those beyond the curve; of a limit its side.
+
+    They are asked for of what has a limit, of forces and what hangs on them, and of the first column.
+    """
+    asked: list[tuple[str, Measure]] = []
+    for name in columns:
+        quantity = looked.quantities.get(name)
+        of_forces = isinstance(quantity, Request) and quantity.under(Acting(case=PLAIN_CASE), keep=True) is not quantity
+        if quantity is not None and (of_forces or name in limits or name == next(iter(columns))):
+            fails = {"below": (least,), "above": (most,)}.get(limit_of(limits[name]).fails, ()) if name in limits else sides_of(quantity)
+            asked += [(name, side(quantity)) for side in fails]
+    try:
+        with unwarned():
+            answers = looked.judge.answers([question for _, question in asked])
+    except LinkageError:
+        return {}
+    found: dict[str, list[Answer]] = {}
+    for (name, question), answer in zip(asked, answers, strict=True):
+        if lies_beyond(np.asarray(columns[name].values, float), answer, isinstance(question, Least)):
+            found.setdefault(name, []).append(answer)
+    return found
+
+
+def lies_beyond(values: FloatArray, answer: Answer, is_least: bool) -> bool:
+    """Return whether an answer lies beyond all values of a curve."""
+    finite, value = values[np.isfinite(values)], float(answer.value)
+    if not finite.size or np.isnan(value):
+        return False
+    low, high = float(finite.min()), float(finite.max())
+    near = BEYOND * max(high - low, abs(high), abs(low))
+    return value < low - near if is_least else value > high + near
+
+
+def beyond_words(answers: Sequence[Answer], column: Column) -> str:
+    """Return what the lines beside a curve are."""
+    parts = [
+        said("{side} {value}, {place}", side=said("least") if isinstance(each.question, Least) else said("greatest"),
+             value=f"{amount(each, column)} {unit_sign(column.unit)}".strip(), place=each.place)
+        for each in answers
+    ]  # fmt: skip
+    return said(" Over all that the machine runs: {answers}.", answers="; ".join(parts))
+
+
+def curve(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None, beyond: Sequence[Answer]) -> None:
+    """Draw a column over the stroke with its limit, and lines for what lies beyond it elsewhere."""
     panel(ax, motion, column, bound)
     if bound is not None:  # its words stand above the curve, under the heading
         ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=TITLE, fontweight="bold", color=INK, pad=19)
+    for each in beyond:
+        if np.isfinite(each.value):
+            mark_beyond(ax, float(each.value) / factor(column.shown_unit), amount(each, column), isinstance(each.question, Least))
+
+
+def mark_beyond(ax: Axes, value: float, text: str, is_least: bool) -> None:
+    """Draw a line at a value, with its number, and make room for it."""
+    low, high = ax.get_ylim()
+    air = 0.2 * (max(high, value) - min(low, value))
+    ax.set_ylim(min(low, value - air), max(high, value + air))
+    ax.axhline(value, color=INK, linewidth=1.1, linestyle=(0, (1.5, 1.5)), zorder=4.0)
+    ax.annotate(
+        text, (1.0, value), xycoords=("axes fraction", "data"), xytext=(-4, -3 if is_least else 3), textcoords="offset points",
+        ha="right", va="top" if is_least else "bottom", fontsize=SMALL, color=INK, zorder=6.0,
+    )  # fmt: skip
 
 
 def safe(name: str) -> str:
@@ -177,33 +244,69 @@ def column_grids(caption: str, columns: Sequence[Column]) -> Iterator[TableBlock
 def members_section(looked: Looked) -> Section | None:
     """Return the section of what members show of themselves, such as cylinders their thrust and pressure; None where none does."""
     members = looked.machine.plan.of_kind(Tabled)
-    rows: list[tuple[Cell, ...]] = []
-    refused: list[Paragraph] = []
-    for name, member in members.items():
-        try:
-            with unwarned():
-                columns = member.columns(looked.curve)
-        except LinkageError as error:
-            refused.append(Paragraph(str(error)))
-            continue
-        rows += [(name, *column_extremes(looked, column)) for column in columns]
     if not members:
         return None
-    heads = (said("member"), said("quantity"), said("least"), said("at stroke"), said("greatest"), said("at stroke"))
-    table = [TableBlock(said("Cylinders over the stroke, without friction"), heads, tuple(rows), "llrlrl")] if rows else []
+    with unwarned():
+        columns = list(member_tables(looked.machine, looked.curve))
+        asked = [column.request if column.request is not None else values_of(looked, name, column) for name, column in columns]
+        questions = [[side(quantity) for side in sides_of(quantity)] for quantity in asked]
+        try:
+            answers = iter(looked.judge.answers([question for each in questions for question in each]))
+        except LinkageError as error:
+            return Section(said("Hydraulics"), (Paragraph(str(error)),))
+    found = [[next(answers) for _ in each] for each in questions]
+    rows = tuple(
+        (name, column.heading, *end_cells(each, Least, column), *end_cells(each, Most, column))
+        for (name, column), each in zip(columns, found, strict=True)
+    )
+    shown = dict.fromkeys(name for name, _ in columns)
+    refused = [Paragraph(why) for name in members if name not in shown and (why := why_refused(looked, name))]
+    heads = (said("member"), said("quantity"), said("least"), said("situation and place"), said("greatest"), said("situation and place"))
+    table = [TableBlock(said("Cylinders, over all that the machine runs"), heads, rows, "llrmrm")] if rows else []
     return Section(said("Hydraulics"), (*table, *refused))
 
 
-def column_extremes(looked: Looked, column: Column) -> tuple[str, ...]:
-    """Return a column's heading, its least and greatest value and the strokes of these."""
-    values = np.broadcast_to(np.asarray(column.values, float), looked.curve.shape)
-    if not np.isfinite(values).any():
-        return (column.heading, "–", "", "–", "")
-    cells = text_cells(column, flat([Column(column.name, values, column.unit, column.digits)])[0])
-    found: list[str] = []
-    for place in (int(np.nanargmin(values)), int(np.nanargmax(values))):
-        found += [cells[place], looked.moving_words(looked.strokes_at(looked.curve, place))]
-    return (column.heading, *found)
+def end_cells(answers: Sequence[Answer], end: type[Measure], column: Column) -> tuple[str, str]:
+    """Return the least or the greatest as cells, its value and its place; dashes where it was not asked for."""
+    return next(((amount(each, column), each.place) for each in answers if isinstance(each.question, end)), ("–", ""))
+
+
+def sides_of(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
+    """Return what is asked of a quantity: its least and its greatest; of one that is unlimited in places, such as a reserve, the least.
+
+    Of a pressure the greatest: the least is nought, on the side that does not hold.
+    """
+    is_open = isinstance(quantity, Request) and type(quantity).unlimited is not Request.unlimited
+    return (least,) if is_open else (most,) if getattr(quantity, "measures", "") == "pressure" else (least, most)
+
+
+def values_of(looked: Looked, member: str, column: Column) -> Callable[[Motion], FloatArray]:
+    """Return a member's column as a function of a motion, for one that nothing else asks for."""
+
+    def values(motion: Motion) -> FloatArray:
+        found = looked.machine.plan.of_kind(Tabled)[member].columns(motion)
+        return np.asarray(next(each.values for each in found if each.name == column.name), float)
+
+    return values
+
+
+def why_refused(looked: Looked, member: str) -> str:
+    """Return why a member shows nothing of itself; "" where it has nothing to show."""
+    try:
+        with unwarned():
+            looked.machine.plan.of_kind(Tabled)[member].columns(looked.curve)
+    except LinkageError as error:
+        return str(error)
+    return ""
+
+
+def amount(answer: Answer, column: Column) -> str:
+    """Return an answer's value in a column's unit and decimals; a dash without one."""
+    value = float(answer.value)
+    if np.isinf(value):
+        return "∞" if value > 0.0 else "−∞"
+    (cell,) = text_cells(column, Column(column.name, np.array([value]), column.unit, column.digits).shown)
+    return "–" if np.isnan(value) else cell
 
 
 # -- forces of joints --------------------------------------------------------------------------------------
@@ -216,38 +319,38 @@ def forces_section(looked: Looked) -> Section | None:
         return None
     try:
         found = looked.forces
-        rows = max_table(found)
+        with unwarned():
+            rows, ranges = judged_table(looked.judge), tuple(drive_rows(looked))
     except LinkageError as error:
         return Section(title, (Paragraph(said("The joint forces are not calculated: {why}", why=str(error))),))
-    held = looked.words(dict(looked.run.held))
     looks = Paragraph(
         said(
-            "The largest force of each joint over the whole run of {stroke}, between the poses of the tables too, over load cases and "
-            "directions of motion. Fx and Fy act on the body, in its own axes: x from the first of the named points to the second, y to "
-            "its left; on the frame in the axes of the drawing.",
-            stroke=", ".join(looked.run.ways),
+            "The largest force of each joint over {domain}, between the poses of the tables too, over load cases and directions of "
+            "motion. Fx and Fy act on the body, in its own axes: x from the first of the named points to the second, y to its left; on "
+            "the frame in the axes of the drawing.",
+            domain=looked.domain,
         )
-        + (said(" Held: {held}.", held=held) if held else "")
     )
     unit = unit_sign("kN")
     heads = (
         said("pin"), said("joint"), said("on body"), said("from body"), said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit),
-        said("F, {unit}", unit=unit), said("x axis"), said("at stroke"), said("load case"), said("motion"),
+        said("F, {unit}", unit=unit), said("x axis"), said("strokes"), said("load case"), said("motion"),
     )  # fmt: skip
-    table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(pin_row(looked, row) for row in rows), "llllrrrllll")
-    drives = (said("load case"), said("motion"), said("drive or member"), said("least"), said("greatest"), said("unit"))
-    ranges = TableBlock(said("Driving forces and thrusts at the poses of the table"), drives, tuple(drive_rows(looked, found)), "lllrrl")
+    table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(map(pin_row, rows)), "llllrrrlmml")
+    drives = (
+        said("drive or member"), said("unit"), said("least"), said("situation and place"), said("greatest"), said("situation and place")
+    )  # fmt: skip
+    forces = TableBlock(said("Driving forces and thrusts, over all that the machine runs"), drives, ranges, "llrmrm")
     remarks = [Paragraph(each) for each in dict.fromkeys(remark for one in found for remark in one.remarks)]
-    return Section(title, (ranges, looks, table, *remarks))
+    return Section(title, (forces, looks, table, *remarks))
 
 
-def pin_row(looked: Looked, row: Any) -> tuple[str, ...]:
+def pin_row(row: PinLoad) -> tuple[str, ...]:
     """Return a joint's largest force as cells."""
     parts = [shown_number(row.force * way(row.angle), "kN", "z.3f") if np.isfinite(row.force) else "∞" for way in (cos, sin)]
     size = shown_number(row.force, "kN", ".3f") if np.isfinite(row.force) else "∞"
     case = translated(row.case)
-    where = looked.moving_words(row.strokes)
-    return (row.point, translated(row.kind), frame(row.on), frame(row.by), *parts, size, row.axis, where, case, translated(row.direction))
+    return (row.point, translated(row.kind), frame(row.on), frame(row.by), *parts, size, row.axis, row.place, case, row.movement)
 
 
 def frame(name: str) -> str:
@@ -255,15 +358,16 @@ def frame(name: str) -> str:
     return said("frame") if name.startswith("frame") else name
 
 
-def drive_rows(looked: Looked, found: Sequence[PinForces]) -> Iterator[tuple[str, ...]]:
-    """Yield the range of every drive's force and of every thrust."""
-    for one in found:
-        forces = [(name, values, drive_unit(looked.machine.plan, name)) for name, values in one.drives.items()]
-        forces += [(said("thrust of {name}", name=name), values, "kN") for name, values in one.thrusts.items()]
-        for name, values, unit in forces:
-            if np.isfinite(values).any():
-                low, high = (shown_number(float(each(values)), unit, "z.3f") for each in (np.nanmin, np.nanmax))
-                yield (translated(one.case), translated(one.direction), name, low, high, unit_sign(unit))
+def drive_rows(looked: Looked) -> Iterator[tuple[str, ...]]:
+    """Yield the least and the greatest force of every drive and thrust of every member, in which situation and where."""
+    one, plan = looked.forces[0], looked.machine.plan
+    asked: list[tuple[str, Request, str]] = [(name, drive_force(name), drive_unit(plan, name)) for name in one.drives]
+    asked += [(said("thrust of {name}", name=name), MemberThrust(Acting(), name), "kN") for name in one.thrusts]
+    answers = looked.judge.answers([each(request) for _, request, _ in asked for each in (least, most)])
+    for (name, _, unit), low, high in zip(asked, answers[::2], answers[1::2], strict=True):
+        column = Column(name, np.zeros(1), unit, 3)
+        if not np.isnan(low.value):
+            yield name, unit_sign(unit), amount(low, column), low.place, amount(high, column), high.place
 
 
 def drive_unit(plan: Plan, stroke: str) -> str:
@@ -298,19 +402,19 @@ def limit_rows(looked: Looked, limits: StrokeLimits) -> Iterator[tuple[Cell, ...
     def place(value: float) -> str:
         return looked.words({name: value})
 
-    for each in limits.intervals:
-        yield name, said("reachable"), said("from {start} to {end}", start=place(each.low), end=place(each.high))
+    for part in limits.intervals:
+        yield name, said("reachable"), said("from {start} to {end}", start=place(part.low), end=place(part.high))
     for value, step in limits.dead_points:
         yield name, said("dead point of {step}, the motion ends", step=step), place(value)
     for value, step in limits.change_points:
         yield name, said("change point: the branches of {step} cross", step=step), place(value)
     for value, cylinder in limits.cylinder_dead_points:
         yield name, said("dead point of the cylinder {cylinder}: its length stands still", cylinder=cylinder), place(value)
-    for least in limits.transmission:
+    for each in limits.transmission:
         yield (
             name,
-            said("least transmission angle at {joint}: {angle}", joint=least.joint, angle=show(least.angle, "deg", 4)),
-            place(least.stroke),
+            said("least transmission angle at {joint}: {angle}", joint=each.joint, angle=show(each.angle, "deg", 4)),
+            place(each.stroke),
         )
     if limits.open_turn is not None:
         pins, turns = " ".join(limits.open_turn.pins), limits.open_turn.turns

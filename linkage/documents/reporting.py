@@ -12,18 +12,20 @@ import numpy as np
 
 from ..disk import check_place
 from ..errors import DefinitionError, LinkageError, cited, unknown, unwarned
-from ..language import current_language, said, translated
+from ..language import current_language, heading_of, said, said_of
 from ..language import language as spoken
+from ..loads import Acting
 from ..mechanism import Mechanism
-from ..motion import stroke_display_unit
+from ..motion import Answer, Constraint, Leaf, least, most, places_text, stroke_display_unit
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
 from ..pictures.strokes import column_shown
 from ..reports import NOTHING, At
+from ..statics import situation_of
 from ..units import current_system, show, shown_number, unit_system
 from ..verdict import Verdict
 from .calculation import calculated, calculation_section, has_loads
-from .checks import checks_section, kept_mark
+from .checks import checks_section
 from .content import Cell, Document, Mark, Paragraph, Section, TableBlock
 from .fingerprint import DIGITS, fingerprint, own_version
 from .html import write_html
@@ -34,8 +36,6 @@ from .pdf import write_pdf
 from .run import Looked
 
 WRITERS: Mapping[str, Callable[[Document, Path], None]] = {".html": write_html, ".pdf": write_pdf, ".md": write_markdown}
-POSES = {1: 101, 2: 21}
-MANY_STROKES = 7
 
 
 def report(machine: Mechanism, path: str | Path, *, language: str | None = None, units: str | None = None, **given: Any) -> Path:
@@ -57,6 +57,8 @@ def report_document(
     units: str | None = None,
     case: Any = None,
     at: At = NOTHING,
+    over: Any = None,
+    acting: Acting | None = None,
     count: int = 11,
     columns: Sequence[str] | None = None,
     trace: Sequence[str] | None = None,
@@ -65,7 +67,7 @@ def report_document(
     start: int = 1,
 ) -> Document:
     """Return what a report says, before it is written as a file."""
-    looked = Looked.at(machine, at, count, case)
+    looked = Looked.at(machine, at, count, over, situation_of(acting, "report", case=case))
     if not isinstance(title_block, Mapping) or not all(isinstance(each, str) for pair in title_block.items() for each in pair):
         raise DefinitionError(f'title_block={cited(title_block)}: rows of text are expected, title_block={{"Checked by": "N. N."}}.')
     with speaking(language, units):
@@ -96,7 +98,7 @@ def composed(
     bounds = checked_limits(own if limits is None else limits, names, machine.plan.title)
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
     found = calculated(machine, looked.pose, start)
-    verdicts, mark = verdict_section(machine)
+    verdicts, mark = verdict_section(looked, bounds)
     sections = (
         inputs_section(machine, found.listing, looked.run.held),
         drawing_section(looked, path),
@@ -123,7 +125,8 @@ def facts(looked: Looked, title_block: Mapping[str, str], mark: Mark) -> tuple[t
     return (
         (said("Machine"), f"{machine.plan.heading} ({cls.__module__}:{cls.__qualname__})"),
         (said("Run"), f"{moves}; {said('held: {held}', held=held)}" if held else moves),
-        (said("Load cases"), ", ".join(map(looked.case_words, looked.cases)) if has_loads(machine) else said("no loads")),
+        (said("Judged over"), looked.domain),
+        (said("Load cases"), ", ".join(map(looked.case_words, looked.judge.cases)) if has_loads(machine) else said("no loads")),
         (said("Verdicts"), mark.word),
         *title_block.items(),
         (said("Inputs, SHA-256"), fingerprint(machine, seen)[:DIGITS]),
@@ -153,30 +156,88 @@ def checked_limits(limits: Mapping[str, Sequence[Any]], columns: Sequence[str], 
 # What the machine itself judges.
 
 
-def verdict_section(machine: Mechanism) -> tuple[Section, Mark]:
-    """Return the section of a machine's own verdicts over its whole strokes, and how many are kept."""
+def verdict_section(looked: Looked, limits: Mapping[str, Sequence[Any]]) -> tuple[Section, Mark]:
+    """Return the section of a machine's verdicts over all that it runs, with its worst places, and how many rules are kept."""
     title = said("Verdicts")
-    poses = POSES.get(len(machine.strokes), MANY_STROKES)
-    axes = [np.linspace(stroke.start, stroke.end, poses) for stroke in machine.strokes.values()]
-    grid: dict[str, Any] = dict(zip(machine.strokes, np.meshgrid(*axes, indexing="ij"), strict=True))
     try:
         with unwarned():
-            found = machine.verdicts(machine.at(**grid))
+            found = looked.machine.verdicts(over=looked.over, acting=looked.judge.acting)
+            limited = limit_answers(looked, limits)
     except LinkageError as error:
-        why = Paragraph(said("The machine cannot be judged over its whole strokes: {why}", why=str(error)))
+        why = Paragraph(said("The machine cannot be judged over all that it runs: {why}", why=str(error)))
         return Section(title, (why,)), Mark(False, said("not judged"))
     if not found:
         return Section(title, (Paragraph(said("This machine declares no rules of its own.")),)), Mark(None, said("no rules declared"))
-    rows = tuple(verdict_row(each) for each in found)
     judged = [each for each in found if isinstance(each, Verdict)]
-    count = sum(each.ok is True for each in judged)
-    grid_of = TableBlock(said("Rules, over the whole strokes"), (said("rule"), said("result"), said("what was found")), rows, "llm")
-    word = said("{kept} of {all} rules kept", kept=count, all=len(judged)) if judged else said("no rules declared")
-    return Section(title, (grid_of,)), Mark(count == len(judged) if judged else None, word)
+    domain = Paragraph(said("Judged over {domain}, in all load cases and directions of motion that occur there.", domain=looked.domain))
+    heads = (said("rule"), said("result"), said("what was found"))
+    table = TableBlock(said("Rules, over all that the machine runs"), heads, tuple(map(verdict_row, found)), "llm")
+    places = [(each.heading, each.ok, each.answer) for each in judged if isinstance(each.answer, Answer)]
+    worst = worst_places([*places, *((name, each.ok, each) for name, each in limited)])
+    return Section(title, (domain, table, *([worst] if worst is not None else []))), rules_mark(judged)
+
+
+def rules_mark(judged: Sequence[Verdict]) -> Mark:
+    """Return how many rules are kept, and how many say nothing."""
+    if not judged:
+        return Mark(None, said("no rules declared"))
+    kept, silent = (sum(each.ok is ok for each in judged) for ok in (True, None))
+    word = said("{kept} of {all} rules kept", kept=kept, all=len(judged))
+    if silent:
+        word = said_of(silent, "{rules}, {n} says nothing", "{rules}, {n} say nothing", rules=word)
+    return Mark(False if kept + silent < len(judged) else None if silent else True, word)
 
 
 def verdict_row(verdict: str) -> tuple[Cell, ...]:
     """Return a verdict as cells: its rule, whether it is kept, its sentence; of a plain sentence only that."""
     if isinstance(verdict, Verdict):
-        return translated(verdict.rule), kept_mark(verdict.ok), verdict.sentence
+        return verdict.heading, verdict_mark(verdict.ok), verdict.sentence
     return "", Mark(None, "–"), verdict
+
+
+def verdict_mark(ok: bool | None) -> Mark:
+    """Return the mark of a verdict."""
+    return Mark(ok, said("says nothing") if ok is None else said("kept") if ok else said("not kept"))
+
+
+# The worst places of all rules.
+
+MOST_PLACES = 10
+"""Rows of the table of the worst places."""
+
+
+def limit_answers(looked: Looked, limits: Mapping[str, Sequence[Any]]) -> list[tuple[str, Answer]]:
+    """Return what the judge says of the limits of columns, by their headings; of those that it can be asked of."""
+    asked = {}
+    for name, given in limits.items():
+        quantity, limit = looked.quantities.get(name), limit_of(given)
+        if quantity is not None:
+            asked[name] = least(quantity) >= limit.value if limit.fails == "below" else most(quantity) <= limit.value
+    return [(heading_of(name), each) for name, each in zip(asked, looked.judge.answers([*asked.values()]), strict=True)]
+
+
+def worst_places(answers: Sequence[tuple[str, bool | None, Answer]]) -> TableBlock | None:
+    """Return the table of the worst places of some rules, those that are not kept first, then by how far the limit is used."""
+    known = [each for each in answers if each[2].strokes and not np.isnan(each[2].value)]
+    ranked = sorted(known, key=lambda each: (each[1] is not False, -used(each[2])))
+    rows = tuple(
+        (rule, verdict_mark(ok), each.amount, each.situation or "–", places_text(each.strokes, each.units))
+        for rule, ok, each in ranked[:MOST_PLACES]
+    )
+    heads = (said("rule"), said("result"), said("value"), said("situation"), said("strokes"))
+    return TableBlock(said("The worst places"), heads, rows, "llrmm") if rows else None
+
+
+def used(answer: Answer) -> float:
+    """Return how far a limit is used, 1.0 where it is met exactly; 0.0 where no plain limit tells, infinite where nothing bounds it."""
+    question = answer.question
+    if not isinstance(question, Constraint) or question.right.leaves:
+        return 0.0
+    value, limit = abs(float(answer.value)), abs(float(question.right.of(nothing_asked)))
+    of, by = (value, limit) if question.symbol == "<=" else (limit, value)
+    return np.inf if of > 0.0 and by == 0.0 else 0.0 if of == 0.0 else of / by if np.isfinite(by) else 0.0
+
+
+def nothing_asked(leaf: Leaf) -> float:
+    """Return nothing: a number has no leaves."""
+    raise AssertionError(leaf)

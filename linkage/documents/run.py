@@ -1,22 +1,24 @@
-"""What a document looks at: one design, the stroke that moves, and the poses of its table and its curves."""
+"""What a document looks at: one design, the judge of all that it runs, and the stroke along which its tables and curves go."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, LinkageError, SingularError, cited, unwarned
 from ..language import said
-from ..loads import ForceElement, LoadCase
+from ..loads import PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..mechanism import Mechanism, require_mechanism
-from ..motion import Motion, stroke_display_unit
-from ..quantities import is_whole
-from ..reports import At, Run, run_of
-from ..statics import PinForces, pin_forces
+from ..motion import Column, Judge, Motion, Request, Tabled, stroke_display_unit
+from ..motion.measures import MeasuredQuantity
+from ..quantities import Quantity, is_whole
+from ..reports import At, ColumnOf, Run, column_requests, run_of
+from ..reports.results import asked_by_name
+from ..statics import PinForces, drive_force, pin_forces, pin_forces_under
 from ..units import show
 
 CURVE = 121
@@ -30,15 +32,16 @@ MANY = 2001
 @final
 @dataclass(frozen=True, eq=False)
 class Looked:
-    """A design along one of its strokes, the others held."""
+    """A design, who answers questions over all that it runs, and one of its strokes along which it is shown, the others held."""
 
     machine: Mechanism
     run: Run
     count: int
-    case: str = ""
+    over: Any
+    judge: Judge
 
     @classmethod
-    def at(cls, machine: Mechanism, at: At, count: int, case: object) -> Looked:
+    def at(cls, machine: Mechanism, at: At, count: int, over: Any = None, acting: Acting | None = None) -> Looked:
         """Return what is looked at; DefinitionError for a batch, a count that is none, an unknown case; AssemblyError out of reach."""
         require_mechanism(machine)
         title = machine.plan.title
@@ -49,7 +52,8 @@ class Looked:
             )
         if not is_whole(count) or not 2 <= count <= MANY:
             raise DefinitionError(f"count={cited(count)}: the rows of the report's tables, 2 to {MANY}; give a whole number such as 11.")
-        found = cls(machine, run_of(machine, at), count, case_name(machine, case))
+        found = cls(machine, run_of(machine, at), count, over, machine.judge(over, acting).lost_allowed())
+        found.judge.cases  # noqa: B018  refuses a load case that is unknown
         if not found.curve.reached.any():
             raise AssemblyError(f"{title}: no pose of this run can be assembled, so that there is nothing to report; see machine.at(...).")
         return found
@@ -107,47 +111,50 @@ class Looked:
         return ", ".join(f"{name} = {show(value, units[name], 6)}" for name, value in strokes.items())
 
     @property
-    def cases(self) -> list[str]:
-        """The load cases looked at: the one asked for, else the plain one, "", and all that are declared."""
-        return [self.case] if self.case else ["", *self.machine.plan.of_kind(LoadCase)]
+    def domain(self) -> str:
+        """All that the judge looks at, in words: the strokes of each `Over`, with its name where there are several."""
+        places = self.judge.places
+        named = [(place.over.title if len(places) > 1 else "", place.over.words(place.motion)) for place in places]
+        return "; ".join(f"{name}: {words}" if name else words for name, words in named)
+
+    @property
+    def is_wider(self) -> bool:
+        """Whether the judge looks at more than the run that is shown: other strokes, or elsewhere."""
+        moving = {name for place in self.judge.places for name in place.running}
+        return moving != set(self.run.ways) or len(self.run.held) > 0 or len(self.judge.places) > 1
+
+    @cached_property
+    def quantities(self) -> dict[str, MeasuredQuantity]:
+        """What asks for the columns of results and of members anywhere, by their names; nothing for one that only the table gives."""
+        with unwarned():
+            own = column_requests(self.machine, self.curve).items()
+            asked = {name: request for name, (_, request, why) in own if not (why and isinstance(request, ColumnOf))}
+            kinds = str, Quantity, Request
+            found: dict[str, MeasuredQuantity] = {name: request for name, request in asked.items() if isinstance(request, kinds)}
+            for name, column in member_tables(self.machine, self.curve):
+                if isinstance(column.request, (str, Quantity, Request)):
+                    found.setdefault(f"{column.name} {name}", column.request)
+        return found
 
     @cached_property
     def forces(self) -> list[PinForces]:
-        """The joint forces in every case and, where friction makes a difference, in both directions; raises LinkageError."""
+        """The joint forces at the poses of the tables in every situation that is judged; raises LinkageError."""
         if len(self.machine.links) < 2:
             raise DefinitionError(f"{self.machine.plan.title}: its points form no bodies, so that no joint carries anything.")
-        return [
-            pin_forces(self.table, case=case or None, direction=direction, drive=self.drive if direction != "frictionless" else None)
-            for case in self.cases for direction in self.directions
-        ]  # fmt: skip
+        with unwarned():
+            return [pin_forces_under(self.table, each) for each in self.judge.actings(drive_force())]
 
-    @property
-    def drive(self) -> str | None:
-        """The drive that friction works against, where one stroke moves; along several at once they move as the run goes."""
-        return self.stroke if len(self.run.ways) == 1 else None
-
-    @property
-    def directions(self) -> list[str]:
-        """The directions of motion in which the forces differ."""
-        elements = self.machine.plan.of_kind(ForceElement).values()
-        try:
-            rubs = any(each.frictions(self.table) for each in elements)
-        except LinkageError:
-            rubs = False
-        return ["frictionless", "extending", "retracting"] if rubs else ["frictionless"]
-
-    def case_words(self, case: str) -> str:
+    def case_words(self, name: str) -> str:
         """Return what a load case is called."""
-        return self.machine.plan.of_kind(LoadCase)[case].label if case else said("own loads")
+        known = self.machine.plan.of_kind(LoadCase).get(name, self.judge.acting.case)
+        return known.label if isinstance(known, LoadCase) else said("own loads") if name == PLAIN_CASE else name
 
 
-def case_name(machine: Mechanism, case: object) -> str:
-    """Return a load case's name in the class; "" for none; DefinitionError for one that the class has not."""
-    if case is None:
-        return ""
-    cases = machine.plan.of_kind(LoadCase)
-    for name, each in cases.items():
-        if case is each or case in (name, each.title):
-            return name
-    known = ", ".join(cases) or "none"
-    raise DefinitionError(f"{machine.plan.title}: case={cited(case)}: a load case of the class is expected; those are: {known}.")
+def member_tables(machine: Mechanism, motion: Motion) -> Iterator[tuple[str, Column]]:
+    """Yield the columns that members show of themselves, each with the member's name; nothing of one that is refused."""
+    for name, member in machine.plan.of_kind(Tabled).items():
+        try:
+            columns = member.columns(motion)
+        except LinkageError:
+            continue
+        yield from ((name, asked_by_name(name, column)) for column in columns)

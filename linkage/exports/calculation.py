@@ -17,7 +17,7 @@ from ..formulas.listing import X_AXIS
 from ..formulas.numbered import members_with_lines
 from ..formulas.words import Direction
 from ..mechanism import Mechanism
-from ..motion import Motion
+from ..motion import Motion, out_of_reach
 from ..plan import plan_measure
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
@@ -27,6 +27,13 @@ AGREE = 1e-9
 """Relative: a formula that is further from the engine is not used."""
 ITERATED = "found by iteration: a number, not a formula"
 BY_ENGINE = "told by the engine: a number, not a formula"
+
+
+def reached_somewhere(motion: Motion) -> Motion:
+    """Return a motion, NaN where it cannot be assembled; AssemblyError where it cannot anywhere."""
+    if not motion.reached.any():
+        raise out_of_reach(motion)
+    return motion
 
 
 @final
@@ -53,7 +60,7 @@ class CalculatedColumn:
 class Calculation:
     """The equations of one design over a run, forces and transfer ratios included, as columns in their order.
 
-    Raises AssemblyError where a pose cannot be assembled, DefinitionError for a batch of designs. `left_out` says, in sentences, what has
+    Raises AssemblyError where no pose can be assembled, DefinitionError for a batch of designs. `left_out` says, in sentences, what has
     no equation.
     """
 
@@ -64,7 +71,7 @@ class Calculation:
             raise DefinitionError(f"{design.plan.title}: a workbook's strokes run from one value to another; give {run.stroke} two.")
         over = run.over(np.linspace(0.0, 1.0, count))
         self.stroke_values: dict[str, Any] = {name: np.asarray(value, float) for name, value in over.items()}
-        self.motion = design.at(**self.stroke_values)
+        self.motion = reached_somewhere(design.at(unreachable="nan", **self.stroke_values))
         self.equations = self._equations()
         self.columns: list[CalculatedColumn] = []
         self._known = self._inputs(self.equations, self.stroke_values)
@@ -184,7 +191,7 @@ class Calculation:
     # -- other designs ---------------------------------------------------------------------------------
 
     def _inputs(self, written: Equations, poses: Mapping[str, Any]) -> dict[Any, Any]:
-        return written._inputs(poses)
+        return written._inputs(poses, "nan")
 
     def at_design(self, design: Mechanism, poses: Mapping[str, Any]) -> tuple[Motion, dict[Any, Any]]:
         """Return another design's motion at some poses, and what the formulas give there, by symbol; plain numbers are the engine's."""

@@ -15,7 +15,7 @@ from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, columns_of
 from ..pictures.strokes import stroke_words
 from ..reports import NOTHING, first_stroke, results, run_of, stroke_middles, write_csv
-from .calculation import Calculation
+from .calculation import Calculation, reached_somewhere
 from .drawing_dxf import dxf
 from .drawing_svg import svg
 from .geometry import PoseDrawing, path_parts, pose_parts
@@ -95,14 +95,15 @@ def csv(what: Mechanism | Motion, at: Mapping[str, Any], count: int, columns: Se
 
 
 def over_strokes(machine: Mechanism, at: Mapping[str, Any], count: int) -> Motion:
-    """Return a motion over the strokes that `at` does not name, at `count` poses each: a grid where there are several."""
+    """Return a motion over the strokes that `at` does not name, at `count` poses each: a grid where there are several; with gaps."""
     first_stroke(machine)
     free = {name: np.linspace(each.start, each.end, count) for name, each in machine.strokes.items()}
     axes = {name: np.atleast_1d(at.get(name, values)) for name, values in free.items()}
     many = {name: axis for name, axis in axes.items() if len(axis) > 1 or name not in at}
     grids = dict(zip(many, np.meshgrid(*many.values(), indexing="ij"), strict=True)) if many else {}
     unknown_names = {name: at[name] for name in at if name not in axes}
-    return machine.at(**{name: grids.get(name, axis[0]) for name, axis in axes.items()}, **unknown_names)
+    strokes = {name: grids.get(name, axis[0]) for name, axis in axes.items()}
+    return reached_somewhere(machine.at(unreachable="nan", **strokes, **unknown_names))
 
 
 def drawing_of(
@@ -118,9 +119,8 @@ def drawing_of(
     else:
         first = first_stroke(what)
         moving = max(at, key=lambda name: np.size(at[name])) if at else first
-        values: dict[str, Any] = stroke_middles(what) | {first: what.strokes[first].start} | dict(at)
-        values = {name: np.atleast_1d(value) for name, value in values.items()}
-        motion = what.at(**values)
+        values = drawn_strokes(what, at)
+        motion = reached_somewhere(what.at(unreachable="nan", **values))
         held = {name: float(np.ravel(value)[0]) for name, value in values.items()}
         end = what.strokes.get(moving, what.strokes[first])
         swept = what.at(unreachable="nan", **{**held, moving: np.linspace(end.start, end.end, count)}) if trace else motion
@@ -129,6 +129,22 @@ def drawing_of(
         raise DefinitionError(f"{motion.plan.title}: {len(indices)} poses do not go into one drawing; choose up to {MOST_POSES}.")
     poses = [PoseDrawing(pose_words(motion, index), pose_parts(motion, index)) for index in indices]
     return poses, path_parts(swept, trace), motion.plan.heading
+
+
+def drawn_strokes(machine: Mechanism, at: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the strokes of the poses of a drawing: those given, else the start of the first one, the others in their middle."""
+    first = first_stroke(machine)
+    values = stroke_middles(machine) | {first: machine.strokes[first].start} | dict(at)
+    return {name: np.atleast_1d(value) for name, value in values.items()}
+
+
+def exported_motion(machine: Mechanism, path: Place, at: Mapping[str, Any], count: int) -> Motion:
+    """Return the poses that a file of a machine holds; NaN where it cannot be assembled."""
+    kind = Path(path).suffix.lower()
+    if kind == ".csv":
+        return over_strokes(machine, at, count)
+    run = run_of(machine, at).over(np.linspace(0.0, 1.0, count)) if kind == ".xlsx" else drawn_strokes(machine, at)
+    return machine.at(unreachable="nan", **run)
 
 
 def pose_words(motion: Motion, index: int) -> str:

@@ -18,7 +18,7 @@ from typing import Any, TypeAlias, final
 
 from .. import loads, steps, surroundings
 from ..errors import DefinitionError, unknown
-from ..motion import stroke_unit
+from ..motion import Over, stroke_unit
 from ..quantities import Dimension, Member, Quantity, Stroke, ref
 from ..quantities.quantity import plain
 from ..units import UNITS, parse
@@ -26,6 +26,7 @@ from .design import Design, degrees_text
 from .entry import PATH, FileEntry, worded
 from .expression import one_unit
 from .names import Names, shortened
+from .over_file import over_read, over_written
 from .validators import arrow_of, coordinates_of, number_of, points_of, quantity_of, stroke_ends, strokes_of
 
 GROUP = "hydrolinkage.files"
@@ -157,6 +158,7 @@ OWN: tuple[AnEntry, ...] = (
     Bare(Quantity, "outputs", output_of, output_written, family=True),
     *(FileEntry(load, "loads", load.__name__) for load in LOADS),
     FileEntry(loads.LoadCase, "cases"),
+    Bare(Over, "over", over_read, over_written),
     *(FileEntry(outline, "surroundings", word) for outline, word in OUTLINES),
 )
 

@@ -19,7 +19,7 @@ from ..disk import check_place
 from ..errors import DefinitionError, FileError, known_name, one_word, unknown
 from ..loads import LoadCase
 from ..mechanism import Mechanism
-from ..motion import stroke_unit
+from ..motion import Over, stroke_unit
 from ..plan import Plan, plan_measure
 from ..quantities import is_number, is_whole
 from ..study.problem import ranges_of
@@ -271,10 +271,18 @@ def limits_said(given: Any, measures: str) -> float | tuple[float, float]:
 
 
 def over_said(head: StudyHead, given: Any, *key: str) -> dict[str, Any]:
-    """Return the parts of the strokes that are looked at, as `optimise` takes them; mistakes are noted behind a key."""
+    """Return the parts of the strokes that are looked at, as `optimise` takes them; mistakes are noted behind a key.
+
+    A text is the name of an `Over` that the machine declares.
+    """
     found: dict[str, Any] = {}
+    if isinstance(given, str):
+        with head.faults.at(*key, "over"):
+            found = strokes_declared(head, given)
+        return found
     if not isinstance(given, Mapping):
-        head.faults.add((*key, "over"), f'{shortened(given)}: a table of strokes is expected, such as over = {{ S = "0 to 200 mm" }}.')
+        what = 'a table of strokes is expected, such as over = { S = "0 to 200 mm" }, or the name of an Over that the machine declares.'
+        head.faults.add((*key, "over"), f"{shortened(given)}: {what}")
         return found
     for name, value in given.items():
         with head.faults.at(*key, "over", name):
@@ -282,6 +290,15 @@ def over_said(head: StudyHead, given: Any, *key: str) -> dict[str, Any]:
             ranges_of(head.machine, {name: said})
             found[name] = said
     return found
+
+
+def strokes_declared(head: StudyHead, name: str) -> dict[str, Any]:
+    """Return the strokes of an `Over` that the machine declares; DefinitionError where there is none, or where strokes do not say it."""
+    over = head.plan.of_kind(Over)[known_name("Over", name, head.plan.of_kind(Over), where=head.plan.title)]
+    if over.shape != "box" or over.only or over.cases is not None or over.lost:
+        what = f"{name} = {over} is more than parts of strokes, which is what a search of a file looks at"
+        raise DefinitionError(f'{what}; write them here, over = {{ S = "0 to 200 mm" }}.')
+    return dict(over.strokes)
 
 
 def part_said(head: StudyHead, stroke: str, given: Any) -> Any:

@@ -256,10 +256,10 @@ class Equations(Sequence[Equation], Shown):
                 raise unknown("Stroke", name, strokes, where=self.machine.plan.title)
         return {name: stroke.start for name, stroke in strokes.items()} | dict(at or {})
 
-    def _inputs(self, at: Mapping[str, Any] | None) -> dict[Any, Any]:
+    def _inputs(self, at: Mapping[str, Any] | None, unreachable: str = "raise") -> dict[Any, Any]:
         """Return the plain symbols of everything given, with their values [SI]."""
         pose, names = self._pose(at), self._listing.names
-        motion = self.machine.at(**pose)
+        motion = self.machine.at(unreachable=unreachable, **pose)
         if motion._design_shape:
             raise DefinitionError(f"{self.machine.plan.title}: its equations take one design, each dimension a single number.")
         given = {names.quantity(name): value for name, value in {**self.machine.dimensions, **pose}.items()}

@@ -15,6 +15,7 @@ from .motion import Motion, OnePose, Target, each_at_its_stroke, out_of_reach, r
 from .over import OPTIONS, Over
 from .poles import whole_body
 from .pose_requests import condition, transmission
+from .reach import limits_over
 from .requests import BoundRequest, Ratio, Request, RequestLike, SmoothPiece, Value, ratio
 from .search import Extremum, Span, below_zero, greatest, lowest, reached
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values

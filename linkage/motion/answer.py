@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any, final
+from dataclasses import dataclass, field, replace
+from typing import Any, Self, final
 
 import numpy as np
 
@@ -98,6 +98,16 @@ class Answer:
         if "over" in self.named and self.over:
             words.append(said("over {over}", over=self.over))
         return ", ".join(words)
+
+    def of_design(self, number: int) -> Self:
+        """Return the answer of one design of a batch, by its number among them."""
+
+        def own(values: Any) -> Any:
+            return np.ravel(values).tolist()[number] if np.ndim(values) else values
+
+        names = ("value", "ok", "status", "case", "direction", "drive", "side", "over")
+        strokes = {name: own(value) for name, value in self.strokes.items()}
+        return replace(self, strokes=strokes, **{name: own(getattr(self, name)) for name in names})
 
     @property
     def place(self) -> str:

@@ -539,6 +539,8 @@ def border_crossings(box: SeenBox, climbs: Climbs, places: FloatArray) -> tuple[
 def hopeful_borders(box: SeenBox, alike: Index, known: FloatArray) -> Climbs:
     """Return the searches on borders that may better what is known (K, D)."""
     starts = border_starts(box)
+    if not len(starts.value):
+        return starts
     places, values = on_border(box, alike, starts, starts.unit[:, None])
     found, D = missing_lowest(values[:, 0]), box.seen.shape[1]
     keys = np.column_stack([starts.function, starts.design, starts.unit])

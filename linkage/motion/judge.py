@@ -14,12 +14,12 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, told, unwarned
+from ..errors import DefinitionError, cited, known_name, told, unwarned
 from ..language import said
 from ..loads import FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
-from ..quantities import Quantity, Ref
+from ..quantities import PoseCondition, Quantity, Ref
 from ..vectors import Numbers
 from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
 from .box import values_a_stroke
@@ -56,6 +56,8 @@ INNER = 65
 """Values of the stroke over which `worst` is taken."""
 PANELS = 4096
 """Intervals of an integral, by Simpson's rule."""
+COARSE = 5
+"""Values of each stroke of a coarse grid."""
 MET = 1e-9
 """Of the size of its two sides: a condition that is missed by no more is kept, to rounding."""
 
@@ -144,16 +146,16 @@ class Domain:
             self.motion = Motion(plan, designs, strokes, "nan", per_design=own)
 
     def number(self, quantity: str | Quantity) -> float:
-        """Return the value of a design variable by its name, or of a quantity of the design [SI]; DefinitionError for a batch."""
+        """Return the value of a design variable by its name, or of a quantity of the design [SI]; DefinitionError where designs differ."""
         if isinstance(quantity, str):
             owner, sign = self.plan.table.spellings[quantity]
             found = sign * np.asarray(self.designs[owner], float)
         else:
             start = {name: np.asarray(value, float) for name, value in self.plan.sketch_strokes.items()}
             found = Motion(self.plan, self.designs, start, "nan").value(quantity)
-        if np.size(found) != 1 or not np.all(np.isfinite(found)):
+        if np.unique(found).size != 1 or not np.all(np.isfinite(found)):
             what = f"{self.plan.title}: {self.over}: {words_of(quantity)} = {cited(found)}"
-            raise DefinitionError(f"{what}; one finite number is expected, of one design.")
+            raise DefinitionError(f"{what}; one finite number is expected, the same for all designs: take one design, or give over=.")
         return float(np.ravel(found)[0])
 
     @cached_property
@@ -483,6 +485,10 @@ class Judge:
             raise DefinitionError(f'{plan.title}: acting={cited(acting)}: a situation is expected, such as Acting(case="full").')
         self.plan, self.designs, self.acting, self.machine = plan, designs, acting or PLAIN, machine
         cases = [*plan.of_kind(LoadCase)]
+        if self.acting.case is not None and not isinstance(self.acting.case, LoadCase):
+            case_named(plan, self.acting.case)
+        if self.acting.drive is not None:
+            known_name("Stroke", self.acting.drive, plan.strokes, where=f"{plan.title}: acting.drive")
         for over in overs:
             if isinstance(over, Over):
                 over.check(plan.title, plan.strokes, cases)
@@ -519,6 +525,31 @@ class Judge:
         motion = self.motion
         return motion if len(self.places) == 1 and len(motion._stroke_shape) <= 1 and self.places[0].over.shape != "poses" else None
 
+    @property
+    def cases(self) -> list[str]:
+        """The load cases that are looked at, by name, "plain" the machine's own loads."""
+        return [*dict.fromkeys(case for place in self.places for case in place.cases(self.acting))]
+
+    def actings(self, request: Request) -> list[Acting]:
+        """Return the situations in which a request is judged over all its overs, as requests and forces take them."""
+        asked = request.under(self.acting)
+        found = dict.fromkeys(each for place in self.places for each in place.situations(asked, self.acting))
+        return [each.acting.within(self.acting) for each in found]
+
+    @property
+    def pose(self) -> Motion | None:
+        """A pose that is reached, of those that are looked at; None where none is found on a coarse grid."""
+        for place in self.places:
+            axes = [np.linspace(np.min(value), np.max(value), COARSE) for value in place.motion.strokes.values()]
+            grid = dict(zip(place.motion.strokes, np.meshgrid(*axes, indexing="ij"), strict=True))
+            coarse = place.motion if place.over.shape != "box" else Motion(self.plan, self.designs, grid, "nan")
+            for motion in (place.motion, coarse):
+                reached = motion.reached.reshape(-1, *motion._stroke_shape).all(axis=0)
+                if reached.any():
+                    strokes = {name: np.broadcast_to(value, motion._stroke_shape) for name, value in motion.strokes.items()}
+                    return motion.moved({name: value[reached][0] for name, value in strokes.items()})
+        return None
+
     def situation(self, answer: Answer) -> Acting:
         """Return the situation of an answer of one design, as requests and forces take it."""
         case = answer.case if answer.case not in ("", PLAIN_CASE) else None
@@ -527,6 +558,12 @@ class Judge:
     def there(self, answer: Answer) -> Motion:
         """Return the pose of an answer of one design."""
         return self.motion.moved({name: np.asarray(value) for name, value in answer.strokes.items()})
+
+    @property
+    def is_reached(self) -> bool:
+        """Whether any place that it looks at can be assembled."""
+        self.answers([reachable])
+        return any(seen.lost_share < 1.0 for seen in self._seen)
 
     def answer(self, question: Question) -> Answer:
         """Return the answer to one question."""
@@ -789,9 +826,10 @@ def questions_of(plan: Plan, given: Any) -> list[Any]:
         raise DefinitionError(f"{plan.title}: answers({cited(given)}): a list of questions is expected, [most(...) <= 8 * deg].")
     for each in listed:
         if not isinstance(each, (Measure, Condition)):
-            said_of = (
-                f"{words_of(each)} has a value at every pose" if isinstance(each, (str, Quantity, Request)) else f"{cited(each)} is none"
-            )
+            at_poses = isinstance(each, (str, Quantity, Request, Worst))
+            said_of = f"{words_of(each)} has a value at every pose" if at_poses else f"{cited(each)} is none"
+            if isinstance(each, PoseCondition):
+                said_of = f"{each} is kept at some poses and not at others; say which value is meant, or where, Over(only=[...])"
             raise DefinitionError(
                 f"{plan.title}: a question is a measure or a condition, and {said_of}; write least(...), most(...) >= ...."
             )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -13,10 +13,11 @@ from ..language import said
 from ..quantities import Member
 from ..units import deg, show
 from ..verdict import Verdict
-from .answer import share_text
+from . import scan
+from .answer import Answer, share_text
 from .judge import Judge, Question
 from .limits import StrokeLimits, place_text
-from .measures import Measure, least, reachable
+from .measures import Condition, Measure, least, reachable
 from .motion import out_of_reach
 from .pose_requests import transmission
 
@@ -33,6 +34,10 @@ class Judging(Member):
         """Return what its verdicts ask of every machine, so that all members' questions are looked at in one pass."""
         return []
 
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return those of its rules that are plain conditions, by the rules' names: what a page asks of a design that is changed."""
+        return {}
+
     @abstractmethod
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return what an engineer should know of it: what the judge answers over all that the machine runs, of one design.
@@ -45,7 +50,7 @@ def judge_verdicts(judge: Judge) -> list[str]:
     """Return what can be said of any machine over all that it runs; of a batch, how many designs fail."""
     if any(map(np.ndim, judge.designs.values())):
         return batch_verdicts(judge)
-    if not any(place.motion.reached.any() for place in judge.places):
+    if not judge.is_reached:
         return assembly_verdicts(judge)
     members = judge.plan.of_kind(Judging).values()
     judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
@@ -65,11 +70,12 @@ def geometry_verdicts(judge: Judge) -> list[str]:
     """Return whether one design is assembled over all that it runs, its dead points, and its least transmission angle where it is poor."""
     if not judge.plan.strokes or not judge.plan.moving:
         return []
-    first = next((place.motion for place in judge.places if place.motion.reached.any()), None)
-    if first is None:
+    if not judge.is_reached:
         return assembly_verdicts(judge)
-    limits = first.limits().values()
-    dead = [each for one in limits for each in dead_point_verdicts(one)]
+    first = next((place.motion for place in judge.places if place.motion.reached.any()), judge.motion)
+    spans = {name: (float(np.min(value)), float(np.max(value))) for name, value in first.strokes.items()}
+    limits = (one for name, one in scan.limits(first).items() if spans[name][0] < spans[name][1] or len(spans) == 1)
+    dead = [each for one in limits for each in dead_point_verdicts(one, spans[one.stroke])]
     return [*assembly_verdicts(judge), *dead, *transmission_words(judge)]
 
 
@@ -85,7 +91,7 @@ def assembly_verdicts(judge: Judge) -> list[str]:
     ]
     if not answer.lost:
         return [Verdict("assembly", True, said("it is assembled over {spans}.", spans="; ".join(named)), answer=answer)]
-    if not any(place.motion.reached.any() for place in judge.places):
+    if not judge.is_reached:
         return [Verdict("assembly", False, one_line(out_of_reach(judge.places[0].motion)), answer=answer)]
     text = said(
         "over {spans} {share} cannot be assembled, deepest {place}: {why}", spans="; ".join(named), share=share_text(answer.lost.share),
@@ -97,9 +103,9 @@ def assembly_verdicts(judge: Judge) -> list[str]:
     return [Verdict("assembly", False, f"{text.rstrip('.')}; {remedy}", answer=answer)]
 
 
-def dead_point_verdicts(limits: StrokeLimits) -> Iterator[Verdict]:
-    """Yield what stops or turns a motion along one stroke: within its range a fault, beyond its ends how far away it is."""
-    low, high = sorted((limits.start, limits.end))
+def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float]) -> Iterator[Verdict]:
+    """Yield what stops or turns a motion along one stroke: within the part that runs a fault, beyond its ends how far away it is."""
+    low, high = span if span[0] < span[1] else sorted((limits.start, limits.end))
     near = 1e-9 * (high - low)
     points = dict.fromkeys(limits.dead_points)
     inside = [place_of(limits, value, step) for value, step in points if low + near < value < high - near]
@@ -188,13 +194,24 @@ def batch_verdicts(judge: Judge) -> list[str]:
         )
         return [*found, text]
     failed: dict[str, list[tuple[int, str]]] = {}
+    answers: dict[str, list[Answer]] = {}
     for number in np.flatnonzero(np.any([each.any(axis=1) for each in reached], axis=0)).tolist():
         for verdict in member_verdicts(judge.of_design(number).lost_allowed()):
             failed.setdefault(verdict.rule, [])
+            if verdict.answer is not None and np.isfinite(verdict.answer.value):
+                answers.setdefault(verdict.rule, []).append(verdict.answer)
             if verdict.ok is False:
                 failed[verdict.rule].append((number + 1, verdict.sentence))
     for rule, each_of in failed.items():
-        text = said("{n} of {total} designs fail", n=len(each_of), total=total)
+        text = said("{n} of {total} designs fail", n=len(each_of), total=total) + (range_words(answers.get(rule, [])) if each_of else "")
         text += said("; the first is design {number}: {sentence}", number=each_of[0][0], sentence=each_of[0][1]) if each_of else "."
         found.append(Verdict(rule, not each_of, text))
     return found
+
+
+def range_words(answers: Sequence[Answer]) -> str:
+    """Return from what to what the worst values of several designs go, in words; empty where all have the same."""
+    low, high = (pick(answers, key=lambda each: each.value, default=None) for pick in (min, max))
+    if low is None or high is None or low.amount == high.amount:
+        return ""
+    return said(", of their worst values {low} to {high}", low=low.amount, high=high.amount)

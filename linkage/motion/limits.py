@@ -87,10 +87,77 @@ class StrokeLimits:
 
 @final
 class Limits(FrozenDict[str, StrokeLimits], Shown):
-    """The limits of every stroke by name; printed as sentences."""
+    """The limits of every stroke by name, and of the `box` of all strokes, None where that is not looked at; printed as sentences."""
+
+    def __init__(self, strokes: Mapping[str, StrokeLimits], box: BoxLimits | None = None) -> None:
+        super().__init__(strokes)
+        self.box = box
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (dict(self), self.box)
 
     def __str__(self) -> str:
-        return "\n".join(map(str, self.values()))
+        box = [self.box] if self.box is not None and len(self) > 1 else []  # along a single stroke its own lines say it
+        return "\n".join(map(str, [*self.values(), *box]))
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True)
+class BoxLimits:
+    """What is told of several strokes together, over the box of their ranges, which `title` says, or over what was asked for.
+
+    `lost` is the share of it that cannot be assembled, `deepest` the place [m or rad] where most is missing, `why` what is missing there;
+    a part narrower than the grid has the share 0 and a place. `margins` say how clear each loop stays of its dead point.
+    """
+
+    title: str
+    lost: float
+    deepest: Mapping[str, float]
+    why: str
+    margins: tuple[LoopMargin, ...]
+
+    def __str__(self) -> str:
+        gone = said("all of it can be assembled")
+        if self.deepest:
+            share = f"{100.0 * self.lost:.3g} %" if self.lost > 0.0 else said("a narrow part")
+            gone = said("{share} cannot be assembled, most of all: {why}", share=share, why=self.why)
+        return "\n".join([f"{said('together')}: {self.title}", f"  {gone}", *(f"  {each}" for each in self.margins if each.tells)])
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True)
+class LoopMargin:
+    """How clear the loop of a step stays of its dead point, and where: `clear` [rad] between links or guides, else [m]; 0 in a hole.
+
+    `kind` is "links", "guides", "length" or "meeting", of two points that a direction is taken between; `place` says the strokes
+    [m or rad] in words.
+    """
+
+    step: str
+    kind: str
+    clear: float
+    is_hole: bool
+    strokes: Mapping[str, float]
+    place: str
+
+    @property
+    def tells(self) -> bool:
+        """Whether it is worth a line: a length is positive wherever its cylinder is."""
+        return self.is_hole or self.kind != "length"
+
+    def __str__(self) -> str:
+        if self.is_hole:
+            return said("{step} comes apart, most of all at {place}", step=self.step, place=self.place)
+        clear, where = show(self.clear, "deg" if self.kind in ("links", "guides") else "mm", 4), {"step": self.step, "place": self.place}
+        if self.kind == "links":
+            return said("the links of {step} are at least {clear} out of line, at {place}", clear=clear, **where)
+        if self.kind == "guides":
+            return said("the guides of {step} are at least {clear} from parallel, at {place}", clear=clear, **where)
+        if self.kind == "meeting":
+            return said("the points that {step} takes a direction between are at least {clear} apart, at {place}", clear=clear, **where)
+        return said("the length behind {step} is at least {clear}, at {place}", clear=clear, **where)
 
 
 @final

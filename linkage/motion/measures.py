@@ -414,7 +414,7 @@ def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
     if request.rows > 1:
         raise DefinitionError(f"{plan.title}: {words_of(quantity)} has two components; {which_component(plan, quantity)}.")
     try:
-        plan.made(("traced", request.key), lambda twin: len(request.nodes(twin)))
+        plan.made(("traced", request.traced_with), lambda twin: len(request.nodes(twin)))
     except (UntracedError, LawError):
         return None
     return request

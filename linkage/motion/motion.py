@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -54,6 +54,9 @@ class Motion(Shown):
     the shape of the designs, each of which has strokes of its own; `joining` says how angles are made continuous, `tangent` how several
     strokes go on along a path.
     """
+
+    limits_of: ClassVar[Callable[[Any], Limits]] = scan.limits
+    """What looks for its limits: along the strokes alone, until the room of the judge gives more."""
 
     def __init__(
         self,
@@ -335,10 +338,11 @@ class Motion(Shown):
     def limits(self) -> Limits:
         """Return, for every stroke, how far it can go and what stops it; printed as sentences.
 
-        Reachable intervals, dead points and the steps that stop there, change points, least transmission angles.
+        Reachable intervals, dead points and the steps that stop there, change points, least transmission angles; and, for the `box` of
+        all declared strokes, what is lost in it, and how clear each loop stays of its dead point, with the place.
         One design at a time; other strokes are held at this motion's first values.
         """
-        return scan.limits(self)
+        return type(self).limits_of(self)
 
     @cached_property
     def interruptions(self) -> tuple[Interruption, ...] | None:

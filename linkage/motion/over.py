@@ -32,7 +32,7 @@ class Over(Member):
 
     `only=[x("T") <= 4]` are conditions on poses: what lies outside is not asked. `cases=("full",)` are the load cases that occur there,
     "plain" the machine's own loads; default all declared and the plain one. With `lost="allowed"` places that cannot be assembled are
-    part of the machine. Values in SI; the ends of a box may be quantities of the design.
+    part of the machine. Values in SI; the ends of a box and the places of a path may be quantities of the design, or their names.
     """
 
     kind: ClassVar[str] = "over"
@@ -132,7 +132,8 @@ class Over(Member):
         Of a box its corners, an axis for each stroke that runs; of a path the places in an array of one axis; poses in one of two.
         """
         if self.shape != "box":
-            values = dict(zip(plan.strokes, np.broadcast_arrays(*(real(self.strokes[name]) for name in plan.strokes)), strict=True))
+            known = [of_design(self.strokes[name], number) for name in plan.strokes]
+            values = dict(zip(plan.strokes, np.broadcast_arrays(*map(real, known)), strict=True))
             apart = self.shape == "poses" and len(values) > 1
             return {name: np.array(value.reshape(-1, 1) if apart else np.atleast_1d(value)) for name, value in values.items()}
         ends = {name: self.ends(name, plan, number) for name in plan.strokes}
@@ -220,7 +221,7 @@ def box_ends(name: str, value: Any) -> Any:
     """Return what a stroke of a box is given: a number, a quantity or its name, or two of such; DefinitionError for anything else."""
 
     def is_end(end: Any) -> bool:
-        return is_number(end) or isinstance(end, (str, Quantity))
+        return is_number(end) or isinstance(end, Quantity) or (isinstance(end, str) and end.isidentifier())
 
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) == 2 and all(map(is_end, value)):
@@ -236,8 +237,20 @@ def box_ends(name: str, value: Any) -> Any:
     raise DefinitionError(f"Over({name}={cited(value)}): (low, high) or one value is expected, in SI.")
 
 
+def of_design(value: Any, number: Callable[[Quantity], float]) -> Any:
+    """Return what a stroke of a path is given as numbers; `number` gives the value of a quantity of the design."""
+    if isinstance(value, tuple):
+        return [of_design(each, number) for each in value]
+    return value if is_number(value) else number(quantity(value))
+
+
 def place_values(shape: str, name: str, value: Any) -> Any:
-    """Return what a stroke of a path is given: numbers in their order, or one where it is held."""
+    """Return what a stroke of a path is given: numbers or quantities in their order, or one where it is held."""
+    listed = value if isinstance(value, (list, tuple)) else [value]
+    follows = [isinstance(each, (str, Quantity)) for each in listed]
+    if any(follows) and all(each or is_number(one) for each, one in zip(follows, listed, strict=True)):
+        kept = tuple(float(each) if is_number(each) else each for each in listed)
+        return kept if isinstance(value, (list, tuple)) else kept[0]
     try:
         found = real(value)
     except ValueError:

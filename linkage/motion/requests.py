@@ -122,6 +122,11 @@ class BoundRequest(ABC):
     def key(self) -> Hashable:
         """What tells this request from others of the same plan."""
 
+    @property
+    def traced_with(self) -> Hashable:
+        """What tells the requests whose program is traced in one with this one's: where one of them can be, all can."""
+        return self.key
+
     @abstractmethod
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
         """Return its nodes in a plan's program, one a component."""

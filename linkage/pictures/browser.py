@@ -48,7 +48,7 @@ def page_html(machine: Mechanism, *, count: int = COUNT, language: str = "en", p
         check_place(place)
     live = live_text(machine.plan, requests.by_name, name="engine")
     data = page_data(requests, live) | {"language": language, "words": {name: words_in(name) for name in LANGUAGES[1:]}}
-    program, loader = f'"use strict";{live.text}\n{page_part("page.js")}', page_part("loader.js")
+    program, loader = f'"use strict";{live.text}\n{page_part("judge.js")}\n{page_part("page.js")}', page_part("loader.js")
     styles = f":root {{ {colours()} }}\n{page_part('page.css')}"
     parts = {
         "LANGUAGE": language,

@@ -24,6 +24,7 @@ from ..statics.acting import AT_REST
 from ..units import UNITS, deg, display_unit, factor, shown_in
 from ..verdict import Verdict
 from . import style
+from .browser_judge import LiveQuestions
 from .curves import limit_of, typeset
 from .free_space import label_free, props
 from .labels import offsets
@@ -114,6 +115,7 @@ class PageRequests:
             self.columns = chosen_columns(machine, self.motion, columns)
         self.column = self._column(column)
         self.limits = self._limits(limit)
+        self.questions = LiveQuestions(machine, {name: limit[:3] for name, limit in self.limits.items()}, self.columns)
         self.by_name: dict[str, RequestLike] = {}
         self._ask()
 
@@ -147,6 +149,7 @@ class PageRequests:
 
     def _ask(self) -> None:
         """Note all that is asked of the program."""
+        self.by_name |= self.questions.by_name
         for name in self.plan.points:
             self.by_name[f"point {name}"] = name
         for name, (_, request, why) in self.columns.items():
@@ -296,7 +299,9 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "paths": [list(plan.points).index(name) for name in requests.trace],
         "grips": grip_data(plan, names),
         "steps": {name: opening(plan, name) for name in plan.points},
-        "verdicts": verdict_data(machine, requests.motion),
+        "verdicts": verdict_data(machine),
+        "judge": requests.questions.data(live),
+        "domain": "; ".join(place.over.words(place.motion) for place in requests.questions.judge.places),
     }
 
 
@@ -527,16 +532,17 @@ def label_offsets(scene: Scene) -> list[list[float]]:
     return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
 
 
-def verdict_data(machine: Mechanism, motion: Motion) -> list[list[Any]]:
-    """Return the machine's own verdicts on the motion, as they stand for the design that is delivered.
+def verdict_data(machine: Mechanism) -> list[list[Any]]:
+    """Return the machine's verdicts over all that it runs, as they stand for the design that is delivered.
 
-    Each is 1 where it is kept, 0 where it is not, 2 where it is only said; its rule and its sentence, then what differs in Russian.
+    Each is 1 where it is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence, then
+    what differs in Russian.
     """
     said = {}
     for name in ("en", "ru"):
         with language(name), unwarned():
             try:
-                said[name] = [verdict_parts(each) for each in machine.verdicts(motion)]
+                said[name] = [verdict_parts(each) for each in machine.verdicts()]
             except LinkageError as error:
                 said[name] = [(2, "", str(error))]
     pairs = zip(said["en"], said["ru"], strict=True) if len(said["en"]) == len(said["ru"]) else [(each, each) for each in said["en"]]
@@ -548,4 +554,4 @@ def verdict_data(machine: Mechanism, motion: Motion) -> list[list[Any]]:
 
 def verdict_parts(said: str) -> tuple[int, str, str]:
     """Return whether a verdict is kept, what it is called and what it says."""
-    return (2 if said.ok is None else int(said.ok), said.heading, said.sentence) if isinstance(said, Verdict) else (2, "", str(said))
+    return (3 if said.ok is None else int(said.ok), said.heading, said.sentence) if isinstance(said, Verdict) else (2, "", str(said))

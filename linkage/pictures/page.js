@@ -520,22 +520,79 @@ function extremes(values) {
   };
   return { low: peak(low), high: peak(high) };
 }
-function verdicts() {
-  const found = [], add = (ok, rule, text) => found.push({ ok, rule, text }), all = now.reached.length === COUNT, stroke = strokes[runs];
-  const from = shown(now.along[0], stroke, 4), to = shown(now.along[COUNT - 1], stroke, 4);
-  if (all) add(true, say("assembly"), say("assembled over the whole stroke, {stroke} from {from} to {to}", { stroke: stroke.name, from, to }));
-  else {
+/* The questions of the verdicts, asked of the present design over all that the machine runs: coarsely while it changes, finer when it is still. */
+const asking = judging(engine, data.judge), DRAGGING = 9, STILL = 17;
+let known = { key: "" };
+function asked(n) {
+  const design = vector(present), key = `${n} ${design.join()}`;
+  if (known.key !== key) known = { key, ...asking.ask(design, n, n === STILL) };
+  return known;
+}
+const placeText = (at) => strokes.map((each, k) => `${each.name} = ${shown(at[k], each, 4)}`).join(", ");
+function situationText(each) {
+  const words = [];
+  if (each.direction) {
+    const direction = each.direction === "extending" ? say("extending") : each.direction === "retracting" ? say("retracting") : say("at rest");
+    words.push(each.drive ? say("{direction} {drive}", { direction, drive: each.drive }) : direction);
+  }
+  if (each.side) words.push(each.side === "piston" ? say("on the piston side") : say("on the rod side"));
+  if (each.case) words.push(say("in the case {case}", { case: each.case }));
+  if (each.name) words.push(say("over {over}", { over: each.name }));
+  if (each.strokes) words.push(say("at {place}", { place: placeText(each.strokes) }));
+  return words.join(", ");
+}
+function answerText({ rule, unit }, each) {
+  if (each.unknown) return say("as delivered: with these sizes the page does not follow it");
+  if (each.ok === null) return say("says nothing: no place is left to judge");
+  if (!(abs(each.value) >= 0) || (each.kept === false && each.margin >= 0)) return say("it has no value at places that were looked at");
+  const size = (value) => (isNumber(value) ? shown(value, unit, 4) : say("without bounds")), words = { value: size(each.value), place: situationText(each), limit: size(each.limit) };
+  const text = each.symbol === "<=" ? say("greatest {value}, {place}; not above {limit}", words) : say("least {value}, {place}; not below {limit}", words);
+  return data.limits[rule] ? `${text} (${limitText(data.limits[rule])})` : text;
+}
+function verdicts(n = STILL) {
+  const found = [], add = (ok, rule, text, more) => found.push({ ok, rule, text, ...more }), all = now.reached.length === COUNT, stroke = strokes[runs];
+  const from = shown(now.along[0], stroke, 4), to = shown(now.along[COUNT - 1], stroke, 4), answers = asked(n);
+  const gone = answers.lost.filter((each) => each.share && !each.allowed), deepest = gone.reduce((a, b) => (b.share > a.share ? b : a), gone[0]);
+  if (!all) {
     const lost = [...now.along.keys()].filter((i) => now.reason[i]), worst = lost.reduce((a, b) => (now.missing[b] > (now.missing[a] || 0) ? b : a), lost[0]);
     const spans = stretches(lost).map(([a, b]) => say("{from} to {to}", { from: shown(now.along[a], stroke, 4), to: shown(now.along[b], stroke, 4) })).join(", ");
     add(false, say("assembly"), why(now, worst, say("not assembled at {stroke} = {spans}", { stroke: stroke.name, spans })));
     for (const text of ends(lost)) add(null, say("dead point"), text);
-  }
+  } else if (deepest) {
+    const what = say("{share} of the places looked at are lost, deepest at {place}", { share: `${fixed(100 * deepest.share, 1)}\u2009%`, place: placeText(deepest.strokes) });
+    add(false, say("assembly"), why({ reason: [deepest.reason], missing: [deepest.missing] }, 0, what));
+  } else add(true, say("assembly"), say("assembled over the whole stroke, {stroke} from {from} to {to}", { stroke: stroke.name, from, to }));
+  const far = all ? beyond() : null;
+  if (far) add(null, say("dead point"), say("the nearest is of {step} at {where}, {away} beyond the stroke", far));
   let tight = null;
   for (const { point, row } of data.joints) { const ext = extremes(now.values[row]); if (ext && (!tight || ext.low.value < tight.value)) tight = { ...ext.low, point }; }
-  if (tight) add(null, say("dead point"), say("the nearest is at {joint}: least transmission angle {angle} at {where}", { joint: tight.point, angle: `${fixed((tight.value * 180) / PI, 1)}\u00b0`, where: strokeText(tight.at) }));
-  for (const each of columns) if (data.limits[each.name] && live(each)) judged(each, data.limits[each.name], add);
+  if (tight) add(null, say("transmission"), say("least angle {angle}, of {joint} at {where}", { joint: tight.point, angle: `${fixed((tight.value * 180) / PI, 1)}\u00b0`, where: strokeText(tight.at) }));
+  const questions = data.judge.questions, named = ({ rule, ru }) => (language === "ru" && ru) || rule;
+  for (const [q, question] of questions.entries()) {
+    const each = answers.found[q];
+    add(gone.length && each.ok === false ? each.kept : each.ok, named(question), answerText(question, each), { open: each.ok === null });
+  }
   for (const each of data.cylinders) cylinder(each, add);
+  if (isChanged()) {
+    const live = new Set([...questions.map(({ rule }) => rule), "assembly", "dead points"]);
+    for (const [state, rule, , ruled] of data.verdicts) if (state !== 2 && !live.has(rule)) add(null, (language === "ru" && ruled) || rule, say("as delivered: the page does not follow it"), { open: true });
+  }
+  add(null, "", say("looked at {n} values a stroke, {count} poses", { n: answers.n, count: answers.count }));
   return found;
+}
+/* Return the nearest place beyond the ends of the running stroke at which the motion ends: of which step, where, how far away; null for none within a stroke's length. */
+function beyond() {
+  const { start, end } = strokes[runs], size = abs(end - start), reached = (value) => single(present, stands.map((each, k) => (k === runs ? value : each)));
+  let best = null;
+  for (const [from, sign] of [[min(start, end), -1], [max(start, end), 1]]) {
+    let good = 0, bad = 0;
+    for (let i = 1; i <= 16 && !bad; i++) { const away = (size * i) / 16; if (reached(from + sign * away).reason[0] === 0) good = away; else bad = away; }
+    if (!bad || (best && good > best.away)) continue;
+    for (let i = 0; i < 30; i++) { const middle = 0.5 * (good + bad); if (reached(from + sign * middle).reason[0] === 0) good = middle; else bad = middle; }
+    const last = reached(from + sign * bad), k = last.reason[0], step = k > 0 ? engine.steps[k - 1] : "";
+    if (!best || good < best.away) best = { away: good, at: from + sign * good, step };
+  }
+  return best && { step: data.steps[best.step] || best.step, where: strokeText(best.at), away: shown(best.away, strokes[runs], 3) };
 }
 function stretches(list) {
   const found = [];
@@ -555,21 +612,14 @@ function ends(lost) {
   return said;
 }
 const limitText = ([, text, , ru]) => (language === "ru" && ru) || text;
-function judged(each, limit, add) {
-  const [value, , side] = limit, text = limitText(limit);
-  const ext = extremes(series(each, now));
-  if (!ext) return;
-  const worst = side === "below" ? ext.low : ext.high, ok = side === "below" ? worst.value >= value : worst.value <= value;
-  const words = { extreme: shown(worst.value, each, 4), where: strokeText(worst.at), limit: shown(value, each, 4), text };
-  add(ok, called(each), side === "below" ? say("least {extreme} at {where}; not below {limit} ({text})", words) : say("greatest {extreme} at {where}; not above {limit} ({text})", words));
-}
 function cylinder(each, add) {
   const lengths = new Float64Array(COUNT).fill(NaN);
   for (const i of now.reached) lengths[i] = apart(spot(now, each.P, i), spot(now, each.Q, i));
   const ext = extremes(lengths), at = (row) => (row === undefined ? NaN : pose.values[row][0]);
   if (!ext) return;
+  const fits = data.judge.questions.some(({ rule }) => rule === "length" || rule === `length ${each.name}`);
   const closed = at(each.closed), stroke = at(each.stroke), words = { low: mm(ext.low.value), high: mm(ext.high.value), closed: mm(closed), open: mm(closed + stroke), stroke: mm(stroke), travel: mm(ext.high.value - ext.low.value) };
-  if (closed > 0) {
+  if (fits) { /* its length is one of the questions */ } else if (closed > 0) {
     const inside = closed - ext.low.value, outside = ext.high.value - closed - stroke, faults = [];
     if (inside > 1e-6) faults.push(say("{gap} too long closed", { gap: mm(inside) }));
     if (outside > 1e-6) faults.push(say("{gap} missing open", { gap: mm(outside) }));
@@ -584,27 +634,31 @@ function cylinder(each, add) {
     if (k > 0) add(null, each.name, say("its length stands still at about {where}, where its thrust moves nothing", { where: strokeText(now.along[now.reached[k]]) }));
   }
   const pressed = each.pressure === undefined ? null : extremes(now.values[each.pressure]);
-  const row = (name) => base.values[each[name]] || [], exceeds = (i) => row("pressure")[i] > row("most")[i] || row("reserve")[i] < 1;
-  /* A machine that has verdicts and is content with the delivered design though it exceeds these has a rule of its own for them. */
-  const judges = !data.verdicts.length || data.verdicts.some(([ok]) => ok === 0) || !base.reached.some(exceeds);
-  if (pressed) {
-    const unit = data.pressureUnit, most = at(each.most), given = { pressure: shown(pressed.high.value, unit, 4), where: strokeText(pressed.high.at), most: shown(most, unit, 4) };
-    if (most > 0) add(judges ? pressed.high.value <= most : null, each.name, say("needs up to {pressure} at {where}; {most} are allowed", given));
-    else add(null, each.name, say("needs up to {pressure} at {where}", given));
-  } else if (now.reached.length && row("pressure").some(isNumber)) add(false, each.name, say("has no pressure with these sizes; is the rod thinner than the bore?"));
-  const spare = each.reserve === undefined ? null : extremes(now.values[each.reserve]);
-  if (spare) add(judges ? spare.low.value >= 1 : null, each.name, say("least reserve {reserve} at {where}", { reserve: fixed(spare.low.value, 2), where: strokeText(spare.low.at) }));
+  const asked = base.values[each.pressure] || [];
+  if (pressed && each.most === undefined) add(null, each.name, say("needs up to {pressure} at {where}", { pressure: shown(pressed.high.value, data.pressureUnit, 4), where: strokeText(pressed.high.at) }));
+  else if (!pressed && now.reached.length && [...asked].some(isNumber)) add(false, each.name, say("has no pressure with these sizes; is the rod thinner than the bore?"));
 }
 let toldBefore = "";
-function judge() {
-  const found = verdicts(), key = JSON.stringify([language, found]);
+function judge(n = STILL) {
+  const found = verdicts(n), key = JSON.stringify([language, found]);
   byId("delivered").className = `${data.verdicts.length ? "" : "none"}${isChanged() ? " stale" : ""}`;
   if (key === toldBefore) return;
   toldBefore = key;
   list(byId("live"), found);
-  const fails = found.filter((each) => each.ok === false).length, badge = byId("badge");
-  badge.dataset.fails = fails;
-  badge.textContent = fails === 0 ? say("all live verdicts hold") : fails === 1 ? `\u2715 ${found.find((each) => each.ok === false).rule}: ${say("does not hold")}` : say("{count} verdicts fail", { count: fails });
+  count(found);
+}
+/* The badge: of the delivered design all delivered verdicts, of a changed one the live ones and how many are as delivered. */
+function count(found) {
+  const states = data.verdicts.filter(([state]) => state !== 2), changed = isChanged(), badge = byId("badge");
+  const named = (state, rule, ruled) => (language === "ru" && ruled) || rule, live = found.filter((each) => each.ok === false).map((each) => each.rule);
+  const told = changed ? [] : states.filter(([state]) => state === 0).map(([state, rule, , ruled]) => named(state, rule, ruled));
+  const fails = [...new Set([...told, ...live])], open = changed ? found.filter((each) => each.open).length : states.filter(([state]) => state === 3).length;
+  badge.dataset.fails = fails.length; badge.dataset.open = open;
+  const counts = { count: fails.length, open, ok: states.length - told.length - open, all: states.length };
+  if (fails.length === 1) badge.textContent = `\u2715 ${fails[0]}: ${say("does not hold")}`;
+  else if (fails.length) badge.textContent = say("{count} verdicts fail", counts);
+  else if (changed) badge.textContent = open ? say("the live verdicts hold; as delivered or silent: {open}", counts) : say("all live verdicts hold");
+  else badge.textContent = open ? say("{ok} of {all} verdicts hold; silent: {open}", counts) : states.length ? say("{ok} of {all} verdicts hold", counts) : say("all live verdicts hold");
 }
 function list(parent, found) {
   parent.replaceChildren(...found.map(({ ok, rule, text }) => {
@@ -840,7 +894,7 @@ function render(work) {
     each.out.textContent = text; each.slider.setAttribute("aria-valuetext", text);
   });
   if (anew || sized || work.has("size")) showSizes();
-  if (anew || sized) { clearTimeout(later); const idle = performance.now() - judgedAt; if (idle > 120) { judgedAt = performance.now(); judge(); } else later = setTimeout(() => { judgedAt = performance.now(); judge(); }, 130 - idle); }
+  if (anew || sized) { clearTimeout(later); const idle = performance.now() - judgedAt; judgedAt = performance.now(); if (idle > 120 && anew && toldBefore) judge(DRAGGING); else if (!toldBefore) judge(); later = setTimeout(() => { judgedAt = performance.now(); judge(); }, 130); }
 }
 function play(on) {
   playing = on;

@@ -148,7 +148,8 @@ class PoseCondition:
         return left - right if self.symbol == ">=" else right - left
 
     def __str__(self) -> str:
-        return f"{self.left} {self.symbol} {self.right}"
+        left, right = (each.name or str(each) if isinstance(each, Quantity) else str(each) for each in (self.left, self.right))
+        return f"{left} {self.symbol} {right}"
 
     def __bool__(self) -> NoReturn:
         raise DefinitionError(f"{self}: it has a value at every pose, so that it cannot be compared once for all; {CHOICE}. {COMPARED}")

@@ -198,14 +198,14 @@ def acting_elements(plan: Plan, loads: Loads, case: Case, without: str = "") -> 
 
 
 def case_of(plan: Plan, case: Case) -> LoadCase:
-    """Return the load case that is meant; the plain one for None."""
-    if case is None or case == PLAIN_CASE:
+    """Return the load case that is meant; the plain one for None and "plain"."""
+    if case is None or (isinstance(case, str) and case == PLAIN_CASE):
         return LoadCase("own loads")
     if isinstance(case, LoadCase):
         return case
     cases = plan.of_kind(LoadCase)
     titled = {each.label: each for each in cases.values()}
-    return (titled | cases)[known_name("Load case", case, dict(cases) | titled, where=plan.title)]
+    return (titled | cases)[known_name("Load case", case, [*dict.fromkeys((PLAIN_CASE, *cases, *titled))], where=plan.title)]
 
 
 def elements_of(plan: Plan, loads: Loads) -> list[tuple[str, ForceElement]]:

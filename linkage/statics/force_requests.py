@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import Any, Self, TypeVar, final
+from typing import Any, Self, TypeVar, cast, final
 from weakref import ref
 
 import numpy as np
@@ -217,19 +217,21 @@ class PinForce(ForceRequest):
     point: str = ""
     on: str = ""
     component: str = "size"
+    by: str = ""
     measures = "force"
 
     def identity(self, plan: Plan) -> Hashable:
-        return self.identified("pin force", self.point, self.on, self.component)
+        return self.identified("pin force", self.point, self.on, self.component, self.by)
 
     def of(self, motion: MotionLike) -> FloatArray:
         known_name("Component", self.component, COMPONENTS, where=f"{motion.plan.title}: the force at {self.point}")
-        force = pin_forces_under(require_motion(motion), self.acting).force(self.point, self.on)
+        force = pin_forces_under(require_motion(motion), self.acting).force(self.point, self.on, self.by)
         return np.asarray(COMPONENTS[self.component](force[0], force[1]))
 
     def __str__(self) -> str:
         component = [] if self.component == "size" else [f"component={self.component}"]
-        return f"pin_force({', '.join([self.point, *([self.on] if self.on else []), *component, *self.acting_words])})"
+        bodies = [*([self.on] if self.on else []), *([f"by={self.by}"] if self.by else [])]
+        return f"pin_force({', '.join([self.point, *bodies, *component, *self.acting_words])})"
 
     def bound(self, plan: Plan) -> PinForceOf:
         return self.bound_to(plan, self._bound)
@@ -239,11 +241,32 @@ class PinForce(ForceRequest):
         loads, case = self.acting.loads, self.acting.case
         traced = TracedLoads.apart(plan, loads, case)
         structure = Structure(plan, traced.acting.elements, traced.acting.thrusts)
-        request = replace(self, on=structure.full_name(self.on))
-        _, joint, _ = contact_of(structure, self.point, request.on)
+        request = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))
+        _, joint, _ = contact_of(structure, request)
         spans = tuple((strut.name, strut.P, strut.Q) for strut in structure.struts)
         length = plan.made(("checked length", spans), lambda _: checked_length(plan, traced.acting))
         return PinForceOf(loads, case, request, (*traced.key, spans), length, str(joint))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class MemberThrust(ForceRequest):
+    """What a driven length or a two-point element carries, as something to ask for: of `pin_forces(motion).thrusts`, by its name."""
+
+    member: str = ""
+    measures = "force"
+
+    def identity(self, plan: Plan) -> Hashable:
+        return self.identified("member thrust", self.member)
+
+    def of(self, motion: MotionLike) -> FloatArray:
+        return np.asarray(pin_forces_under(require_motion(motion), self.acting).thrusts[self.member])
+
+    def __str__(self) -> str:
+        return f"thrust({', '.join([self.member, *self.acting_words])})"
+
+    def bound(self, plan: Plan) -> BoundRequest:
+        raise UntracedError(f"{plan.title}: {self}: it has values, and no program that gives derivatives.")
 
 
 def pin_forces_under(motion: Motion, acting: Acting) -> PinForces:
@@ -261,19 +284,21 @@ def pin_forces_under(motion: Motion, acting: Acting) -> PinForces:
 
 
 def pin_force(
-    point: str, on: str = "", component: str = "size", loads: Loads = None, case: Case = None, *, acting: Acting | None = None
-) -> PinForce:
+    point: str, on: str = "", component: str = "size", loads: Loads = None, case: Case = None, *, acting: Acting | None = None,
+    by: str = "",
+) -> PinForce:  # fmt: skip
     """Return the request for a joint force [N], in `evaluate`, `function` and `gradient`: its "size", or its part along "x" or "y".
 
-    It is that of `pin_forces(motion, loads, case=case).force(point, on)`, frictionless: on the body `on` from the other one.
+    It is that of `pin_forces(motion, loads, case=case).force(point, on)`, frictionless: on the body `on` from the other one, `by`
+    where several meet there.
     `acting` says loads and case in one, with a direction, a drive or rates too; then it has values and no derivatives.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
-    names: tuple[object, ...] = point, on
+    names: tuple[object, ...] = point, on, by
     if not all(isinstance(each, str) for each in names):
         said = "the names of a point and of a body are expected"
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
-    return PinForce(situation_of(acting, "pin_force", loads=loads, case=case), point, on, component)
+    return PinForce(situation_of(acting, "pin_force", loads=loads, case=case), point, on, component, by)
 
 
 @final
@@ -288,16 +313,30 @@ class PinForceOf(ForceOf):
 
     @property
     def key(self) -> Hashable:
-        return "pin force", self.request.point, self.request.on, self.request.component, self.loads_key
+        return "pin force", self.request.point, self.request.on, self.request.by, self.request.component, self.loads_key
+
+    @property
+    def traced_with(self) -> Hashable:
+        return "pin forces", self.loads_key, self.length
+
+    def traced(self, plan: Plan) -> TracedLoads:
+        return self.equilibrium(plan)[0]
+
+    def equilibrium(self, plan: Plan) -> tuple[TracedLoads, Solution]:
+        """Return the loads and all joint forces on a plan's program, traced there once for all joints that are asked for."""
+        kept = plan.trace.kept
+        if self.traced_with not in kept:
+            traced = super().traced(plan)
+            system = System(traced.structure, traced.poses, traced.acting.loads, length=self.length)
+            u = eliminated_forces(system, traced.motion)
+            kept[self.traced_with] = traced, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), [])
+        return cast(tuple[TracedLoads, Solution], kept[self.traced_with])
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        traced = self.traced(plan)
-        structure, motion = traced.structure, traced.motion
-        system = System(structure, traced.poses, traced.acting.loads, length=self.length)
-        u = eliminated_forces(system, motion)
-        contact, _, sign = contact_of(structure, self.request.point, self.request.on)
-        force, _ = Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), []).transmitted(contact)
-        return (motion.node(COMPONENTS[self.request.component](*(sign * force[:, 0]))),)
+        traced, solution = self.equilibrium(plan)
+        contact, _, sign = contact_of(solution.system.structure, self.request)
+        force, _ = solution.transmitted(contact)
+        return (traced.motion.node(COMPONENTS[self.request.component](*(sign * force[:, 0]))),)
 
     def notes(self, plan: Plan) -> Notes:
         traced = self.traced(plan)
@@ -316,8 +355,8 @@ class PinForceOf(ForceOf):
         return f"{what} of the force at {self.joint}"
 
 
-def contact_of(structure: Structure, point: str, on: str) -> tuple[Contact, JointForce, float]:
+def contact_of(structure: Structure, request: PinForce) -> tuple[Contact, JointForce, float]:
     """Return the contact that is meant, its joint without a value, and the sign of its force on the body."""
     joints = joints_of(structure, [(np.zeros(2), np.zeros(()))] * len(structure.contacts))
-    joint, sign = joint_on(joints, point, on, structure.plan.title)
+    joint, sign = joint_on(joints, request.point, request.on, structure.plan.title, request.by)
     return structure.contacts[joints.index(joint)], joint, sign

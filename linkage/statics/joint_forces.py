@@ -110,13 +110,13 @@ class PinForces(Shown):
         """Return the joints at a point."""
         return joints_at(self.joints, point, self.motion.plan.title)
 
-    def force(self, point: str, on: str = "") -> FloatArray:
+    def force(self, point: str, on: str = "", by: str = "") -> FloatArray:
         """Return the force at a point on a body from the other one, shape (2, ...) [N].
 
-        Where several joints meet, `on` says on which body it acts: by its points, its link's or its element's name; DefinitionError
-        where that leaves a choice.
+        Where several joints meet, `on` says on which body it acts: by its points, its link's or its element's name; `by` from which
+        one. DefinitionError where that leaves a choice.
         """
-        joint, sign = joint_on(self.joints, point, self.body_named(on), self.motion.plan.title)
+        joint, sign = joint_on(self.joints, point, self.body_named(on), self.motion.plan.title, self.body_named(by))
         return sign * joint.force
 
     def on_body(self, name: str) -> Mapping[str, FloatArray]:
@@ -219,18 +219,22 @@ def joints_at(joints: Sequence[JointForce], point: str, title: str) -> tuple[Joi
     return tuple(each for each in joints if each.point == name)
 
 
-def joint_on(joints: Sequence[JointForce], point: str, on: str, title: str) -> tuple[JointForce, float]:
-    """Return the joint at a point that transmits a force to a body, and -1 where it is seen from the other body, else 1."""
+def joint_on(joints: Sequence[JointForce], point: str, on: str, title: str, by: str = "") -> tuple[JointForce, float]:
+    """Return the joint at a point that transmits a force to a body, and -1 where it is seen from the other body, else 1.
+
+    `by` is the body that it comes from, where several press on the first one there.
+    """
     found = [each for each in joints_at(joints, point, title) if each.has_force]
     names = dict.fromkeys(name for each in found for name in (each.on, each.by))
-    if not on and len(found) == 1:
-        return found[0], 1.0
-    if on and on not in names:
-        raise unknown("Body", on, names, where=f"the joint {point} of {title}")
-    taken = [(each, 1.0) for each in found if each.on == on] + [(each, -1.0) for each in found if each.by == on]
+    for body in (on, by):
+        if body and body not in names:
+            raise unknown("Body", body, names, where=f"the joint {point} of {title}")
+    taken = [(each, 1.0) for each in found if on in ("", each.on) and by in ("", each.by)]
+    taken += [(each, -1.0) for each in found if (on or by) and on in ("", each.by) and by in ("", each.on)]
     if len(taken) != 1:
         where = ", ".join(f"on {each.on} from {each.by}" for each in found)
-        remedy = f"say on= the other body, on which it is the opposite, or take them from at({point!r})" if on else "say on= which body"
+        both = f"say on= the other body, on which it is the opposite, by= too, from which one, or take them from at({point!r})"
+        remedy = both if on else "say on= which body"
         raise DefinitionError(f"{title}: several joints meet at {point} ({where}); {remedy}.")
     return taken[0]
 

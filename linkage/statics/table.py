@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from math import pi
-from typing import TypeAlias, final
+from typing import Any, TypeAlias, final, overload
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
 from ..language import noted, said, translated
-from ..motion import greatest, stroke_unit
+from ..loads import FRICTIONLESS, Acting
+from ..mechanism import Mechanism
+from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
 from ..motion.limits import place_text
 from ..units import shown_number, unit_sign
-from .joint_forces import JointForce, PinForces
+from .force_requests import pin_force
+from .joint_forces import JointForce, PinForces, pin_forces
 
-Place: TypeAlias = tuple[np.intp, ...]
+Place: TypeAlias = tuple[np.intp | int, ...]
 """A pose among those of a motion, or a design among its designs, by its indices."""
 
 
@@ -25,7 +28,8 @@ Place: TypeAlias = tuple[np.intp, ...]
 class PinLoad:
     """The largest force of one joint: its size [N], its direction in the body's own axes [rad], and where it occurs.
 
-    The body's x axis goes from the first of its `axis` points to the second; for the frame it is the frame's own.
+    The body's x axis goes from the first of its `axis` points to the second; for the frame it is the frame's own. `drive` is the stroke
+    that moves, `over` the `Over` in which it occurs, "" where there is one only; `answer` is what the judge says of it.
     """
 
     point: str
@@ -41,14 +45,28 @@ class PinLoad:
     direction: str
     units: Mapping[str, str] = field(default_factory=dict)
     """The units of its strokes, "m" or "rad"."""
+    drive: str = ""
+    over: str = ""
+    answer: Answer | None = None
+
+    @property
+    def place(self) -> str:
+        """Where it occurs, in words: `phi = 15.00 deg, t = 0.0000 m`; over which `Over`, where there are several."""
+        at = ", ".join(f"{name} = {place_text(value, self.units[name])}" for name, value in self.strokes.items())
+        return ", ".join(each for each in (at, self.over and said("over {over}", over=self.over)) if each)
+
+    @property
+    def movement(self) -> str:
+        """The direction of motion in words, with the stroke that moves where there are several: `extending phi`."""
+        word = translated(WORDS.get(self.direction, self.direction))
+        return said("{direction} {drive}", direction=word, drive=self.drive) if self.drive else word
 
     @property
     def cells(self) -> tuple[str, ...]:
         """The row as text, in the units and the language that are chosen."""
-        at = ", ".join(f"{name} = {place_text(value, self.units[name])}" for name, value in self.strokes.items())
         force, angle = shown_number(self.force, "kN", ".3f"), shown_number(self.angle, "deg", "z.1f")
-        kind, motion = (translated(WORDS.get(word, word)) for word in (self.kind, self.direction))
-        return self.point, kind, self.on, self.by, force, angle, self.axis, at, self.case, motion
+        kind = translated(WORDS.get(self.kind, self.kind))
+        return self.point, kind, self.on, self.by, force, angle, self.axis, self.place, self.case, self.movement
 
 
 WORDS = {
@@ -67,12 +85,27 @@ def max_headings() -> tuple[str, ...]:
     )  # fmt: skip
 
 
-def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]:
-    """Return, for every joint, its largest force over all that the results of `pin_forces` cover, in the order of the joints.
+OverLike: TypeAlias = Over | Mapping[str, Any] | Sequence[Over | Motion] | None
 
-    It is looked for between their poses, whatever the number of these, and up to the poses that are refused: a force that grows
-    without bounds towards one of them is infinite. Loads that are given as arrays over the poses are known at these alone.
+
+@overload
+def max_table(results: Mechanism, over: OverLike = ..., acting: Acting | None = ...) -> tuple[PinLoad, ...]: ...
+@overload
+def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]: ...
+def max_table(
+    results: Mechanism | PinForces | Iterable[PinForces], over: OverLike = None, acting: Acting | None = None
+) -> tuple[PinLoad, ...]:
+    """Return, for every joint, its largest force with case, direction and place, in the order of the joints.
+
+    Of a machine over all that it runs, its `overs` or those given, in all load cases and directions of motion that occur, unless
+    `acting` says which. Of results of `pin_forces`, one or several, over all that these cover. It is looked for between the poses,
+    whatever the number of these, and up to the poses that are refused: a force that grows without bounds towards one of them is
+    infinite. Loads that are given as arrays over the poses are known at these alone, and take results.
     """
+    if isinstance(results, Mechanism):
+        return judged_table(results.judge(over, acting))
+    if over is not None or acting is not None:
+        raise DefinitionError("max_table: over= and acting= are for a machine; results of pin_forces say both themselves.")
     each_of = results_of(results)
     best: dict[tuple[str, str, str, str], PinLoad] = {}
     for one in each_of:
@@ -85,6 +118,41 @@ def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]:
     if not best:
         raise DefinitionError("There are no joint forces to tabulate: no pose is reached.")
     return tuple(best.values())
+
+
+def judged_table(judge: Judge) -> tuple[PinLoad, ...]:
+    """Return, for every joint, its largest force over all that a judge looks at, in all that acts there."""
+    with unwarned():
+        pose = judge.pose
+        if pose is None:
+            raise DefinitionError("There are no joint forces to tabulate: no pose is reached.")
+        joints = {key_of(each): each for each in pin_forces(pose, judge.acting.loads, case=judge.acting.case).joints if each.has_force}
+        answers = judge.answers([most(pin_force(point, on, by=by)) for point, on, by, _ in joints])
+        rows = [judged_row(judge, key, answer) for key, answer in zip(joints, answers, strict=True)]
+    return tuple(row for row in rows if row is not None)
+
+
+def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer) -> PinLoad | None:
+    """Return a joint's row for what the judge answers, of a batch that of the design with the largest force; None without a value."""
+    value = np.asarray(answer.value)
+    if np.isnan(value).all():
+        return None
+    number = int(np.argmax(np.where(np.isnan(value), -np.inf, value)))
+    of_design, one = (judge.of_design(number), answer.of_design(number)) if value.ndim else (judge, answer)
+    acting = of_design.situation(one)
+    movement: dict[str, Any] = {"direction": acting.movement, "rates": acting.rates}
+    movement["drive"] = acting.drive if acting.movement != FRICTIONLESS else None
+    there = pin_forces(of_design.there(one), acting.loads, case=acting.case, **movement)
+    joint = next(each for each in there.joints if key_of(each) == key)
+    design = np.unravel_index(number, value.shape)
+    row = pin_load(there, joint, float(one.value), (), design, dict(one.strokes))
+    drive, over = (getattr(one, name) if name in one.named else "" for name in ("drive", "over"))
+    return replace(row, drive=drive, over=over, answer=one)
+
+
+def key_of(joint: JointForce) -> tuple[str, str, str, str]:
+    """Return what tells a joint from others."""
+    return joint.point, joint.on, joint.by, joint.kind
 
 
 def results_of(given: PinForces | Iterable[PinForces]) -> list[PinForces]:
@@ -112,8 +180,7 @@ def largest(result: PinForces) -> list[PinLoad]:
             design = np.unravel_index(int(np.nanargmax(value)), value.shape)
             strokes = {name: float(np.asarray(each)[place][design]) for name, each in found.strokes.items()}
             there = result.again(result.motion.moved(strokes))
-            key = joint.point, joint.on, joint.by, joint.kind
-            same = next(each for each in there.joints if (each.point, each.on, each.by, each.kind) == key)
+            same = next(each for each in there.joints if key_of(each) == key_of(joint))
             rows.append(pin_load(there, same, float(value[design]), design, design, strokes))
     return rows
 

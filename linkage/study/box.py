@@ -30,25 +30,25 @@ class Box:
     choices: Sequence[Mapping[str, Any]] = ({},)
 
     @classmethod
-    def of(cls, machine: Mechanism, over: Mapping[str, Any]) -> Box:
+    def of(cls, machine: Mechanism, vary: Mapping[str, Any]) -> Box:
         """Return the box that `dict(MK=(0.80, 0.96), M=[(0.22, 1.05), (0.22, 0.95)])` means: a pair is a range, a list the choices.
 
         Raises DefinitionError for an unknown dimension, a range the wrong way round, or anything else.
         """
         check_mechanism(machine)
-        if not isinstance(over, Mapping):
-            raise DefinitionError(f"{machine.plan.title}: over={over!r:.60}: a dictionary of ranges and choices by name is expected.")
-        for name in over:
+        if not isinstance(vary, Mapping):
+            raise DefinitionError(f"{machine.plan.title}: vary={vary!r:.60}: a dictionary of ranges and choices by name is expected.")
+        for name in vary:
             if not isinstance(name, str):
                 raise unknown("Dimension", name, machine.plan.table.names(), where=machine.plan.title)
-        ranges = {name: range_of(name, value) for name, value in over.items() if isinstance(value, tuple)}
-        lists = {name: choices_of(name, value) for name, value in over.items() if not isinstance(value, tuple)}
+        ranges = {name: range_of(name, value) for name, value in vary.items() if isinstance(value, tuple)}
+        lists = {name: choices_of(name, value) for name, value in vary.items() if not isinstance(value, tuple)}
         if len(ranges) > MOST:
             raise DefinitionError(f"{len(ranges)} ranges are too many for one box; hold some, {MOST} are the most.")
         box = cls(ranges, [dict(zip(lists, each, strict=True)) for each in product(*lists.values())])
         for settings in (*box.choices, *({name: end} for name, pair in ranges.items() for end in pair)):
             machine.replaced(**settings)
-        check_once(machine, over)
+        check_once(machine, vary)
         return box
 
     def settings(self, unit: FloatArray, choice: Any) -> dict[str, Any]:

@@ -52,6 +52,17 @@ def check_one_design(machine: Mechanism) -> None:
         raise DefinitionError(f"{type(machine).__name__}: a study starts from one design, this is a batch; choose one of them.")
 
 
+def check_vary(machine: Mechanism, what: str, over: Any) -> None:
+    """Raise DefinitionError where the designs of a study, or strokes, are given as `over`."""
+    if over is None:
+        return
+    title = machine.plan.title
+    if isinstance(over, Mapping) and any(name in machine for name in over):
+        raise DefinitionError(f"{title}: {what}(over={cited(over)}): dimensions are varied by vary=, strokes run by over=; write vary=.")
+    remedy = "name its strokes, such as S=[0.0, 0.1]" if what == "zone" else "let measure(machine) say at which strokes it looks"
+    raise DefinitionError(f"{title}: {what}(over={cited(over)}): a {what} varies designs, vary=, and has no over=; {remedy}.")
+
+
 WHOLE_POSES = {1: 101, 2: 25, 3: 13, 4: 8, 5: 6, 6: 5}
 """Poses of each stroke at which a machine is looked at that is to be assembled over all of them."""
 

@@ -35,16 +35,16 @@ class Designs:
     count: int
 
     @classmethod
-    def of(cls, machine: Mechanism, over: Mapping[str, Any]) -> Designs:
+    def of(cls, machine: Mechanism, vary: Mapping[str, Any]) -> Designs:
         """Return the designs that arrays by name make of a machine; DefinitionError for what is no dimension or cannot be one."""
         title = machine.plan.title
-        if not isinstance(over, Mapping):
-            raise DefinitionError(f"{title}: over={over!r:.60}: a dictionary of names and arrays is expected; Box.sample(count) makes one.")
-        columns = {name: arrays_of(machine, name, value) for name, value in over.items()}
+        if not isinstance(vary, Mapping):
+            raise DefinitionError(f"{title}: vary={vary!r:.60}: a dictionary of names and arrays is expected; Box.sample(count) makes one.")
+        columns = {name: arrays_of(machine, name, value) for name, value in vary.items()}
         sizes = {name: part.size for name, parts in columns.items() for part in parts if part.ndim}
         if not any(sizes.values()):
             example = next(iter(machine.dimensions), "OB")
-            raise DefinitionError(f'{title}: there are no designs; give arrays with a value for each, over={{"{example}": array}}.')
+            raise DefinitionError(f'{title}: there are no designs; give arrays with a value for each, vary={{"{example}": array}}.')
         if len(set(sizes.values())) > 1 or any(len({part.size for part in parts if part.ndim}) > 1 for parts in columns.values()):
             said = ", ".join(f"{name} {' '.join(str(part.size) for part in parts)}" for name, parts in columns.items())
             raise DefinitionError(f"{title}: all arrays are to have one length; theirs are {said}.")

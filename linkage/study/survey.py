@@ -14,7 +14,7 @@ from ..quantities import is_whole
 from ..shown import Shown
 from .batching import Executor, LocalExecutor, Progress, SurveyRun, check_progress, progress_told
 from .checkpoint import Checkpoint
-from .checks import check_one_design
+from .checks import check_one_design, check_vary
 from .designs import Array, Batch, Designs, Measure, Task
 
 SMALLEST, LARGEST, PARTS = 64, 2048, 64
@@ -70,9 +70,10 @@ class Survey(Mapping[str, Array], Shown):
 
 def survey(
     machine: Mechanism,
-    over: Mapping[str, Any],
-    measure: Measure,
+    vary: Any = None,
+    measure: Any = None,
     *,
+    over: None = None,
     executor: Executor | None = None,
     folder: str | os.PathLike[str] | None = None,
     progress: bool | Progress = False,
@@ -82,7 +83,9 @@ def survey(
 ) -> Survey:
     """Return what `measure` gives for many designs: `survey(hitch, {"OB": array, "M": (xs, ys)}, measure)["travel"]`, shape (m,).
 
-    `over` are dimensions by name [SI], each an array (m,). `measure(machine)` is called with some designs at a time, in arrays, and
+    `vary` are dimensions by name [SI], each an array (m,); `over`, which elsewhere says where strokes run, is refused.
+
+    `measure(machine)` is called with some designs at a time, in arrays, and
     returns numbers or truth values for each of them, arrays (designs,) by name; what it returns for a design must not depend on
     the others.
 
@@ -101,7 +104,8 @@ def survey(
     the designs, and where the executor breaks.
     """
     check_one_design(machine)
-    designs = Designs.of(machine, over)
+    check_vary(machine, "survey", over)
+    designs = Designs.of(machine, vary)
     task = Task(machine, measure, piece_size(machine, designs.count, piece), one_word("backend", backend, ("numpy", "numba")))
     check_options(machine, measure, executor, version, progress)
     checkpoint = None if folder is None else Checkpoint.of(folder, task, designs, version)

@@ -17,7 +17,7 @@ from ..mechanism import Mechanism
 from ..motion import Motion, at_values, out_of_reach
 from ..program import FloatArray
 from .box import Box, setting_words
-from .checks import QuantityLike, check_one_design, function_value, poses_of, quantity_values, title_of
+from .checks import QuantityLike, check_one_design, check_vary, function_value, poses_of, quantity_values, title_of
 
 Mask: TypeAlias = npt.NDArray[np.bool_]
 Index: TypeAlias = npt.NDArray[np.intp]
@@ -50,16 +50,21 @@ class Zone:
         return np.asarray(self.reached == 1.0)
 
 
-def zone(machine: Mechanism, quantity: QuantityLike, over: Mapping[str, Any], **strokes: Any) -> Zone:
+def zone(
+    machine: Mechanism, quantity: QuantityLike, vary: Any = None, *, over: None = None, **strokes: Any
+) -> Zone:
     """Return the true extremes of a quantity at every stroke, over a box of settings and not only its corners.
 
-    `over` are ranges and choices as in `Box.of`. The quantity is a named output, or a function of a motion that gives a number
+    `vary` are ranges and choices as in `Box.of`; `over`, which elsewhere says where strokes run, is refused.
+
+    The quantity is a named output, or a function of a motion that gives a number
     for each pose. Strokes as in `machine.at`, by default 51 poses over a single one. The search is deterministic. Settings
     that cannot be assembled, or where the quantity has no value, are left out, counted and told in `remarks`. Angles are taken
     within 180 deg of those of the machine as it is set.
     """
     check_one_design(machine)
-    box = Box.of(machine, over)
+    check_vary(machine, "zone", over)
+    box = Box.of(machine, vary)
     given = strokes or {name: np.linspace(each.start, each.end, POSES) for name, each in machine.strokes.items()}
     poses = at_values(given, machine.plan)
     shape = next(iter(poses.values())).shape

@@ -24,6 +24,7 @@ from linkage import (
     Motion,
     MPa,
     OnLink,
+    Over,
     Stroke,
     angle,
     deg,
@@ -78,6 +79,7 @@ class DrivenArm(Mechanism):
     inward = Moment("P T", M=-M_l2)
     case_1 = LoadCase("telescope in", only=[outward])
     case_2 = LoadCase("telescope out", only=[inward])
+    unfolding = Over(cases=["case_1", "case_2"])  # one moment at a time, (2.39)
 
     def working(self, count: int = 101) -> Motion:
         """Return the motion from psi_0 to psi_k, at `count` poses."""

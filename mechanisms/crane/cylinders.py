@@ -51,8 +51,8 @@ def lever(crane: Crane, stroke: str, at: ArrayLike) -> FloatArray:
 
 
 def along_stroke(crane: Crane, stroke: str, at: ArrayLike) -> dict[str, Any]:
-    """Return strokes with one of them as said, in a row, and the others half way."""
-    others: dict[str, Any] = {name: 0.5 * sum(span) for name, span in crane.limits_of().items()}
+    """Return strokes with one of them as said, in a row, and the others at their starts: a cylinder's length follows its own alone."""
+    others: dict[str, Any] = {name: start for name, (start, _) in crane.limits_of().items()}
     return others | {stroke: np.ravel(np.asarray(at, float))}
 
 

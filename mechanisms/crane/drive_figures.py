@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from linkage import DefinitionError, Motion, draw
 from linkage.errors import unknown
-from linkage.motion import Extremum
+from linkage.motion import Answer
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
 from linkage.units import deg, kN
@@ -74,7 +74,7 @@ def one_movement(ax: Axes, motion: Motion, worst: WorstMovement) -> None:
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=4, fontsize=style.SMALL, frameon=False, labelcolor=style.INK)
 
 
-def marked(ax: Axes, motion: Motion, movement: Movement, found: Extremum, word: str) -> None:
+def marked(ax: Axes, motion: Motion, movement: Movement, found: Answer, word: str) -> None:
     """Mark where most or least is over, as a line between the two curves with its size: above them, or below them."""
     name, above = angle_of(motion), word == "most"
     there = motion.moved(found.strokes)

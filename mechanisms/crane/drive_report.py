@@ -11,11 +11,11 @@ from typing import final
 
 import numpy as np
 
-from linkage import Column, DefinitionError, Featured, Motion, ratio
-from linkage.language import noted, said
-from linkage.motion import Extremum, greatest, lowest
+from linkage import Column, DefinitionError, Featured, Motion, least, most, ratio
+from linkage.language import noted, said, translated
+from linkage.motion import Answer, Judge, Question
 from linkage.program import FloatArray
-from linkage.units import show, shown_number
+from linkage.units import show
 from linkage.verdict import Verdict
 
 SHORT = 1e-6
@@ -86,8 +86,8 @@ class WorstMovement:
     """Where a movement has least and most moment over what is asked [N m], and the greatest moment asked for."""
 
     movement: Movement
-    least: Extremum
-    most: Extremum
+    least: Answer
+    most: Answer
     greatest: float
 
     @property
@@ -98,54 +98,42 @@ class WorstMovement:
     @property
     def verdict(self) -> Verdict:
         """Return it in words."""
-        least, most = float(self.least.value), float(self.most.value)
+        low, high = float(self.least.value), float(self.most.value)
         asked, where = show(self.greatest, "kNm", ".2f"), self.least.where
         if self.short:
-            lacking = show(-least, "kNm", ".2f")
+            lacking = show(-low, "kNm", ".2f")
             says = said("of up to {asked} asked {missing} are missing {where}", asked=asked, missing=lacking, where=where)
         else:
-            spare = show(max(least, 0.0), "kNm", ".2f")
+            spare = show(max(low, 0.0), "kNm", ".2f")
             says = said("of up to {asked} asked {spare} are over {where}", asked=asked, spare=spare, where=where)
-        beside = said(", at most {most} {where}", most=show(most, "kNm", ".2f"), where=self.most.where) if most > 0.0 else ""
+        beside = said(", at most {most} {where}", most=show(high, "kNm", ".2f"), where=self.most.where) if high > 0.0 else ""
         remedy = said("; take a larger bore or a longer lever") if self.short else ""
-        return Verdict(self.movement.name, not self.short, f"{says}{beside}{remedy}.")
+        heading = said("moment {movement}", movement=translated(self.movement.name))
+        return Verdict(f"moment {self.movement.name}", not self.short, f"{says}{beside}{remedy}.", heading, self.least)
 
 
 def worst_movements(motion: Motion) -> list[WorstMovement]:
     """Return the worst of every movement over a motion of one design, looked for between its poses too."""
     if motion._design_shape:
         raise DefinitionError(f"A drive is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
-    return [
-        WorstMovement(each, lowest(motion, each.surplus), greatest(motion, each.surplus), float(greatest(motion, each.asked).value))
-        for each in movements_of(motion)
-    ]
+    judged = [(each, answers_over(motion, [least(each.surplus), most(each.surplus), most(each.asked)])) for each in movements_of(motion)]
+    return [WorstMovement(each, low, high, float(asked.value)) for each, (low, high, asked) in judged]
 
 
-TOLERANCE = 1e-7
-"""m: a length that is met to rounding is met."""
+def answers_over(motion: Motion, questions: list[Question]) -> list[Answer]:
+    """Return the answers to some questions over all that a motion covers."""
+    return Judge(motion.plan, motion.designs, [motion]).answers(questions)
 
 
 def drive_verdicts(motion: Motion) -> list[str]:
-    """Return whether the drive carries what is asked, whether its cylinder is as long as that takes, and its least lever."""
-    return [*(each.verdict for each in worst_movements(motion)), length_verdict(motion), lever_verdict(motion)]
-
-
-def length_verdict(motion: Motion) -> Verdict:
-    """Return whether the cylinder, l closed and l + S open, is as long as the motion takes."""
-    low, high = (float(found(motion, lambda each: each["length"]).value) for found in (lowest, greatest))
-    closed, stroke = float(np.ravel(motion["l"])[0]), float(motion.inputs["S"].item())
-    pins, cylinder = (
-        said("{low} to {high}", low=shown_number(start, "mm", ".1f"), high=show(end, "mm", ".1f"))
-        for start, end in ((low, high), (closed, closed + stroke))
-    )
-    ok = closed <= low + TOLERANCE and high <= closed + stroke + TOLERANCE
-    return Verdict("length", ok, said("its pins are {pins} apart, the cylinder is {cylinder} long.", pins=pins, cylinder=cylinder))
+    """Return whether the drive carries what is asked, and its least lever; that its cylinder is long enough its own verdict says."""
+    return [*(each.verdict for each in worst_movements(motion)), lever_verdict(motion)]
 
 
 def lever_verdict(motion: Motion) -> Verdict:
     """Return the least lever of the cylinder about the driven joint; not above zero past a dead point."""
     sense = np.sign(np.ravel(motion.ratio("length"))[0])
-    least = lowest(motion, lambda each: sense * each.ratio("length"))
-    beyond = "" if least.value > 0.0 else said("; the cylinder passes its dead point: move its pins")
-    text = said("at least {lever}, {where}", lever=show(float(least.value), "mm", ".1f"), where=least.where)
-    return Verdict("lever", bool(least.value > 0.0), f"{text}{beyond}.")
+    (found,) = answers_over(motion, [least(lambda each: sense * each.ratio("length"))])
+    beyond = "" if found.value > 0.0 else said("; the cylinder passes its dead point: move its pins")
+    text = said("at least {lever}, {where}", lever=show(float(found.value), "mm", ".1f"), where=found.where)
+    return Verdict("lever", bool(found.value > 0.0), f"{text}{beyond}.", answer=found)

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, Dimension, Dyad, Featured, Ground, OnLink, Stroke, ref
+from linkage import LEFT, Dimension, Dyad, Featured, Ground, OnLink, Over, Stroke, ref
 from linkage.units import MPa, deg, mm
 
 from .skeleton import CraneSkeleton
@@ -27,6 +27,12 @@ class Crane(CraneSkeleton):
     Boom drive: A lies boom_r1 before and boom_r2 below O, B boom_r3 along the boom and boom_r4 under it. Arm drive: V lies
     arm_r4 before J on the boom, C arm_r5 before V and arm_r6 above it, the lever VN is arm_r1, the coupler NE arm_r2, the arm's lug
     JE arm_r3 long and `lug` off the arm. `bend` is the boom's bend at V. Every cylinder works with both sides.
+
+    It runs from position to position of those that its skeleton is laid out by. `loading`: from the whole reach (2.10) the straight boom is
+    lifted, the arm comes over the stakes (2.11), the telescope goes in, the arm folds down to the guard (2.13). `transport`: the
+    boom goes level over the folded arm (2.14), (2.15). The telescope is in while the arm folds under load, as the source has it for the
+    arm's drive (2.39): with it out and the arm folded, all that the strokes reach, the crane never carries its load. The load hangs
+    everywhere here, level and on a side slope; `verdicts(over=Over())` asks the whole box.
     """
 
     reading = "<="
@@ -62,6 +68,12 @@ class Crane(CraneSkeleton):
     lift_line = LiftCircuit(lift, pressure=22 * MPa, mechanical_efficiency=0.95)
     fold_line = LiftCircuit(fold, pressure=22 * MPa, mechanical_efficiency=0.95)
     extend_line = LiftCircuit(extend, pressure=22 * MPa, mechanical_efficiency=0.95)
+
+    loading = Over.path(                                  # positions 1, 2 and 3 of POSITIONS, and between 1 and 2 one step after the other
+        phi=["phi_k", phi_0, phi_0, phi_0, phi_0], psi=["psi_k", "psi_k", phi_0, phi_0, "psi_0"], t=[l_t, l_t, l_t, 0.0, 0.0],
+        cases=["lifting", "side_slope"],
+    )  # fmt: skip
+    transport = Over.path(phi=[phi_0, 90 * deg], psi="psi_0", t=0.0, cases=["lifting", "side_slope"])  # positions 3 and 4
 
     def featured(self) -> Featured:
         """Return the height of the telescope's end T, and its path and that of the arm's end K."""

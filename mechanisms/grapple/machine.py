@@ -16,10 +16,12 @@ from linkage import (
     Featured,
     Force,
     Ground,
+    LoadCase,
     Mechanism,
     Motion,
     OnLink,
     Outline,
+    Over,
     Stroke,
     distance,
     ref,
@@ -40,6 +42,8 @@ class Grapple(Mechanism):
     O lies at equal distances from both places of A and by hinge_gap off the largest stem; C on AO produced; E where the closed
     cylinder reaches the open lever and the extended one the closed lever: of the two such places the one on `side_E` of the way of C
     (1 left, -1 right). The efficiency is the source's n; pressures are gauge; everything is of one lever.
+
+    `gripping` is where it holds stems, D_0 and smaller; on the rest of its way, `travelling`, there is no stem, the case `empty`.
 
     The range of theta is that of the shipped stems and hinge; for others `grapple_for` makes a class with the range that they need.
     The moment M_1 that a stem needs is not in the source at hand: the force N_0 + N_2 D**2 of the lever on the stem, through its arm
@@ -117,6 +121,10 @@ class Grapple(Mechanism):
     stem = Force(A, (-push * x_in, -push * y_in))
     lift = Cylinder(E, C, bore=bore, rod=rod, closed=closed, stroke=S)
     circuit = LiftCircuit(lift, pressure=20 * MPa, mechanical_efficiency=0.95)
+
+    empty = LoadCase("empty", scale={"stem": 0.0})
+    gripping = Over(only=[theta <= 0.0], cases=["plain"])
+    travelling = Over(cases=["empty"])
 
     largest = Outline.circle(at=(0.0, 0.0), radius=D_0 / 2)     # the stems it holds and the housing above them, drawn only
     smallest = Outline.circle(at=(0.0, D_0 / 2 - d_0 / 2), radius=d_0 / 2)

@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from hydraulics import LiftCircuit
-from linkage import Column, DefinitionError, Motion, pin_forces, ref
+from linkage import Column, DefinitionError, Motion, least, most, pin_force, ref
 from linkage.language import said
-from linkage.motion import greatest, lowest, require_motion
+from linkage.motion import Answer, Judge, Question, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import is_whole
 from linkage.units import show, shown_number
@@ -139,41 +139,50 @@ def grapple_verdicts(motion: Motion) -> list[Verdict]:
     ]  # fmt: skip
 
 
+def answers_over(motion: Motion, questions: list[Question]) -> list[Answer]:
+    """Return the answers to some questions over all that a motion covers."""
+    return Judge(motion.plan, motion.designs, [motion]).answers(questions)
+
+
+def stem_at(motion: Motion, answer: Answer) -> str:
+    """Return the diameter of the stem that is held at the place of an answer, in words."""
+    return show(float(motion.moved({"theta": np.array([answer.strokes["theta"]])})["D"][0]), "mm", ".0f")
+
+
 def moment_verdict(motion: Motion) -> Verdict:
     """Return whether the lever's moment is enough for every stem, and where it is scarcest."""
-    over = gripping(motion)
-    least, most = lowest(over, moment_ratio), greatest(over, moment_ratio)
-    thin, thick = (show(float(motion.moved({"theta": np.array([each.strokes["theta"]])})["D"][0]), "mm", ".0f") for each in (least, most))
-    low, high = float(least.value), float(most.value)
+    found = answers_over(gripping(motion), [least(moment_ratio), most(moment_ratio)])
+    thin, thick = (stem_at(motion, each) for each in found)
+    low, high = (float(each.value) for each in found)
     text = said(
         "M_g / M_1 is {low:.4g} at the stem of {thin}, the least, and {high:.4g} at {thick}, the greatest",
         low=low, thin=thin, high=high, thick=thick,
     )  # fmt: skip
     remedy = "" if low >= 1.0 - MET else said(": too little; take a greater bore, or move C along the lever")
-    return Verdict("moment", low >= 1.0 - MET, f"{text}{remedy}.")
+    return Verdict("moment", low >= 1.0 - MET, f"{text}{remedy}.", answer=found[0])
 
 
 def passing_verdict(motion: Motion) -> Verdict:
     """Return whether the cylinder passes the hinge's bush on its whole way. (2.93)"""
-    least = lowest(travelling(motion), lambda each: GrappleState(each).H)
-    room, needed = float(least.value), float(motion.inputs["bush"] + motion.inputs["rod"] / 2.0)
+    (found,) = answers_over(travelling(motion), [least(lambda each: GrappleState(each).H)])
+    room, needed = float(found.value), float(motion.inputs["bush"] + motion.inputs["rod"] / 2.0)
     text = said(
         "the cylinder's line passes the hinge at {room} at the least, at theta = {theta}; bush and rod need {needed}.",
-        room=show(room, "mm", ".1f"), theta=show(float(least.strokes["theta"]), "deg", ".1f"), needed=show(needed, "mm", ".1f"),
+        room=show(room, "mm", ".1f"), theta=show(float(found.strokes["theta"]), "deg", ".1f"), needed=show(needed, "mm", ".1f"),
     )  # fmt: skip
-    return Verdict("passing", room >= needed - MET, text)
+    return Verdict("passing", room >= needed - MET, text, answer=found)
 
 
 def room_verdict(motion: Motion) -> Verdict:
     """Return whether the cylinder keeps off every stem that is held."""
-    least = lowest(gripping(motion), lambda each: each["room"])
-    room, needed = float(least.value), float(motion.inputs["bore"] / 2.0)
+    (found,) = answers_over(gripping(motion), [least("room")])
+    room, needed = float(found.value), float(motion.inputs["bore"] / 2.0)
     remedy = "" if room >= needed else said(": it runs into the stem; give a greater hinge_gap or another bend")
     text = said(
         "the cylinder's axis keeps {room} off the stems, at theta = {theta} the least; half its bore is {needed}",
-        room=show(room, "mm", ".1f"), theta=show(float(least.strokes["theta"]), "deg", ".1f"), needed=show(needed, "mm", ".1f"),
+        room=show(room, "mm", ".1f"), theta=show(float(found.strokes["theta"]), "deg", ".1f"), needed=show(needed, "mm", ".1f"),
     )  # fmt: skip
-    return Verdict("room", room >= needed, f"{text}{remedy}.")
+    return Verdict("room", room >= needed, f"{text}{remedy}.", answer=found)
 
 
 def opening_verdict(motion: Motion) -> Verdict:
@@ -207,12 +216,8 @@ def stroke_verdict(motion: Motion) -> Verdict:
 
 def hinge_verdict(motion: Motion) -> Verdict:
     """Return the force in the hinge O, the greatest over the stems."""
-    over = gripping(motion)
-    (hinge,) = pin_forces(over).at("O")
-    force = np.hypot(*hinge.force)
-    worst = int(np.argmax(force))
+    (found,) = answers_over(gripping(motion), [most(pin_force("O"))])
     text = said(
-        "the pin O carries up to {force}, at the stem of {stem}.",
-        force=show(float(force[worst]), "kN", ".1f"), stem=show(float(over["D"][worst]), "mm", ".0f"),
+        "the pin O carries up to {force}, at the stem of {stem}.", force=show(float(found.value), "kN", ".1f"), stem=stem_at(motion, found)
     )  # fmt: skip
-    return Verdict("hinge", True, text)
+    return Verdict("hinge", True, text, answer=found)

@@ -11,10 +11,10 @@ import numpy as np
 
 from hydraulics import AccumulatorBlock, adiabatic, isothermal
 from hydraulics.gas import Gas
-from linkage import DefinitionError, Motion
+from linkage import DefinitionError, Motion, least
 from linkage.errors import cited
 from linkage.language import noted
-from linkage.motion import last_holding, lowest
+from linkage.motion import Judge, last_holding
 from linkage.plan import Mask
 from linkage.program import FloatArray
 from linkage.quantities import is_number
@@ -83,7 +83,8 @@ def largest_charge(motion: Motion, way: Way = SLOW) -> float:
 
     DefinitionError where none will do: the header is lighter than the accumulators hold at their own gas charge.
     """
-    return float(lowest(over_following(motion, 2), lambda at: charge_limits(at, way)).value)
+    judge = Judge(motion.plan, motion.designs, [over_following(motion, 2)])
+    return float(judge.answer(least(lambda at: charge_limits(at, way))).value)
 
 
 def charge_limits(motion: Motion, way: Way) -> FloatArray:

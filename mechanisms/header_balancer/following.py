@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from hydraulics import Cylinder, FloatCircuit, pressure
-from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, drive_force, ratio, ref
+from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, drive_force, most, ratio, ref
 from linkage.errors import cited
 from linkage.language import noted
 from linkage.loads import PinFriction, Support
 from linkage.loads.element import Formulas
-from linkage.motion import Request, greatest, require_motion
+from linkage.motion import Judge, Request, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import Coordinate, Distance, Quantity, is_number, is_whole
 from linkage.statics import driving_force, reaction
@@ -275,8 +275,9 @@ class Relief:
 def relief(motion: Motion) -> Relief:
     """Return how far the pressure stays below the relief valve from the horizon to the end of the stroke, one design."""
     lifted = motion.moved({"h": np.array([stroke_of(motion, 0.0), motion.plan.strokes["h"].end])})
-    most = greatest(lifted, lambda at: HeaderState(at).required_while("extending"))
-    return Relief(float(most.value), float(most.strokes["h"]), float(motion.inputs["valve"]) - float(most.value))
+    judge = Judge(motion.plan, motion.designs, [lifted])
+    found = judge.answer(most(lambda at: HeaderState(at).required_while("extending")))
+    return Relief(float(found.value), float(found.strokes["h"]), float(motion.inputs["valve"]) - float(found.value))
 
 
 def kgf_cm2_text(pressure: float, digits: int = 2) -> str:

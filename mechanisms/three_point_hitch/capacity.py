@@ -13,11 +13,11 @@ import numpy as np
 
 from hydraulics import LiftCircuit
 from hydraulics.member import found_in
-from linkage import DefinitionError, Force, ForceElement, Motion, angle
+from linkage import DefinitionError, Force, ForceElement, Motion, angle, least, most
 from linkage.errors import cited, unwarned
 from linkage.language import noted, said, translated
 from linkage.loads.element import Formulas
-from linkage.motion import greatest, lowest, require_motion
+from linkage.motion import Judge, Over, require_motion
 from linkage.plan import Plan
 from linkage.program import FloatArray
 from linkage.quantities import Distance, is_number
@@ -59,19 +59,21 @@ def capacity(motion: Motion, point: str = "G", share: float = 1.0) -> FloatArray
 @final
 @dataclass(frozen=True)
 class Lifted(LawRequest):
-    """The lifting capacity (28) at the centre of gravity, as something to ask for."""
+    """The lifting capacity (28) [N] at a point and a share of the pump's pressure, as something to ask for; of G at the full one."""
 
+    point: str = "G"
+    share: float = 1.0
     measures = "force"
 
     def identity(self, plan: Plan) -> Hashable:
-        return ("lifted",)
+        return "lifted", self.point, self.share
 
     def examine(self, plan: Plan) -> None:
         if "circuit" not in plan.of_kind(LiftCircuit):
             raise DefinitionError(f"{plan.title} has no lift circuit of the name circuit, whose pump lifts.")
 
     def law(self, motion: AnyMotion) -> FloatArray:
-        return motion.plan.of_kind(LiftCircuit)["circuit"].capacity(motion, "G", own_loads(motion))
+        return motion.plan.of_kind(LiftCircuit)["circuit"].capacity(motion, self.point, own_loads(motion), share=self.share)
 
     def __str__(self) -> str:
         return "the lifting capacity"
@@ -165,12 +167,12 @@ class Weakest:
 
 def weakest(motion: Motion) -> Weakest | None:
     """Return the weakest point over a motion of one design; None where the cylinder limits nothing."""
-    burden = stroke_per_newton(closely(motion))
-    if not np.any(burden > 0.0):
+    judge = Judge(motion.plan, motion.designs, [motion])
+    worst, easiest = judge.answers([most(stroke_per_newton), least(lambda each: np.abs(stroke_per_newton(each)))])
+    if not worst.value > 0.0:
         return None
-    S = greatest(motion, stroke_per_newton).strokes["S"]
-    there = closely(motion, np.array([S]))
-    best = closely(motion, np.array([lowest(motion, lambda each: np.abs(stroke_per_newton(each))).strokes["S"]]))
+    S = float(worst.strokes["S"])
+    there, best = (closely(motion, np.array([each.strokes["S"]])) for each in (worst, easiest))
     with unwarned():  # at the end of the reach it stands next to a dead point: the sentence keeps few digits
         ratio, force = float(there.ratio("G")[1][0]), float(capacity(there)[0])
         return Weakest(S, float(there.y("F")[0]), force, ratio, stage(there, best), remedy(motion))
@@ -212,11 +214,12 @@ def remedy(motion: Motion) -> str:
     if not names:
         return ""
     designs = {name: motion.designs[name] + np.where([each == name for each in names], steps, 0.0) for name in dict.fromkeys(names)}
-    fine = closely(motion)
-    changed = Motion(motion.plan, motion.designs | designs, fine.strokes, "nan")
-    burden = np.max(np.where(changed.reached, stroke_per_newton(changed), np.inf), axis=1)
-    place = int(np.argmin(np.where(np.isfinite(burden), burden, np.inf)))
-    gain = float(np.nanmax(stroke_per_newton(fine))) / burden[place] - 1.0
+    fine = Over.poses(S=closely(motion).strokes["S"].tolist())
+    before, after = (Judge(motion.plan, motion.designs | each, [fine]) for each in ({}, designs))
+    found = after.answer(most(stroke_per_newton)).value
+    burden = np.where(after.motion.reached.all(axis=1) & np.isfinite(found), found, np.inf)
+    place = int(np.argmin(burden))
+    gain = float(before.answer(most(stroke_per_newton)).value) / burden[place] - 1.0
     if not 0.0 < gain < np.inf:
         return said("No single dimension of the tractor's side, changed by {change}, helps.", change=show(CHANGE, "mm", ".0f"))
     name, _, axis = names[place].partition(".")

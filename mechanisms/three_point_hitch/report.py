@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkage import Column, ForceElement, Mechanism, Motion, pin_forces
+from linkage import Column, ForceElement, Mechanism, Motion, least, most, pin_forces
 from linkage.language import noted, said
+from linkage.motion import Judge
 from linkage.program import FloatArray
-from linkage.reports import closely, ranges_below_zero, spans_in_words
+from linkage.reports import ranges_below_zero, spans_in_words
 from linkage.statics.acting import Case
 from linkage.units import g0, show, shown_number
 from linkage.verdict import Verdict
 
-from .capacity import BEHIND, SHARE, at_hitch_points, behind, capacity, circuit_of, weakest
+from .capacity import BEHIND, SHARE, Lifted, at_hitch_points, behind, capacity, circuit_of, weakest
 from .tractor import balance_verdict, front_axle, largest_mass, tipping_mass, tipping_slope
 from .zones import mast_words
 
@@ -41,9 +42,10 @@ def rules(hitch: Mechanism, motion: Motion) -> list[Verdict]:
         return []
     if motion._design_shape:
         return [batch_verdict(motion)]
+    judge = Judge(motion.plan, motion.designs, [motion])
     return [
-        weakest_verdict(motion), limit_verdict(motion), test_verdict(motion), upper_link_verdict(motion), balance_verdict(motion),
-        mast_verdict(hitch, motion),
+        weakest_verdict(motion), limit_verdict(judge), test_verdict(judge), upper_link_verdict(judge, motion), balance_verdict(judge),
+        mast_verdict(judge, hitch, motion),
     ]  # fmt: skip
 
 
@@ -56,16 +58,15 @@ def weakest_verdict(motion: Motion) -> Verdict:
     return Verdict("capacity", found.capacity >= weight, found.sentence)
 
 
-def limit_verdict(motion: Motion) -> Verdict:
+def limit_verdict(judge: Judge) -> Verdict:
     """Return which limit comes first over the motion: pressure, the front axle's share, or tipping."""
-    fine = closely(motion)
-    steer, tip = largest_mass(fine), tipping_mass(fine)
-    limits = {said("the pressure"): capacity(fine) / g0, said("the front axle's least load"): steer, said("tipping"): tip}
-    least_of = {name: float(np.nanmin(values)) for name, values in limits.items() if np.isfinite(values).any()}
+    lifted, steer, tip = (float(each.value) for each in judge.answers([least(Lifted()), least(largest_mass), least(tipping_mass)]))
+    limits = {said("the pressure"): lifted / g0, said("the front axle's least load"): steer, said("tipping"): tip}
+    least_of = {name: value for name, value in limits.items() if np.isfinite(value)}
     if not least_of:
         return Verdict("largest implement", True, said("nothing limits it over this motion."))
     first = min(least_of, key=lambda name: least_of[name])
-    mass = float(motion.inputs["load.mass"])
+    mass = float(judge.motion.inputs["load.mass"])
     text = said(
         "{first} comes first; over this motion: {limits}; the implement has {mass}.",
         first=first, limits="; ".join(f"{name} {show(value, 'kg', '.0f')}" for name, value in least_of.items()),
@@ -74,24 +75,21 @@ def limit_verdict(motion: Motion) -> Verdict:
     return Verdict("largest implement", mass <= least_of[first], text)
 
 
-def test_verdict(motion: Motion) -> Verdict:
+def test_verdict(judge: Judge) -> Verdict:
     """Return what can be lifted through the whole range at 90 % of the pressure, the way tractors are tested."""
-    fine = closely(motion)
-    parts = []
-    behind_them = said("{distance} behind them", distance=show(BEHIND, "mm", ".0f"))
-    for where, lifted in ((said("at the hitch points"), at_hitch_points(fine)), (behind_them, behind(fine))):
-        is_limited = bool(np.isfinite(lifted).any())
-        parts.append(f"{where} {show(float(np.nanmin(lifted)), 'kN', '.2f') if is_limited else said('not limited by the cylinders')}")
+    parts, places = [], (said("at the hitch points"), said("{distance} behind them", distance=show(BEHIND, "mm", ".0f")))
+    for where, lifted in zip(places, judge.answers([least(Lifted("F", SHARE)), least(behind)]), strict=True):
+        is_limited = bool(np.isfinite(lifted.value))
+        parts.append(f"{where} {show(float(lifted.value), 'kN', '.2f') if is_limited else said('not limited by the cylinders')}")
     text = said(
         "through the whole range at {share:.0f} % of the pressure (as OECD Code 2): {parts}.", share=100 * SHARE, parts=", ".join(parts)
     )  # fmt: skip
     return Verdict("test", True, text)
 
 
-def upper_link_verdict(motion: Motion) -> Verdict:
+def upper_link_verdict(judge: Judge, motion: Motion) -> Verdict:
     """Return how large the force is over a motion of one design, and where it is tension or compression."""
-    force = upper_link_force(closely(motion))
-    low, high = float(np.nanmin(force)), float(np.nanmax(force))
+    low, high = (float(each.value) for each in judge.answers([least(upper_link_force), most(upper_link_force)]))
     if low >= 0.0 or high <= 0.0:
         small, large = sorted((abs(low), abs(high)))
         ends = {"low": shown_number(small, "kN", ".2f"), "high": show(large, "kN", ".2f")}
@@ -107,20 +105,20 @@ def upper_link_verdict(motion: Motion) -> Verdict:
     return Verdict("upper link", True, text)
 
 
-def mast_verdict(hitch: Mechanism, motion: Motion) -> Verdict:
+def mast_verdict(judge: Judge, hitch: Mechanism, motion: Motion) -> Verdict:
     """Return the tilt over the motion, and the upper link that makes the mast vertical at its start."""
-    fine = closely(motion)
-    tilt, start = fine["tilt"], float(np.min(motion.strokes["S"][motion.reached]))
+    low, high = (float(each.value) for each in judge.answers([least("tilt"), most("tilt")]))
+    start = float(np.min(motion.strokes["S"][motion.reached]))
     text = said(
         "tilt {low} to {high} over this motion. At S = {start} {words}",
-        low=shown_number(float(np.nanmin(tilt)), "deg", ".2f"), high=show(float(np.nanmax(tilt)), "deg", ".2f"),
+        low=shown_number(low, "deg", ".2f"), high=show(high, "deg", ".2f"),
         start=show(start, "m", ".4f"), words=mast_words(hitch, start),
     )  # fmt: skip
     return Verdict("mast", True, text)
 
 
 def batch_verdict(motion: Motion) -> Verdict:
-    """Return how many designs of a batch cannot lift their implement or lose the front axle, and the extremes."""
+    """Return how many designs of a batch cannot lift their implement or lose the front axle at the motion's poses, and the extremes."""
     poses = tuple(range(len(motion._design_shape), len(motion.shape)))
     lifted = np.min(np.where(np.isnan(capacity(motion)), np.inf, capacity(motion)), axis=poses)
     weight = np.broadcast_to(motion.inputs["load.mass"] * g0, motion.shape).min(axis=poses)

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkage import ForceElement, Motion
+from linkage import ForceElement, Motion, least
 from linkage.language import said
+from linkage.motion import Judge
 from linkage.program import FloatArray
-from linkage.reports import closely
 from linkage.units import g0, show
 from linkage.verdict import Verdict
 
@@ -102,35 +102,32 @@ def tipping_slope(motion: Motion) -> FloatArray:
     return np.asarray(np.maximum(held + np.arctan2(-along, up), 0.0))
 
 
-def balance_verdict(motion: Motion) -> Verdict:
+def balance_verdict(judge: Judge) -> Verdict:
     """Return whether the front axle keeps its least share of the tractor's weight, with the tipping limits."""
-    fine = closely(motion)
-    (S,) = fine.strokes.values()
-    load, given = front_axle(fine), motion.inputs
-    worst, weight = int(np.nanargmin(load)), float(given["vehicle_mass"]) * g0
-    share, least = float(load[worst]) / weight, float(given["least_front"])
-    height = show(float(fine.y("F")[worst]), "mm", ".0f")
-    where = said("at S = {stroke}, F {height} high", stroke=show(float(S[worst]), "m", ".4f"), height=height)
-    tip = tipping_mass(fine)
+    worst, tips, largest, slope = judge.answers([least(front_axle), least(tipping_mass), least(largest_mass), least(tipping_slope)])
+    load, given = float(worst.value), judge.motion.inputs
+    share, needed = load / (float(given["vehicle_mass"]) * g0), float(given["least_front"])
+    height = show(float(judge.there(worst).y("F")), "mm", ".0f")
+    where = said("at S = {stroke}, F {height} high", stroke=show(float(worst.strokes["S"]), "m", ".4f"), height=height)
     mass = said("No implement tips it")
-    if np.isfinite(tip).any():
-        mass = said("It tips with {mass}", mass=show(float(np.nanmin(tip)), "kg", ".0f"))
-    if load[worst] <= 0.0:
+    if np.isfinite(tips.value):
+        mass = said("It tips with {mass}", mass=show(float(tips.value), "kg", ".0f"))
+    if load <= 0.0:
         text = said(
             "the tractor tips over backwards {where}. {mass}: take a lighter implement or ballast in front.", where=where, mass=mass
         )  # fmt: skip
-        return Verdict("front axle", False, text)
+        return Verdict("front axle", False, text, answer=worst)
     says = said(
         "least load {load}, {share:.0f} % of the tractor's weight, {where}; steering needs {least:.0f} %",
-        load=show(float(load[worst]), "kN", ".2f"), share=100 * share, where=where, least=100 * least,
+        load=show(load, "kN", ".2f"), share=100 * share, where=where, least=100 * needed,
     )  # fmt: skip
-    steep = show(float(np.nanmin(tipping_slope(fine))), "deg", ".1f")
+    steep = show(float(slope.value), "deg", ".1f")
     uphill = said("{mass}, and with this one uphill at {slope}.", mass=mass, slope=steep)
-    if share >= least:
-        return Verdict("front axle", True, f"{says}. {uphill}")
-    ballast = (least - share) * float(given["vehicle_mass"]) / np.cos(float(given["slope"]))
+    if share >= needed:
+        return Verdict("front axle", True, f"{says}. {uphill}", answer=worst)
+    ballast = (needed - share) * float(given["vehicle_mass"]) / np.cos(float(given["slope"]))
     remedy = said(
         "At most {most}, or {ballast} of ballast over the front axle.",
-        most=show(float(np.nanmin(largest_mass(fine))), "kg", ".0f"), ballast=show(ballast, "kg", ".0f"),
+        most=show(float(largest.value), "kg", ".0f"), ballast=show(ballast, "kg", ".0f"),
     )  # fmt: skip
-    return Verdict("front axle", False, f"{says}. {remedy} {uphill}")
+    return Verdict("front axle", False, f"{says}. {remedy} {uphill}", answer=worst)

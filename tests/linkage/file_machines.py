@@ -176,7 +176,7 @@ class Loaded(Hitch):
 
     transport = LoadCase("on the road", scale={"load": 2.0, "pull": 0}, slope=10 * deg)
     bare = LoadCase(only=["load", own, "pin_E"], gravity=(0, -1.62))
-    plain = LoadCase()
+    as_declared = LoadCase()
 
 
 def changed(*path, to=None, drop=False):

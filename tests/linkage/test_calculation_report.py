@@ -10,9 +10,11 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from hydraulics import Cylinder, LiftCircuit
+from hydraulics import Cylinder, LiftCircuit, thrust
 from linkage import (
+    LEFT,
     RIGHT,
+    Acting,
     Crank,
     DefinitionError,
     Dyad,
@@ -21,12 +23,14 @@ from linkage import (
     LoadCase,
     Mechanism,
     OnLink,
+    Over,
     SingularError,
     Stroke,
     Weight,
     deg,
     equations,
     max_table,
+    most,
     pin_forces,
     report,
 )
@@ -40,9 +44,10 @@ from linkage.documents.run import Looked
 from linkage.formulas.mathml import mathml
 from linkage.formulas.typeset import BoxRow, Fraction, Script, boxes, breakable
 from linkage.language import language
-from linkage.motion import Column
+from linkage.motion import Column, places_text
 from linkage.reports import results, run_of
 from linkage.units import bar, mm
+from linkage.verdict import Verdict
 from mechanisms.classics.jansen import Jansen
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.stephenson_three import StephensonThreeFar
@@ -103,7 +108,7 @@ def test_a_page_is_well_formed_and_needs_nothing_else(page):
 
 def test_the_title_block_says_what_was_calculated(page, hitch):
     facts = dict(hitch.facts)
-    assert facts["Checked by"] == "N. N." and facts["Verdicts"] == "13 of 13 rules kept"
+    assert facts["Checked by"] == "N. N." and facts["Verdicts"] == "15 of 15 rules kept"
     assert facts["Inputs, SHA-256"] == fingerprint(ThreePointHitch(), {"S": (0.0, 0.25)})[:16]
     assert all(f"<dt>{name}</dt>" in page and value in unescape(page) for name, value in facts.items())
 
@@ -197,14 +202,133 @@ def test_units_are_those_of_the_system():
 
 def test_load_cases_are_looked_at_alone_or_all(tmp_path):
     both = report_document(Lifter())
+    assert dict(both.facts)["Load cases"] == "own loads, twice"
     (grid,) = grids(both, "least", "unit")
-    assert {row[0] for row in grid.rows} == {"own loads", "twice"}
-    sizes = {row[0]: float(row[4]) for row in grid.rows if row[2] == "S"}
-    assert sizes["twice"] == pytest.approx(2.0 * sizes["own loads"], abs=2e-3)
-    (only,) = grids(report_document(Lifter(), case="double"), "least", "unit")
-    assert {row[0] for row in only.rows} == {"twice"}
-    with pytest.raises(DefinitionError, match=r"case='none'.*double"):
+    (whole,) = (row for row in grid.rows if row[0] == "S")
+    assert "in the case plain" in whole[3] and "in the case double" in whole[5]
+    for acting in (dict(case="plain"), dict(case="double"), dict(acting=Acting(case="double"))):
+        only = report_document(Lifter(), **acting)
+        assert dict(only.facts)["Load cases"] == ("own loads" if acting == dict(case="plain") else "twice")
+        (alone,) = (row for grid in grids(only, "least", "unit") for row in grid.rows if row[0] == "S")
+        assert "case" not in alone[3] + alone[5]
+        place = 2 if acting == dict(case="plain") else 4
+        assert alone[place] == whole[place]
+    assert float(whole[4]) > 1.5 * float(report_one(Lifter(), "S", case="plain"))
+    with pytest.raises(DefinitionError, match=r"load case 'none' is unknown; known are plain, double"):
         report(Lifter(), tmp_path / "a.html", case="none")
+    with pytest.raises(DefinitionError, match=r"case= and acting= both say it"):
+        report(Lifter(), tmp_path / "a.html", case="double", acting=Acting(case="double"))
+
+
+def report_one(machine, drive, **given):
+    """Return the greatest force of a drive in a report, as text."""
+    (grid,) = grids(report_document(machine, **given), "least", "unit")
+    return next(row[4] for row in grid.rows if row[0] == drive)
+
+
+# What is judged, is judged over all that the machine runs.
+
+
+class Grab(Mechanism):
+    """A boom and a jib on cylinders: two strokes, two load cases."""
+
+    S, T = Stroke(0.0, 0.25), Stroke(0.0, 0.3)
+    A, O = Ground(0.2, -0.4), Ground(0.0, 0.0)
+    B = Dyad(A, O, AB=0.65 + S, OB=0.6, side=RIGHT)
+    C = OnLink(O, B, OC=1.5)
+    D = OnLink(O, B, OD=0.9, BOD=20 * deg)
+    H = Dyad(D, C, DH=0.5 + T, CH=0.3, side=LEFT)
+    P = OnLink(C, H, CP=1.2, HCP=-150 * deg)
+    load = Weight(P, mass=300.0)
+    shock = LoadCase("with shock", scale={"load": 1.8})
+    lift = Cylinder(A, B, bore=80 * mm, rod=45 * mm)
+    pump = LiftCircuit(lift, pressure=160 * bar)
+    jib = Cylinder(D, H, bore=63 * mm, rod=36 * mm)
+
+
+class Cornered(Grab):
+    """The same with a longer jib cylinder, which leaves a part of the box."""
+
+    T = Stroke(0.0, 0.75)
+
+
+@pytest.fixture(scope="module")
+def grab():
+    return report_document(Grab())
+
+
+def test_pin_forces_are_those_of_the_whole_box_in_all_cases(grab):
+    (grid,) = grids(grab, "Fx, kN")
+    rows = max_table(Grab())
+    assert [row[6] for row in grid.rows] == [f"{each.force / 1e3:.3f}" for each in rows]
+    assert {row[9] for row in grid.rows} == {"with shock"}
+    assert all("S = " in row[8] and "T = " in row[8] for row in grid.rows)
+    held = max_table(pin_forces(Grab().at(S=np.linspace(0.0, 0.25, 5), T=0.15)))
+    assert max(each.force for each in rows) > 1.5 * max(each.force for each in held)
+
+
+def test_rules_are_those_of_the_verdicts_and_the_mark_counts_them(grab):
+    verdicts = [each for each in Grab().verdicts() if isinstance(each, Verdict)]
+    (grid,) = grids(grab, "what was found")
+    assert [row[2] for row in grid.rows if row[0]] == [each.sentence for each in verdicts]
+    kept = sum(each.ok is True for each in verdicts)
+    assert dict(grab.facts)["Verdicts"] == grab.verdict.word == f"{kept} of {len(verdicts)} rules kept"
+    assert dict(grab.facts)["Judged over"] == "S = 0 to 0.25 m, T = 0 to 0.3 m"
+
+
+def test_a_rule_that_says_nothing_is_counted_apart():
+    class Idle(Grab):
+        lift = Cylinder("A", "B", bore=80 * mm, rod=45 * mm, works="rod")
+
+    document = report_document(Idle())
+    silent = sum(each.ok is None for each in Idle().verdicts() if isinstance(each, Verdict))
+    assert silent and document.verdict.word.endswith(f", {silent} say nothing" if silent > 1 else ", 1 says nothing")
+    (grid,) = grids(document, "what was found")
+    assert {row[1].word for row in grid.rows} >= {"says nothing"}
+
+
+def test_worst_places_are_those_of_the_answers(grab):
+    (grid,) = grids(grab, "situation", "strokes")
+    answers = {each.heading: each for each in Grab().verdicts() if isinstance(each, Verdict) and each.answer is not None}
+    assert 0 < len(grid.rows) <= 10
+    for rule, mark, value, _, strokes in grid.rows:
+        assert mark.ok is answers[rule].ok
+        assert value == answers[rule].answer.amount
+        assert strokes == places_text(answers[rule].answer.strokes, {"S": "m", "T": "m"})
+    order = [row[1].ok is not False for row in grid.rows]
+    assert order == sorted(order)
+
+
+def test_curves_keep_one_stroke_and_mark_the_worst_of_the_box(grab):
+    pictures = {b.name: b for section in grab.sections for b in section.blocks if isinstance(b, Illustration)}
+    picture = pictures["curve_thrust_lift"]
+    assert "along S; T = 150 mm held." in picture.caption
+    answer = Grab().answers([most(thrust("lift"))])[0]
+    assert f"greatest {answer.value / 1e3:.4f} kN, in the case shock, at S = " in picture.caption
+    from matplotlib.figure import Figure
+
+    ax = Figure().add_axes((0.1, 0.1, 0.8, 0.8))
+    picture.paint(ax)
+    levels = [line.get_ydata()[0] for line in ax.lines if len(set(line.get_ydata())) == 1]
+    assert any(level == pytest.approx(answer.value / 1e3, rel=1e-6) for level in levels)
+    assert ax.get_ylim()[1] > answer.value / 1e3
+
+
+def test_places_that_are_lost_leave_gaps_and_one_remark():
+    document = report_document(Cornered(), at={"T": (0.0, 0.75)})
+    texts = [block.text for section in document.sections for block in section.blocks if hasattr(block, "text")]
+    assert len([text for text in texts if "cannot be assembled" in text]) == 1
+    (rules,) = grids(document, "what was found")
+    (assembly,) = (row for row in rules.rows if row[0] == "assembly")
+    assert assembly[1].ok is False and document.verdict.ok is False
+    assert grids(document, "Fx, kN")[0].rows
+
+
+def test_an_over_is_judged_in_the_place_of_the_box():
+    document = report_document(Grab(), over=Over(S=(0.0, 0.1), T=0.0))
+    assert dict(document.facts)["Judged over"] == "S = 0 to 0.1 m, T = 0 m"
+    (grid,) = grids(document, "Fx, kN")
+    assert all("T = 0.0000 m" in row[8] for row in grid.rows)
 
 
 def test_sources_stand_beside_the_numbers_and_names_are_escaped(tmp_path):

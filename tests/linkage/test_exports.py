@@ -394,9 +394,14 @@ def test_mistakes_are_told_in_words_and_leave_no_file(given, said, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_what_cannot_be_assembled_is_not_exported(tmp_path):
+@pytest.mark.parametrize("kind", ["xlsx", "csv", "dxf"])
+def test_what_cannot_be_assembled_anywhere_is_not_exported(kind, tmp_path):
     with pytest.raises(AssemblyError):
-        export(Turned(L0=0.4), tmp_path / "x.xlsx")
+        export(Turned(L0=2.0), tmp_path / f"x.{kind}")
+    assert not list(tmp_path.iterdir())
+
+
+def test_folder_that_is_not_there_is_told(tmp_path):
     with pytest.raises(FileError):
         export(Turned(), tmp_path / "nowhere" / "x.csv")
 

@@ -65,7 +65,7 @@ def test_every_load_is_written_as_it_is_said():
     assert tables["cases"] == {
         "transport": {"title": "on the road", "scale": {"load": 2.0, "pull": 0}, "slope": "10 deg"},
         "bare": {"only": ["load", "own", "pin_E"], "gravity": [0, -1.62]},
-        "plain": {},
+        "as_declared": {},
     }
 
 

@@ -196,7 +196,7 @@ WRONG = [
     ("integral(lift, by=T)", "say by which stroke, by= one of S"),
     ("least(worst(lift, over=psi))", "there is no stroke 'psi'"),
     ("most(drive_force(case=ful))", "Load case 'ful' is unknown"),
-    ("least(drive_force(nix=3))", "unexpected keyword argument 'nix'; write drive_force(drive, loads, case)"),
+    ("least(drive_force(nix=3))", "unexpected keyword argument 'nix'; write drive_force(drive, loads, case, acting)"),
     ("pin_force()", "missing a required argument"),
     ("1 / 0", "has no finite value"),
     ("(-8) ** 0.5", "has no finite value"),

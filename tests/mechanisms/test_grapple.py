@@ -7,7 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq, minimize_scalar
 
-from linkage import DefinitionError, StudyError, driving_force, pin_forces, ratio
+from hydraulics import reserve
+from linkage import DefinitionError, Over, StudyError, driving_force, least, pin_forces, ratio
 from linkage.cli import main
 from linkage.units import MPa, deg, mm
 from mechanisms.grapple import (
@@ -404,8 +405,10 @@ def test_a_design_that_cannot_be_is_refused_in_words(design, words):
 def test_a_cylinder_without_a_place_is_told_with_the_arm_that_has_one():
     machine = Grapple(rho=0.10)
     motion = machine.at(theta=0.0)
-    (said,) = machine.verdicts(motion)
+    (said,) = machine.rules(motion)
     assert "less than the stroke; OC = rho from 167.6 mm on has one" in said
+    failed = [each.rule for each in machine.verdicts(motion) if each.ok is False]
+    assert failed == ["length", "lifting", "cylinder"] and said in machine.verdicts()  # what has no value is no pass
     with pytest.raises(DefinitionError, match="E has no place"):
         machine.columns(motion)
     assert np.isfinite(Grapple(rho=0.1677).at(theta=0.0)["E"]).all()
@@ -421,7 +424,21 @@ def test_verdicts_say_what_fails():
     assert "FAIL opening" in shut and "1.2 to 1.4 is advised" in shut
     close = "\n".join((made := InnerGrapple(bend=0.0, hinge_gap=0.085, rho=0.14, S=0.2, bore=0.07)).verdicts(made.at(theta=0.0)))
     assert "FAIL room" in close
-    assert "one design at a time" in Grapple().verdicts(Grapple(rho=np.array([0.19, 0.2])).at(theta=0.0))[0]
+    assert "one design at a time" in Grapple().verdicts(Grapple(rho=np.array([0.19, 0.2])).at(theta=0.0))[-1]
+
+
+def test_the_load_is_judged_where_it_exists():
+    """The cylinder is judged while it holds stems: its least reserve is the least M_g / M_1 of its own rule, without an end in between."""
+    machine = Grapple()
+    found = {each.rule: each for each in machine.verdicts()}
+    assert [over.name for over in machine.overs] == ["gripping", "travelling"]
+    low = moment_ratio(gripping(machine.at(theta=0.0), 4001)).min()
+    assert found["lifting"].answer.value == pytest.approx(low, rel=1e-9)
+    assert found["moment"].answer.value == pytest.approx(low, rel=1e-9)
+    assert found["lifting"].answer.over == found["holding"].answer.over == "gripping"
+    box = machine.answers([least(reserve("lift"))], over=Over(cases=["plain"]))[0]
+    assert box.value == pytest.approx(0.807, abs=5e-4) and box.strokes["theta"] > 0.0  # a stem beyond D_0, which there is not
+    assert found["length"].ok and "450.0 to 700.0 mm" in found["length"]  # the length on the whole way, the open lever too
 
 
 def test_batches_hold_what_single_designs_do():

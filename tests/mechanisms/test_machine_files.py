@@ -83,7 +83,7 @@ def test_design_comes_back(name, write):
 
 
 def test_what_a_file_leaves_out_is_known():
-    assert left_out(ThreePointHitch) == ("__init__", "admissible", "columns", "formulas", "verdicts")
+    assert left_out(ThreePointHitch) == ("__init__", "admissible", "columns", "formulas", "rules")
     assert left_out(HeaderBalancer) == left_out(MowerLift) == ("__init__", "columns", "formulas", "verdicts")
     assert not any(left_out(machine) for name, machine in SHIPPED.items() if not machine.plan.of_kind(ForceElement))
 
@@ -159,7 +159,7 @@ def test_save_says_what_is_left_out(run):
     assert (code, err) == (0, "")
     assert out == (
         "own.toml: the linkage with 25 members.\n"
-        "Not in it, since a file holds no functions of a class: __init__, admissible, columns, formulas, verdicts.\n"
+        "Not in it, since a file holds no functions of a class: __init__, admissible, columns, formulas, rules.\n"
     )
     assert load("own.toml")().dimensions == ThreePointHitch(**{"OB": 0.32, "load.mass": 1000.0}).dimensions
     assert run("save", "klann", "klann.json") == (0, f"klann.json: the linkage with {len(SHIPPED['klann'].plan.members)} members.\n", "")

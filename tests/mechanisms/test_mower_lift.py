@@ -7,7 +7,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import LiftCircuit
-from hydraulics.judged import LiftingCylinder
 from linkage import (
     RIGHT,
     CosineAngle,
@@ -20,13 +19,15 @@ from linkage import (
     Spring,
     Turn,
     Vector,
+    Verdict,
     Weight,
     kgf,
     kgf_cm2,
     mm,
     pin_forces,
 )
-from linkage.units import litre, minute
+from linkage.motion import below_zero
+from linkage.units import bar, litre, minute
 from mechanisms.mower_lift import BELOW, DELFI_OF_INPUT, MowerLift
 
 # Source: worksheet "Mathematical modelling of the lift of the left section of the KPR-6", as printed
@@ -177,20 +178,28 @@ def verdict(count=11, **dimensions):
     return " ".join(lift.verdicts(lift.sweep(count)))
 
 
+def rules(lift, motion):
+    """Return the verdicts by their rules."""
+    return {each.rule: each for each in lift.verdicts(motion) if isinstance(each, Verdict)}
+
+
 def test_verdict_as_printed():
     lift = MowerLift()
-    assert lift.verdicts(lift.sweep(101)) == [
-        "FAIL lifting: The section cannot be lifted from its lowest position at 155 kgf/cm2: the least reserve kz is 0.963, "
-        "at S = 0.5500 m, and kz is below 1 from S = 0.5500 to 0.5660 m. "
-        "It needs 161.0 kgf/cm2, or the next standard bore: 90 mm gives kz = 1.22.",
-        "ok   oil: Lifting from S = 0.5500 to 0.8000 m takes 1.26 l of oil; time and flow follow from the pump.",
-    ]
+    found = rules(lift, lift.sweep(101))
+    assert 155 * kgf_cm2 / bar == pytest.approx(152.0, abs=0.05) and 161.0 * kgf_cm2 / bar == pytest.approx(157.9, abs=0.05)
+    assert found["lifting"] == (
+        "FAIL lifting: at 152 bar the least reserve is 0.963, at S = 0.5500 m; too weak from S = 0.5500 to 0.5660 m. "
+        "It needs 157.9 bar, or a bore of 90 mm, with a reserve of 1.22."
+    )
+    assert found["oil"] == "ok   oil: 1.26 l from end to end; time follows from the pump's flow, which is not given."
+    assert found["lifting"].answer.value == pytest.approx(reserve(lift.at(S=0.55)), rel=1e-12)
+    assert [*found] == ["assembly", "dead points", "standard size", "buckling", "lifting", "oil", "holding", "lowering"]
 
 
 def test_verdict_of_the_other_reading():
     text = verdict(BOG=OTHER_READING)
-    assert "kz is 0.978, at S = 0.5500 m" in text
-    assert "below 1 from S = 0.5500 to 0.5604 m" in text
+    assert "the least reserve is 0.978, at S = 0.5500 m" in text
+    assert "too weak from S = 0.5500 to 0.5604 m" in text
 
 
 @pytest.mark.parametrize(("dimensions", "printed"), [({}, "0.5660"), ({"BOG": OTHER_READING}, "0.5604")])
@@ -198,9 +207,10 @@ def test_verdict_of_the_other_reading():
 def test_end_of_the_short_range_is_a_root(dimensions, printed, count):
     """Not the grid of the table: where the range ends, kz = 1, whatever the number of poses."""
     lift = MowerLift(**dimensions)
-    (short,) = LiftingCylinder(lift.circuit, lift.lift, lift.sweep(count)).lifted().short
+    (short,) = below_zero(lift.sweep(count), lambda each: reserve(each) - 1.0)
     start, end = short.start["S"], short.end["S"]
     assert (start, f"{end:.4f}") == (0.55, printed)
+    assert f"too weak from S = 0.5500 to {printed} m." in rules(lift, lift.sweep(count))["lifting"]
     below, at, above = reserve(lift.at(S=[end - 1e-9, end, end + 1e-9]))
     assert below < 1.0 < above
     assert at == pytest.approx(1.0, abs=1e-10)
@@ -208,44 +218,46 @@ def test_end_of_the_short_range_is_a_root(dimensions, printed, count):
 
 def test_verdict_stays_where_the_motion_starts_higher():
     lift = MowerLift()
-    assert "lifted from S = 0.5600 m at" in lift.verdicts(lift.at(S=[0.56, 0.70]))[0]
-    assert lift.verdicts(lift.at(S=0.70)) == [
-        "ok   lifting: The section can be lifted at S = 0.7000 m at 155 kgf/cm2: the least reserve kz is 1.227, at S = 0.7000 m."
-    ]
-    assert lift.verdicts(lift.at(S=0.55))[0].startswith("FAIL lifting: The section cannot be lifted here at 155 kgf/cm2")
+    assert "too weak from S = 0.5600 to 0.5660 m" in rules(lift, lift.at(S=[0.56, 0.70]))["lifting"]
+    assert rules(lift, lift.at(S=0.70))["lifting"] == "ok   lifting: at 152 bar the least reserve is 1.227, at S = 0.7000 m."
+    assert "; too weak at S = 0.5500 m." in rules(lift, lift.at(S=0.55))["lifting"]
+    assert not rules(lift, lift.at(S=0.55))["lifting"]
 
 
 def test_verdict_with_reserve():
-    text = verdict(p_max=200 * kgf_cm2)
-    assert "can be lifted over the whole stroke at 200 kgf/cm2: the least reserve kz is 1.242, at S = 0.5500 m." in text
-    assert "cannot" not in text and "needs" not in text
+    lift = MowerLift(p_max=200 * kgf_cm2)
+    found = rules(lift, lift.sweep(11))["lifting"]
+    assert found == "ok   lifting: at 196.1 bar the least reserve is 1.242, at S = 0.5500 m."
+
+
+def lifted(**dimensions):
+    lift = MowerLift(**dimensions)
+    return rules(lift, lift.sweep(11))["lifting"]
 
 
 def test_verdict_follows_its_own_remedies():
-    assert "can be lifted over the whole stroke" in verdict(bore=90 * mm)
-    assert "least reserve kz is 1.218" in verdict(bore=90 * mm)
-    assert "can be lifted over the whole stroke" in verdict(p_max=161.1 * kgf_cm2)
-    assert "cannot" in verdict(p_max=160.9 * kgf_cm2)
+    assert lifted(bore=90 * mm) and "least reserve is 1.218" in lifted(bore=90 * mm)
+    assert lifted(p_max=161.1 * kgf_cm2)
+    assert lifted(p_max=160.9 * kgf_cm2).ok is False
 
 
 def test_verdict_where_nothing_can_be_lifted():
-    text = verdict(p_max=50 * kgf_cm2)
-    assert "cannot be lifted anywhere on this stroke" in text
-    assert "or a larger standard bore: 160 mm gives kz = 1.24" in text
-    assert "no standard bore is large enough" in verdict(weight=1e7)
+    text = lifted(p_max=50 * kgf_cm2)
+    assert "too weak from S = 0.5500 to 0.8000 m" in text
+    assert "or a bore of 160 mm, with a reserve of 1.24" in text
+    assert "no standard bore is large enough" in lifted(weight=1e7)
 
 
 def test_verdict_where_the_lift_stops_on_its_way():
-    text = verdict(BOG=0.6)
-    (start,) = re.findall(r"cannot be lifted beyond S = ([0-9.]+) m", text)
+    (start,) = re.findall(r"too weak from S = ([0-9.]+) to 0.8000 m", lifted(BOG=0.6))
     lift = MowerLift(BOG=0.6)
     below, above = reserve(lift.at(S=[float(start) - 2e-4, float(start) + 2e-4]))
     assert above < 1.0 and not below < 1.0
 
 
 def test_verdict_where_the_weight_drives():
-    text = verdict(BOG=3.5)
-    (start,) = re.findall(r"load drives the lift from S = ([0-9.]+) to 0.8000 m: there it is not limited by this cylinder", text)
+    text = lifted(BOG=3.5)
+    (start,) = re.findall(r"the load drives from S = ([0-9.]+) to 0.8000 m, there it is not limited by this cylinder", text)
     lift = MowerLift(BOG=3.5)
     motion = lift.at(S=[float(start) - 1e-4, float(start) + 1e-4])
     resists, drives = motion.ratio("G")[1]
@@ -253,29 +265,34 @@ def test_verdict_where_the_weight_drives():
     assert np.isnan(reserve(motion)).tolist() == [False, True]
     assert pressure(motion)[1] == 0.0
     assert_allclose(lifting_force(motion)[1], rod_force(motion)[1] * 0.85)
+    assert f"does not sink by itself from S = {start} to 0.8000 m" in rules(lift, lift.sweep(2))["lowering"]
 
 
 def test_verdict_where_the_weight_drives_everywhere():
-    text = verdict(BOG=4.5)
-    assert text.startswith("ok   driven: The load drives the lift from S = 0.5500 to 0.8000 m")
+    found = lifted(BOG=4.5)
+    assert found.ok is None and found.startswith("--   lifting: the load drives all the way: it is not limited by this cylinder")
+    lift = MowerLift(BOG=4.5)
+    assert rules(lift, lift.sweep(11))["lowering"].ok is False  # nothing brings it back against the load
 
 
 def test_verdict_of_a_batch_counts_designs():
     lift = MowerLift(bore=np.array([70, 80, 90, 100]) * mm)
-    (text,) = lift.verdicts(lift.sweep(5))
-    assert not text and text.startswith("FAIL lifting: 2 of 4 designs fall short of kz = 1")
-    assert "0.737 in the worst design and 1.504 in the best" in text
+    text = rules(lift, lift.sweep(5))["lifting"]
+    assert not text and text.startswith("FAIL lifting: 2 of 4 designs fail, of their worst values 0.737")
+    assert "to 1.504" in text and "the first is design 1: at 152 bar the least reserve is 0.737, at S = 0.5500 m" in text
 
 
 def test_verdict_where_poses_are_out_of_reach():
     lift = MowerLift()
-    text = lift.verdicts(lift.at(S=[0.3, 0.6, 0.7], unreachable="nan"))
-    assert text[-1] == "FAIL reach: The poses out of reach are left out of this."
-    assert "kz is below 1 from S = 0.4829 to" in text[0]  # from the dead point at AO - OB, between the poses asked for
-    assert "grows without bounds at S = 0.4829 m" in text[0] and "keep away from that pose" in text[0]
-    assert "Lifting from S = 0.4829 to 0.7000 m" in text[1]
+    found = rules(lift, lift.at(S=[0.3, 0.6, 0.7], unreachable="nan"))
+    assert not found["assembly"] and "what follows holds for the rest" in found["assembly"]
+    assert "183 mm short" in found["assembly"]
+    (share,) = re.findall(r"([0-9.]+) % cannot be assembled", found["assembly"])
+    assert float(share) == pytest.approx(100 * (0.48288 - 0.3) / 0.4, abs=0.1)  # up to the dead point at AO - OB
+    assert "grows without bounds at S = 0.4829 m" in found["lifting"] and "keep away from that pose" in found["lifting"]
+    assert "1.09 l" in found["oil"] and MowerLift.circuit.oil(lift.at(S=[0.48292, 0.7])) == pytest.approx(1.09e-3, rel=5e-3)
     (nowhere,) = lift.verdicts(lift.at(S=[0.1, 0.2], unreachable="nan"))
-    assert nowhere == "FAIL reach: No pose of this motion can be assembled; there is nothing to lift." and not nowhere
+    assert nowhere.startswith("FAIL assembly: B = Dyad(A, O) cannot be assembled at 2 of 2 strokes") and not nowhere
 
 
 def test_oil_is_area_times_travel():
@@ -291,7 +308,7 @@ def test_verdict_is_the_same_from_however_many_poses(dimensions):
 
 def test_verdict_of_a_batch_is_the_same_from_however_many_poses():
     lift = MowerLift(BOG=np.linspace(0.5, 2.5, 9))
-    assert len({lift.verdicts(lift.sweep(count))[0] for count in (2, 5, 50)}) == 1
+    assert len({tuple(lift.verdicts(lift.sweep(count))) for count in (2, 5, 50)}) == 1
 
 
 # -- what a user adds --------------------------------------------------------------------------------------
@@ -323,7 +340,7 @@ def test_added_weight_counts_like_a_heavier_section():
     for one, other in zip(added.columns(added.sweep(7)), heavier.columns(heavier.sweep(7)), strict=True):
         assert_allclose(one.values, other.values, rtol=1e-12, err_msg=one.name)
     assert added.verdicts(added.sweep(7)) == heavier.verdicts(heavier.sweep(7))
-    assert "kz is 0.619" in added.verdicts(added.sweep(7))[0]
+    assert "the least reserve is 0.619" in rules(added, added.sweep(7))["lifting"]
     assert any(each.startswith("FAIL holding") for each in added.verdicts(added.sweep(7)))
 
 
@@ -334,7 +351,7 @@ def test_added_spring_takes_its_push_off_the_rod():
     assert_allclose(rod_force(motion), rod_force(MowerLift().sweep(7)) - push, rtol=1e-12)
     shown = {column.name: column.shown for column in lift.columns(motion)}
     assert_allclose(shown["PI"] * kgf, rod_force(motion))
-    assert "can be lifted over the whole stroke" in lift.verdicts(motion)[0]
+    assert rules(lift, motion)["lifting"]
 
 
 def test_added_friction_costs_lifting_force():
@@ -362,7 +379,7 @@ def test_the_machine_is_like_any_users():
     assert_allclose(np.hypot(*forces.force("B", on="lift")), forces.thrusts["lift"], rtol=1e-12)
     assert isinstance(MowerLift.circuit, LiftCircuit)
     timed = MowerLift(**{"circuit.flow": 10 * litre / minute})
-    assert "takes 1.26 l of oil, 7.5 s at 10 l/min." in " ".join(timed.verdicts(timed.sweep(2)))
+    assert "1.26 l from end to end, 7.5 s at 10 l/min." in " ".join(timed.verdicts(timed.sweep(2)))
     assert timed.circuit.time(timed.sweep(2)) == pytest.approx(np.pi / 4 * 0.08**2 * 0.25 / (10 * litre / minute), rel=1e-12)
 
 

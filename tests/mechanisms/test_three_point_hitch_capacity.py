@@ -118,14 +118,15 @@ def test_batch_of_designs():
     for row, bore in zip(found, bores, strict=True):
         assert_allclose(row, capacity(ThreePointHitch(**{"lift.bore": bore}).sweep(7)), rtol=1e-12)
     assert all(np.broadcast_shapes(column.values.shape, (3, 7)) == (3, 7) for column in capacity_columns(hitch.sweep(7)))
-    (text,) = hitch.verdicts(hitch.sweep(7))
+    *_, text = hitch.verdicts(hitch.sweep(7))
     none = "0 of 3 designs are too weak for their implement, 0 leave too little on the front axle, 0 do not reach"
     assert text and text.sentence.startswith(none)
 
 
 def test_verdict_of_a_batch_counts_what_fails():
     hitch = ThreePointHitch(**{"load.mass": [2000, 3000, 9000]})
-    (text,) = hitch.verdicts(hitch.sweep(7))
+    *general, text = hitch.verdicts(hitch.sweep(7))
+    assert [each.rule for each in general] == ["assembly", "length", "standard size", "buckling", "lifting", "oil", "holding", "lowering"]
     assert text.sentence.startswith("1 of 3 designs are too weak for their implement, 2 leave too little")
 
 
@@ -188,9 +189,12 @@ def test_unreached_poses_are_told():
     hitch = ThreePointHitch()
     text = hitch.verdicts(hitch.at(S=[0.0, 0.1, 0.45], unreachable="nan"))
     assert "least at S = 0.4083 m" in "\n".join(text)  # up to the dead point, though no pose was asked for there
-    assert text[-1].startswith("FAIL reach: poses out of reach are left out of this. B = Dyad(A, O)")
+    (share,) = re.findall("FAIL assembly: over S = 0 to 0.45 m ([0-9.]+) % cannot be assembled", text[0])
+    assert float(share) == pytest.approx(100 * (0.45 - 0.4083) / 0.45, abs=0.05)
+    assert "B = Dyad(A, O)" in text[0] and "what follows holds for the rest" in text[0]
     nowhere = hitch.at(S=[0.5, 0.6], unreachable="nan")
-    assert hitch.verdicts(nowhere) == ["FAIL reach: No pose of this motion can be assembled; there is nothing to lift."]
+    (said,) = hitch.verdicts(nowhere)
+    assert said.startswith("FAIL assembly: B = Dyad(A, O) cannot be assembled at 2 of 2 strokes")
 
 
 # -- the upper link ----------------------------------------------------------------------------------------------
@@ -421,7 +425,7 @@ def test_categories_have_the_standards_mast():
 def test_verdicts_of_the_categories_are_all_kept(machine):
     hitch = machine()
     sentences = hitch.verdicts(hitch.sweep(21))
-    assert len(sentences) == 13 and all(text.startswith("ok") for text in sentences), sentences
+    assert len(sentences) == 15 and all(text.startswith("ok") for text in sentences), sentences
 
 
 # -- figures and the command -------------------------------------------------------------------------------------------

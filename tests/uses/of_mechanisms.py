@@ -11,7 +11,7 @@ USES = [
     ("header.verdicts(@)", "motion", ("which has no h; give one of HeaderBalancer.",)),
     ("MowerLift().columns(@)", "3", ("3 is no motion; give machine.sweep(...) or machine.at(...).",)),
     ("MowerLift().columns(@)", "motion", ("which has no ground; give one of MowerLift.",)),
-    ("MowerLift().verdicts(@)", "None", ("None is no motion; give machine.sweep(...) or machine.at(...).",)),
+    ("MowerLift().verdicts(@)", "3", ("3 is no motion; give machine.sweep(...) or machine.at(...).",)),
     ("MowerLift().verdicts(@)", "motion", ("which has no ground; give one of MowerLift.",)),
     ("ThreePointHitch(@)", "OB=-1", ("B = Dyad(A, O): the length OB=-1 m is negative; give a positive one.",)),
     ("ThreePointHitch(@)", 'OB="a"', ("OB='a' is not a number; give it in SI, such as OB=0.3.",)),

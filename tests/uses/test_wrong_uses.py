@@ -11,7 +11,7 @@ import pytest
 
 from linkage import LinkageError
 from linkage.cli import main
-from tests.uses import of_commands, of_hydraulics, of_linkage, of_mechanisms
+from tests.uses import of_commands, of_hydraulics, of_linkage, of_mechanisms, of_overs
 from tests.uses.machines import NAMES, bar4, lifting, motion, quick
 
 LONGEST = 700
@@ -30,7 +30,7 @@ def cases(uses):
     return [(call.replace("@", given.strip()), words) for call, values, words in uses for given in values.split(";")]
 
 
-ALL = [*cases(of_linkage.USES), *cases(of_hydraulics.USES), *cases(of_mechanisms.USES)]
+ALL = [*cases(of_linkage.USES), *cases(of_hydraulics.USES), *cases(of_mechanisms.USES), *cases(of_overs.USES)]
 
 
 @pytest.mark.parametrize(("call", "words"), ALL, ids=[call for call, _ in ALL])
@@ -127,7 +127,7 @@ OWN = {
     "verdict.py": """
         from lever import Lever as Plain
         class Lever(Plain):
-            def verdicts(self, motion):
+            def rules(self, motion):
                 return 3
     """,
     "bad.toml": "name = 3",

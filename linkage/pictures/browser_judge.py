@@ -1,0 +1,195 @@
+"""What a live page asks of a design that is changed: the judge's questions, split into their pieces, as plain data for `judge.js`."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass
+from functools import reduce
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError, LinkageError, unwarned
+from ..language import heading_of, language
+from ..loads import FRICTIONLESS
+from ..mechanism import Mechanism
+from ..motion import BoundRequest, Condition, Judging, LiveText, Motion, Request, RequestLike, least, most
+from ..motion.judge import measures_of
+from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, conditions_of
+from ..motion.over import ALLOWED
+from ..motion.requests import bound
+from ..plan import Plan
+from ..program import Node
+from ..units import display_unit, factor, shown_in
+from .curves import limit_of, typeset
+
+MOST = 5000
+"""Poses that a page looks at for all its questions together."""
+LIMITS = {"gaps": "where it has a bound", "assumed": "where it is true"}
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class WhereOf(Request):
+    """The least of what is above zero where a request has a bound ("gaps"), or where its program is true ("assumed"); else one."""
+
+    request: RequestLike
+    which: str
+
+    def bound(self, plan: Plan) -> BoundRequest:
+        return WhereOfBound(bound(plan, self.request), self.which)
+
+    def __str__(self) -> str:
+        return f"{LIMITS[self.which]} of {self.request}"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class WhereOfBound(BoundRequest):
+    """The same bound to a plan."""
+
+    inner: BoundRequest
+    which: str
+
+    @property
+    def key(self) -> Hashable:
+        return "where", self.which, self.inner.key
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        self.inner.nodes(plan)
+        found = list(self.inner.gaps(plan) if self.which == "gaps" else self.inner.notes(plan).assumed)
+        graph = plan.trace.graph
+        return (reduce(lambda a, b: graph.apply("minimum", a, b), found) if found else graph.one,)
+
+    def names(self, plan: Plan) -> set[str]:
+        return self.inner.names(plan)
+
+    def __str__(self) -> str:
+        return f"{LIMITS[self.which]} of {self.inner}"
+
+
+@final
+class LiveQuestions:
+    """The questions of a page, and the rows that they ask the program for, by names of their own."""
+
+    def __init__(self, machine: Mechanism, limits: Mapping[str, Any], columns: Mapping[str, Any]) -> None:
+        self.machine, self.judge = machine, machine.judge()
+        self.by_name: dict[str, RequestLike] = {}
+        self.only = [self.rows_of_conditions(place.over.only) for place in self.judge.places]
+        self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Any]]]] = []
+        with unwarned():
+            for rule, condition in self.conditions().items():
+                self.ask(rule, condition)
+        for name, given in limits.items():
+            _, request, why = columns[name]
+            limit = limit_of(given)
+            if not why:
+                self.ask(name, least(request) >= limit.value if limit.fails == "below" else most(request) <= limit.value)
+
+    def conditions(self) -> dict[str, Condition]:
+        """Return the rules of the machine's members that are plain conditions, with a member's name where several have the same one."""
+        found = []
+        for name, member in self.machine.plan.of_kind(Judging).items():
+            try:
+                found += [(name, rule, one) for rule, one in member.conditions(self.judge).items()]
+            except LinkageError:
+                continue
+        count = Counter(rule for _, rule, _ in found)
+        return {rule if count[rule] == 1 else f"{rule} {name}": one for name, rule, one in found}
+
+    def ask(self, rule: str, condition: Condition) -> None:
+        """Note a question and its pieces; nothing where it cannot be split."""
+        constraints = conditions_of([condition], self.machine)
+        leaves = list(dict.fromkeys(leaf for each in constraints for leaf in (*each.left.leaves, *each.right.leaves)))
+        try:
+            pieces = {leaf: self.pieces(leaf) for leaf in leaves}
+        except LinkageError:
+            return
+        self.asked.append((rule, constraints, pieces))
+
+    def pieces(self, leaf: Leaf) -> list[Any]:
+        """Return the pieces of a leaf with the names of their rows, over every `Over`; of a value at one pose the row alone."""
+        if isinstance(leaf, Integral):
+            raise DefinitionError(f"{leaf}: an integral is not followed in the page.")
+        found = []
+        for number, place in enumerate(self.judge.places[:1] if isinstance(leaf, At) else self.judge.places):
+            for row in self.judge.rows(leaf, place):
+                found.append((number, row, self.row(row.request)))
+        return found
+
+    def row(self, request: Any) -> str:
+        """Return the name of a request's row; those beside it tell where it has a bound, and where its program is true."""
+        name = f"judge {len(self.by_name)}"
+        self.by_name |= {name: request, f"{name} gaps": WhereOf(request, "gaps"), f"{name} assumed": WhereOf(request, "assumed")}
+        return name
+
+    def rows_of_conditions(self, only: Any) -> list[str]:
+        """Return the rows of conditions on poses."""
+        names = []
+        for each in only:
+            name = f"judge {len(self.by_name)} only"
+            self.by_name[name] = each.margin
+            names.append(name)
+        return names
+
+    # -- as data -----------------------------------------------------------------------------------------
+
+    def data(self, live: LiveText) -> dict[str, Any]:
+        """Return what `judge.js` reads: the overs, the questions that the program can answer, and the greatest number of poses."""
+        can_look = all(name in live.rows for names in self.only for name in names)
+        asked = [self.question(live, *each) for each in self.asked] if can_look else []
+        overs = [
+            over_data(place.over, place.motion) | {"only": [live.rows[name][0] for name in names if name in live.rows]}
+            for place, names in zip(self.judge.places, self.only, strict=True)
+        ]
+        return {"overs": overs, "questions": [each for each in asked if each], "most": MOST}
+
+    def question(
+        self, live: LiveText, rule: str, constraints: list[Constraint], pieces: Mapping[Leaf, list[Any]]
+    ) -> dict[str, Any]:
+        """Return a question as data; nothing where the program does not give one of its pieces."""
+        names = [name for each in pieces.values() for _, _, name in each]
+        if not all(f"{name}{kind}" in live.rows for name in names for kind in ("", " gaps", " assumed")):
+            return {}
+        leaves = list(pieces)
+        unit = display_unit(measures_of(self.machine.plan, constraints[0]), "mm")
+        with language("ru"):
+            russian = heading_of(rule)
+        return {
+            "rule": typeset(rule),
+            "ru": typeset(russian),
+            "unit": {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))},
+            "leaves": [{"at": int(isinstance(leaf, At)), "pieces": [piece_of(live, *each) for each in pieces[leaf]]} for leaf in leaves],
+            "constraints": [
+                {"symbol": each.symbol, "left": tree(each.left, leaves), "right": tree(each.right, leaves)} for each in constraints
+            ],
+        }
+
+
+def piece_of(live: LiveText, number: int, row: Any, name: str) -> dict[str, Any]:
+    """Return a piece as data: its `Over`, its rows, its situation."""
+    situation = row.situation
+    return {
+        "over": number, "row": live.rows[name][0], "gaps": live.rows[f"{name} gaps"][0], "assumed": live.rows[f"{name} assumed"][0],
+        "sense": row.sought, "reciprocal": int(row.is_reciprocal), "case": situation.case, "direction": situation.direction,
+        "rest": int(situation.direction == FRICTIONLESS), "drive": situation.drive, "side": row.piece.side,
+    }  # fmt: skip
+
+
+def tree(measure: Measure, leaves: list[Leaf]) -> Any:
+    """Return a measure as data: a number, the place of a leaf, or an operator with its two sides."""
+    if isinstance(measure, Given):
+        return measure.value
+    if isinstance(measure, CombinedMeasure):
+        return [measure.symbol, tree(measure.left, leaves), tree(measure.right, leaves)]
+    return {"leaf": next(place for place, each in enumerate(leaves) if each is measure)}
+
+
+def over_data(over: Any, motion: Motion) -> dict[str, Any]:
+    """Return an `Over` as data: the ends of a box, or the places of a path or of poses, stroke by stroke [m or rad]."""
+    values = {name: np.asarray(value, float) for name, value in motion.strokes.items()}
+    found: dict[str, Any] = {"name": over.name, "shape": over.shape, "lost": int(over.lost == ALLOWED)}
+    if over.shape == "box":
+        return found | {"ends": [[float(value.min()), float(value.max())] for value in values.values()]}
+    return found | {"places": [np.broadcast_to(value, motion._stroke_shape).ravel().tolist() for value in values.values()]}

@@ -1,0 +1,137 @@
+"""The largest force of every joint of a machine, over all that it runs, in all that acts: against brute force over poses."""
+
+from itertools import product
+
+import numpy as np
+import pytest
+
+from linkage import (
+    LEFT,
+    RIGHT,
+    Acting,
+    Crank,
+    DefinitionError,
+    Dyad,
+    Force,
+    Ground,
+    LoadCase,
+    Mechanism,
+    OnLink,
+    Over,
+    PinFriction,
+    Stroke,
+    Weight,
+    deg,
+    max_table,
+    pin_force,
+    pin_forces,
+)
+from linkage.statics.table import key_of
+
+
+class Grab(Mechanism):
+    """A boom and a jib on cylinders: two strokes, two load cases, friction in a pin."""
+
+    S, T = Stroke(0.0, 0.25), Stroke(0.0, 0.3)
+    A, O = Ground(0.2, -0.4), Ground(0.0, 0.0)
+    B = Dyad(A, O, AB=0.65 + S, OB=0.6, side=RIGHT)
+    C = OnLink(O, B, OC=1.5)
+    D = OnLink(O, B, OD=0.9, BOD=20 * deg)
+    H = Dyad(D, C, DH=0.5 + T, CH=0.3, side=LEFT)
+    P = OnLink(C, H, CP=1.2, HCP=-150 * deg)
+    load = Weight(P, mass=300.0)
+    wind = Force(P, vector=(900.0, 0.0))
+    rub = PinFriction(O, radius=0.02, coefficient=0.1)
+    calm = LoadCase("calm", scale={"wind": 0.0})
+
+
+class Knot(Mechanism):
+    """Three links on one pin: several joints at D."""
+
+    phi = Stroke(20 * deg, 70 * deg)
+    O, E, F = Ground(0.0, 0.0), Ground(1.6, 0.2), Ground(1.5, 1.4)
+    D = Crank(O, OD=1.0, angle=phi)
+    P = Dyad(D, E, DP=1.0, EP=0.8, side=LEFT)
+    Q = Dyad(D, F, DQ=1.1, FQ=0.9, side=LEFT)
+    load = Weight(P, mass=10.0)
+    other = Weight(Q, mass=25.0)
+    side = Force(D, vector=(0.0, -400.0))
+
+
+def brute(machine, motion, cases, ways):
+    """Return the largest force of every joint at some poses."""
+    found = {}
+    for case, (direction, drive) in product(cases, ways):
+        for joint in pin_forces(motion, case=case, direction=direction, drive=drive).joints:
+            if joint.has_force:
+                found[key_of(joint)] = max(found.get(key_of(joint), 0.0), float(joint.size.max()))
+    return found
+
+
+WAYS = [("frictionless", None), *product(("extending", "retracting"), ("S", "T"))]
+
+
+def test_a_machine_has_the_largest_of_all_cases_directions_and_places():
+    machine = Grab()
+    grid = np.meshgrid(np.linspace(0.0, 0.25, 41), np.linspace(0.0, 0.3, 41), indexing="ij")
+    seen = brute(machine, machine.at(S=grid[0], T=grid[1]), [None, "calm"], WAYS)
+    rows = {(row.point, row.on, row.by, row.kind): row for row in max_table(machine)}
+    assert rows.keys() == seen.keys()
+    for key, row in rows.items():
+        assert row.force >= seen[key] * (1.0 - 1e-9)
+        assert row.force <= seen[key] * 1.02
+        there = pin_forces(
+            machine.at(**row.strokes), case=None if row.answer.case in ("", "plain") else row.answer.case, direction=row.direction,
+            drive=row.drive or None,
+        )  # fmt: skip
+        joint = next(each for each in there.joints if key_of(each) == key)
+        assert float(joint.size) == pytest.approx(row.force, rel=1e-9)
+    assert {row.direction for row in rows.values()} - {"frictionless"}
+    assert all(row.drive in row.movement and "S = " in row.place for row in rows.values())
+
+
+def test_fewer_cases_or_a_smaller_box_are_never_worse():
+    machine = Grab()
+    rows = max_table(machine)
+    for each in (max_table(machine, acting=Acting(case="calm")), max_table(machine, over=Over(S=(0.05, 0.2), T=0.1))):
+        assert all(row.force <= whole.force * (1.0 + 1e-9) for row, whole in zip(each, rows, strict=True))
+    (held,) = {row.strokes["T"] for row in max_table(machine, over=Over(S=(0.05, 0.2), T=0.1))}
+    assert held == 0.1
+
+
+def test_of_one_stroke_it_is_the_table_of_the_results():
+    machine = Knot()
+    alone, results = max_table(machine), max_table(pin_forces(machine.sweep(5)))
+    assert [key_of(row) for row in alone] == [key_of(row) for row in results]
+    for mine, other in zip(alone, results, strict=True):
+        assert mine.force == pytest.approx(other.force, rel=1e-9)
+        assert mine.angle == pytest.approx(other.angle, abs=1e-6)
+
+
+def test_a_joint_among_several_is_named_by_both_bodies():
+    motion = Knot().at(phi=0.8)
+    found = pin_forces(motion)
+    assert len([joint for joint in found.at("D") if joint.has_force]) > 1
+    for joint in found.joints:
+        if joint.has_force:
+            assert np.allclose(found.force(joint.point, joint.on, joint.by), joint.force)
+            assert np.allclose(found.force(joint.point, joint.by, joint.on), -joint.force)
+            value = motion[pin_force(joint.point, joint.on, "x", by=joint.by)]
+            assert float(value) == pytest.approx(float(joint.force[0]), abs=1e-6)
+    with pytest.raises(DefinitionError, match="Body"):
+        found.force("D", by="nobody")
+
+
+def test_of_a_batch_it_is_the_worst_design():
+    rows = max_table(Knot(**{"load.mass": [10.0, 40.0, 20.0]}))
+    single = max_table(Knot(**{"load.mass": 40.0}))
+    for row, one in zip(rows, single, strict=True):
+        assert row.force >= one.force * (1.0 - 1e-9)
+    assert (1,) in {row.design for row in rows}
+
+
+def test_results_say_themselves_where_and_what():
+    with pytest.raises(DefinitionError, match=r"over= and acting= are for a machine"):
+        max_table(pin_forces(Knot().sweep(3)), over=Over())
+    with pytest.raises(DefinitionError, match="is no result of pin_forces"):
+        max_table(3)

@@ -7,7 +7,7 @@ machine cannot be assembled or a law gives no number, unlimited where a law has 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from typing import Any, TypeAlias, final

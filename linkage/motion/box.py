@@ -615,7 +615,7 @@ def highest_in(box: SeenBox) -> HighestInBox:
         rough = ridden(box, rough, least[rough.function, rough.design])
     found = [tops, rough, best]
     missing = np.isnan(box.seen)
-    if (missing.any(axis=-1) & ~missing.all(axis=-1)).any():
+    if missing.any() and not missing.all():
         found += along_borders(box, value_of(best_of(Climbs.joined(found), K, D, 1), K, D), least)
     doubtful = best_of(Climbs.joined([rough, *found[4:]]), K, D, 1)
     doubtful = doubtful.where(doubtful.value >= value_of(best_of(Climbs.joined(found), K, D, 1), K, D)[doubtful.function, doubtful.design])

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any, TypeAlias, final
 
 import numpy as np
@@ -129,8 +129,8 @@ class WorstPiece:
     value: FloatArray
     strokes: Mapping[str, FloatArray]
     unbounded: Mask
-    lawless: float = 0.0
-    unlimited: float = 0.0
+    lawless: Any = 0.0
+    unlimited: Any = 0.0
 
 
 @final
@@ -255,20 +255,25 @@ class Domain:
     @cached_property
     def holes(self) -> list[LeastMargin]:
         """The loops that come apart somewhere it is looked at, however narrow that place is."""
-        if self.over.shape == "poses" or self.motion._design_shape or not self.motion.strokes:
+        if self.over.shape == "poses" or not self.motion.strokes:
             return []
         with unwarned():
             found = least_margins(self.motion, self.over.kept if self.over.only else None)
-        return [each for each in found if each.is_hole]
+        return [each for each in found if np.any(each.is_hole)]
 
     def lost(self, seen: Coverage) -> Lost:
-        """Return what cannot be assembled of the places asked for: what the grid sees, and holes between its places."""
-        if not (seen.lost_share or self.holes):
+        """Return what cannot be assembled of the places asked for, of one design: what the grid sees, and holes between its places."""
+        holes = [
+            {name: float(np.asarray(value)[seen.design]) for name, value in each.strokes.items()}
+            for each in self.holes if np.asarray(each.is_hole)[seen.design]
+        ]  # fmt: skip
+        if not (seen.lost_share or holes):
             return NONE_LOST
         if self.motion._design_shape:
-            return Lost(seen.lost_share, seen.deepest, "", not self.plan.groups)
+            deepest = seen.deepest or holes[0]
+            return Lost(seen.lost_share, deepest, "" if seen.lost_share else said("some poses are refused"), has_all_margins(self.plan))
         with unwarned():
-            places = [each.strokes for each in self.holes] + ([seen.deepest] if seen.deepest else [])
+            places = holes + ([dict(seen.deepest)] if seen.deepest and seen.lost_share else [])
             errors = [(assembly_error_at(self.motion, place), place) for place in places]
         known = [(error, place) for error, place in errors if error is not None]
         if not known:
@@ -305,14 +310,24 @@ def case_named(plan: Plan, case: Any) -> str:
 @final
 @dataclass(eq=False)
 class Coverage:
-    """What was seen on the first grid: shares of its places that are lost, outside, and of each row without a value, or without a bound."""
+    """What was seen on the first grid: shares of its places that are lost, outside, and of each row without a value, or without a bound.
 
-    lost_share: float = 0.0
-    outside: float = 0.0
-    deepest: Mapping[str, float] = field(default_factory=dict)
-    lawless: list[float] = field(default_factory=list)
-    unlimited: list[float] = field(default_factory=list)
+    Shares are arrays over the designs, of rows (rows, ...).
+    """
+
+    lost_share: Any = 0.0
+    outside: Any = 0.0
+    deepest: Mapping[str, Any] = field(default_factory=dict)
+    lawless: Any = 0.0
+    unlimited: Any = 0.0
     count: int = 0
+    design: tuple[int, ...] = ()
+
+    def of_design(self, design: tuple[int, ...]) -> Coverage:
+        """Return what was seen of one design, by its place in a batch."""
+        deepest = {name: float(value[design]) for name, value in self.deepest.items()}
+        lost, outside = (float(np.asarray(each)[design]) for each in (self.lost_share, self.outside))
+        return replace(self, lost_share=lost, outside=outside, deepest=deepest if lost else {}, design=design)
 
     def joined(self, other: Coverage) -> Coverage:
         """Return it with the poses of another look at the same places."""
@@ -372,16 +387,22 @@ class Asked:
     def note(self, motion: Motion, kept: Mask, values: FloatArray, unlimited: Mask) -> None:
         """Note the shares of the places that have no value, and one of those that cannot be assembled."""
         asked = kept | ~motion.reached if not self.place.over.only else kept
-        lost = asked & ~motion.reached
-        total = max(1, motion.reached.size)
-        self.seen.lost_share, self.seen.outside = float(lost.sum()) / total, float((~asked).sum()) / total
-        if lost.any():
-            first = np.argwhere(lost)[int(lost.sum()) // 2][len(motion._design_shape) :]
-            self.seen.deepest = {name: float(value[tuple(first)]) for name, value in motion.strokes.items()}
-        good = kept & motion.reached
-        count = max(1, int(good.sum()))
-        self.seen.lawless = [float((np.isnan(values[k]) & ~unlimited[k] & good).sum()) / count for k in range(len(self.rows))]
-        self.seen.unlimited = [float((unlimited[k] & good).sum()) / count for k in range(len(self.rows))]
+        lost, good = asked & ~motion.reached, kept & motion.reached
+        designs, axes = motion._design_shape, len(motion.shape) - len(motion._design_shape)
+
+        def counted(mask: Mask) -> Any:
+            return mask.reshape(*mask.shape[: mask.ndim - axes], -1).sum(axis=-1)
+
+        total, count = max(1, int(np.prod(motion.shape[len(designs) :]))), np.maximum(1, counted(good))
+        self.seen.lost_share, self.seen.outside = counted(lost) / total, counted(np.asarray(~asked)) / total
+        flat = lost.reshape(*designs, -1)
+        middle = np.argmax(np.cumsum(flat, axis=-1) > flat.sum(axis=-1, keepdims=True) // 2, axis=-1)[..., None]
+        self.seen.deepest = {
+            name: np.take_along_axis(np.broadcast_to(value, motion.shape).reshape(*designs, -1), middle, axis=-1)[..., 0]
+            for name, value in motion.strokes.items()
+        }
+        self.seen.lawless = counted(np.isnan(values) & ~unlimited & good) / count
+        self.seen.unlimited = counted(unlimited & good) / count
 
 
 def reached_grid(motion: Motion) -> Grid:
@@ -475,9 +496,12 @@ class Candidate:
     situation: Situation
     side: str
     place: Domain
-    seen: Coverage
-    lawless: float
-    unlimited: float
+    seen: Coverage | None
+    """What was seen over its `Over`; None where it is only about poses that the question itself says."""
+    lawless: Any
+    unlimited: Any
+    undefined: Mask
+    """Whether its measures have values and what is calculated from these has none, such as 0 / 0 or the root of what is negative."""
 
 
 @final
@@ -501,11 +525,12 @@ class Judge:
         self.places = tuple(Domain(plan, designs, over) for over in overs)
         self._found: list[dict[Any, tuple[Leaf, list[WorstPiece]]]] = [{} for _ in self.places]
         self._seen: list[Coverage] = [Coverage() for _ in self.places]
+        self._lost: dict[Any, Lost] = {}
 
     def lost_allowed(self) -> Judge:
         """Return the judge of the same for whom places that are lost are part of the machine; what is known already both know."""
         found = object.__new__(Judge)
-        vars(found).update(vars(self) | {"places": tuple(tolerant(each) for each in self.places)})
+        vars(found).update(vars(self) | {"places": tuple(tolerant(each) for each in self.places), "_lost": {}})
         return found
 
     def of_design(self, number: int) -> Judge:
@@ -518,6 +543,11 @@ class Judge:
     def motion(self) -> Motion:
         """The poses that cover the first of its overs."""
         return self.places[0].motion
+
+    @cached_property
+    def anywhere(self) -> Domain:
+        """The box of all strokes and all load cases, for what is asked at poses of its own."""
+        return Domain(self.plan, self.designs, Over())
 
     @property
     def way(self) -> Motion | None:
@@ -585,7 +615,7 @@ class Judge:
         """Look for the worst of some leaves over one `Over`, by its number, in one pass; what was found before is known."""
         place, known = self.places[number], self._found[number]
         asked = {key: leaf for leaf in leaves if (key := leaf_key(self.plan, leaf)) not in known}
-        rows = {key: self.rows(leaf, place) for key, leaf in asked.items()}
+        rows = {key: self.rows(leaf, self.anywhere if isinstance(leaf, At) else place) for key, leaf in asked.items()}
         sought = [row for key, each in rows.items() if not isinstance(asked[key], (At, Integral)) for row in each]
         if sought or not self._seen[number].count:
             each_of, seen = place.extremes(sought or [Sought(Least(nothing), SmoothPiece(nothing), Situation(), -1.0)])
@@ -644,14 +674,14 @@ class Judge:
             values, unlimited = Asked(place, [row]).values(motion)
         value = np.asarray(values[0])
         where = {name: np.broadcast_to(np.asarray(each), value.shape) for name, each in strokes.items()} if behind else {}
-        lost = float(np.isnan(value).all() and not unlimited.any())
-        return WorstPiece(row, value, where, np.isinf(value), lost, float(unlimited.any()))
+        return WorstPiece(row, value, where, np.isinf(value), 1.0 * (np.isnan(value) & ~unlimited[0]), 1.0 * unlimited[0])
 
     # -- from leaves to questions ------------------------------------------------------------------------
 
     def candidates(self, question: Any, number: int) -> list[Candidate]:
         """Return a constraint, or a bare measure, in every situation over one `Over`, by its number."""
-        leaves, place, seen = leaves_of(question), self.places[number], self._seen[number]
+        leaves, of_poses = leaves_of(question), is_at_poses(question)
+        place, seen = (self.anywhere, None) if of_poses else (self.places[number], self._seen[number])
         made = []
         for chosen in together([self._found[number][leaf_key(self.plan, leaf)][1] for leaf in leaves]):
             values = {leaf: each.value for leaf, each in zip(leaves, chosen, strict=True)}
@@ -661,8 +691,10 @@ class Judge:
             unbounded = np.any([each.unbounded for each in chosen], axis=0) if chosen else np.zeros((), bool)
             where = next((each.strokes for each in chosen if each.strokes), {})
             side = next((each.row.piece.side for each in chosen if each.row.piece.side), "")
-            lawless = max((each.lawless for each in chosen), default=0.0)
-            unlimited = max((each.unlimited for each in chosen), default=0.0)
+            lawless, unlimited = (
+                np.asarray(reduce(np.fmax, (getattr(each, name) for each in chosen), 0.0)) for name in ("lawless", "unlimited")
+            )
+            undefined = np.isnan(margin) & ~np.any([np.isnan(each.value) for each in chosen], axis=0)
             made.append(
                 Candidate(
                     np.asarray(value),
@@ -675,42 +707,51 @@ class Judge:
                     seen,
                     lawless,
                     unlimited,
+                    np.asarray(undefined),
                 )
             )
         return made
 
+    def lost(self, candidate: Candidate) -> Lost:
+        """Return what is lost of the places that a candidate of one design is about."""
+        seen = candidate.seen
+        if seen is not None:
+            key = (id(candidate.place), seen.design)
+            if key not in self._lost:
+                self._lost[key] = candidate.place.lost(seen)
+            return self._lost[key]
+        if not candidate.lawless or not np.isnan(candidate.value):
+            return NONE_LOST
+        strokes = {name: float(value) for name, value in candidate.strokes.items()}
+        with unwarned():
+            error = assembly_error_at(self.motion, strokes) if strokes and not self.motion._design_shape else None
+        return Lost(1.0, strokes, " ".join(str(error).split()) if error is not None else "")
+
     def worst(self, question: Any, constraints: Sequence[Any]) -> Answer:
         """Return the answer to a question: the worst of what it is in every situation over every `Over`, of a batch for every design."""
-        candidates = [each for number in range(len(self.places)) for one in constraints for each in self.candidates(one, number)]
+        count = len(self.places) if any(not is_at_poses(one) for one in constraints) else 1
+        candidates = [each for number in range(count) for one in constraints for each in self.candidates(one, number)]
         if not candidates:
             raise DefinitionError(f"{self.plan.title}: {question}: there is nothing to ask it of.")
         shape = np.broadcast_shapes(*(np.shape(each.margin) for each in candidates))
         margins = np.stack([np.broadcast_to(each.margin, shape) for each in candidates])
         if not shape:
-            return self.answered(question, candidates, margins)
+            return self.answered(question, [of_one_design(each, (), ()) for each in candidates], margins)
         each_of = []
         for number in range(int(np.prod(shape))):
             design = tuple(int(k) for k in np.unravel_index(number, shape))
             own = margins.reshape(len(candidates), -1)[:, number]
             each_of.append(self.answered(question, [of_one_design(each, design, shape) for each in candidates], own))
-
-        def over_designs(name: str, kind: Any = None) -> Any:
-            return np.array([getattr(each, name) for each in each_of], kind).reshape(shape)
-
-        strokes = {
-            name: np.array([float(each.strokes.get(name, np.nan)) for each in each_of]).reshape(shape) for name in each_of[0].strokes
-        }
-        return replace(
-            each_of[0], value=over_designs("value", float), ok=over_designs("ok"), status=over_designs("status"), strokes=strokes,
-            case=over_designs("case"), direction=over_designs("direction"), drive=over_designs("drive"), side=over_designs("side"),
-            over=over_designs("over"),
-        )  # fmt: skip
+        return of_batch(each_of, shape)
 
     def answered(self, question: Any, candidates: Sequence[Candidate], margins: FloatArray) -> Answer:
         """Return the answer of one design."""
         is_bare = isinstance(question, Measure)
-        lost = next((found for each in candidates if (found := each.place.lost(each.seen))), NONE_LOST)
-        fatal = [each for each in candidates if each.place.over.lost != ALLOWED and (each.lawless or each.place.lost(each.seen))]
+        lost = next((found for each in candidates if (found := self.lost(each))), NONE_LOST)
+        fatal = [
+            each for each in candidates
+            if each.undefined or ((each.seen is None or each.place.over.lost != ALLOWED) and (each.lawless or self.lost(each)))
+        ]  # fmt: skip
         known = [k for k, each in enumerate(candidates) if not np.isnan(margins[k])]
         if not known:
             status = LOST if fatal or any(each.lawless for each in candidates) else NOTHING_LEFT
@@ -736,23 +777,34 @@ class Judge:
             "side": {each.side for each in candidates if each.situation.direction == worst.situation.direction},
         }  # fmt: skip
         named = frozenset(name for name, each in kinds.items() if len(each) > 1)
+        if not lost and any(each.undefined for each in candidates):
+            lost = Lost(1.0, {}, said("its measures have values, what is calculated from them has none"))
         if not lost and worst.lawless:
             lost = Lost(
-                worst.lawless, {}, said("it has no value at {share} of the places looked at", share=share_text(worst.lawless)), False
+                float(worst.lawless), {}, said("it has no value at {share} of the places looked at", share=share_text(worst.lawless)), False
             )
         units = {name: stroke_unit(self.plan, name) for name in strokes}
-        count = sum(each.count for each in {id(one.seen): one.seen for one in candidates}.values())
+        count = sum(each.count for each in {id(one.seen): one.seen for one in candidates}.values() if each is not None)
+        outside = float(worst.seen.outside) if worst.seen is not None else 0.0
         return Answer(
             question, value, ok, status, strokes, worst.situation.case, worst.situation.direction, worst.situation.drive, worst.side,
-            worst.place.over.name, lost, worst.unlimited, worst.seen.outside, worst.place.width, count, units,
+            worst.place.over.name, lost, float(worst.unlimited), outside, worst.place.width if worst.seen is not None else {}, count, units,
             measures_of(self.plan, question), named,
         )  # fmt: skip
 
     def reached(self) -> Answer:
         """Return whether all places can be assembled."""
-        losses = [place.lost(seen) for place, seen in zip(self.places, self._seen, strict=True)]
+        shape = self.motion._design_shape
+        if not shape:
+            return self.reached_by(())
+        return of_batch([self.reached_by(design) for design in np.ndindex(shape)], shape)
+
+    def reached_by(self, design: tuple[int, ...]) -> Answer:
+        """Return whether all places can be assembled, of one design by its place in a batch."""
+        every = [seen.of_design(design) for seen in self._seen]
+        losses = [place.lost(seen) for place, seen in zip(self.places, every, strict=True)]
         number = max(range(len(self.places)), key=lambda each: (losses[each].share, bool(losses[each])))
-        place, seen, lost = self.places[number], self._seen[number], losses[number]
+        place, seen, lost = self.places[number], every[number], losses[number]
         fatal = any(each and one.over.lost != ALLOWED for each, one in zip(losses, self.places, strict=True))
         units = {name: stroke_unit(self.plan, name) for name in lost.strokes}
         return Answer(
@@ -760,6 +812,23 @@ class Judge:
             outside=seen.outside, width=place.width, count=sum(each.count for each in self._seen), units=units,
             named=frozenset(["over"] if len(self.places) > 1 else []),
         )  # fmt: skip
+
+
+def of_batch(each_of: Sequence[Answer], shape: tuple[int, ...]) -> Answer:
+    """Return the answers of the designs of a batch as one, arrays of their shape."""
+
+    def over_designs(name: str, kind: Any = None) -> Any:
+        return np.array([getattr(each, name) for each in each_of], kind).reshape(shape)
+
+    names = dict.fromkeys(name for each in each_of for name in each.strokes)
+    strokes = {name: np.array([float(each.strokes.get(name, np.nan)) for each in each_of]).reshape(shape) for name in names}
+    units = {name: unit for each in each_of for name, unit in each.units.items()}
+    return replace(
+        each_of[0], value=over_designs("value", float), ok=over_designs("ok"), status=over_designs("status"), strokes=strokes,
+        case=over_designs("case"), direction=over_designs("direction"), drive=over_designs("drive"), side=over_designs("side"),
+        over=over_designs("over"), units=units, named=frozenset().union(*(each.named for each in each_of)),
+        lost=next((each.lost for each in each_of if each.lost), NONE_LOST),
+    )  # fmt: skip
 
 
 def nothing(motion: Motion) -> FloatArray:
@@ -783,7 +852,9 @@ def of_one_design(candidate: Candidate, place: tuple[Any, ...], shape: tuple[int
 
     return replace(
         candidate, value=of(candidate.value), margin=of(candidate.margin), unbounded=of(candidate.unbounded),
-        strokes={name: of(value) for name, value in candidate.strokes.items()},
+        strokes={name: of(value) for name, value in candidate.strokes.items()}, lawless=of(candidate.lawless),
+        unlimited=of(candidate.unlimited), undefined=of(candidate.undefined),
+        seen=None if candidate.seen is None else candidate.seen.of_design(place),
     )  # fmt: skip
 
 
@@ -808,6 +879,12 @@ def leaves_of(question: Any) -> tuple[Leaf, ...]:
     """Return what is taken over the strokes by a constraint or a measure."""
     found: tuple[Leaf, ...] = (question.margin if isinstance(question, Constraint) else question).leaves
     return found
+
+
+def is_at_poses(question: Any) -> bool:
+    """Return whether a constraint or a measure is only about poses that it says itself, whatever the `Over`."""
+    leaves = leaves_of(question)
+    return bool(leaves) and all(isinstance(leaf, At) for leaf in leaves)
 
 
 def leaf_key(plan: Plan, leaf: Leaf) -> Any:

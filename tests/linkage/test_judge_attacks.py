@@ -2,8 +2,13 @@
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
-from linkage import Crank, Ground, Mechanism, Over, Stroke, least, most
+from hydraulics import reserve, thrust
+from linkage import Acting, Crank, Ground, Mechanism, Over, Stroke, at, least, most, pin_force, reachable, y
+from linkage.loads import DIRECTIONS
+from linkage.units import kN
+from tests.linkage.test_judge import Loader, Rocker, Rubbing
 
 
 class Plane(Mechanism):
@@ -44,7 +49,7 @@ def path_through(middle):
     return Over.path(u=[0.0, middle, 1.0], v=[1.0, middle, 0.0])
 
 
-@pytest.mark.parametrize("seed", range(24))
+@pytest.mark.parametrize("seed", range(16))
 def test_what_has_no_finite_value_is_never_kept(seed):
     rng = np.random.default_rng(seed)
     functions = [drawn(rng) for _ in range(3)]
@@ -58,12 +63,9 @@ def test_what_has_no_finite_value_is_never_kept(seed):
         ]
         answers = Plane().answers(questions, over=over)
         t = np.linspace(0.0, 1.0, 641)
-        poses = {
-            0: lambda: Plane().sweep(u=161, v=161),
-            1: lambda: Plane().at(u=t, v=np.full(t.shape, 0.4)),
-            2: lambda: Plane().at(u=t, v=1.0 - t),
-            3: lambda: Plane().at(u=np.linspace(0, 1, 41), v=np.linspace(1, 0, 41)),
-        }[number]()
+        held, back = np.full(t.shape, 0.4), np.linspace(1.0, 0.0, 41)
+        places = (None, {"u": t, "v": held}, {"u": t, "v": 1.0 - t}, {"u": 1.0 - back, "v": back})[number]
+        poses = Plane().sweep(u=161, v=161) if places is None else Plane().at(**places)
         for k, ((f, kind), low, high) in enumerate(zip(functions, limits[::2], limits[1::2], strict=True)):
             seen = f(poses)
             over_pole = number != 3
@@ -82,3 +84,48 @@ def test_what_has_no_finite_value_is_never_kept(seed):
                 kept = bool(not lawless and sense * (expected - limit) >= 0.0)
                 if np.isinf(expected) or lawless or abs(expected - limit) > 0.03:
                     assert answer.ok is kept, where
+
+
+# What measures make of one another, at poses, and of batches.
+
+
+def test_measures_that_make_no_number_are_not_kept():
+    f = least(lambda motion: motion.strokes["u"] - 10.0)
+    root, ratio = Plane().answers([f**0.5 >= 1.0, (f - f) / (f - f) >= 1.0])
+    assert (root.ok, root.status, ratio.ok, ratio.status) == (False, "lost", False, "lost")
+    assert "what is calculated from them has none" in str(root)
+
+
+@pytest.mark.parametrize("machine", [Loader(), Rubbing()])
+def test_measures_of_a_cylinder_and_of_all_pins_combine(machine):
+    over, two = Over(T=0.1), [most(pin_force("O", "OBC")), most(thrust("lift"))]
+    parts = []
+    for case in ("plain", "carry", "dig"):
+        each_of = [machine.answers(two, over, Acting(case=case, direction=way)) for way in DIRECTIONS]
+        rest, *moving = [[float(each.value) for each in found] for found in each_of]
+        parts += [rest[0] - rest[1], max(pin for pin, _ in moving) - min(push for _, push in moving)]
+    (answer,) = machine.answers([two[0] - two[1]], over)
+    assert_allclose(answer.value, max(parts), rtol=1e-9)
+    both = machine.answers([least(reserve("lift")) * 1 * kN - two[0] >= 0.0], over)[0]
+    assert both.ok is False and both.case and both.direction in ("extending", "retracting")
+
+
+def test_a_pose_that_the_question_says_is_asked_there_and_in_all_cases():
+    long = Rocker(L0=0.6)
+    kept, lost, plain = long.answers([at(y("B"), S=0.1) <= 10.0, at(y("B"), S=0.39) <= 10.0, at("L0") <= 10.0])
+    assert kept.ok and plain.ok and not kept.lost and lost.ok is False
+    assert "S = 0.3900 m" in str(lost) and lost.status == "lost"
+    here = at(thrust("lift"), S=0.1, T=0.1)
+    alone, everywhere = (Loader().answers([here], over=over)[0] for over in (Over(cases=("dig",), S=(0.0, 0.05)), None))
+    assert alone.value == everywhere.value and alone.case == everywhere.case == "carry"
+
+
+@pytest.mark.parametrize("over", [Over(S=(0.0, 0.38)), Over(S=(0.0, 0.38), lost="allowed"), Over.poses(S=[0.0, 0.2, 0.37])])
+def test_each_design_of_a_batch_is_judged_by_itself(over):
+    lengths = np.array([0.5, 0.53, 0.6, 1.3])
+    questions = [most(y("B")) <= 1.4, least(reserve("lift")) >= 1.0, reachable, most(y("B"))]
+    together = Rocker(L0=lengths).answers(questions, over=over)
+    for number, length in enumerate(lengths):
+        for one, each in zip(Rocker(L0=length).answers(questions, over=over), together, strict=True):
+            assert (one.ok, one.status) == (each.ok[number], each.status[number]), (length, each.question)
+            assert_allclose(each.value[number], one.value, rtol=1e-9)

@@ -347,8 +347,12 @@ class Asked:
             if bound is not None:
                 self._bound[k] = bound
 
+    def kept(self, motion: Motion) -> Mask:
+        """Return the mask of poses that are asked for."""
+        return self.place.over.kept(motion)
+
     def __call__(self, motion: Motion) -> FloatArray:
-        kept = self.place.over.kept(motion)
+        kept = self.kept(motion)
         values, unlimited = self.values(motion)
         if not self.seen.count:
             self.note(motion, kept, values, unlimited)
@@ -593,7 +597,13 @@ class Judge:
     def is_reached(self) -> bool:
         """Whether any place that it looks at can be assembled."""
         self.answers([reachable])
-        return any(seen.lost_share < 1.0 for seen in self._seen)
+        return any(bool(np.any(seen.lost_share + seen.outside < 1.0 - 1e-12)) for seen in self._seen)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether no place is left to look at: conditions (`only=`) leave every one out."""
+        self.answers([reachable])
+        return all(bool(np.all(seen.outside >= 1.0)) for seen in self._seen)
 
     def answer(self, question: Question) -> Answer:
         """Return the answer to one question."""

@@ -224,8 +224,8 @@ def ends_text(value: Any) -> str:
 
 
 def is_end(value: Any) -> bool:
-    """Return whether a value is a number, a quantity or a name."""
-    return is_number(value) or isinstance(value, Quantity) or (isinstance(value, str) and value.isidentifier())
+    """Return whether a value is a number, a quantity or a name, that of a part's with dots in it."""
+    return is_number(value) or isinstance(value, Quantity) or (isinstance(value, str) and all(map(str.isidentifier, value.split("."))))
 
 
 def box_ends(name: str, value: Any) -> Any:

@@ -17,7 +17,7 @@ from ..disk import check_name, in_words, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited, known_name, one_word
 from ..loads import PLAIN_CASE, Acting, LoadCase
 from ..mechanism import Mechanism
-from ..motion import Over, Request
+from ..motion import Judge, Over, Request
 from ..motion.measures import (
     At,
     CombinedMeasure,
@@ -110,9 +110,8 @@ def optimise(
         raise DefinitionError(f"{title}: case={cited(case)}: a load case or several are expected; leave it out for the own loads.")
     for each in cases:
         case_of(machine.plan, each)
-    judges = [machine.judge(over, Acting(case=PLAIN_CASE if each is None else each)) for each in cases]
-    in_cases = [(each, piece) for each, judge in zip(cases, judges, strict=True) for one in constraints for piece in judge.split(one)]
-    held = list(dict.fromkeys(constraint_in_case(piece, each) for each, piece in in_cases))
+    judge = machine.judge(over)
+    held = list(dict.fromkeys(piece for each in cases for one in constraints for piece in pieces_in_case(one, each, judge)))
     plan = SearchPlan(method, solver, starts or STARTS, seed)
     if len(objectives) > 1:
         if len(cases) > 1 or robust is not None or folder is not None:
@@ -227,6 +226,13 @@ def constraint_in_case(constraint: Constraint, case: Case) -> Constraint:
     before, after = ((*each.left.leaves, *each.right.leaves) for each in (constraint, Constraint(left, constraint.symbol, right)))
     same = all(a.quantity is b.quantity for a, b in zip(before, after, strict=True))
     return constraint if same else Constraint(left, constraint.symbol, right)
+
+
+def pieces_in_case(constraint: Constraint, case: Case, judge: Judge) -> list[Constraint]:
+    """Return the smooth pieces of a constraint that a judge looks at, with the forces of a load case where it names none itself."""
+    situated = constraint_in_case(constraint, PLAIN_CASE if case is None else case)
+    pieces = judge.split(situated)
+    return [constraint_in_case(constraint, case)] if pieces == [situated] else pieces
 
 
 # Spread: each number as bad as tolerances make it.

@@ -14,7 +14,7 @@ from hydraulics.gas import Gas
 from linkage import DefinitionError, Motion, least
 from linkage.errors import cited
 from linkage.language import noted
-from linkage.motion import Judge, last_holding
+from linkage.motion import Judge, last_holding, require_motion
 from linkage.plan import Mask
 from linkage.program import FloatArray
 from linkage.quantities import is_number
@@ -83,6 +83,7 @@ def largest_charge(motion: Motion, way: Way = SLOW) -> float:
 
     DefinitionError where none will do: the header is lighter than the accumulators hold at their own gas charge.
     """
+    require_motion(motion)
     judge = Judge(motion.plan, motion.designs, [over_following(motion, 2)])
     return float(judge.answer(least(lambda at: charge_limits(at, way))).value)
 

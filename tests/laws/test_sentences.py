@@ -16,7 +16,7 @@ from linkage.statics.table import table_text
 from linkage.units import SYSTEMS, UNITS, unit_system
 
 SHIPPED = {point.name: point.load() for point in entry_points(group="hydrolinkage.machines")}
-SPEAKING = [name for name, machine in SHIPPED.items() if machine.verdicts is not Mechanism.verdicts]
+SPEAKING = [name for name, machine in SHIPPED.items() if machine.rules is not Mechanism.rules]
 
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w]|\.\d)")
 NAMES = sorted((name for name in UNITS if name != "°"), key=len, reverse=True)

@@ -54,7 +54,10 @@ def judge_verdicts(judge: Judge) -> list[str]:
         return assembly_verdicts(judge)
     members = judge.plan.of_kind(Judging).values()
     judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
-    lost = judge.answer(reachable).ok is False
+    known = judge.answer(reachable)
+    if known.ok is None:
+        return [Verdict("assembly", None, f"{known}.", answer=known)]
+    lost = known.ok is False
     return [*geometry_verdicts(judge), *member_verdicts(judge.lost_allowed() if lost else judge)]
 
 

@@ -129,3 +129,23 @@ def test_each_design_of_a_batch_is_judged_by_itself(over):
         for one, each in zip(Rocker(L0=length).answers(questions, over=over), together, strict=True):
             assert (one.ok, one.status) == (each.ok[number], each.status[number]), (length, each.question)
             assert_allclose(each.value[number], one.value, rtol=1e-9)
+
+
+# Places.
+
+
+def test_where_nothing_is_asked_nothing_is_said_to_be_kept_or_not():
+    over = Over(only=[y("D") >= 50.0])
+    (answer,) = Loader().answers([reachable], over=over)
+    assert answer.ok is None and answer.status == "nothing left"
+    verdicts = Loader().verdicts(over=over)
+    assert [each.ok for each in verdicts] == [None] and verdicts[0].startswith("--   assembly: ")
+
+
+@pytest.mark.parametrize("places", [dict(S=[0.1], T=[0.05]), dict(S=[0.1, 0.1], T=[0.05, 0.05]), dict(S=0.1, T=0.05)])
+def test_a_path_that_stays_is_the_pose_where_it_stays(places):
+    questions = [least(reserve("lift")) >= 1.0, most(pin_force("A")), most(thrust("tilt"))]
+    stays, there = (Rubbing().answers(questions, over=over) for over in (Over.path(**places), Over.poses(S=[0.1], T=[0.05])))
+    for one, other in zip(stays, there, strict=True):
+        assert_allclose(one.value, other.value, rtol=1e-12)
+        assert (one.ok, one.case, one.direction, one.drive) == (other.ok, other.case, other.direction, other.drive)

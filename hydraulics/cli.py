@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import final
 
 import numpy as np
@@ -16,7 +16,7 @@ from linkage.errors import DefinitionError, known_name
 from linkage.language import said
 from linkage.loads import Acting, ForceElement, LoadCase
 from linkage.mechanism import Mechanism
-from linkage.motion import Column, Motion, columns_of, lowest
+from linkage.motion import Column, Judge, Motion, columns_of, least
 from linkage.statics import elements_of, same
 from linkage.units import g0, show
 from linkage.verdict import Verdict
@@ -25,6 +25,7 @@ from .inputs import Array, direction_of, proper_share
 from .judged import line_verdicts
 from .lift import LiftCircuit
 from .member import Cylinder, found_in
+from .requests import Capacity
 
 
 @final
@@ -67,7 +68,8 @@ class CapacityCommand(Command):
             print(f"{machine.plan.title}: {ram.name} lifts at {point} {way}, beside the machine's own loads. Pressures are gauge.\n")
         write_table(columns, over.reached.size, options.csv)
         judge = machine.judge(over, Acting(case=case))
-        found = [capacity_verdict(over, capacity, point), *line_verdicts(circuit, judge), *ram.verdicts(judge)]
+        asked = Capacity(ram, Acting(), circuit, point, along, share)
+        found = [capacity_verdict(judge, asked), *line_verdicts(circuit, judge), *ram.verdicts(judge)]
         if options.csv != "-":
             print("", *found, sep="\n")
         return judged_code(found, options)
@@ -140,17 +142,17 @@ def at_pressure(circuit: LiftCircuit, motion: Motion, share: float) -> str:
     return f" at {share:g} of {supply}" if share != 1.0 else f" at {supply}"
 
 
-def capacity_verdict(motion: Motion, capacity: Callable[[Motion], Array], point: str) -> Verdict:
-    """Return the least capacity over a motion, and where."""
-    found = lowest(motion, capacity)
+def capacity_verdict(judge: Judge, asked: Capacity) -> Verdict:
+    """Return the least capacity over all that a judge looks at, and where."""
+    found, point = judge.answer(least(asked)), asked.point
     if np.isnan(found.value):
         text = said("the load at {point} drives, or does nothing: it is not limited by this cylinder.", point=point)
-        return Verdict("capacity", True, text)
+        return Verdict("capacity", None, text, answer=found)
     if found.value <= 0.0:
-        text = said("nothing more is lifted at {point} {where}: the machine alone is too heavy there.", point=point, where=found.where)
-        return Verdict("capacity", False, text)
+        text = said("nothing more is lifted at {point} {where}: the machine alone is too heavy there.", point=point, where=found.place)
+        return Verdict("capacity", False, text, answer=found)
     text = said(
         "{force} ({mass}) are lifted at {point} everywhere, the least {where}.",
-        force=show(found.value, "kN", 4), mass=show(found.value / g0, "kg", 4), point=point, where=found.where,
+        force=show(found.value, "kN", 4), mass=show(found.value / g0, "kg", 4), point=point, where=found.place,
     )  # fmt: skip
     return Verdict("capacity", True, text)

@@ -219,7 +219,10 @@ class LiftingCylinder:
 
     def remedy(self, reserve: float) -> str:
         """Return what makes up for a reserve below 1: a pressure, or a standard bore with its reserve."""
-        needed = self.show(self.judge.answer(most(Pressure(*self.asked, is_needed=True))).value)
+        found = self.judge.answer(most(Pressure(*self.asked, is_needed=True)))
+        if found.unbounded or not np.isfinite(found.value):
+            return said("No pressure and no bore lifts there; keep away from that pose.")
+        needed = self.show(found.value)
         if len(self.circuit.rams(self.judge.motion)) > 1:
             return said("It needs {needed}, or larger bores on this line.", needed=needed)
         for bore in self.larger(reserve):

@@ -260,9 +260,14 @@ class LiftCircuit(LiftLine):
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the verdicts on lifting, oil, holding and lowering."""
         try:
-            return line_verdicts(self, judge)
+            return line_verdicts(self, judge, unit=self.unit_in(judge))
         except DefinitionError as error:
             return [Verdict("lifting", False, " ".join(str(error).split()))]
+
+    def unit_in(self, judge: Judge) -> str:
+        """Return the unit in which its pressures are told: that of the dimension which its pump's pressure follows, else bar."""
+        given = judge.plan.members.get(self.pressure) if isinstance(self.pressure, str) else self.pressure
+        return str(getattr(given, "unit", "")) or "bar"
 
     def gauges_of(self, cylinder: Cylinder) -> dict[str, Reading]:
         return {"most": self.supply, "reserve": lambda motion: self.reserve(motion, cylinder=cylinder)}

@@ -527,7 +527,7 @@ class CylinderRequest(LawRequest):
 
     @property
     def mover(self) -> Hashable:
-        return self.named
+        return cast("Hashable", self.named)
 
     def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
         return DIRECTIONS if rubs else DIRECTIONS[:1]

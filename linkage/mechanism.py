@@ -355,7 +355,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         if motion is not None:
             check_motion(self, motion, "verdicts")
         judge = self.judge(over if motion is None else motion, acting)
-        own: object = self.rules(judge.motion if motion is None else motion)
+        own: object = self.rules(judge.places[0].sampled if motion is None else motion)
         if not isinstance(own, (list, tuple)) or not all(isinstance(each, str) for each in own):
             raise DefinitionError(f"{self.plan.title}: rules(motion) gives {cited(own)}; a list of sentences is expected.")
         return ShownList([*judge_verdicts(judge), *own])

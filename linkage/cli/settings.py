@@ -6,7 +6,7 @@ import re
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -95,8 +95,8 @@ def with_overs(machine: Mechanism, overs: Sequence[Over] | None) -> Mechanism:
     members: dict[str, Any] = {name: None for name, over in own.items() if over not in overs}
     fresh = [over for over in overs if not over.name]
     members |= {f"over_{number}": over for number, over in enumerate(fresh, 1)}
-    contents = {"__doc__": cls.__doc__, "__module__": cls.__module__, **members}
-    return cast(Mechanism, type(cls)(cls.__name__, (cls,), contents)(**machine.dimensions))  # type: ignore[misc]
+    variant: type[Mechanism] = type(cls.__name__, (cls,), {"__doc__": cls.__doc__, "__module__": cls.__module__, **members})
+    return variant(**machine.dimensions)
 
 
 def judged_over(machine: Mechanism, options: Namespace, motion: Motion) -> list[Over | Motion] | None:

@@ -80,12 +80,12 @@ def lengths_kept(motion: Motion) -> Check:
     for pair, quantity in motion.plan.table.lengths.items():
         P, Q = sorted(pair)
         given = np.broadcast_to(motion.value(quantity), motion.shape)
-        worst = max(worst, largest_of(np.abs(motion.distance(P, Q) - given)))
-        longest = max(longest, largest_of(np.abs(given)))
+        worst = max(worst, largest_finite(np.abs(motion.distance(P, Q) - given)))
+        longest = max(longest, largest_finite(np.abs(given)))
     return Check(said("lengths kept"), what, worst / (longest or 1.0), EXACT)
 
 
-def largest_of(values: FloatArray) -> float:
+def largest_finite(values: FloatArray) -> float:
     """Return the largest of some values that are not negative, 0 where there is none."""
     return float(np.max(np.where(np.isnan(values), 0.0, values), initial=0.0))
 
@@ -104,8 +104,8 @@ def loops_closed(motion: Motion) -> Iterator[Check]:
     for loop in loops:
         sides = loop_sides(graph.subgraph(loop), loop)
         vectors = [link_vector(motion, given[frozenset(side)], *side) for side in sides]
-        worst = max(worst, largest_of(np.hypot(*np.sum(vectors, axis=0))))
-        longest = max(longest, *(largest_of(np.hypot(*each)) for each in vectors))
+        worst = max(worst, largest_finite(np.hypot(*np.sum(vectors, axis=0))))
+        longest = max(longest, *(largest_finite(np.hypot(*each)) for each in vectors))
     if loops:
         what = said("given lengths in the directions of the links, summed round {n} closed loops", n=len(loops))
         yield Check(said("loops closed"), what, worst / (longest or 1.0), EXACT)
@@ -156,7 +156,7 @@ def derivatives(looked: Looked) -> Check:
             exact, central = (motion.ratio(name, wrt=stroke, method=way) for way in ("exact", "central"))
         except LinkageError:
             continue
-        found.append((largest_of(np.abs(exact - central)), largest_of(np.abs(exact))))
+        found.append((largest_finite(np.abs(exact - central)), largest_finite(np.abs(exact))))
     least = 1e-6 * max((size for _, size in found), default=0.0) or 1.0  # what does not move at all is compared with what does
     worst, targets = max((miss / max(size, least) for miss, size in found), default=0.0), len(found)
     what = said(

@@ -168,7 +168,7 @@ def wider_answers(looked: Looked, columns: Mapping[str, Column], limits: Mapping
         quantity = looked.quantities.get(name)
         of_forces = isinstance(quantity, Request) and quantity.under(Acting(case=PLAIN_CASE), keep=True) is not quantity
         if quantity is not None and (of_forces or name in limits or name == next(iter(columns))):
-            fails = {"below": (least,), "above": (most,)}.get(limit_of(limits[name]).fails, ()) if name in limits else sides_of(quantity)
+            fails = {"below": (least,), "above": (most,)}.get(limit_of(limits[name]).fails, ()) if name in limits else sides_asked(quantity)
             asked += [(name, side(quantity)) for side in fails]
     try:
         with unwarned():
@@ -196,7 +196,7 @@ def beyond_words(answers: Sequence[Answer], column: Column) -> str:
     """Return what the lines beside a curve are."""
     parts = [
         said("{side} {value}, {place}", side=said("least") if isinstance(each.question, Least) else said("greatest"),
-             value=f"{amount(each, column)} {unit_sign(column.unit)}".strip(), place=each.place)
+             value=f"{amount_text(each, column)} {unit_sign(column.unit)}".strip(), place=each.place)
         for each in answers
     ]  # fmt: skip
     return said(" Over all that the machine runs: {answers}.", answers="; ".join(parts))
@@ -209,7 +209,7 @@ def curve(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None,
         ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=TITLE, fontweight="bold", color=INK, pad=19)
     for each in beyond:
         if np.isfinite(each.value):
-            mark_beyond(ax, float(each.value) / factor(column.shown_unit), amount(each, column), isinstance(each.question, Least))
+            mark_beyond(ax, float(each.value) / factor(column.shown_unit), amount_text(each, column), isinstance(each.question, Least))
 
 
 def mark_beyond(ax: Axes, value: float, text: str, is_least: bool) -> None:
@@ -248,8 +248,8 @@ def members_section(looked: Looked) -> Section | None:
         return None
     with unwarned():
         columns = list(member_tables(looked.machine, looked.curve))
-        asked = [column.request if column.request is not None else values_of(looked, name, column) for name, column in columns]
-        questions = [[side(quantity) for side in sides_of(quantity)] for quantity in asked]
+        asked = [column.request if column.request is not None else values_in_rows(looked, name, column) for name, column in columns]
+        questions = [[side(quantity) for side in sides_asked(quantity)] for quantity in asked]
         try:
             answers = iter(looked.judge.answers([question for each in questions for question in each]))
         except LinkageError as error:
@@ -260,7 +260,7 @@ def members_section(looked: Looked) -> Section | None:
         for (name, column), each in zip(columns, found, strict=True)
     )
     shown = dict.fromkeys(name for name, _ in columns)
-    refused = [Paragraph(why) for name in members if name not in shown and (why := why_refused(looked, name))]
+    refused = [Paragraph(why) for name in members if name not in shown and (why := refusal_words(looked, name))]
     heads = (said("member"), said("quantity"), said("least"), said("situation and place"), said("greatest"), said("situation and place"))
     table = [TableBlock(said("Cylinders, over all that the machine runs"), heads, rows, "llrmrm")] if rows else []
     return Section(said("Hydraulics"), (*table, *refused))
@@ -268,10 +268,10 @@ def members_section(looked: Looked) -> Section | None:
 
 def end_cells(answers: Sequence[Answer], end: type[Measure], column: Column) -> tuple[str, str]:
     """Return the least or the greatest as cells, its value and its place; dashes where it was not asked for."""
-    return next(((amount(each, column), each.place) for each in answers if isinstance(each.question, end)), ("–", ""))
+    return next(((amount_text(each, column), each.place) for each in answers if isinstance(each.question, end)), ("–", ""))
 
 
-def sides_of(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
+def sides_asked(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
     """Return what is asked of a quantity: its least and its greatest; of one that is unlimited in places, such as a reserve, the least.
 
     Of a pressure the greatest: the least is nought, on the side that does not hold.
@@ -280,7 +280,7 @@ def sides_of(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
     return (least,) if is_open else (most,) if getattr(quantity, "measures", "") == "pressure" else (least, most)
 
 
-def values_of(looked: Looked, member: str, column: Column) -> Callable[[Motion], FloatArray]:
+def values_in_rows(looked: Looked, member: str, column: Column) -> Callable[[Motion], FloatArray]:
     """Return a member's column as a function of a motion, for one that nothing else asks for."""
 
     def values(motion: Motion) -> FloatArray:
@@ -290,7 +290,7 @@ def values_of(looked: Looked, member: str, column: Column) -> Callable[[Motion],
     return values
 
 
-def why_refused(looked: Looked, member: str) -> str:
+def refusal_words(looked: Looked, member: str) -> str:
     """Return why a member shows nothing of itself; "" where it has nothing to show."""
     try:
         with unwarned():
@@ -300,7 +300,7 @@ def why_refused(looked: Looked, member: str) -> str:
     return ""
 
 
-def amount(answer: Answer, column: Column) -> str:
+def amount_text(answer: Answer, column: Column) -> str:
     """Return an answer's value in a column's unit and decimals; a dash without one."""
     value = float(answer.value)
     if np.isinf(value):
@@ -367,7 +367,7 @@ def drive_rows(looked: Looked) -> Iterator[tuple[str, ...]]:
     for (name, _, unit), low, high in zip(asked, answers[::2], answers[1::2], strict=True):
         column = Column(name, np.zeros(1), unit, 3)
         if not np.isnan(low.value):
-            yield name, unit_sign(unit), amount(low, column), low.place, amount(high, column), high.place
+            yield name, unit_sign(unit), amount_text(low, column), low.place, amount_text(high, column), high.place
 
 
 def drive_unit(plan: Plan, stroke: str) -> str:

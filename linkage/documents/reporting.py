@@ -14,13 +14,13 @@ from ..disk import check_place
 from ..errors import DefinitionError, LinkageError, cited, unknown, unwarned
 from ..language import current_language, heading_of, said, said_of
 from ..language import language as spoken
-from ..loads import Acting
+from ..loads import PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Answer, Constraint, Leaf, least, most, places_text, stroke_display_unit
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
 from ..pictures.strokes import column_shown
-from ..reports import NOTHING, At
+from ..reports import NOTHING, At, ColumnOf
 from ..statics import situation_of
 from ..units import current_system, show, shown_number, unit_system
 from ..verdict import Verdict
@@ -213,7 +213,13 @@ def limit_answers(looked: Looked, limits: Mapping[str, Sequence[Any]]) -> list[t
         quantity, limit = looked.quantities.get(name), limit_of(given)
         if quantity is not None:
             asked[name] = least(quantity) >= limit.value if limit.fails == "below" else most(quantity) <= limit.value
-    return [(heading_of(name), each) for name, each in zip(asked, looked.judge.answers([*asked.values()]), strict=True)]
+    own = [name for name in asked if isinstance(looked.quantities[name], ColumnOf)]
+    plain = [place.over for place in looked.judge.places if PLAIN_CASE in place.cases(looked.judge.acting)]
+    answers = dict(zip(asked, looked.judge.answers([*asked.values()]), strict=True))
+    if own and plain and len(plain) < len(looked.judge.places):  # a table's own column is under the machine's own loads
+        judge = looked.machine.judge(plain, looked.judge.acting).lost_allowed()
+        answers |= zip(own, judge.answers([asked[name] for name in own]), strict=True)
+    return [(heading_of(name), each) for name, each in answers.items()]
 
 
 def worst_places(answers: Sequence[tuple[str, bool | None, Answer]]) -> TableBlock | None:

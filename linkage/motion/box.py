@@ -21,7 +21,7 @@ import numpy as np
 
 from ..plan import Mask
 from ..program import FloatArray
-from .line import LOWEST, Index, is_pole, missing_lowest
+from .line import LOWEST, Index, is_pole, last_holding, missing_lowest
 
 SIDES = {2: 129, 3: 33, 4: 13, 5: 8, 6: 6}  # values a stroke, by the number of strokes
 MORE, MOST_POSES = 5, 1 << 20  # values a stroke of more strokes; grid poses of all designs together
@@ -35,14 +35,21 @@ SEEN, BORDER = 1e-7, 1e-8  # how near a value must keep growing to be unbounded,
 
 
 class SeenBox(Protocol):
-    """Functions in the unit box: `seen` (K, D, side^k) on the grid, and values and reached poses anywhere else."""
+    """Functions in the unit box: `seen` (K, D, side^k) on the grid, and values and reached poses anywhere else.
+
+    `kept` (D, side^k) are the places of the grid that are asked for and reached.
+    """
 
     k: int
     side: int
     seen: FloatArray
+    kept: Mask
 
     def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
         """Return the values (K, u, n) at places (u, n, k) of a design each (u,), and which poses (u, n) are reached."""
+
+    def keeps(self, design: Index, places: FloatArray) -> Mask:
+        """Return which places (u, n, k) of a design each (u,) are asked for and reached, as `kept` says of the grid; it costs least."""
 
 
 @final
@@ -455,6 +462,7 @@ def stepped(box: SeenBox, climbs: Climbs, way: FloatArray, near: FloatArray, see
 
 FINE = 2e-7  # of the box: how narrow a stencil on a border gets
 EDGES, BORDERS, CUTS = 4, 4, 16  # borders of each function and design, along each stroke and in all; parts of a bisection
+CLOSEST = 1e-13  # of the box: how near a border is found
 ACROSS = np.linspace(-6.0, 6.0, 13)  # where a border is looked for, in halves of the stencil
 
 
@@ -500,40 +508,59 @@ def on_border(box: SeenBox, alike: Index, climbs: Climbs, places: FloatArray) ->
     keys = np.column_stack([alike[climbs.function], climbs.design, climbs.axis, climbs.half, places.reshape(len(places), -1)])
     _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     inverse = inverse.reshape(-1)
-    found, there = border_crossings(box, climbs.where(first), places[first])
-    seen, _ = box.at(climbs.design[first], found)
+    own, asked = climbs.where(first), places[first]
+    shared = (np.isnan(box.seen) == ~box.kept).all(axis=(1, 2))[own.function]
+    found, there = np.array(asked), np.zeros(asked.shape[:2], bool)
+    for group in (shared, ~shared):
+        if group.any():
+            found[group], there[group] = border_crossings(box, own.where(group), asked[group], bool(shared[group].any()))
+    seen, _ = box.at(own.design, found)
     return found[inverse], np.where(there[inverse], seen[climbs.function, inverse], np.nan)
 
 
-def border_crossings(box: SeenBox, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, Mask]:
-    """Return the last places (r, n, k) with a value along each search's stroke, and whether there is a border (r, n)."""
-    r, _, k = places.shape
-    fixed = (np.arange(k) == climbs.axis[:, None])[:, None, None, :]
+def border_crossings(box: SeenBox, climbs: Climbs, places: FloatArray, shared: bool) -> tuple[FloatArray, Mask]:
+    """Return the last places (r, n, k) with a value along each search's stroke, and whether there is a border (r, n).
+
+    A border that is `shared`, of all places that are kept, is found by these; then how near to it there is a value.
+    """
+    k = places.shape[2]
     middle = np.take_along_axis(places, climbs.axis[:, None, None], axis=-1)[..., 0]
+    every = np.arange(len(places))
 
-    def missing_at(along: FloatArray) -> Mask:
-        at = np.where(fixed, along[..., None], places[:, :, None, :])
-        return np.isnan(own_values(box, climbs, at.reshape(r, -1, k)).reshape(along.shape))
+    def on(along: FloatArray, of: Index) -> FloatArray:
+        fixed = (np.arange(k) == climbs.axis[of, None])[:, None, None, :]
+        return np.where(fixed, along[..., None], places[of, :, None, :]).reshape(len(along), -1, k)
 
+    def kept(along: FloatArray) -> Mask:
+        return box.keeps(climbs.design, on(along, every)).reshape(along.shape)
+
+    def known(along: FloatArray, of: Index = every) -> Mask:
+        return ~np.isnan(own_values(box, climbs.where(of), on(along, of)).reshape(along.shape))
+
+    holds = kept if shared else known
     along = np.clip(middle[..., None] + climbs.half[:, None, None] * ACROSS, 0.0, 1.0)
-    missing = missing_at(along)
-    change = missing[..., :-1] != missing[..., 1:]
+    has = holds(along)
+    change = has[..., :-1] != has[..., 1:]
+    there = np.asarray(change.any(axis=-1))
     away = np.where(change, np.abs(np.arange(ACROSS.size - 1) - ACROSS.size // 2 + 0.5), np.inf)
     pick = np.argmin(away, axis=-1)[..., None]
     first, last = (np.take_along_axis(along, pick + step, axis=-1)[..., 0] for step in (0, 1))
-    back = np.take_along_axis(missing, pick, axis=-1)[..., 0]
-    inside, outside = np.where(back, last, first), np.where(back, first, last)
-    outside = np.where(change.any(axis=-1), outside, inside)
-    while np.max(np.abs(outside - inside), initial=0.0) > 1e-13:
-        cut = inside[..., None] + (outside - inside)[..., None] * np.linspace(0.0, 1.0, CUTS + 1)
-        gone = np.concatenate([missing_at(cut[..., 1:-1]), np.ones((*inside.shape, 1), bool)], axis=-1)
-        pick = np.argmax(gone, axis=-1)[..., None]
-        new = [np.take_along_axis(cut, pick + step, axis=-1)[..., 0] for step in (0, 1)]
-        wide = np.abs(outside - inside) > 1e-13
-        if np.array_equal(new, [inside, outside]):
-            break
-        inside, outside = np.where(wide, new[0], inside), np.where(wide, new[1], outside)
-    return np.where(fixed[:, :, 0], inside[..., None], places), np.asarray(change.any(axis=-1))
+    forth = np.take_along_axis(has, pick, axis=-1)[..., 0]
+    start, outside = np.where(forth, first, last), np.where(forth, last, first)
+    inside, _ = last_holding(holds, start, np.where(there, outside, start), CLOSEST, CUTS)
+    if shared:
+        leg = start - inside
+        steps = np.minimum(np.abs(leg)[..., None], np.append(0.0, CLOSEST * np.ldexp(1.0, np.arange(0, 44, 4))))
+        behind = inside[..., None] + np.sign(leg)[..., None] * steps
+        seen = known(behind)
+        there &= seen.any(axis=-1)
+        pick = np.where(there, np.argmax(seen, axis=-1), 0)
+        inside = np.take_along_axis(behind, pick[..., None], axis=-1)[..., 0]
+        of = np.flatnonzero((pick > 0).any(axis=-1))
+        if of.size:
+            beyond = np.take_along_axis(behind, np.maximum(pick - 1, 0)[..., None], axis=-1)[..., 0]
+            inside[of], _ = last_holding(lambda along: known(along, of), inside[of], beyond[of], CLOSEST, CUTS)
+    return on(inside[..., None], every).reshape(places.shape), there
 
 
 def hopeful_borders(box: SeenBox, alike: Index, known: FloatArray) -> Climbs:
@@ -627,10 +654,10 @@ def highest_in(box: SeenBox) -> HighestInBox:
     unbounded[doubtful.function[grows], doubtful.design[grows]] = True
     poles = doubtful.where(grows)
     unit[poles.function, poles.design] = poles.unit
-    endless = np.isposinf(box.seen)  # where the grid itself is infinite no search starts
+    endless = np.equal(box.seen, np.inf)  # where the grid itself is infinite no search starts
     unbounded |= endless.any(axis=-1)
     first = np.stack(np.unravel_index(np.argmax(endless, axis=-1), [box.side] * box.k), axis=-1) / (box.side - 1.0)
-    unit = np.where(endless.any(axis=-1)[..., None], first, unit)
+    unit = np.where(endless.any(axis=-1, keepdims=True), first, unit)
     lost = missing.all(axis=-1)
     value = np.where(lost, np.nan, np.where(unbounded, np.inf, np.where(value <= LOWEST, -np.inf, value)))
     return HighestInBox(value, unit, unbounded)

@@ -24,6 +24,7 @@ from ..vectors import Numbers
 from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
 from .box import values_a_stroke
 from .evaluation import Evaluation
+from .grid import Grid
 from .limits import stroke_unit
 from .line import SAMPLES
 from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
@@ -162,6 +163,22 @@ class Domain:
     def running(self) -> tuple[str, ...]:
         """The strokes that run."""
         return moving(self.motion)
+
+    @cached_property
+    def sampled(self) -> Motion:
+        """Some poses over it, NaN out of reach: 101 along one stroke or a path, a grid of 21 or 7 values a stroke of several."""
+        if self.over.shape == "poses" or not self.running:
+            return self.motion
+        ends = {name: np.ravel(value) for name, value in self.motion.strokes.items()}
+        with unwarned():
+            if self.is_path:
+                marks = np.linspace(0.0, 1.0, len(next(iter(ends.values()))))
+                along = np.linspace(0.0, 1.0, 101)
+                return self.motion.moved({name: np.interp(along, marks, value) for name, value in ends.items()})
+            count = {1: 101, 2: 21}.get(len(self.running), 7)
+            axes = np.meshgrid(*(np.linspace(ends[name].min(), ends[name].max(), count) for name in self.running), indexing="ij")
+            values = dict(zip(self.running, axes, strict=True))
+            return self.motion.moved({name: values.get(name, value[0]) for name, value in ends.items()})
 
     @property
     def is_path(self) -> bool:
@@ -330,8 +347,12 @@ class Asked:
             if bound is not None:
                 self._bound[k] = bound
 
+    def kept(self, motion: Motion) -> Mask:
+        """Return the mask of poses that are asked for."""
+        return self.place.over.kept(motion)
+
     def __call__(self, motion: Motion) -> FloatArray:
-        kept = self.place.over.kept(motion)
+        kept = self.kept(motion)
         values, unlimited = self.values(motion)
         if not self.seen.count:
             self.note(motion, kept, values, unlimited)
@@ -346,7 +367,7 @@ class Asked:
         values, unlimited = np.full((len(self.rows), *motion.shape), np.nan), np.zeros((len(self.rows), *motion.shape), bool)
         with unwarned(), np.errstate(all="ignore"):
             if self._bound:
-                found = Evaluation(motion._grid, tuple(self._bound.values()), QUICKEST, "nan").run(None)
+                found = Evaluation(reached_grid(motion), tuple(self._bound.values()), QUICKEST, "nan").run(None)
                 for k, each in zip(self._bound, found, strict=True):
                     values[k] = np.broadcast_to(each, motion.shape)
             for k, row in enumerate(self.rows):
@@ -386,6 +407,19 @@ class Asked:
         }
         self.seen.lawless = counted(np.isnan(values) & ~unlimited & good) / count
         self.seen.unlimited = counted(unlimited & good) / count
+
+
+def reached_grid(motion: Motion) -> Grid:
+    """Return the grid of a motion's poses, those out of reach replaced by one that is reached: repairing them costs most and tells nothing.
+
+    Only where angles are those of poses that are known, not continued from pose to pose.
+    """
+    grid = motion._grid
+    if not grid.per_design or motion._design_shape or motion.reached.all() or not motion.reached.any():
+        return grid
+    first = np.unravel_index(int(np.argmax(motion.reached)), motion.shape)
+    strokes = {name: np.where(motion.reached, value, value[first]) for name, value in grid.strokes.items()}
+    return Grid(motion.plan, motion.designs, strokes, per_design=True, joining=grid._joining)
 
 
 def without_bound(plan: Plan, bound: BoundRequest, motion: Motion) -> Mask:
@@ -563,7 +597,13 @@ class Judge:
     def is_reached(self) -> bool:
         """Whether any place that it looks at can be assembled."""
         self.answers([reachable])
-        return any(seen.lost_share < 1.0 for seen in self._seen)
+        return any(bool(np.any(seen.lost_share + seen.outside < 1.0 - 1e-12)) for seen in self._seen)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether no place is left to look at: conditions (`only=`) leave every one out."""
+        self.answers([reachable])
+        return all(bool(np.all(seen.outside >= 1.0)) for seen in self._seen)
 
     def answer(self, question: Question) -> Answer:
         """Return the answer to one question."""
@@ -667,10 +707,19 @@ class Judge:
             undefined = np.isnan(margin) & ~np.any([np.isnan(each.value) for each in chosen], axis=0)
             made.append(
                 Candidate(
-                    np.asarray(value), np.asarray(margin), where, np.asarray(unbounded), situation_of(chosen), side, place, seen, lawless,
-                    unlimited, np.asarray(undefined),
+                    np.asarray(value),
+                    np.asarray(margin),
+                    where,
+                    np.asarray(unbounded),
+                    situation_found(chosen),
+                    side,
+                    place,
+                    seen,
+                    lawless,
+                    unlimited,
+                    np.asarray(undefined),
                 )
-            )  # fmt: skip
+            )
         return made
 
     def lost(self, candidate: Candidate) -> Lost:
@@ -906,7 +955,7 @@ def mover_of(piece: WorstPiece) -> Any:
     return quantity.mover if isinstance(quantity, Request) else None
 
 
-def situation_of(chosen: Sequence[WorstPiece]) -> Situation:
+def situation_found(chosen: Sequence[WorstPiece]) -> Situation:
     """Return the situation of pieces that occur at once: their load case, and their movement where one of them moves."""
     case = next((each.row.situation.case for each in chosen if each.row.situation.case), "")
     moving_one = next((each for each in chosen if is_moving(each)), None)

@@ -50,7 +50,7 @@ def judge_verdicts(judge: Judge) -> list[str]:
     """Return what can be said of any machine over all that it runs; of a batch, how many designs fail."""
     if any(map(np.ndim, judge.designs.values())):
         return batch_verdicts(judge)
-    if not judge.is_reached:
+    if judge.is_empty or not judge.is_reached:
         return assembly_verdicts(judge)
     members = judge.plan.of_kind(Judging).values()
     judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
@@ -73,7 +73,7 @@ def geometry_verdicts(judge: Judge) -> list[str]:
     """Return whether one design is assembled over all that it runs, its dead points, and its least transmission angle where it is poor."""
     if not judge.plan.strokes or not judge.plan.moving:
         return []
-    if not judge.is_reached:
+    if judge.is_empty or not judge.is_reached:
         return assembly_verdicts(judge)
     first = next((place.motion for place in judge.places if place.motion.reached.any()), judge.motion)
     spans = {name: (float(np.min(value)), float(np.max(value))) for name, value in first.strokes.items()}
@@ -92,6 +92,8 @@ def assembly_verdicts(judge: Judge) -> list[str]:
         f"{place.over.name}: {words}" if place.over.name and len(domains) > 1 else words
         for place, words in zip(judge.places, domains, strict=True)
     ]
+    if judge.is_empty:
+        return [Verdict("assembly", None, said("over {spans} no place is left to look at.", spans="; ".join(named)), answer=answer)]
     if not answer.lost:
         return [Verdict("assembly", True, said("it is assembled over {spans}.", spans="; ".join(named)), answer=answer)]
     if not judge.is_reached:

@@ -55,7 +55,7 @@ class Motion(Shown):
     strokes go on along a path.
     """
 
-    limits_of: ClassVar[Callable[[Any], Limits]] = scan.limits
+    _limits_of: ClassVar[Callable[[Any], Limits]] = scan.limits
     """What looks for its limits: along the strokes alone, until the room of the judge gives more."""
 
     def __init__(
@@ -342,7 +342,7 @@ class Motion(Shown):
         all declared strokes, what is lost in it, and how clear each loop stays of its dead point, with the place.
         One design at a time; other strokes are held at this motion's first values.
         """
-        return type(self).limits_of(self)
+        return type(self)._limits_of(self)
 
     @cached_property
     def interruptions(self) -> tuple[Interruption, ...] | None:

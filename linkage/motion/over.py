@@ -132,7 +132,7 @@ class Over(Member):
         Of a box its corners, an axis for each stroke that runs; of a path the places in an array of one axis; poses in one of two.
         """
         if self.shape != "box":
-            known = [of_design(self.strokes[name], number) for name in plan.strokes]
+            known = [self.numbers(self.strokes[name], plan, number) for name in plan.strokes]
             values = dict(zip(plan.strokes, np.broadcast_arrays(*map(real, known)), strict=True))
             apart = self.shape == "poses" and len(values) > 1
             return {name: np.array(value.reshape(-1, 1) if apart else np.atleast_1d(value)) for name, value in values.items()}
@@ -148,18 +148,24 @@ class Over(Member):
         """Return the least and the greatest value of a stroke in a box [m or rad]; DefinitionError for an end that follows a stroke."""
         stroke = plan.strokes[name]
         given = self.strokes.get(name, (stroke.start, stroke.end))
-        found = []
-        for each in given if isinstance(given, tuple) else (given, given):
-            is_variable = isinstance(each, str) and each in plan.table.spellings
-            if not is_number(each) and not is_variable:
-                followed = quantity(each)
-                behind = next((one for one in plan.strokes if one == followed.name or one in plan.reaches(followed)), "")
-                if behind:
-                    what = f"{plan.title}: {self}: {followed.name or followed} depends on the stroke {behind} itself"
-                    raise DefinitionError(f"{what}; give a quantity of the design.")
-            found.append(float(each) if is_number(each) else number(each if is_variable else quantity(each)))
+        found = self.numbers(given if isinstance(given, tuple) else (given, given), plan, number)
         check_magnitude(name, (found[0], found[1]), plan)
         return min(found), max(found)
+
+    def numbers(self, given: Any, plan: Plan, number: Callable[[str | Quantity], float]) -> Any:
+        """Return what a stroke is given as numbers [m or rad], a list of several; DefinitionError for what follows a stroke."""
+        if isinstance(given, tuple):
+            return [self.numbers(each, plan, number) for each in given]
+        if is_number(given):
+            return float(given)
+        if isinstance(given, str) and given in plan.table.spellings:
+            return number(given)
+        followed = quantity(given)
+        behind = next((one for one in plan.strokes if one == followed.name or one in plan.reaches(followed)), "")
+        if behind:
+            what = f"{plan.title}: {self}: {followed.name or followed} depends on the stroke {behind} itself"
+            raise DefinitionError(f"{what}; give a quantity of the design.")
+        return number(followed)
 
     def kept(self, motion: MotionLike) -> Mask:
         """Return the mask of poses that are asked for: those that keep all conditions, and those of which nothing says that they do not.
@@ -217,12 +223,13 @@ def ends_text(value: Any) -> str:
     return repr(float(value)) if is_number(value) else str(getattr(value, "name", "") or value)
 
 
+def is_end(value: Any) -> bool:
+    """Return whether a value is a number, a quantity or a name."""
+    return is_number(value) or isinstance(value, Quantity) or (isinstance(value, str) and value.isidentifier())
+
+
 def box_ends(name: str, value: Any) -> Any:
     """Return what a stroke of a box is given: a number, a quantity or its name, or two of such; DefinitionError for anything else."""
-
-    def is_end(end: Any) -> bool:
-        return is_number(end) or isinstance(end, Quantity) or (isinstance(end, str) and end.isidentifier())
-
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) == 2 and all(map(is_end, value)):
             return tuple(float(each) if is_number(each) else each for each in value)
@@ -237,20 +244,12 @@ def box_ends(name: str, value: Any) -> Any:
     raise DefinitionError(f"Over({name}={cited(value)}): (low, high) or one value is expected, in SI.")
 
 
-def of_design(value: Any, number: Callable[[Quantity], float]) -> Any:
-    """Return what a stroke of a path is given as numbers; `number` gives the value of a quantity of the design."""
-    if isinstance(value, tuple):
-        return [of_design(each, number) for each in value]
-    return value if is_number(value) else number(quantity(value))
-
-
 def place_values(shape: str, name: str, value: Any) -> Any:
     """Return what a stroke of a path is given: numbers or quantities in their order, or one where it is held."""
-    listed = value if isinstance(value, (list, tuple)) else [value]
-    follows = [isinstance(each, (str, Quantity)) for each in listed]
-    if any(follows) and all(each or is_number(one) for each, one in zip(follows, listed, strict=True)):
-        kept = tuple(float(each) if is_number(each) else each for each in listed)
-        return kept if isinstance(value, (list, tuple)) else kept[0]
+    if is_end(value) and not is_number(value):
+        return value
+    if isinstance(value, (list, tuple)) and any(isinstance(each, (str, Quantity)) for each in value) and all(map(is_end, value)):
+        return tuple(float(each) if is_number(each) else each for each in value)
     try:
         found = real(value)
     except ValueError:

@@ -48,4 +48,4 @@ def loop_margin(plan: Plan, least: LeastMargin) -> LoopMargin:
     return LoopMargin(called(plan, least.step), least.kind, clear, bool(least.is_hole), strokes, places_text(strokes, least.units))
 
 
-Motion.limits_of = limits_over  # a motion's limits ask the judge, who is made with motions
+Motion._limits_of = limits_over  # a motion's limits ask the judge, who is made with motions

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise, product
-from typing import Any, TypeAlias, final
+from typing import Any, Protocol, TypeAlias, final, runtime_checkable
 
 import numpy as np
 
@@ -359,6 +359,14 @@ def nearest_reached(reached: Mask) -> Index:
 # The box of strokes that the poses of a motion cover.
 
 
+@runtime_checkable
+class Bounded(Protocol):
+    """A function of a motion that is asked for at some of the poses only."""
+
+    def kept(self, motion: Motion) -> Mask:
+        """Return the mask of these poses."""
+
+
 @final
 class InBox:
     """A function of the poses in the box from the least to the greatest value of k strokes that a motion moves; others stand still."""
@@ -376,6 +384,7 @@ class InBox:
         self.seen = seen.reshape(-1, self.first._grid.size[0], self.side**self.k)
         self._reached = self.first.reached.reshape(-1, self.side**self.k)
         self._all_reached = bool(self._reached.all())
+        self.kept = self._kept(self.first).reshape(self._reached.shape)
         self.count = self._reached.size
 
     def strokes(self, unit: FloatArray) -> dict[str, FloatArray]:
@@ -387,24 +396,33 @@ class InBox:
 
     def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
         """Return the values (K, u, n) at places (u, n, k) of a design each (u,), and which poses (u, n) are reached."""
+        motion, slot, shape = self._poses(design, places)
+        seen = self.sense * values_of(self.f, motion, everywhere=self.everywhere)
+        self.count += motion.reached.size
+        return seen.reshape(-1, *shape)[:, design, slot], motion.reached.reshape(shape)[design, slot]
+
+    def keeps(self, design: Index, places: FloatArray) -> Mask:
+        """Return which places (u, n, k) of a design each (u,) are asked for and reached."""
+        motion, slot, shape = self._poses(design, places)
+        return self._kept(motion).reshape(shape)[design, slot]
+
+    def _kept(self, motion: Motion) -> Mask:
+        """Return which poses a function is asked for: those reached, and of a judge's those of its domain."""
+        with unwarned(), np.errstate(all="ignore"):
+            return motion.reached & self.f.kept(motion) if isinstance(self.f, Bounded) else motion.reached
+
+    def _poses(self, design: Index, places: FloatArray) -> tuple[Motion, Index, tuple[int, ...]]:
+        """Return the poses (D, c, n) at places (u, n, k) of a design each (u,), which of the c (u,) each is, and this shape."""
         D, count = len(self._reached), np.bincount(design, minlength=len(self._reached))
         slot = np.empty(len(design), int)
         order = np.argsort(design, kind="stable")
         slot[order] = np.arange(len(design)) - np.repeat(np.cumsum(count) - count, count)
         unit = np.zeros((D, int(count.max(initial=1)), *places.shape[1:]))
         unit[design, slot] = places
-        seen, reached = self._look(unit)
-        return seen[:, design, slot], reached[design, slot]
-
-    def _look(self, unit: FloatArray) -> tuple[FloatArray, Mask]:
-        """Return the values (K, D, c, n) at places (D, c, n, k), each design at its own, and which poses (D, c, n) are reached."""
         shape = (*self.first._design_shape, *unit.shape[1:-1])
         strokes = {name: value.reshape(shape) for name, value in self.strokes(unit).items()}
-        near = self._near(unit).reshape(shape)
-        motion = Motion(self.first.plan, self.first.designs, strokes, "nan", per_design=True, joining=JoinedTo(self.first._grid, near))
-        seen = self.sense * values_of(self.f, motion, everywhere=self.everywhere)
-        self.count += motion.reached.size
-        return seen.reshape(-1, *unit.shape[:-1]), motion.reached.reshape(unit.shape[:-1])
+        joining = JoinedTo(self.first._grid, self._near(unit).reshape(shape))
+        return Motion(self.first.plan, self.first.designs, strokes, "nan", per_design=True, joining=joining), slot, unit.shape[:-1]
 
     def _near(self, unit: FloatArray) -> Index:
         """Return the nearest reached of the grid points about places (D, c, n, k), by their number; the nearest where none is."""

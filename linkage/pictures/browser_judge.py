@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError, LinkageError, unwarned
 from ..language import heading_of, language
-from ..loads import FRICTIONLESS
+from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
 from ..motion import BoundRequest, Condition, Judging, LiveText, Motion, Request, RequestLike, least, most
 from ..motion.judge import measures_of
@@ -21,6 +21,7 @@ from ..motion.over import ALLOWED
 from ..motion.requests import bound
 from ..plan import Plan
 from ..program import Node
+from ..reports import ColumnOf
 from ..units import display_unit, factor, shown_in
 from .curves import limit_of, typeset
 
@@ -114,6 +115,8 @@ class LiveQuestions:
             raise DefinitionError(f"{leaf}: an integral is not followed in the page.")
         found = []
         for number, place in enumerate(self.judge.places[:1] if isinstance(leaf, At) else self.judge.places):
+            if isinstance(leaf.quantity, ColumnOf) and PLAIN_CASE not in place.cases(self.judge.acting):
+                continue  # a table's own column is under the machine's own loads, which do not occur here
             for row in self.judge.rows(leaf, place):
                 found.append((number, row, self.row(row.request)))
         return found
@@ -172,8 +175,8 @@ def piece_of(live: LiveText, number: int, row: Any, name: str) -> dict[str, Any]
     situation = row.situation
     return {
         "over": number, "row": live.rows[name][0], "gaps": live.rows[f"{name} gaps"][0], "assumed": live.rows[f"{name} assumed"][0],
-        "sense": row.sought, "reciprocal": int(row.is_reciprocal), "case": situation.case, "direction": situation.direction,
-        "rest": int(situation.direction == FRICTIONLESS), "drive": situation.drive, "side": row.piece.side,
+        "sense": row.sought, "reciprocal": int(row.is_reciprocal), "stays": int(row.stays_at_zero),
+        "case": situation.case, "direction": situation.direction, "drive": situation.drive, "side": row.piece.side,
     }  # fmt: skip
 
 

@@ -47,7 +47,7 @@ const judging = (engine, { overs, questions, most }) => {
       }
       return result;
     };
-    const valueOf = (piece, { score, u }) => (u === null ? NaN : piece.reciprocal ? (score > 0 ? 1 / score : NaN) : piece.sense * score);
+    const valueOf = (piece, { score, u }) => (u === null ? NaN : piece.reciprocal ? (score > 0 ? 1 / score : NaN) : piece.stays ? max(score, 0) : piece.sense * score);
     const first = strokesAt(0, seen[0].list[0]), one = engine.sweep(vector, first.map((value) => [value]));
     const worsts = questions.map(({ leaves }) => leaves.map(({ at, pieces }) => pieces.map((piece) => (at ? { score: one.values[piece.row][0] * piece.sense, u: [], lawless: 0, unlimited: 0, unknown: 0 } : worstOf(piece, seen[piece.over])))));
     const judged = (q) => {

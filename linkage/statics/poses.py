@@ -38,7 +38,7 @@ class FlatPoses:
     def without(self, lost: Mask) -> FlatPoses:
         """Return the poses that a mask (n,) leaves."""
         left = copy(self)
-        left.good = self.good.copy()
+        left.good = np.array(self.good)  # of a single pose a number, which takes no item
         left.good[self.good] = ~lost
         left.count = int(left.good.sum())
         left._at, left._rates = {}, {}

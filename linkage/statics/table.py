@@ -126,7 +126,7 @@ def judged_table(judge: Judge) -> tuple[PinLoad, ...]:
         pose = judge.pose
         if pose is None:
             raise DefinitionError("There are no joint forces to tabulate: no pose is reached.")
-        joints = {key_of(each): each for each in pin_forces(pose, judge.acting.loads, case=judge.acting.case).joints if each.has_force}
+        joints = {joint_key(each): each for each in pin_forces(pose, judge.acting.loads, case=judge.acting.case).joints if each.has_force}
         answers = judge.answers([most(pin_force(point, on, by=by)) for point, on, by, _ in joints])
         rows = [judged_row(judge, key, answer) for key, answer in zip(joints, answers, strict=True)]
     return tuple(row for row in rows if row is not None)
@@ -143,14 +143,14 @@ def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer) -> 
     movement: dict[str, Any] = {"direction": acting.movement, "rates": acting.rates}
     movement["drive"] = acting.drive if acting.movement != FRICTIONLESS else None
     there = pin_forces(of_design.there(one), acting.loads, case=acting.case, **movement)
-    joint = next(each for each in there.joints if key_of(each) == key)
+    joint = next(each for each in there.joints if joint_key(each) == key)
     design = np.unravel_index(number, value.shape)
     row = pin_load(there, joint, float(one.value), (), design, dict(one.strokes))
     drive, over = (getattr(one, name) if name in one.named else "" for name in ("drive", "over"))
     return replace(row, drive=drive, over=over, answer=one)
 
 
-def key_of(joint: JointForce) -> tuple[str, str, str, str]:
+def joint_key(joint: JointForce) -> tuple[str, str, str, str]:
     """Return what tells a joint from others."""
     return joint.point, joint.on, joint.by, joint.kind
 
@@ -180,7 +180,7 @@ def largest(result: PinForces) -> list[PinLoad]:
             design = np.unravel_index(int(np.nanargmax(value)), value.shape)
             strokes = {name: float(np.asarray(each)[place][design]) for name, each in found.strokes.items()}
             there = result.again(result.motion.moved(strokes))
-            same = next(each for each in there.joints if key_of(each) == key_of(joint))
+            same = next(each for each in there.joints if joint_key(each) == joint_key(joint))
             rows.append(pin_load(there, same, float(value[design]), design, design, strokes))
     return rows
 

@@ -13,7 +13,7 @@ from typing import Any, final
 
 import numpy as np
 
-from hydraulics import pressure
+from hydraulics import reserve
 from linkage import DefinitionError, StudyError, at, least, most, optimise, ratio, ref, x, y
 from linkage.errors import one_word
 from linkage.frozen import refuses_changes
@@ -59,9 +59,9 @@ class Combination:
         return f"{size}: OC {self.low / mm:.1f} to {self.high / mm:.1f} mm, {self.value:.4g} at {self.rho / mm:.1f} mm"
 
 
-def share_of(duty: Duty) -> Request:
-    """Return the request for M_g / M_1: the pump's pressure over the one that the stem needs."""
-    share: Request = duty.pressure / pressure("lift")
+def share_of() -> Request:
+    """Return the request for M_g / M_1: the cylinder's reserve, which is what its pump gives over what the stem needs."""
+    share: Request = reserve("lift")
     return share
 
 
@@ -99,7 +99,7 @@ def looked_at(duty: Duty, designs: Grapple, objective: str) -> tuple[FloatArray,
     """Return what is to spare of the scarcest condition and the objective of designs, shape (designs,), at some poses."""
     stroke = designs.strokes["theta"]
     stems, way = np.linspace(0.0, stroke.end, 21), np.linspace(stroke.start, stroke.end, 13)
-    share, arm = designs.evaluate([share_of(duty), abs(ratio("EC"))], theta=stems, unreachable="nan")
+    share, arm = designs.evaluate([share_of(), abs(ratio("EC"))], theta=stems, unreachable="nan")
     room, E = designs.evaluate([arm_to_spare(), "E"], theta=way, unreachable="nan")
     left, right, low, high = duty.box
     (x_E, y_E) = E[..., 0]
@@ -110,7 +110,7 @@ def looked_at(duty: Duty, designs: Grapple, objective: str) -> tuple[FloatArray,
 def conditions(duty: Duty, machine: Grapple) -> list[Any]:
     """Return the conditions of (2.95) for `optimise` over the stems; the arm has one peak, so that the open end stands for the rest."""
     left, right, low, high = duty.box
-    spare, share = arm_to_spare(), share_of(duty)
+    spare, share = arm_to_spare(), share_of()
     place = {name: at(coordinate("E"), theta=0.0) for name, coordinate in (("x", x), ("y", y))}
     return [
         least(share) >= 1.0, least(spare) >= 0.0, at(spare, theta=machine.strokes["theta"].start) >= 0.0,
@@ -140,12 +140,12 @@ def searched(duty: Duty, machine: Grapple, objective: str, start: Combination) -
     if not isinstance(start, Combination):
         raise DefinitionError(f"{start!r} is no combination; give some of feasible(duty).")
     begun = machine.replaced(bore=start.bore, rod=start.rod, S=start.S, side_E=start.side_E, rho=start.rho)
-    greatest, arm = most(share_of(duty)), at(abs(ratio("EC")), theta=0.0)
+    greatest, arm = most(share_of()), at(abs(ratio("EC")), theta=0.0)
     least_rho = max(start.low - ROOM, shortest(machine, start.S) + PLACES[0])
     found = optimise(
         begun, minimise=greatest if objective == "even" else None, maximise=arm if objective == "arm" else None,
         vary={"rho": (float(least_rho), start.high + ROOM)}, subject_to=conditions(duty, machine),
-        over={"theta": (0.0, machine.strokes["theta"].end)}, method="local",
+        over={"theta": (0.0, machine.strokes["theta"].end)}, case="plain", method="local",
     )  # fmt: skip
     assert isinstance(found, Optimum)
     return found

@@ -10,8 +10,8 @@ import time
 from typing import Any
 
 from hydraulics import pressure, reserve
-from linkage import deg, drive_force, kgf, kgf_cm2, mm, pin_force, x, y
-from linkage.study import MonteCarlo, least, monte_carlo, most
+from linkage import deg, drive_force, kgf, kgf_cm2, least, mm, most, pin_force, x, y
+from linkage.study import MonteCarlo, monte_carlo
 from mechanisms.mower_lift import MowerLift
 
 TOLERANCES = {"OB": 0.1 * mm, "OG": 1.0 * mm, "BOG": 0.1 * deg, "A": 0.1 * mm, "O": 0.1 * mm, "weight": 20.0 * kgf}

@@ -32,7 +32,11 @@ class InUnitBox:
         self.k, self.side, self.functions = k, SIDES[k], functions
         self.grid = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, self.side)] * k, indexing="ij"), axis=-1)
         self.seen = np.array([f(self.grid) for f in functions]).reshape(len(functions), 1, -1)
-        self.count = self.side**k
+        self.count, self.kept = self.side**k, np.ones(self.seen.shape[1:], bool)
+
+    def keeps(self, design, places):
+        self.count += places[..., 0].size
+        return np.ones(places.shape[:-1], bool)
 
     def at(self, design, places):
         self.count += places[..., 0].size

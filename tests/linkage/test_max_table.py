@@ -26,7 +26,7 @@ from linkage import (
     pin_force,
     pin_forces,
 )
-from linkage.statics.table import key_of
+from linkage.statics.table import joint_key
 
 
 class Grab(Mechanism):
@@ -64,7 +64,7 @@ def brute(machine, motion, cases, ways):
     for case, (direction, drive) in product(cases, ways):
         for joint in pin_forces(motion, case=case, direction=direction, drive=drive).joints:
             if joint.has_force:
-                found[key_of(joint)] = max(found.get(key_of(joint), 0.0), float(joint.size.max()))
+                found[joint_key(joint)] = max(found.get(joint_key(joint), 0.0), float(joint.size.max()))
     return found
 
 
@@ -84,7 +84,7 @@ def test_a_machine_has_the_largest_of_all_cases_directions_and_places():
             machine.at(**row.strokes), case=None if row.answer.case in ("", "plain") else row.answer.case, direction=row.direction,
             drive=row.drive or None,
         )  # fmt: skip
-        joint = next(each for each in there.joints if key_of(each) == key)
+        joint = next(each for each in there.joints if joint_key(each) == key)
         assert float(joint.size) == pytest.approx(row.force, rel=1e-9)
     assert {row.direction for row in rows.values()} - {"frictionless"}
     assert all(row.drive in row.movement and "S = " in row.place for row in rows.values())
@@ -102,7 +102,7 @@ def test_fewer_cases_or_a_smaller_box_are_never_worse():
 def test_of_one_stroke_it_is_the_table_of_the_results():
     machine = Knot()
     alone, results = max_table(machine), max_table(pin_forces(machine.sweep(5)))
-    assert [key_of(row) for row in alone] == [key_of(row) for row in results]
+    assert [joint_key(row) for row in alone] == [joint_key(row) for row in results]
     for mine, other in zip(alone, results, strict=True):
         assert mine.force == pytest.approx(other.force, rel=1e-9)
         assert mine.angle == pytest.approx(other.angle, abs=1e-6)

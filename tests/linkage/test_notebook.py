@@ -11,9 +11,26 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from linkage import LEFT, Crank, Dyad, Ground, Mechanism, OnLink, Stroke, Verdict, Weight, draw, equations, optimise, pin_forces, plot, y
+from linkage import (
+    LEFT,
+    Crank,
+    Dyad,
+    Ground,
+    Mechanism,
+    OnLink,
+    Stroke,
+    Verdict,
+    Weight,
+    draw,
+    equations,
+    least,
+    optimise,
+    pin_forces,
+    plot,
+    y,
+)
 from linkage.notebook import live
-from linkage.study import least, survey
+from linkage.study import survey
 
 
 class Marked(Mechanism):
@@ -26,7 +43,7 @@ class Marked(Mechanism):
     T = OnLink(C, B, CT=0.09)
     load = Weight(T, mass=3.0)
 
-    def verdicts(self, motion):
+    def rules(self, motion):
         return [Verdict("size", True, "it is <b>small</b> & light."), "neither <i>passes</i> nor fails"]
 
 

@@ -20,17 +20,22 @@ from linkage import (
     OnLink,
     Stroke,
     angle,
+    at,
     deg,
     drive_force,
+    integral,
     kN,
+    least,
     mm,
+    most,
     pin_force,
     ratio,
+    worst,
     y,
 )  # fmt: skip
 from linkage.pictures import plot_bands, plot_tornado
 from linkage.quantities import ref
-from linkage.study import Tolerance, at, integral, least, monte_carlo, most, sigma, sobol, spread, tornado, worst
+from linkage.study import Tolerance, monte_carlo, sigma, sobol, spread, tornado
 from linkage.study.tolerances import tolerance_words, tolerances_of
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch

@@ -5,7 +5,21 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import trapezoid
 
-from linkage import DefinitionError, Force, ForceElement, distance, driving_force, pin_forces
+from hydraulics import reserve
+from linkage import (
+    DefinitionError,
+    Force,
+    ForceElement,
+    Over,
+    Verdict,
+    distance,
+    driving_force,
+    least,
+    most,
+    pin_force,
+    pin_forces,
+    reachable,
+)
 from linkage.units import deg, kN
 from mechanisms.crane import (
     BellCrankCrane,
@@ -293,3 +307,53 @@ def test_a_cylinder_that_never_fits_is_refused():
 def test_what_a_load_map_refuses(call, words):
     with pytest.raises(DefinitionError, match=words):
         call()
+
+
+# Where it runs.
+
+
+def places(crane, name):
+    """Return the places of one of the crane's paths, phi and psi in degrees, t in metres."""
+    motion = crane.judge(crane.plan.members[name]).motion
+    return np.array([np.degrees(motion.strokes["phi"]), np.degrees(motion.strokes["psi"]), motion.strokes["t"]]).T
+
+
+def test_it_runs_from_position_to_position():
+    """Both paths begin and end in the positions that the skeleton is laid out by, of this design."""
+    crane = Crane(phi_0=20 * deg, h_0=1.9)
+    limits = crane.limits_of()
+    phi_0, phi_k = np.degrees(limits["phi"])
+    l_t = limits["t"][1]
+    loading, transport = places(crane, "loading"), places(crane, "transport")
+    assert_allclose(loading, [(phi_k, 180, l_t), (phi_0, 180, l_t), (phi_0, phi_0, l_t), (phi_0, phi_0, 0), (phi_0, 0, 0)], atol=1e-9)
+    assert_allclose(transport, [(phi_0, 0, 0), (90, 0, 0)], atol=1e-9)
+    for number, place in ((1, loading[0]), (2, loading[3]), (3, loading[4]), (4, transport[1])):
+        at = crane.position(number).strokes
+        assert_allclose(place, [np.degrees(at["phi"]), np.degrees(at["psi"]), at["t"]], atol=1e-9)
+
+
+def test_its_way_shows_what_its_drives_are_designed_for():
+    """The arm's drive is the source's optimum, so its reserve is 1 on the way; in the whole box it is not, and the box is never better."""
+    crane = Crane()
+    asked = [least(reserve(name)) for name in ("lift", "fold", "extend")] + [most(pin_force("A")), reachable]
+    on_way, in_box = crane.answers(asked), crane.answers(asked, over=Over(phi=("phi_0", "phi_k"), t=(0.0, "l_t")))
+    asked_of, given = arm_bound(crane, np.array([0.0])), arm_moment(crane, np.array([0.0]))
+    assert given[0][0] / asked_of[0][0] == pytest.approx(1.0, rel=1e-6)
+    assert on_way[1].value == pytest.approx(1.0, rel=1e-6)
+    assert on_way[0].value == pytest.approx(0.980, abs=5e-4) and on_way[0].case == "side_slope"
+    assert in_box[1].value == pytest.approx(0.556, abs=5e-4)
+    assert all(way.value >= box.value * (1 - 1e-9) for way, box in zip(on_way[:3], in_box[:3], strict=True))
+    assert on_way[3].value <= in_box[3].value * (1 + 1e-9)
+    assert on_way[4].ok
+
+
+def test_what_fails_on_its_way_is_told():
+    failed = [each.rule for each in Crane().verdicts() if isinstance(each, Verdict) and each.ok is False]
+    assert failed == ["buckling extend", "buckling lift", "lifting lift_line", "buckling fold"]
+
+
+def test_a_batch_whose_ways_differ_is_refused_with_the_remedy():
+    assert Crane(**{"lift.bore": [0.125, 0.14]}).verdicts()[0].ok
+    with pytest.raises(DefinitionError, match="the same for all designs: take one design, or give over="):
+        Crane(phi_0=[0.3, 0.4]).verdicts()
+    assert Crane(phi_0=[0.3, 0.4]).verdicts(over=Over())[0].ok

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import reserve, thrust
-from linkage import Acting, Crank, Ground, Mechanism, Over, Stroke, at, least, most, pin_force, reachable, y
+from hydraulics import Cylinder, reserve, thrust
+from linkage import Acting, Crank, Ground, Mechanism, OnLink, Over, Stroke, Weight, at, least, most, pin_force, reachable, y
 from linkage.loads import DIRECTIONS
-from linkage.units import kN
+from linkage.units import deg, kN, mm
 from tests.linkage.test_judge import Loader, Rocker, Rubbing
 
 
@@ -149,3 +149,21 @@ def test_a_path_that_stays_is_the_pose_where_it_stays(places):
     for one, other in zip(stays, there, strict=True):
         assert_allclose(one.value, other.value, rtol=1e-12)
         assert (one.ok, one.case, one.direction, one.drive) == (other.ok, other.case, other.direction, other.drive)
+
+
+class Jib(Mechanism):
+    """A jib that a cylinder holds, which stands still at 122 degrees: in the second of its two places."""
+
+    phi = Stroke(0.0, 150 * deg)
+    O, K = Ground(0.0, 1.0), Ground(0.5, 0.2)
+    B = Crank(O, OB=0.8, angle=phi)
+    T = OnLink(O, B, OT=2.0)
+    load = Weight(T, mass=200)
+    lift = Cylinder(K, B, bore=80 * mm, rod=45 * mm)
+    low, high = Over(phi=(0.0, 40 * deg)), Over(phi=(60 * deg, 150 * deg))
+
+
+def test_dead_points_of_every_place_are_told_in_whatever_order():
+    told = [sorted(each for each in Jib().verdicts(over=overs) if "stands still" in each) for overs in (None, [Jib.high, Jib.low])]
+    assert told[0] == told[1] and len(told[0]) == 1 and "phi = 122.01 deg" in told[0][0]
+    assert not any("stands still" in each for each in Jib().verdicts(over=Jib.low))

@@ -182,8 +182,8 @@ class Domain:
 
     @property
     def is_path(self) -> bool:
-        """Whether it is a path, along which several strokes go on together."""
-        return self.over.shape == "path" and len(self.motion.strokes) > 1
+        """Whether it is a path, along which several strokes go on together; one that stays where it is moves nothing."""
+        return self.over.shape == "path" and len(self.motion.strokes) > 1 and bool(self.running)
 
     @property
     def width(self) -> dict[str, float]:
@@ -817,8 +817,12 @@ class Judge:
         place, seen, lost = self.places[number], every[number], losses[number]
         fatal = any(each and one.over.lost != ALLOWED for each, one in zip(losses, self.places, strict=True))
         units = {name: stroke_unit(self.plan, name) for name in lost.strokes}
+        ok: bool | None = not fatal
+        status = LOST if lost else OF_VALUE
+        if not lost and all(each.outside >= 1.0 for each in every):
+            ok, status = None, NOTHING_LEFT
         return Answer(
-            reachable, seen.lost_share, not fatal, LOST if lost else OF_VALUE, lost.strokes, over=place.over.name, lost=lost,
+            reachable, seen.lost_share, ok, status, lost.strokes, over=place.over.name, lost=lost,
             outside=seen.outside, width=place.width, count=sum(each.count for each in self._seen), units=units,
             named=frozenset(["over"] if len(self.places) > 1 else []),
         )  # fmt: skip

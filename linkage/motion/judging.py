@@ -72,11 +72,19 @@ def geometry_verdicts(judge: Judge) -> list[str]:
         return []
     if judge.is_empty or not judge.is_reached:
         return assembly_verdicts(judge)
-    first = next((place.motion for place in judge.places if place.motion.reached.any()), judge.motion)
-    spans = {name: (float(np.min(value)), float(np.max(value))) for name, value in first.strokes.items()}
-    limits = (one for name, one in scan.limits(first).items() if spans[name][0] < spans[name][1] or len(spans) == 1)
-    dead = [each for one in limits for each in dead_point_verdicts(one, spans[one.stroke])]
-    return [*assembly_verdicts(judge), *dead, *transmission_words(judge)]
+    return [*assembly_verdicts(judge), *dead_points_over(judge), *transmission_words(judge)]
+
+
+def dead_points_over(judge: Judge) -> list[Verdict]:
+    """Return what stops or turns a motion along each stroke: the faults of every place, else what the first place says."""
+    found: dict[tuple[str, str], list[Verdict]] = {}
+    for motion in [place.motion for place in judge.places if place.motion.reached.any()] or [judge.motion]:
+        spans = {name: (float(np.min(value)), float(np.max(value))) for name, value in motion.strokes.items()}
+        for name, limits in scan.limits(motion).items():
+            if spans[name][0] < spans[name][1] or len(spans) == 1:
+                for each in dead_point_verdicts(limits, spans[name]):
+                    found.setdefault((name, each.rule), []).append(each)
+    return [each for known in found.values() for each in dict.fromkeys(one for one in known if not one.ok) or known[:1]]
 
 
 def assembly_verdicts(judge: Judge) -> list[str]:

@@ -236,7 +236,7 @@ class Legs:
     @property
     def is_path(self) -> bool:
         """Whether it is a path, on which several strokes go on together."""
-        return len(self.corners) > 1
+        return len(self.corners) > 1 and any(np.ptp(at) > 0.0 for at in self.corners.values())
 
     def strokes(self, leg: Index, t: FloatArray) -> dict[str, FloatArray]:
         """Return the strokes [SI] at places, shape as these; exact at the corners."""

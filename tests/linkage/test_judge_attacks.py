@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import reserve, thrust
-from linkage import Acting, Crank, Ground, Mechanism, Over, Stroke, at, least, most, pin_force, reachable, y
+from hydraulics import Cylinder, reserve, thrust
+from linkage import Acting, Crank, Ground, Mechanism, OnLink, Over, Stroke, Weight, at, least, most, pin_force, reachable, y
 from linkage.loads import DIRECTIONS
-from linkage.units import kN
+from linkage.units import deg, kN, mm
 from tests.linkage.test_judge import Loader, Rocker, Rubbing
 
 
@@ -129,3 +129,41 @@ def test_each_design_of_a_batch_is_judged_by_itself(over):
         for one, each in zip(Rocker(L0=length).answers(questions, over=over), together, strict=True):
             assert (one.ok, one.status) == (each.ok[number], each.status[number]), (length, each.question)
             assert_allclose(each.value[number], one.value, rtol=1e-9)
+
+
+# Places.
+
+
+def test_where_nothing_is_asked_nothing_is_said_to_be_kept_or_not():
+    over = Over(only=[y("D") >= 50.0])
+    (answer,) = Loader().answers([reachable], over=over)
+    assert answer.ok is None and answer.status == "nothing left"
+    verdicts = Loader().verdicts(over=over)
+    assert [each.ok for each in verdicts] == [None] and verdicts[0].startswith("--   assembly: ")
+
+
+@pytest.mark.parametrize("places", [dict(S=[0.1], T=[0.05]), dict(S=[0.1, 0.1], T=[0.05, 0.05]), dict(S=0.1, T=0.05)])
+def test_a_path_that_stays_is_the_pose_where_it_stays(places):
+    questions = [least(reserve("lift")) >= 1.0, most(pin_force("A")), most(thrust("tilt"))]
+    stays, there = (Rubbing().answers(questions, over=over) for over in (Over.path(**places), Over.poses(S=[0.1], T=[0.05])))
+    for one, other in zip(stays, there, strict=True):
+        assert_allclose(one.value, other.value, rtol=1e-12)
+        assert (one.ok, one.case, one.direction, one.drive) == (other.ok, other.case, other.direction, other.drive)
+
+
+class Jib(Mechanism):
+    """A jib that a cylinder holds, which stands still at 122 degrees: in the second of its two places."""
+
+    phi = Stroke(0.0, 150 * deg)
+    O, K = Ground(0.0, 1.0), Ground(0.5, 0.2)
+    B = Crank(O, OB=0.8, angle=phi)
+    T = OnLink(O, B, OT=2.0)
+    load = Weight(T, mass=200)
+    lift = Cylinder(K, B, bore=80 * mm, rod=45 * mm)
+    low, high = Over(phi=(0.0, 40 * deg)), Over(phi=(60 * deg, 150 * deg))
+
+
+def test_dead_points_of_every_place_are_told_in_whatever_order():
+    told = [sorted(each for each in Jib().verdicts(over=overs) if "stands still" in each) for overs in (None, [Jib.high, Jib.low])]
+    assert told[0] == told[1] and len(told[0]) == 1 and "phi = 122.01 deg" in told[0][0]
+    assert not any("stands still" in each for each in Jib().verdicts(over=Jib.low))

@@ -8,7 +8,8 @@ from types import MappingProxyType
 from typing import Any
 
 from hydraulics import capacity, reserve
-from linkage import Ground, LoadCase, OnLink, around, at, deg, drive_force, gap, kgf_cm2, least, mm, most, ratio, ref, x, y
+from linkage import Acting, Ground, LoadCase, OnLink, around, at, deg, drive_force, gap, kgf_cm2, least, mm, most, ratio, ref, x, y
+from linkage.loads import FRICTIONLESS
 from linkage.motion.measures import Condition, Measure
 
 from .header_balancer import HEADERS, HeaderBalancer, with_header
@@ -87,15 +88,16 @@ MOST_PRESSURE = 160 * kgf_cm2 / 1.1 - 3 * kgf_cm2
 def steady_reaction() -> dict[str, Any]:
     """Return the search for a reaction that rises by a straight line, over all headers: pins A and B, and the charges.
 
-    The shoes never lift off, press no more at the horizon than today, and come as high as today with the same cylinders; the pin B stays
-    200 mm above the ground.
+    Without friction, the shoes never lift off, press no more at the horizon than today, and come as high as today with the same cylinders;
+    the pin B stays 200 mm above the ground.
     """
     machine = ThreeHeaders()
     conditions: list[Condition] = []
     spreads = []
     for number, (case, top) in enumerate(zip(HEADER_CASES, TOPS, strict=True), 1):
-        free, length = drive_force("height", case=case), f"length{number}"
-        alone = drive_force("height", case=LoadCase(f"alone {number}", only=[f"feeder{number}", f"header{number}"]))
+        free, length = drive_force("height", acting=Acting(case=case, direction=FRICTIONLESS)), f"length{number}"
+        held = LoadCase(f"alone {number}", only=[f"feeder{number}", f"header{number}"])
+        alone = drive_force("height", acting=Acting(case=held, direction=FRICTIONLESS))
         swaying, rising = (free - slope * ref("height") for slope in (RISE, LEAST_RISE))
         spreads.append(most(swaying) - least(swaying))
         conditions += [

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias, final
 
 from ..disk import check_place
 from ..errors import DefinitionError, FileError, known_name, one_word, unknown
-from ..loads import LoadCase
+from ..loads import PLAIN_CASE, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Over, stroke_unit
 from ..plan import Plan, plan_measure
@@ -334,8 +334,8 @@ def case_said(head: StudyHead, given: Any) -> Any:
     """Return the name of a load case, or a list of names; DefinitionError for an unknown one."""
     cases = head.plan.of_kind(LoadCase)
     if isinstance(given, list) and given:
-        return [known_name("Load case", each, cases, where=head.plan.title) for each in given]
-    return known_name("Load case", given, cases, where=head.plan.title)
+        return [known_name("Load case", each, (PLAIN_CASE, *cases), where=head.plan.title) for each in given]
+    return known_name("Load case", given, (PLAIN_CASE, *cases), where=head.plan.title)
 
 
 def count_said(given: Any, least: int) -> int:

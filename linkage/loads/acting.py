@@ -56,6 +56,8 @@ class Acting:
             elif what and other is not None and other is not value and other != value:
                 inside, outside = f"{name}={named_or_cited(value)}", f"{name}={named_or_cited(other)}"
                 raise DefinitionError(f"{what}: {inside} stands in it, and acting= says {outside}; drop one of them.")
+        if self.drive is None and said["direction"] == FRICTIONLESS:
+            said["drive"] = None  # where there is no friction it is the same whichever stroke moves
         return type(self)(**said)
 
 

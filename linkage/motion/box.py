@@ -48,6 +48,9 @@ class SeenBox(Protocol):
     def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
         """Return the values (K, u, n) at places (u, n, k) of a design each (u,), and which poses (u, n) are reached."""
 
+    def own(self, function: int, design: Index, places: FloatArray) -> FloatArray:
+        """Return the values (u, n) of one function, by its number, at places (u, n, k) of a design each (u,)."""
+
     def keeps(self, design: Index, places: FloatArray) -> Mask:
         """Return which places (u, n, k) of a design each (u,) are asked for and reached, as `kept` says of the grid; it costs least."""
 
@@ -368,13 +371,23 @@ def climbed(box: SeenBox) -> tuple[Climbs, Climbs, FloatArray]:
 
 SLOPES, FALLS = 4, 60  # samples beyond two a stroke; rounds
 LENGTHS = np.ldexp(1.0, np.arange(-5, 6))  # of a search's half: how far it goes along a direction
+MANY = 4096  # values from which on each function is asked by itself
 FAR_ON = 8  # from which of these lengths on the half is doubled
 
 
 def own_values(box: SeenBox, climbs: Climbs, places: FloatArray) -> FloatArray:
-    """Return the values (r, n) of each search's own function at its own places (r, n, k); those of equal searches are asked once."""
-    seen, _ = box.at(climbs.design, places)
-    return np.asarray(seen[climbs.function, np.arange(len(places))])
+    """Return the values (r, n) of each search's own function at its own places (r, n, k).
+
+    Few values are asked of all functions at once, many of each function by itself.
+    """
+    if len(box.seen) * places[..., 0].size <= MANY:
+        seen, _ = box.at(climbs.design, places)
+        return np.asarray(seen[climbs.function, np.arange(len(places))])
+    found = np.empty(places.shape[:2])
+    for function in np.unique(climbs.function):
+        own = climbs.function == function
+        found[own] = box.own(function, climbs.design[own], places[own])
+    return found
 
 
 def shortest(slopes: FloatArray, known: Mask) -> FloatArray:
@@ -514,6 +527,8 @@ def on_border(box: SeenBox, alike: Index, climbs: Climbs, places: FloatArray) ->
     for group in (shared, ~shared):
         if group.any():
             found[group], there[group] = border_crossings(box, own.where(group), asked[group], bool(shared[group].any()))
+    if len(box.seen) * found[..., 0].size > MANY:
+        return found[inverse], np.where(there[inverse], own_values(box, climbs, found[inverse]), np.nan)
     seen, _ = box.at(own.design, found)
     return found[inverse], np.where(there[inverse], seen[climbs.function, inverse], np.nan)
 

@@ -342,6 +342,7 @@ class Asked:
         self.place, self.rows, self.seen = place, rows, Coverage()
         self.plan = place.plan
         self._bound: dict[int, BoundRequest] = {}
+        self._rows: dict[int, Asked] = {}
         for k, row in enumerate(rows):
             bound = traced(self.plan, row.request)
             if bound is not None:
@@ -350,6 +351,13 @@ class Asked:
     def kept(self, motion: Motion) -> Mask:
         """Return the mask of poses that are asked for."""
         return self.place.over.kept(motion)
+
+    def row(self, function: int) -> Asked:
+        """Return one row as a function of its own; what it looks at is counted with the others."""
+        if function not in self._rows:
+            self._rows[function] = Asked(self.place, [self.rows[function]])
+            self._rows[function].seen = self.seen
+        return self._rows[function]
 
     def __call__(self, motion: Motion) -> FloatArray:
         kept = self.kept(motion)

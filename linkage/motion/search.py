@@ -361,10 +361,13 @@ def nearest_reached(reached: Mask) -> Index:
 
 @runtime_checkable
 class Bounded(Protocol):
-    """A function of a motion that is asked for at some of the poses only."""
+    """Functions of a motion that are asked for at some of the poses only, and each by itself."""
 
     def kept(self, motion: Motion) -> Mask:
         """Return the mask of these poses."""
+
+    def row(self, function: int) -> Function:
+        """Return one of them, by its number."""
 
 
 @final
@@ -400,6 +403,15 @@ class InBox:
         seen = self.sense * values_of(self.f, motion, everywhere=self.everywhere)
         self.count += motion.reached.size
         return seen.reshape(-1, *shape)[:, design, slot], motion.reached.reshape(shape)[design, slot]
+
+    def own(self, function: int, design: Index, places: FloatArray) -> FloatArray:
+        """Return the values (u, n) of one function at places (u, n, k) of a design each (u,)."""
+        if not isinstance(self.f, Bounded):
+            return self.at(design, places)[0][function]
+        motion, slot, shape = self._poses(design, places)
+        seen = self.sense * values_of(self.f.row(function), motion, everywhere=self.everywhere)
+        self.count += motion.reached.size
+        return np.asarray(seen.reshape(shape)[design, slot])
 
     def keeps(self, design: Index, places: FloatArray) -> Mask:
         """Return which places (u, n, k) of a design each (u,) are asked for and reached."""

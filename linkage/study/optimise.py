@@ -105,13 +105,14 @@ def optimise(
     space = Space.of(machine, vary)
     constraints = conditions_of(subject_to, machine)
     over, occurring = where_searched(machine, over)
-    cases = list(case) if isinstance(case, (list, tuple)) else occurring if case is None else [case]
+    given = list(case) if isinstance(case, (list, tuple)) else occurring if case is None else [case]
+    cases = [None if isinstance(each, str) and each == PLAIN_CASE else each for each in given]
     if not cases:
         raise DefinitionError(f"{title}: case={cited(case)}: a load case or several are expected; leave it out for the own loads.")
     for each in cases:
         case_of(machine.plan, each)
     judge = machine.judge(over)
-    held = list(dict.fromkeys(piece for each in cases for one in constraints for piece in pieces_in_case(one, each, judge)))
+    held = pieces_in_cases(constraints, cases, judge)
     plan = SearchPlan(method, solver, starts or STARTS, seed)
     if len(objectives) > 1:
         if len(cases) > 1 or robust is not None or folder is not None:
@@ -122,7 +123,11 @@ def optimise(
         problem.count.limit = limit or default_limit(problem, replace(plan, is_front=True))
         with progress_told(progress, machine.plan.heading) as tell:
             return front(problem, plan.seed, solver, tell)
-    problem = Problem(machine, [in_case(objectives[0], each) for each in cases], held, space, sense, over)
+    sought = [in_case(objectives[0], each) for each in cases]
+    named = [each.quantity for each in objectives[0].leaves]
+    if all(leaf.quantity is own for each in sought for leaf, own in zip(each.leaves, named, strict=True)):
+        sought = [objectives[0]]  # it names its load cases itself
+    problem = Problem(machine, sought, held, space, sense, over)
     if robust is not None:
         problem = with_spread(problem, robust, sigmas)
     problem.count.limit = limit or default_limit(problem, plan)
@@ -228,11 +233,18 @@ def constraint_in_case(constraint: Constraint, case: Case) -> Constraint:
     return constraint if same else Constraint(left, constraint.symbol, right)
 
 
-def pieces_in_case(constraint: Constraint, case: Case, judge: Judge) -> list[Constraint]:
-    """Return the smooth pieces of a constraint that a judge looks at, with the forces of a load case where it names none itself."""
-    situated = constraint_in_case(constraint, PLAIN_CASE if case is None else case)
-    pieces = judge.split(situated)
-    return [constraint_in_case(constraint, case)] if pieces == [situated] else pieces
+def pieces_in_cases(constraints: Sequence[Constraint], cases: Sequence[Case], judge: Judge) -> list[Constraint]:
+    """Return the smooth pieces of constraints that a judge looks at, each with the forces of the load cases where it names none itself."""
+    found: list[Constraint] = []
+    for one in constraints:
+        own = [constraint_in_case(one, PLAIN_CASE if each is None else each) for each in cases]
+        if all(each is one for each in own):
+            found += judge.split(one)
+            continue
+        for case, situated in zip(cases, own, strict=True):
+            pieces = judge.split(situated)
+            found += [one] if case is None and len(pieces) == 1 else pieces
+    return found
 
 
 # Spread: each number as bad as tolerances make it.

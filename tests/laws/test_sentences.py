@@ -9,6 +9,7 @@ import pytest
 
 from linkage import Mechanism, pin_forces, plot
 from linkage.language import language, said
+from linkage.loads import PLAIN_CASE
 from linkage.pictures.strokes import StrokeAxis
 from linkage.reports import results, text_table
 from linkage.statics import max_table
@@ -110,7 +111,7 @@ def test_a_table_is_in_the_units_of_the_system_and_has_the_same_numbers(name, sy
 # -- Russian -----------------------------------------------------------------------------------------------
 
 LATIN = re.compile(r"[A-Za-z][\w/.]*")
-SIGNS = {"ISO", "n", "mu", "rho"}
+SIGNS = {"ISO", "n", "mu", "rho", PLAIN_CASE}
 
 
 @pytest.mark.parametrize("name", SPEAKING)

@@ -286,16 +286,16 @@ CHANGES = [
     ("most(drive_force())", "most(drive_forc())", "line 3, minimise: 'most(drive_forc())': Function 'drive_forc' is unknown"),
     ("21 kN", "21 bar", "line 4, subject_to.2:"),
     ("S=0)", "U=0)", "line 4, subject_to.1: Boom: at(y(T), U=0): there is no stroke 'U'"),
-    ("OB =", "BO2 =", "line 10, vary.BO2: Dimension 'BO2' is unknown in Boom."),
-    ("OB =", "S =", "line 10, vary.S: Boom: S is a stroke and no dimension"),
-    ("1.0 to 1.2 m", "1.0 to 1.2 kN", "line 10, vary.OB: '1.0 kN' is a force where a value of kind length is wanted"),
-    ("1.0 to 1.2 m", "1.2 to 1.0 m", "line 10, vary.OB: Boom: OB=(1.2, 1.0) is no range"),
-    ("1.0 to 1.2 m", "big", "line 10, vary.OB: 'big' is no range; write a range such as"),
+    ("OB =", "BO2 =", "line 11, vary.BO2: Dimension 'BO2' is unknown in Boom."),
+    ("OB =", "S =", "line 11, vary.S: Boom: S is a stroke and no dimension"),
+    ("1.0 to 1.2 m", "1.0 to 1.2 kN", "line 11, vary.OB: '1.0 kN' is a force where a value of kind length is wanted"),
+    ("1.0 to 1.2 m", "1.2 to 1.0 m", "line 11, vary.OB: Boom: OB=(1.2, 1.0) is no range"),
+    ("1.0 to 1.2 m", "big", "line 11, vary.OB: 'big' is no range; write a range such as"),
     ("1.0 to 1.2 m", "1,0 to 1.2 m", "decimals are written with a point"),
-    ('A = "within 60 mm"', 'A = "0 to 60 mm"', "line 9, vary.A: Boom: A=(0.0, 0.06): A is a point"),
+    ('A = "within 60 mm"', 'A = "0 to 60 mm"', "line 10, vary.A: Boom: A=(0.0, 0.06): A is a point"),
     ("starts = 2", "starts = 0", "line 5, starts: 0: a whole number is expected, at least 1"),
     ("starts = 2", "method = 'best'", "line 5, method: it='best': say"),
-    ('case = "plain"', "case = 'full'", "line 6, case: Load case 'full' is unknown in Boom. Known: bumpy."),
+    ('case = "plain"', "case = 'full'", "line 6, case: Load case 'full' is unknown in Boom. Known: plain, bumpy."),
     ("starts = 2", "over = { U = '0 to 1 m' }", "line 5, over.U: Stroke 'U' is unknown in Boom. Known: S."),
     ("starts = 2", "over = { S = '0 to 1 deg' }", "line 5, over.S: '0 deg' is an angle"),
     ("starts = 2", "set = { OB = '1 bar' }", "line 5, set.OB: '1 bar' is a pressure"),
@@ -303,9 +303,9 @@ CHANGES = [
     ("starts = 2", "outputs = { table = 'a.txt' }", "line 5, outputs.table: a.txt: the file's name ends in one of .csv"),
     ("starts = 2", "outputs = { tabel = 'a.csv' }", "line 5, outputs.tabel: Output 'tabel' is unknown. Did you mean table?"),
     ("starts = 2", "outputs = { table = 'no/a.csv' }", "no/a.csv: the folder"),
-    ('"1 mm"', '"-1 mm"', "line 6, round: '-1 mm': a step above zero is expected"),
-    ('"1 mm"', "{ toe = 1 }", "line 6, round: toe is no step"),
-    ('"1 mm"', '"1 mm', "line 6:"),
+    ('"1 mm"', '"-1 mm"', "line 7, round: '-1 mm': a step above zero is expected"),
+    ('"1 mm"', "{ toe = 1 }", "line 7, round: toe is no step"),
+    ('"1 mm"', '"1 mm', "line 7:"),
     ("[vary]", "[varied]", "Key 'varied' is unknown. Did you mean vary?"),
 ]
 
@@ -324,7 +324,7 @@ def test_several_mistakes_are_told_at_once(here, said):
     code, _, err = said("optimise", written(here, text))
     assert code == 2
     assert err.splitlines()[0] == "hydrolinkage: study.toml: 3 mistakes:"
-    assert [line.split(",")[0].strip() for line in err.splitlines()[1:]] == ["line 4", "line 5", "line 10"]
+    assert [line.split(",")[0].strip() for line in err.splitlines()[1:]] == ["line 4", "line 5", "line 11"]
 
 
 def test_a_file_that_is_not_there(here, said):

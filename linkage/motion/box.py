@@ -44,6 +44,7 @@ class SeenBox(Protocol):
     side: int
     seen: FloatArray
     kept: Mask
+    count: int
 
     def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
         """Return the values (K, u, n) at places (u, n, k) of a design each (u,), and which poses (u, n) are reached."""
@@ -476,6 +477,8 @@ def stepped(box: SeenBox, climbs: Climbs, way: FloatArray, near: FloatArray, see
 FINE = 2e-7  # of the box: how narrow a stencil on a border gets
 EDGES, BORDERS, CUTS = 4, 4, 16  # borders of each function and design, along each stroke and in all; parts of a bisection
 CLOSEST = 1e-13  # of the box: how near a border is found
+ALL_BORDERS = 128  # searches along borders of all functions and designs together
+BUDGET = 400_000  # poses that they look at: where they are more, each stands where it has come to
 ACROSS = np.linspace(-6.0, 6.0, 13)  # where a border is looked for, in halves of the stencil
 
 
@@ -598,7 +601,8 @@ def hopeful_borders(box: SeenBox, alike: Index, known: FloatArray) -> Climbs:
     row = (going.function * D + going.design)[order]
     order = order[np.lexsort((-found[order], row))]
     row = np.sort(row)
-    order = order[np.arange(len(row)) - np.searchsorted(row, row) < BORDERS]
+    few = min(BORDERS, max(1, ALL_BORDERS // (len(box.seen) * D)))
+    order = order[np.arange(len(row)) - np.searchsorted(row, row) < few]
     return going.where(order)
 
 
@@ -616,14 +620,23 @@ def turned(climbs: Climbs, lost: Mask, half: FloatArray) -> Climbs:
     return replace(climbs, axis=axis, half=width, expected=np.where(lost, np.nan, climbs.expected))
 
 
-def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[Climbs, Climbs]:
-    """Return the searches along borders that came to a smooth top, and the others; those that may better what is known (K, D)."""
+def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[Climbs, Climbs, Climbs]:
+    """Return the searches along borders that came to a smooth top, the others, and places next to which a function is unbounded.
+
+    Those are searched from that may better what is known (K, D); nothing betters what is unbounded.
+    """
     first: dict[bytes, int] = {}
     alike = np.array([first.setdefault(np.isnan(row).tobytes(), number) for number, row in enumerate(box.seen)])
     going = hopeful_borders(box, alike, known)
+    poles = best_of(going, *box.seen.shape[:2], 1)
+    poles = poles.where(grows_in_box(box, poles))
+    endless = np.zeros(box.seen.shape[:2], bool)
+    endless[poles.function, poles.design] = True
+    going = going.where(~endless[going.function, going.design])
     tops, ended = [going.where(NONE)], [going.where(NONE)]
+    begun = box.count
     for _ in range(ROUNDS):
-        if not len(going.value):
+        if not len(going.value) or box.count - begun > BUDGET:
             break
         offsets, index = border_stencil(box.k, going.axis)
         places, values = on_border(box, alike, going, snapped(going.centre[:, None] + going.half[:, None, None] * offsets))
@@ -639,7 +652,7 @@ def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[C
         best = np.maximum(best, known[going.function, going.design])
         stay = ~(done | stuck) & ((going.bound >= best) | (going.value >= best))
         going = going.where(stay)
-    return Climbs.joined(tops), Climbs.joined([*ended, going])
+    return Climbs.joined(tops), Climbs.joined([*ended, going]), poles
 
 
 # -- the search ----------------------------------------------------------------------------------------------
@@ -666,8 +679,8 @@ def highest_in(box: SeenBox) -> HighestInBox:
     value, unit = value_of(best, K, D), np.zeros((K, D, box.k))
     unit[best.function, best.design] = best.unit
     unbounded = np.isposinf(value)
-    unbounded[doubtful.function[grows], doubtful.design[grows]] = True
-    poles = doubtful.where(grows)
+    poles = Climbs.joined([doubtful.where(grows), *found[5:]])
+    unbounded[poles.function, poles.design] = True
     unit[poles.function, poles.design] = poles.unit
     endless = np.equal(box.seen, np.inf)  # where the grid itself is infinite no search starts
     unbounded |= endless.any(axis=-1)

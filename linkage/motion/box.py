@@ -628,9 +628,10 @@ def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[C
     first: dict[bytes, int] = {}
     alike = np.array([first.setdefault(np.isnan(row).tobytes(), number) for number, row in enumerate(box.seen)])
     going = hopeful_borders(box, alike, known)
-    poles = best_of(going, *box.seen.shape[:2], 1)
+    K, D, _ = box.seen.shape
+    poles = best_of(going, K, D, 1)
     poles = poles.where(grows_in_box(box, poles))
-    endless = np.zeros(box.seen.shape[:2], bool)
+    endless = np.zeros((K, D), bool)
     endless[poles.function, poles.design] = True
     going = going.where(~endless[going.function, going.design])
     tops, ended = [going.where(NONE)], [going.where(NONE)]

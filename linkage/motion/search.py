@@ -406,10 +406,11 @@ class InBox:
 
     def own(self, function: int, design: Index, places: FloatArray) -> FloatArray:
         """Return the values (u, n) of one function at places (u, n, k) of a design each (u,)."""
-        if not isinstance(self.f, Bounded):
-            return self.at(design, places)[0][function]
+        f: object = self.f
+        if not isinstance(f, Bounded):
+            return np.asarray(self.at(design, places)[0][function])
         motion, slot, shape = self._poses(design, places)
-        seen = self.sense * values_of(self.f.row(function), motion, everywhere=self.everywhere)
+        seen = self.sense * values_of(f.row(function), motion, everywhere=self.everywhere)
         self.count += motion.reached.size
         return np.asarray(seen.reshape(shape)[design, slot])
 

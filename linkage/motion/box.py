@@ -716,8 +716,8 @@ def grows_in_box(box: SeenBox, climbs: Climbs) -> Mask:
     ways = np.array([-1.0, 1.0])[:, None, None] * far[:, None] * np.eye(box.k)[:, None, None, :]  # (k, 2, n, k)
     at = climbs.unit[:, None, None, None, :] + ways
     on = ((at >= 0.0) & (at <= 1.0)).all(axis=-1)
-    found, reached = box.at(climbs.design, np.clip(at, 0.0, 1.0).reshape(len(at), -1, box.k))
-    seen = found[climbs.function, np.arange(len(at))]
+    places = np.clip(at, 0.0, 1.0).reshape(len(at), -1, box.k)
+    seen, reached = own_values(box, climbs, places), box.keeps(climbs.design, places)
     seen, reached = np.where(on, seen.reshape(on.shape), np.nan), reached.reshape(on.shape) & on
     poles = is_pole(np.broadcast_to(climbs.value[:, None], on.shape[:-2]), seen, reached, far, BORDER, SEEN)
     return np.asarray(np.isposinf(climbs.value) | poles.any(axis=(-2, -1)))

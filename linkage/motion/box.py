@@ -527,9 +527,10 @@ def on_border(box: SeenBox, alike: Index, climbs: Climbs, places: FloatArray) ->
     own, asked = climbs.where(first), places[first]
     shared = (np.isnan(box.seen) == ~box.kept).all(axis=(1, 2))[own.function]
     found, there = np.array(asked), np.zeros(asked.shape[:2], bool)
-    for group in (shared, ~shared):
+    for is_shared in (True, False):
+        group = shared == is_shared
         if group.any():
-            found[group], there[group] = border_crossings(box, own.where(group), asked[group], bool(shared[group].any()))
+            found[group], there[group] = border_crossings(box, own.where(group), asked[group], is_shared)
     if len(box.seen) * found[..., 0].size > MANY:
         return found[inverse], np.where(there[inverse], own_values(box, climbs, found[inverse]), np.nan)
     seen, _ = box.at(own.design, found)

@@ -50,7 +50,7 @@ def judge_verdicts(judge: Judge) -> list[str]:
     """Return what can be said of any machine over all that it runs; of a batch, how many designs fail."""
     if any(map(np.ndim, judge.designs.values())):
         return batch_verdicts(judge)
-    if judge.is_empty or not judge.is_reached:
+    if not judge.is_reached:
         return assembly_verdicts(judge)
     members = judge.plan.of_kind(Judging).values()
     judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
@@ -70,7 +70,7 @@ def geometry_verdicts(judge: Judge) -> list[str]:
     """Return whether one design is assembled over all that it runs, its dead points, and its least transmission angle where it is poor."""
     if not judge.plan.strokes or not judge.plan.moving:
         return []
-    if judge.is_empty or not judge.is_reached:
+    if not judge.is_reached:
         return assembly_verdicts(judge)
     return [*assembly_verdicts(judge), *dead_points_over(judge), *transmission_words(judge)]
 

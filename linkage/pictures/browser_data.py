@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast, final
@@ -50,6 +50,9 @@ class TrackNumber(LawRequest):
     part: str
     axis: str
 
+    def identity(self, plan: Plan) -> Hashable:
+        return "track", self.track.name, self.part, self.axis
+
     def law(self, motion: AnyMotion) -> FloatArray:
         vector = getattr(self.track.line(motion._reading), self.part)
         value = getattr(vector, self.axis)
@@ -71,6 +74,9 @@ class ActingForce(LawRequest):
 
     place: int
     axis: int
+
+    def identity(self, plan: Plan) -> Hashable:
+        return "own load", self.place, self.axis
 
     def law(self, motion: AnyMotion) -> FloatArray:
         assert isinstance(motion, TracedMotion)  # it is asked for by a page alone

@@ -101,6 +101,10 @@ class Coordinate(Quantity):
     def measures(self) -> str:
         return "length"
 
+    @property
+    def identity(self) -> Hashable:
+        return self.name or (self.axis, name_of(self.P))
+
     def parts(self) -> tuple[Reference, ...]:
         return (self.P,)
 

@@ -32,7 +32,7 @@ class ColumnOf(LawRequest):
     name: str
 
     def identity(self, plan: Plan) -> Hashable:
-        return None
+        return "column", self.machine, self.place, self.name
 
     def law(self, motion: AnyMotion) -> FloatArray:
         given = require_motion(motion)

@@ -40,6 +40,7 @@ from linkage.files import load
 from linkage.pictures import page_html
 from linkage.pictures.browser import page_part
 from linkage.pictures.browser_words import SAID
+from linkage.plan.trace import Trace
 from linkage.reports import results
 from linkage.units import MPa, mm
 from mechanisms.classics.jansen import Jansen
@@ -218,6 +219,15 @@ def test_wrong_questions_are_answered_in_words(tmp_path):
     with pytest.raises(DefinitionError, match="2 designs"):
         page(FourBar(OA=[0.12, 0.13]), file)
     assert not file.exists()
+
+
+def test_a_second_page_of_a_machine_traces_nothing_again(tmp_path, monkeypatch):
+    machine = MowerLift()
+    first = page(machine, tmp_path / "first.html").read_bytes()
+    made = []
+    monkeypatch.setattr(Trace, "__init__", lambda *given: made.append(given))
+    assert page(machine, tmp_path / "second.html").read_bytes() == first
+    assert not made
 
 
 def test_what_a_page_says_is_what_is_translated():

@@ -32,6 +32,9 @@ MOST_KERNELS = 512
 class Plan(Members):
     """The ordered members of a mechanism with their program: printable, traceable, the same for every design."""
 
+    _first: Plan | None = None
+    """The plan that this one is a twin of."""
+
     def __init__(self, members: Mapping[str, Member], title: str) -> None:
         super().__init__(members, title)
         self._kernels: dict[Hashable, object] = {}
@@ -60,7 +63,12 @@ class Plan(Members):
 
     @cached_property
     def trace(self) -> Trace:
-        """The program's nodes: every point placed."""
+        """The program's nodes, every point placed: a fork of those that all programs of the class begin with."""
+        return (self._first or self)._placed.fork()
+
+    @cached_property
+    def _placed(self) -> Trace:
+        """Every point placed, once a class; nothing is added here."""
         trace = self._traced(self.solved)
         with np.errstate(all="ignore"):  # what is divided by zero in a constant is told as the place that has no value
             self._work_out(trace)
@@ -128,7 +136,7 @@ class Plan(Members):
     def _twin(self) -> Plan:
         """Return the same plan, not traced yet."""
         twin = object.__new__(type(self))
-        vars(twin).update(vars(self))
+        vars(twin).update(vars(self), _first=self._first or self)
         vars(twin).pop("trace", None)
         return twin
 

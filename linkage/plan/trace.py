@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping
+from collections.abc import Container, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property, reduce
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ..errors import DefinitionError
 from ..program import Graph, Level, Node, Tangent
 from ..quantities import Member, Quantity, Tabulated, Turning
 from ..steps import Arrow, Point
-from ..vectors import Scalar, Vec
+from ..vectors import Line, Scalar, Vec
 from .reading import ArrayReading, Reading
 
 #: The sine of a loop, and the distance of two points over the machine's size, below which they count as near a singular pose.
@@ -81,6 +81,16 @@ class Trace(Reading):
         if name not in self._tangents:
             self._tangents[name] = Tangent(self.graph, {self.inputs[name]: 1.0})
         return self._tangents[name]
+
+    def fork(self) -> Trace:
+        """Return this trace on a graph of its own: what is read there leaves nothing here, and what was read here is known there."""
+        fork = self.view()
+        fork.graph = self.graph.fork()
+        fork.kept, fork._tangents = {}, {}
+        for name in ("guards", "measures", "loops", "angles", "positions", "noted", "directions", "inputs", "_values", "extent"):
+            if name in vars(self):
+                vars(fork)[name] = in_fork(vars(self)[name], fork.graph.nodes)
+        return fork
 
     def view(self) -> Trace:
         """Return this trace as it stands, for reading more: what is read there leaves nothing here but nodes."""
@@ -230,3 +240,16 @@ class Trace(Reading):
     def close_angle(self, cos: Scalar, sin: Scalar) -> Turning:
         (root,) = self.graph.close((sin,), lambda roots: ((cos * cos + roots[0] * roots[0]) * 0.5,))
         return cos, root
+
+
+def in_fork(value: Any, nodes: Sequence[Node]) -> Any:
+    """Return what holds nodes of a graph with those that have the same numbers in a fork of it."""
+    if isinstance(value, Node):
+        return nodes[value.number]
+    if isinstance(value, (tuple, list)):
+        return type(value)([in_fork(each, nodes) for each in value])
+    if isinstance(value, dict):
+        return {in_fork(key, nodes) if isinstance(key, Nearness) else key: in_fork(each, nodes) for key, each in value.items()}
+    if isinstance(value, (Vec, Line, Guard, Nearness, Loop)):
+        return type(value)(*[in_fork(getattr(value, part.name), nodes) for part in fields(value)])
+    return value

@@ -7,6 +7,7 @@ and each node knows whether it depends on nothing, on the design only, or on the
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from enum import IntEnum
 from threading import Lock
 from typing import Any, NoReturn, TypeAlias, final
@@ -138,17 +139,48 @@ class Closure:
                     stack.extend(each.args)
         self.sources = tuple(found)
 
+    def enter(self, nodes: Sequence[Node]) -> None:
+        """Close the same loop in a fork of the graph, by its nodes in their order."""
+        entered = copy(self)
+        entered.roots, entered.residuals, entered.sources = (
+            tuple(nodes[each.number] for each in part) for part in (self.roots, self.residuals, self.sources)
+        )
+        entered.determinant = self.determinant and nodes[self.determinant.number]
+        entered.jacobian = self.jacobian and [[nodes[each.number] for each in row] for row in self.jacobian]
+        for root in entered.roots:
+            root.closure = entered
+
 
 @final
 class Graph:
-    """All nodes of a program, each once."""
+    """All nodes of a program, each once.
+
+    What is known is known by the numbers of nodes, which are the same in a fork.
+    """
 
     def __init__(self) -> None:
         self.nodes: list[Node] = []
-        self._known: dict[tuple[object, ...], Node] = {}
+        self._known: dict[tuple[object, ...], int] = {}
         self._constants: dict[float, Node] = {}
         self._lock = Lock()
         self.zero, self.one = self.constant(0.0), self.constant(1.0)
+
+    def fork(self) -> Graph:
+        """Return a graph of the same nodes under the same numbers, free to grow on its own."""
+        found = Graph()
+        nodes: list[Node] = []
+        found.nodes = nodes
+        closures: dict[Closure, None] = {}
+        for old in self.nodes:
+            nodes.append(Node(found, old.op, tuple([nodes[arg.number] for arg in old.args]), old.value, old.level, old.number))
+            if old.closure is not None:
+                closures[old.closure] = None
+        for closure in closures:
+            closure.enter(nodes)
+        found._known = self._known.copy()
+        found._constants = {value: nodes[node.number] for value, node in self._constants.items()}
+        found.zero, found.one = nodes[self.zero.number], nodes[self.one.number]
+        return found
 
     def _new(self, op: str, args: tuple[Node, ...], value: float | str | None, level: Level) -> Node:
         node = Node(self, op, args, value, level, len(self.nodes))
@@ -169,8 +201,8 @@ class Graph:
         with self._lock:
             key = ("input", name)
             if key not in self._known:
-                self._known[key] = self._new("input", (), name, level)
-            return self._known[key]
+                self._known[key] = self._new("input", (), name, level).number
+            return self.nodes[self._known[key]]
 
     def node(self, value: Scalar) -> Node:
         """Return a value as a node of this graph."""
@@ -196,27 +228,31 @@ class Graph:
     def made(self, op: str, args: tuple[Node, ...]) -> Node:
         """Return the node of an operation as it stands."""
         key = operation_key(op, args)
-        found = self._known.get(key)
-        if found is None:
+        number = self._known.get(key)
+        if number is None:
             with self._lock:
-                found = self._known.get(key)
-                if found is None:
-                    found = self._known[key] = self._new(op, key[1:], None, max([each.level for each in args]))  # type: ignore[arg-type]
-        return found
+                number = self._known.get(key)
+                if number is None:
+                    ordered = args if len(args) != 2 or args[0].number == key[1] else args[::-1]
+                    node = self._new(op, ordered, None, max([each.level for each in args]))
+                    self._known[key] = node.number
+                    return node
+        return self.nodes[number]
 
     def known(self, op: str, args: tuple[Node, ...]) -> Node | None:
         """Return the node of an operation where there is one already."""
-        return self._known.get(operation_key(op, args))
+        number = self._known.get(operation_key(op, args))
+        return None if number is None else self.nodes[number]
 
     def alias(self, value: Node, meaning: Node) -> Node:
         """Return a value that is known by another way: it reads the first node and is differentiated as the second."""
         if value is meaning:
             return value
         with self._lock:
-            key = ("alias", value, meaning)
+            key = ("alias", value.number, meaning.number)
             if key not in self._known:
-                self._known[key] = self._new("alias", (value, meaning), None, value.level)
-            return self._known[key]
+                self._known[key] = self._new("alias", (value, meaning), None, value.level).number
+            return self.nodes[self._known[key]]
 
     def power(self, base: Node, exponent: Operand) -> Node:
         """Return base ** exponent; whole and half exponents become products and roots."""
@@ -256,9 +292,10 @@ class Graph:
 
 def operation_key(op: str, args: tuple[Node, ...]) -> tuple[object, ...]:
     """Return what an operation is known by: the same for both orders where these do not matter."""
-    if len(args) == 2 and op in COMMUTATIVE and args[0].number > args[1].number:
-        return op, args[1], args[0]
-    return op, *args
+    if len(args) == 2:
+        a, b = args[0].number, args[1].number
+        return (op, b, a) if a > b and op in COMMUTATIVE else (op, a, b)
+    return op, *[each.number for each in args]
 
 
 COMMUTATIVE = ("add", "multiply", "minimum", "maximum")

@@ -241,6 +241,13 @@ class Quantity(Member):
         return joined(UFUNCS[name], *given) if name in UFUNCS else Function(name, *given)
 
 
+def identity_of_parts(whole: Quantity, kind: str, *parts: Quantity) -> Hashable:
+    """Return the identity of what consists of its parts alone: its name, else that of the parts, itself where one of them has no other."""
+    identities = [part.identity for part in parts]
+    is_itself = any(identity is part for identity, part in zip(identities, parts, strict=True))
+    return whole.name or (whole if is_itself else (kind, *identities))
+
+
 def quantity(value: Operand) -> Quantity:
     """Return a value as a quantity: a number, a quantity, or the name of one."""
     if isinstance(value, Quantity):
@@ -262,6 +269,10 @@ class Number(Quantity):
     """A number, in SI."""
 
     number: float
+
+    @property
+    def identity(self) -> Hashable:
+        return self.name or repr(self.number)
 
     def rule(self, where: Where) -> Scalar:
         return self.number
@@ -290,6 +301,10 @@ class Ref(Quantity):
 
     target: str
     expects = (("target", "quantity"),)
+
+    @property
+    def identity(self) -> Hashable:
+        return self.name or self.target
 
     def parts(self) -> tuple[Reference, ...]:
         return (self.target,)
@@ -320,6 +335,10 @@ class Sum(Quantity):
     a: Quantity
     b: Quantity
     binds = 1
+
+    @property
+    def identity(self) -> Hashable:
+        return identity_of_parts(self, "+", self.a, self.b)
 
     @property
     def measures(self) -> str:
@@ -355,6 +374,10 @@ class Negative(Quantity):
     binds = 1
 
     @property
+    def identity(self) -> Hashable:
+        return identity_of_parts(self, "-", self.a)
+
+    @property
     def measures(self) -> str:
         return self.a.measures
 
@@ -383,6 +406,10 @@ class Operation(Quantity):
         self.symbol, self.a, self.b = symbol, a, b
         self.binds, self.left, self.right = BINDS[symbol]
 
+    @property
+    def identity(self) -> Hashable:
+        return identity_of_parts(self, self.symbol, self.a, self.b)
+
     def parts(self) -> tuple[Reference, ...]:
         return self.a, self.b
 
@@ -393,11 +420,16 @@ class Operation(Quantity):
         return f"{spelled(self.a, self.left)} {self.symbol} {spelled(self.b, self.right)}"
 
 
+@final
 class Function(Quantity):
     """A function of quantities: `np.sqrt(L1**2 + L2**2)`."""
 
     def __init__(self, function: str, *arguments: Quantity) -> None:
         self.function, self.arguments = function, arguments
+
+    @property
+    def identity(self) -> Hashable:
+        return identity_of_parts(self, self.function, *self.arguments)
 
     @property
     def measures(self) -> str:

@@ -116,6 +116,13 @@ class ClassBody(dict[str, object]):
         super().__setitem__(name, value)
 
 
+def is_yes(name: str, given: object) -> bool:
+    """Return an option that is True or False; DefinitionError for anything else."""
+    if not isinstance(given, bool):
+        raise DefinitionError(f"{name}={cited(given)}: True or False is expected.")
+    return given
+
+
 def as_line(value: object) -> str:
     """Return a line's right side for a message; its kind alone where its parts have no names yet."""
     try:
@@ -288,15 +295,17 @@ class Mechanism(Shown, metaclass=MechanismType):
         return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
 
     @of_a_design
-    def at(self, *unnamed: object, unreachable: str = "raise", **strokes: Any) -> Motion:
+    def at(self, *unnamed: object, unreachable: str = "raise", per_design: object = False, **strokes: Any) -> Motion:
         """Return the motion at chosen strokes [SI]: `at(S=[0.0, 0.1])`. They may lie beyond the declared range.
 
-        The way from the least to the greatest of several is looked at as that of a sweep. DefinitionError for a value without its stroke.
+        Strokes are shared by all designs of a batch; with `per_design` each design has its own: their arrays then begin with the shape of
+        the designs, (*designs, *strokes), as results do. The way from the least to the greatest of several is looked at as that of a sweep.
+        DefinitionError for a value without its stroke.
         """
         if unnamed:
             text = f"{self.plan.title}: at({cited(unnamed[0])}) does not say which stroke has this value"
             raise DefinitionError(f"{text}; write {' or '.join(f'at({name}=...)' for name in self.plan.strokes) or 'at()'}.")
-        return Motion(self.plan, self._values, at_values(strokes, self.plan), unreachable)
+        return Motion(self.plan, self._values, at_values(strokes, self.plan), unreachable, per_design=is_yes("per_design", per_design))
 
     @of_a_design
     def evaluate(
@@ -307,17 +316,19 @@ class Mechanism(Shown, metaclass=MechanismType):
         unreachable: str = "raise",
         backend: str | None = None,
         threads: int = 1,
+        per_design: object = False,
         **strokes: Any,
     ) -> list[FloatArray]:
         """Return values, ratios and forces of many poses in one pass, nothing else: `G, T = evaluate(["G", thrust()], S=...)`.
 
-        One array a request, shape (2, *designs, *strokes) of a point, (*designs, *strokes) of a quantity. `out`, shape
-        (components, *designs, *strokes), takes the results; the arrays returned are its rows. `backend` is "numpy", "numba"
+        One array a request, shape (2, *designs, *strokes) of a point, (*designs, *strokes) of a quantity. Designs share the strokes, or
+        have their own `per_design`, as in `at`. `out`, shape (components, *designs, *strokes), takes the results; the arrays returned are
+        its rows. `backend` is "numpy", "numba"
         or "floats"; without it the quickest for the work, on one thread. Poses are taken one by one: unlike `at` it does not look for
         change points between them. Raises AssemblyError out of reach and SingularError for ratios at a dead point, unless
         `unreachable="nan"`.
         """
-        return evaluate(self.plan, self._values, strokes, of, out, Way(backend, threads), unreachable)
+        return evaluate(self.plan, self._values, strokes, of, out, Way(backend, threads), unreachable, is_yes("per_design", per_design))
 
     @of_a_design
     def function(self, of: Sequence[RequestLike]) -> PoseFunction:

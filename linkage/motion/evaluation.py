@@ -34,13 +34,15 @@ def evaluate(
     out: FloatArray | None,
     way: Way,
     unreachable: str,
+    per_design: bool = False,
 ) -> list[FloatArray]:
     """Return the values of requests of designs at strokes; see Mechanism.evaluate."""
     if out is None and way == QUICKEST and unreachable in ("raise", "nan"):
         found = at_one_pose(plan, designs, strokes, requests)
         if found is not None:
             return found
-    return evaluate_grid(Grid(plan, designs, at_values(strokes, plan, float_array)), requests, out, way, unreachable)
+    grid = Grid(plan, designs, at_values(strokes, plan, float_array), per_design=per_design)
+    return evaluate_grid(grid, requests, out, way, unreachable)
 
 
 def evaluate_grid(grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: Way, unreachable: str) -> list[FloatArray]:
@@ -269,7 +271,7 @@ class Evaluation:
     def _refuse(self) -> None:
         """Raise the error of these poses, in the words of a motion."""
         grid = self.grid
-        motion = Motion(grid.plan, grid.designs, grid.strokes, self.unreachable)
+        motion = Motion(grid.plan, grid.designs, grid.strokes, self.unreachable, per_design=grid.per_design)
         for each in self.requests:
             each.refuse(motion)
         for each in self.requests:

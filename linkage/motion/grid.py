@@ -22,7 +22,8 @@ from ..quantities import Member, Quantity
 class Grid:
     """Designs times strokes. Arrays are component-first, designs before strokes.
 
-    `strokes` are arrays of one shape; with `per_design` this begins with that of the designs, each of which then has strokes of its own.
+    `strokes` are arrays of one shape; with `per_design` this begins with that of the designs, or with ones in its place, and each
+    design has strokes of its own.
     `joining` says how angles are made continuous.
     """
 
@@ -44,10 +45,12 @@ class Grid:
         except ValueError:
             shapes = ", ".join(map(str, arrays))
             raise DefinitionError(f"{plan.title}: the shapes of the design arrays do not fit each other: {shapes}.") from None
+        if per_design:
+            self.strokes = strokes_per_design(self.strokes, self.design_shape, plan.title)
         shape = next((value.shape for value in self.strokes.values()), ())
         self.stroke_shape: tuple[int, ...] = shape[len(self.design_shape) if per_design else 0 :]
         self.shape = (*self.design_shape, *self.stroke_shape)
-        self.is_special, self._joining = per_design or joining is not None, joining or joined_by_stroke
+        self.joins_itself, self._joining = joining is None, joining or joined_by_stroke
         self._angles: dict[Kernel, FloatArray] = {}
 
     @cached_property
@@ -138,6 +141,17 @@ class Grid:
         return self._angles[kernel]
 
 
+def strokes_per_design(strokes: Mapping[str, FloatArray], designs: tuple[int, ...], title: str) -> FrozenDict[str, FloatArray]:
+    """Return strokes whose arrays begin with the shape of the designs; DefinitionError where they do not fit it."""
+    try:
+        full = {name: np.broadcast_to(value, (*designs, *value.shape[len(designs) :])) for name, value in strokes.items()}
+    except ValueError:
+        name, value = next(iter(strokes.items()))
+        what = f"the strokes of each design begin with the shape of the designs, {designs}; {name} has the shape {value.shape}"
+        raise DefinitionError(f"{title}: {what}. Strokes that all designs share are given without per_design=True.") from None
+    return FrozenDict({name: read_only(value) for name, value in full.items()})
+
+
 def varies(value: Any) -> bool:
     """Return whether a dimension differs from design to design."""
     return type(value) is not float and np.ndim(value) > 0
@@ -183,12 +197,13 @@ Joining: TypeAlias = Callable[[Grid, FloatArray, Kernel], FloatArray]
 
 def joined_by_stroke(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
     """Return angles without jumps along the strokes, whatever the order of the poses."""
-    return np.array([unwrapped(angle, [value for value in grid.strokes.values() if value.ndim]) for angle in angles])
+    strokes = list(grid.strokes.values()) if grid.stroke_shape else []
+    return np.array([unwrapped(angle, strokes, len(grid.stroke_shape)) for angle in angles])
 
 
 def joined_in_order(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
     """Return angles without jumps in the order of the poses."""
-    return np.array([unwrapped(angle, [np.empty(grid.stroke_shape)] * 2) for angle in angles])  # two: one would be sorted by its values
+    return np.array([unwrapped(angle, [], len(grid.stroke_shape)) for angle in angles])
 
 
 def not_joined(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
@@ -219,28 +234,26 @@ class JoinedTo:
         return found
 
 
-def unwrapped(angle: FloatArray, strokes: list[FloatArray]) -> FloatArray:
-    """Return an angle [rad] without jumps of 2 pi along its last axes, one an independent stroke array axis.
+def unwrapped(angle: FloatArray, strokes: Sequence[FloatArray], axes: int) -> FloatArray:
+    """Return an angle [rad] without jumps of 2 pi along its last axes, `axes` of them, those of its poses.
 
-    Poses are joined in the order of the stroke, whatever the order they stand in; NaN is passed over.
+    Along one stroke, whose array has the shape (poses,) or (*designs, poses), poses are joined in the order of its values, whatever the
+    order they stand in; of several strokes, or none, in the order they stand in. NaN is passed over.
     """
-    axes = strokes[0].ndim if strokes else 0
     result = np.array(angle, float)
-    for axis in range(axes):
-        result = _along(result, axis - axes, strokes)
+    if len(strokes) == 1 and axes == 1:
+        order = np.broadcast_to(np.argsort(strokes[0], axis=-1, kind="stable"), result.shape)
+        joined = _joined(np.take_along_axis(result, order, axis=-1))
+        return np.take_along_axis(joined, np.argsort(order, axis=-1, kind="stable"), axis=-1)
+    for axis in range(-axes, 0):
+        result = np.moveaxis(_joined(np.moveaxis(result, axis, -1)), -1, axis)
     return result
 
 
-def _along(angle: FloatArray, axis: int, strokes: list[FloatArray]) -> FloatArray:
-    moved = np.moveaxis(angle, axis, -1)
-    if moved.shape[-1] < 2:
-        return angle
-    order = np.argsort(strokes[0], kind="stable") if len(strokes) == 1 and strokes[0].ndim == 1 else np.arange(moved.shape[-1])
-    return np.moveaxis(_joined(moved[..., order])[..., np.argsort(order, kind="stable")], -1, axis)
-
-
 def _joined(angle: FloatArray) -> FloatArray:
-    """Return the angle continued from each finite value to the next."""
+    """Return the angle continued along its last axis from each finite value to the next."""
+    if angle.shape[-1] < 2:
+        return angle
     finite = np.isfinite(angle)
     places = np.where(finite, np.arange(angle.shape[-1]), 0)
     filled = np.take_along_axis(angle, np.maximum.accumulate(places, axis=-1), axis=-1)

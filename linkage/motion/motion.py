@@ -108,7 +108,13 @@ class Motion(Shown):
 
     @property
     def over(self) -> Over:
-        """Where it is looked at: of one stroke its range, of several in arrays of one axis their path, of a grid the box."""
+        """Where it is looked at: of one stroke its range, of several in arrays of one axis their path, of a grid the box.
+
+        DefinitionError where each design of a batch has strokes of its own: there is no one place to look at.
+        """
+        if self._grid.per_design and self._design_shape:
+            what = "in this motion each design has strokes of its own, and what is looked for between poses is looked for over the same"
+            raise DefinitionError(f"{self.plan.title}: {what} strokes of all designs; take the designs one by one, or give one Over.")
         return over_of(self.strokes, self._grid.per_design)
 
     @property
@@ -217,18 +223,20 @@ class Motion(Shown):
 
     @property
     def tangent(self) -> Mapping[str, FloatArray] | None:
-        """How several strokes go on along a path of poses, by name, shape (poses,); None where the poses are no path.
+        """How several strokes go on along a path of poses, by name, shape (poses,) or (*designs, poses); None where the poses are no path.
 
         Half the way from the pose before to the pose after [SI]: its signs and ratios mean something, its length does not.
         """
-        if self._grid.is_special:
+        if self._tangent is not None or not self._grid.joins_itself:
             return self._tangent
         if len(self.strokes) < 2 or len(self._stroke_shape) != 1 or self._stroke_shape[0] < 2:
             return None
-        if self._stroke_shape[0] == 2:
-            return {name: np.gradient(value) for name, value in self.strokes.items()}
         # of second order at the ends too; a stroke that is held stays exactly so
-        return {name: np.gradient(value, edge_order=2) * float(np.ptp(value) > 0.0) for name, value in self.strokes.items()}
+        is_pair = self._stroke_shape[0] == 2
+        return {
+            name: np.gradient(value, axis=-1, edge_order=1 if is_pair else 2) * (np.ptp(value, axis=-1, keepdims=True) > 0.0)
+            for name, value in self.strokes.items()
+        }
 
     # -- ratios, velocities, gradients -------------------------------------------------------------------
 
@@ -369,7 +377,7 @@ class Motion(Shown):
             said = "numbers or arrays that fit each other are expected"
             raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): {said}.") from None
         own = self._grid.per_design and arrays[0].shape[: len(self._design_shape)] == self._design_shape
-        joining = joined_in_order if self._grid.is_special else None
+        joining = joined_in_order if self._grid.per_design or not self._grid.joins_itself else None
         with unwarned():
             return type(self)(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan", per_design=own, joining=joining)
 
@@ -409,7 +417,8 @@ class Motion(Shown):
         solved = self._grid.solved.inputs
         references = {name: np.broadcast_to(solved[name], self._grid.size).reshape(m, *shape) for name in self.plan.followed}
         designs = {name: np.broadcast_to(value, self._design_shape) if np.ndim(value) else value for name, value in self.designs.items()}
-        name = ambiguous_angle(self.plan, designs, self.strokes, references)
+        strokes = {name: np.broadcast_to(value, self.shape).reshape(m, *shape) for name, value in self.strokes.items()}
+        name = ambiguous_angle(self.plan, designs, strokes, references)
         if name:
             raise SingularError(
                 f"{self.plan.title}: {name}, whose whole turns count here, is followed from the sketch, and the straight ways to two "

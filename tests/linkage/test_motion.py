@@ -202,7 +202,7 @@ def test_unwrapping_undoes_wrapping_over_gaps(steps, turns, gaps):
     true = 0.3 + 2 * np.pi * turns + np.cumsum(np.array(steps) / 12)
     shown = np.angle(np.exp(1j * true))
     shown[[each for each in gaps if each < len(steps)]] = np.nan
-    found = unwrapped(shown, [np.arange(float(len(steps)))])
+    found = unwrapped(shown, [np.arange(float(len(steps)))], 1)
     kept = np.isfinite(shown)
     assert_array_equal(np.isfinite(found), kept)
     if kept.any():
@@ -214,7 +214,7 @@ def test_unwrapping_undoes_wrapping_over_gaps(steps, turns, gaps):
 def test_unwrapping_a_grid_of_designs_and_two_strokes():
     i, j = np.meshgrid(np.linspace(0, 9, 60), np.linspace(0, 7, 50), indexing="ij")
     true = np.stack([i + j, i - 2 * j])
-    found = unwrapped(np.angle(np.exp(1j * true)), [i, j])
+    found = unwrapped(np.angle(np.exp(1j * true)), [i, j], 2)
     assert_allclose(found, true, atol=1e-9)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import accumulate
 from math import isfinite
 from typing import Any, TypeAlias, final
@@ -19,7 +20,7 @@ from .conditions import Judged
 from .grid import Angles, Grid, angles_of, to_rounding, varies
 from .live import live_source, true_nodes
 from .motion import Motion
-from .requests import BoundRequest, RequestLike, all_bound, examined, identities_of, other_law_error
+from .requests import BoundRequest, RequestLike, all_bound, examined, identities_of, known_bound, other_law_error
 from .strokes import at_values, float_array, known_strokes
 
 PIECE = 1 << 18
@@ -49,7 +50,7 @@ def evaluate_grid(grid: Grid, requests: Sequence[RequestLike], out: FloatArray |
     """Return the values of requests over a grid; see Mechanism.evaluate."""
     one_word("unreachable", unreachable, ("raise", "nan"))
     try:
-        found = all_bound(grid.plan, requests)
+        found = known_bound(grid.plan, requests)
     except UntracedError:
         return evaluate_apart(grid, requests, out, way, unreachable)
     return Evaluation(grid, found, way, unreachable).run(out)
@@ -101,6 +102,24 @@ def at_one_pose(
     return [array[first : first + rows] if rows > 1 else array[first] for first, rows in program.rows]
 
 
+@dataclass(frozen=True)
+class BulkProgram:
+    """The kernel of some requests: `parts`, the first row and the rows of each; `angles` of those that follow them, by their place.
+
+    `may_fail`: there may be poses without a value that no guard tells of.
+    """
+
+    kernel: Kernel
+    parts: tuple[tuple[int, int], ...]
+    angles: Mapping[int, Angles]
+    may_fail: bool
+
+    @property
+    def rows(self) -> int:
+        """The rows of all requests."""
+        return sum(rows for _, rows in self.parts)
+
+
 @final
 @dataclass(frozen=True)
 class Evaluation:
@@ -119,41 +138,43 @@ class Evaluation:
     @property
     def kernel(self) -> Kernel:
         """The kernel of the requests, watched by the guards of what they are built from."""
-        return self._program[0]
+        return self._program.kernel
 
-    @property
-    def _program(self) -> tuple[Kernel, list[Angles | None]]:
-        """The kernel, and for each request that follows angles these, made once."""
-        return self.grid.plan.made(("bulk", tuple(each.key for each in self.requests)), self._make)
+    @cached_property
+    def _program(self) -> BulkProgram:
+        """The kernel and what its rows are, made once for these requests."""
+        return self.grid.plan.made(("bulk", tuple([each.key for each in self.requests])), self._make)
 
     @property
     def may_fail(self) -> bool:
         """Whether there may be poses without a value that no guard tells of."""
-        return self.grid.plan.may_overflow or any(each.may_fail for each in self.requests)
+        return self._program.may_fail
 
     def run(self, out: FloatArray | None) -> list[FloatArray]:
         """Return one array a request, in the usual shapes; rows of `out` where it is given."""
-        grid, rows = self.grid, sum(each.rows for each in self.requests)
-        result = self.kernel(grid.flat, self._target(rows, out), self.way, grid.size)
-        if not np.all(result.guards > 0.0) or (self.may_fail and not np.isfinite(result.values).all()):
+        grid, program = self.grid, self._program
+        result = program.kernel(grid.flat, self._target(program.rows, out), self.way, grid.size)
+        if not (result.guards > 0.0).all() or (program.may_fail and not np.isfinite(result.values).all()):
             self._settle(result.values)
         found = grid.full(result.values)
-        if any(value.ndim for value in grid.strokes.values()):
+        if program.angles and grid.stroke_shape:
             self._unwrap(found)
-        return [found[first : first + 2] if each.rows > 1 else found[first] for first, each in self._starts()]
+        return [found[first : first + rows] if rows > 1 else found[first] for first, rows in program.parts]
 
     def _starts(self) -> Iterator[tuple[int, BoundRequest]]:
         """Yield each request with its first row."""
-        first = 0
-        for each in self.requests:
+        for (first, _), each in zip(self._program.parts, self.requests, strict=True):
             yield first, each
-            first += each.rows
 
-    def _make(self, plan: Plan) -> tuple[Kernel, list[Angles | None]]:
+    def _make(self, plan: Plan) -> BulkProgram:
         nodes = [each.nodes(plan) for each in self.requests]
         guards = [*self._assumed(plan), *(node for each in self._gaps(plan) for node in each), *self._guards(plan)]
         kernel = Kernel([node for each in nodes for node in each], guards)
-        return kernel, [angles_of(plan, own) if each.follows_angles else None for each, own in zip(self.requests, nodes, strict=True)]
+        followed = {k: angles_of(plan, nodes[k]) for k, each in enumerate(self.requests) if each.follows_angles}
+        angles = {k: found for k, found in followed.items() if found is not None and found.angles}
+        lengths = [each.rows for each in self.requests]
+        parts = tuple(zip(accumulate(lengths[:-1], initial=0), lengths, strict=True)) if lengths else ()
+        return BulkProgram(kernel, parts, angles, plan.may_overflow or any(each.may_fail for each in self.requests))
 
     def _guards(self, plan: Plan) -> list[Node]:
         """Return the guards of what the requests are built from."""
@@ -285,10 +306,9 @@ class Evaluation:
 
     def _unwrap(self, found: FloatArray) -> None:
         """Make the angles in requests continuous along the stroke, in place."""
-        for (first, each), angles in zip(self._starts(), self._program[1], strict=True):
-            if angles is None or not angles.angles:
-                continue
-            values = found[first : first + each.rows]
+        for k, angles in self._program.angles.items():
+            first, rows = self._program.parts[k]
+            values = found[first : first + rows]
             reached = np.isfinite(values).all(axis=0)
             continued = angles.continued(self.grid, np.asarray(reached), self.way)
             if continued is not None:

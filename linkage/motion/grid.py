@@ -41,7 +41,7 @@ class Grid:
         self.strokes: FrozenDict[str, FloatArray] = FrozenDict({name: read_only(value) for name, value in strokes.items()})
         arrays = [np.shape(value) for value in self.designs.values() if varies(value)]
         try:
-            self.design_shape = np.broadcast_shapes(*arrays)
+            self.design_shape = np.broadcast_shapes(*arrays) if arrays else ()
         except ValueError:
             shapes = ", ".join(map(str, arrays))
             raise DefinitionError(f"{plan.title}: the shapes of the design arrays do not fit each other: {shapes}.") from None
@@ -61,18 +61,20 @@ class Grid:
     @cached_property
     def flat_strokes(self) -> dict[str, FloatArray]:
         """The strokes as a kernel takes them: (n,), or (m, n) where each design has its own."""
-        return {name: value.reshape(self.size) if self.per_design else value.ravel() for name, value in self.strokes.items()}
+        return {name: value.reshape(self.size) if self.per_design else value.reshape(-1) for name, value in self.strokes.items()}
 
     @cached_property
     def flat_designs(self) -> dict[str, Any]:
         """The dimensions as a kernel takes them: floats, or arrays (m,)."""
         shape = self.design_shape
+        if not shape and set(map(type, self.designs.values())) == {float}:
+            return dict(self.designs)
         return {name: np.broadcast_to(value, shape).ravel() if varies(value) else float(value) for name, value in self.designs.items()}
 
     @cached_property
     def flat(self) -> dict[str, Any]:
         """The inputs as a kernel takes them: designs (m,), poses (n,) or (m, n)."""
-        return self.flat_designs | self.flat_strokes | dict(self.solved.inputs)
+        return {**self.flat_designs, **self.flat_strokes, **self.solved.inputs}
 
     @cached_property
     def solved(self) -> GroupSolution:

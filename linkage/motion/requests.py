@@ -238,6 +238,12 @@ def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
     return None if None in found else found
 
 
+def known_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[BoundRequest, ...]:
+    """Return a list of requests bound to a plan, as they were bound before where they are the same; the errors of `all_bound`."""
+    identities = identities_of(plan, requests)
+    return all_bound(plan, requests) if identities is None else plan.made(("bound", identities), lambda _: all_bound(plan, requests))
+
+
 def stroke_of(plan: Plan, name: str | None, keyword: str = "wrt") -> str:
     """Return the stroke that is meant; DefinitionError where there are several and none is named by the keyword."""
     if name is None and len(plan.strokes) == 1:

@@ -45,6 +45,8 @@ def at_values(given: Mapping[str, Any], plan: Plan, take: Callable[[Any], FloatA
             if not (isfinite(ends[0]) and isfinite(ends[1])):
                 raise DefinitionError(f"{title}: the stroke {name} holds a value that is not finite.")
             check_magnitude(name, ends, plan)
+    if len(arrays) == 1:
+        return dict(zip(strokes, arrays, strict=True))
     try:
         return dict(zip(strokes, np.broadcast_arrays(*arrays), strict=True))
     except ValueError:

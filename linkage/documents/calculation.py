@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import final
+from functools import cached_property
+from typing import Any, final
 
 from ..errors import LinkageError
 from ..formulas import equations
@@ -15,26 +16,43 @@ from ..mechanism import Mechanism
 from .content import Block, Equality, Paragraph, Section
 
 
+DIGITS = 30
+"""The digits that the equations are worked out with, so that what they print is theirs and nothing of it is rounding."""
+
+
 @final
 @dataclass(frozen=True)
 class FilledEquations:
-    """The equations of a design at a pose, and why those of its forces are missing, if they are."""
+    """The equations of a design at a pose, their values there by name [SI], and why those of its forces are missing, if they are."""
 
     listing: Equations
-    lines: Sequence[SheetLine]
+    pose: Mapping[str, float]
+    values: Mapping[str, Any]
     why_no_forces: str = ""
+
+    @cached_property
+    def lines(self) -> Sequence[SheetLine]:
+        """The equations with their numbers."""
+        return self.listing.sheet(self.pose, {name: without_rounding(value) for name, value in self.values.items()})
+
+
+def without_rounding(value: Any) -> Any:
+    """Return a value, one number or two, as floats; zero for what is nothing but the rounding of its last digits."""
+    if isinstance(value, tuple):
+        return tuple(map(without_rounding, value))
+    return 0.0 if abs(value) < 10.0**-DIGITS else float(value)
 
 
 def calculated(machine: Mechanism, pose: Mapping[str, float], start: int) -> FilledEquations:
     """Return the equations of a design; without those of its forces where these have none."""
     try:
         found = equations(machine, start=start, forces=has_loads(machine))
-        return FilledEquations(found, found.sheet(pose))
+        return FilledEquations(found, pose, found.values(pose, DIGITS))
     except LinkageError as error:
         if not has_loads(machine):
             raise
         plain = equations(machine, start=start)
-        return FilledEquations(plain, plain.sheet(pose), str(error))
+        return FilledEquations(plain, pose, plain.values(pose, DIGITS), str(error))
 
 
 def has_loads(machine: Mechanism) -> bool:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
 from ..errors import LinkageError, unwarned
-from ..formulas.numbered import Equations
 from ..language import said
 from ..motion import Motion
 from ..program import FloatArray
@@ -40,9 +39,9 @@ class Check:
         return None if np.isnan(self.measured) else self.measured <= self.bound
 
 
-def checks_section(looked: Looked, listing: Equations) -> Section:
+def checks_section(looked: Looked, values: Mapping[str, Any]) -> Section:
     """Return the section of checks."""
-    found = checks(looked, listing)
+    found = checks(looked, values)
     rows: list[tuple[Cell, ...]] = [
         (each.name, each.what, figure_text(each.measured), figure_text(each.bound), kept_mark(each.ok)) for each in found
     ]
@@ -63,10 +62,10 @@ def kept_mark(ok: bool | None) -> Mark:
     return Mark(ok, said("not made") if ok is None else said("kept") if ok else said("not kept"))
 
 
-def checks(looked: Looked, listing: Equations) -> list[Check]:
-    """Return all checks of a design along its run."""
+def checks(looked: Looked, values: Mapping[str, Any]) -> list[Check]:
+    """Return all checks of a design along its run; `values` are those of its equations, by name."""
     with unwarned():
-        found = [lengths_kept(looked.table), *loops_closed(looked.table), *equations_against(looked, listing), derivatives(looked)]
+        found = [lengths_kept(looked.table), *loops_closed(looked.table), equations_against(looked, values), derivatives(looked)]
         return [*found, *forces_balanced(looked)]
 
 
@@ -124,13 +123,9 @@ def link_vector(motion: Motion, length: Quantity, P: str, Q: str) -> FloatArray:
     return np.asarray(motion.value(length) * np.array([np.cos(angle), np.sin(angle)]))
 
 
-def equations_against(looked: Looked, listing: Equations) -> Iterator[Check]:
-    """Yield how far the equations, evaluated with 30 digits, are from the machine's own numbers at the pose of the calculation."""
+def equations_against(looked: Looked, values: Mapping[str, Any]) -> Check:
+    """Return how far the equations, evaluated with 30 digits, are from the machine's own numbers at the pose of the calculation."""
     pose = looked.machine.at(unreachable="nan", **looked.pose)
-    try:
-        values = listing.values(looked.pose, digits=30)
-    except LinkageError:
-        return
     worst, size = 0.0, max((float(np.abs(pose[name]).max()) for name in pose.plan.points), default=1.0) or 1.0
     points = [name for name in pose.plan.moving if name in values and name in pose.plan.points]
     for name in points:
@@ -140,7 +135,7 @@ def equations_against(looked: Looked, listing: Equations) -> Iterator[Check]:
             own = float(pose[name])
             worst = max(worst, abs(float(values[name]) - own) / max(abs(own), 1.0))
     what = said("the equations above with 30 digits, against the positions and outputs of the program")
-    yield Check(said("equations evaluated again"), what, worst if points else np.nan, EXACT)
+    return Check(said("equations evaluated again"), what, worst if points else np.nan, EXACT)
 
 
 # -- derivatives and forces --------------------------------------------------------------------------------

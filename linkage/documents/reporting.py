@@ -107,7 +107,7 @@ def composed(
         members_section(looked),
         forces_section(looked),
         limits_section(looked),
-        checks_section(looked, found.listing),
+        checks_section(looked, found.values),
         verdicts,
         definition_section(machine),
     )

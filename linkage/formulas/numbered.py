@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from textwrap import wrap
 from types import MappingProxyType
 from typing import Any, final
@@ -304,8 +305,8 @@ class Equations(Sequence[Equation], Shown):
         lines = [f"{f'({each.number})':<{width}} {each.filled(values, shown) if filled else each}" for each in self._items]
         return "\n".join([*legend(self, self._listing, shown, self._forces), "", *lines])
 
-    def _filled(self, at: Mapping[str, Any] | None) -> tuple[dict[str, str], dict[str, str]]:
-        """Return every symbol's value as it stands in an equation, and as it is shown with its unit."""
+    def _filled(self, at: Mapping[str, Any] | None, known: Mapping[str, Any] | None = None) -> tuple[dict[str, str], dict[str, str]]:
+        """Return every symbol's value as it stands in an equation, and as it is shown with its unit; `known` are the left sides' own."""
         pose, names, units = self._pose(at), self._listing.names, self._listing.units
         if any(np.ndim(value) for value in pose.values()):
             raise DefinitionError(f"{self.machine.plan.title}: numbers are filled in at one pose; give one value for each stroke.")
@@ -318,8 +319,10 @@ class Equations(Sequence[Equation], Shown):
         for symbol, unit in [*vectors, *((each.symbol, each.unit) for each in self._givens)]:
             parts = [inputs[part] for part in explicit(symbol)]
             found.append((symbol.name, parts if symbol.is_Matrix else parts[0], unit))
-        values = evaluated(self._lines, inputs)
-        found += [(line.name, values[line.lhs], line.unit) for line in self._lines]
+        if known is None:
+            values = evaluated(self._lines, inputs)
+            known = {line.name: values[line.lhs] for line in self._lines}
+        found += [(line.name, known[line.name], line.unit) for line in self._lines]
         texts = {"i": "(1, 0)"} if "i" not in self.machine.plan.members else {}
         texts |= {name: value_in_equation(value, unit) for name, value, unit in found}
         return texts, {name: value_shown(value, unit) for name, value, unit in found}
@@ -329,9 +332,12 @@ class Equations(Sequence[Equation], Shown):
 
     __repr__ = __str__
 
-    def sheet(self, at: Mapping[str, Any] | None = None) -> list[SheetLine]:
-        """Return the equations with their numbers at a pose, in LaTeX, as a calculation sheet shows them."""
-        values, shown = self._filled(at or self._poses)
+    def sheet(self, at: Mapping[str, Any] | None = None, known: Mapping[str, Any] | None = None) -> list[SheetLine]:
+        """Return the equations with their numbers at a pose, in LaTeX, as a calculation sheet shows them.
+
+        `known` are the left sides' values there by name [SI], where `values` gave them already.
+        """
+        values, shown = self._filled(at or self._poses, known)
         return [each.sheet(self._listing.names.latex, values, shown) for each in self._items]
 
     @property
@@ -479,15 +485,48 @@ def in_reals(value: Any) -> Any:
 
 def _evaluated(lines: Sequence[Written], known: dict[Any, Any], arithmetic: str) -> dict[Any, Any]:
     known |= dict(zip(explicit(X_AXIS), (1.0, 0.0), strict=True))
-    found: dict[Any, Any] = {}
-    for line in lines:
-        expressions = explicit(line.rhs)
-        needed = sorted(set().union(*(each.free_symbols for each in expressions)), key=str)
-        function = sympy.lambdify(needed, expressions, arithmetic, dummify=True)
-        try:
-            values = [in_reals(value) for value in function(*(known[symbol] for symbol in needed))]
-        except ZeroDivisionError:  # mpmath's; NumPy has no value there either and says so by NaN or infinity
-            values = [mpmath.nan] * len(expressions)
-        known |= dict(zip(explicit(line.lhs), values, strict=True))
-        found[line.lhs] = values[0] if len(values) == 1 else tuple(values)
-    return found
+    try:
+        return in_one_call(lines, known, arithmetic)
+    except ZeroDivisionError:  # mpmath's; NumPy has no value there either and says so by NaN or infinity
+        found: dict[Any, Any] = {}
+        for line in lines:
+            parts = explicit(line.lhs)
+            try:
+                found |= in_one_call([line], known, arithmetic)
+            except ZeroDivisionError:
+                found[line.lhs] = mpmath.nan if len(parts) == 1 else (mpmath.nan,) * len(parts)
+            known |= dict(zip(parts, found[line.lhs] if len(parts) > 1 else (found[line.lhs],), strict=True))
+        return found
+
+
+def in_one_call(lines: Sequence[Written], known: Mapping[Any, Any], arithmetic: str) -> dict[Any, Any]:
+    """Return the lines' values, worked out by one function that is compiled once for all designs of a class."""
+    function, needed = compiled(tuple((line.lhs, line.rhs) for line in lines), arithmetic)
+    values = iter(function(*(known[symbol] for symbol in needed)))
+    return {line.lhs: (next(values), next(values)) if line.lhs.is_Matrix else next(values) for line in lines}
+
+
+@lru_cache(maxsize=64)
+def compiled(lines: tuple[tuple[Any, Any], ...], arithmetic: str) -> tuple[Callable[..., Sequence[Any]], tuple[Any, ...]]:
+    """Return a function of plain symbols that gives the values of lines, (left, right) each, one after the other, and these symbols.
+
+    A value that is no real number goes on as NaN.
+    """
+    written = [(explicit(left), explicit(right)) for left, right in lines]
+    symbols = set().union(*(each.free_symbols for _, right in written for each in right), *(left for left, _ in written))
+    plain = {symbol: sympy.Symbol(f"v{place:05d}") for place, symbol in enumerate(sorted(symbols, key=str))}  # keeps the order of sums
+    assigned: list[tuple[Any, Any]] = []
+    needed: dict[Any, Any] = {}
+    made: set[Any] = set()
+    for left, right in written:
+        used = set().union(*(each.free_symbols for each in right)) - made
+        needed |= {symbol: plain[symbol] for symbol in sorted(used, key=str)}
+        made.update(left)
+        assigned += [(plain[part], REAL(each.xreplace(plain))) for part, each in zip(left, right, strict=True)]
+    modules = [{REAL.__name__: in_reals}, arithmetic]
+    function = sympy.lambdify([*needed.values()], [name for name, _ in assigned], modules, cse=lambda whole: (assigned, whole))
+    return function, tuple(needed)
+
+
+REAL = sympy.Function("in_reals")
+"""What marks a value in a compiled function that has to be real."""

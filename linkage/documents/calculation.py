@@ -15,7 +15,6 @@ from ..loads import ForceElement
 from ..mechanism import Mechanism
 from .content import Block, Equality, Paragraph, Section
 
-
 DIGITS = 30
 """The digits that the equations are worked out with, so that what they print is theirs and nothing of it is rounding."""
 

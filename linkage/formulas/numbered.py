@@ -501,13 +501,13 @@ def _evaluated(lines: Sequence[Written], known: dict[Any, Any], arithmetic: str)
 
 def in_one_call(lines: Sequence[Written], known: Mapping[Any, Any], arithmetic: str) -> dict[Any, Any]:
     """Return the lines' values, worked out by one function that is compiled once for all designs of a class."""
-    function, needed = compiled(tuple((line.lhs, line.rhs) for line in lines), arithmetic)
+    function, needed = compiled_lines(tuple((line.lhs, line.rhs) for line in lines), arithmetic)
     values = iter(function(*(known[symbol] for symbol in needed)))
     return {line.lhs: (next(values), next(values)) if line.lhs.is_Matrix else next(values) for line in lines}
 
 
 @lru_cache(maxsize=64)
-def compiled(lines: tuple[tuple[Any, Any], ...], arithmetic: str) -> tuple[Callable[..., Sequence[Any]], tuple[Any, ...]]:
+def compiled_lines(lines: tuple[tuple[Any, Any], ...], arithmetic: str) -> tuple[Callable[..., Sequence[Any]], tuple[Any, ...]]:
     """Return a function of plain symbols that gives the values of lines, (left, right) each, one after the other, and these symbols.
 
     A value that is no real number goes on as NaN.

@@ -42,7 +42,7 @@ from .checks import check_one_design
 from .infeasible import infeasible_error
 from .optimum import Optimum, in_units, polished, unit_of_constraint
 from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of, reduced
-from .solver import Found, Graded, Local
+from .solver import Found, Local, grows
 from .space import Space
 from .spread import sigma
 from .tried import Tried
@@ -264,8 +264,7 @@ def with_spread(problem: Problem, robust: Any, sigmas: Any) -> Problem:
         """Return an expression with its leaves moved the way in which it gets less (sense -1.0) or more."""
         found = expression
         for leaf in expression.leaves:
-            graded = expression.of(lambda each, leaf=leaf: Graded(values[each], np.array([1.0 if each is leaf else 0.0])))  # type: ignore[misc]
-            way = sense * np.sign(Graded.of(graded).slope[0])
+            way = sense * np.sign(grows(expression, leaf, values))
             found = with_leaf(found, leaf, replace(leaf, quantity=spread_quantity(title, leaf.quantity, robust, float(way) * sigmas)))
         return found
 

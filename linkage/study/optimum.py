@@ -316,7 +316,7 @@ def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float],
 
 def true_values(problem: Problem, machine: Mechanism, *, quick: bool = False) -> Numbers:
     """Return the leaves' numbers of a machine, between the poses too: as a motion gives them, or `quick` by the program."""
-    return Numbers({leaf: problem.true(leaf, machine.dimensions, quick=quick) for leaf in problem.leaves})
+    return Numbers(problem.truths(machine.dimensions, quick=quick))
 
 
 def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:

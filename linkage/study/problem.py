@@ -18,8 +18,8 @@ import numpy as np
 
 from ..errors import DefinitionError, StudyError, cited
 from ..mechanism import Mechanism
-from ..motion import Grid, Motion, Request, greatest, lowest
-from ..motion.grid import JoinedTo, joined_in_order
+from ..motion import Grid, Motion, Request, greatest
+from ..motion.grid import JoinedTo, joined_in_order, varies
 from ..motion.measures import (
     At,
     CombinedMeasure,
@@ -36,20 +36,18 @@ from ..motion.measures import (
     words_of,
 )
 from ..motion.strokes import check_magnitude
-from ..plan import Plan
+from ..plan import Mask, Plan
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
 from .kinds import check_kinds
 from .sampling import (
-    SampledSlopes,
+    Samples,
     Sampling,
-    Seen,
     divisors_of,
     eager,
     motion_of,
-    quickly_on,
+    rows_of_motion,
     unlimited,
-    value_on,
     with_values,
 )
 from .space import Space
@@ -145,6 +143,16 @@ class PoseSet:
         self.quantities.append(quantity)
         return len(self.quantities) - 1
 
+    @cached_property
+    def parts(self) -> dict[str, FloatArray]:
+        """The part of each stroke's range at every pose, in the shape of the axes; those of no axis are single poses."""
+        return dict(zip(self.axes, np.meshgrid(*self.axes.values(), indexing="ij"), strict=True)) if self.axes else {}
+
+    def set_axis(self, name: str, places: FloatArray) -> None:
+        """Look at other parts of a stroke's range."""
+        self.axes[name] = places
+        self.__dict__.pop("parts", None)
+
     def single(self, strokes: Mapping[str, float]) -> int:
         """Return the number of a single pose, entered where it is new."""
         if strokes not in self.singles:
@@ -236,31 +244,39 @@ class Numbers(dict[Leaf, float]):
 
 
 @final
-class Watched:
-    """A quantity as a function of a motion that notes whether it had no value where it is reached, or a divisor passes zero."""
+class WatchedValues:
+    """Quantities as one function of a motion, (k, ...), that notes which had no value where it is reached, or a divisor that passes zero.
 
-    def __init__(self, plan: Plan, quantity: Any, value: Callable[[Motion], FloatArray]) -> None:
-        self.quantity, self.value = quantity, value
-        self.divisors = [quickly_on(plan, each) for each in divisors_of(plan, quantity)]
-        self.signs = [(np.inf, -np.inf)] * len(self.divisors)
-        self.is_empty = False
+    Each is turned by its sense, 1.0 or -1.0, so that of all of them the greatest is looked for. `quick`: by the plan's program.
+    """
+
+    def __init__(self, plan: Plan, quantities: Sequence[Any], senses: Sequence[float], *, quick: bool) -> None:
+        self.quantities, self.senses = quantities, np.array(senses)
+        self._quickly = rows_of_motion(plan, quantities) if quick else None
+        self._owners = [(place, divisor) for place, each in enumerate(quantities) for divisor in divisors_of(plan, each)]
+        self._divisors = rows_of_motion(plan, [divisor for _, divisor in self._owners]) if self._owners else None
+        self._low, self._high = (np.full(len(self._owners), end) for end in (np.inf, -np.inf))
+        self._is_empty = np.zeros(len(quantities), bool)
 
     def __call__(self, motion: Motion) -> FloatArray:
-        found = self.value(motion)
+        found = self._quickly(motion) if self._quickly else np.array([eager(motion, each) for each in self.quantities])
         empty = np.isnan(found) & motion.reached
-        if not self.is_empty and empty.any():
-            free = unlimited(motion, self.quantity)
-            self.is_empty = bool((empty if free is None else empty & ~free).any())
-        for place, divisor in enumerate(self.divisors):
-            values = divisor(motion)[motion.reached]
-            low, high = self.signs[place]
-            self.signs[place] = float(np.nanmin(values, initial=low)), float(np.nanmax(values, initial=high))
-        return found
+        for place in np.flatnonzero(empty.reshape(len(found), -1).any(axis=1) & ~self._is_empty):
+            free = unlimited(motion, self.quantities[int(place)])
+            self._is_empty[place] = bool((empty[place] if free is None else empty[place] & ~free).any())
+        if self._divisors:
+            values = self._divisors(motion)[:, motion.reached]
+            self._low = np.fmin(self._low, np.fmin.reduce(values, axis=1, initial=np.inf))
+            self._high = np.fmax(self._high, np.fmax.reduce(values, axis=1, initial=-np.inf))
+        return np.asarray(found * self.senses.reshape(-1, *(1,) * (found.ndim - 1)))
 
     @property
-    def lost(self) -> bool:
-        """Whether there is no value somewhere."""
-        return self.is_empty or any(low <= 0.0 <= high for low, high in self.signs)
+    def lost(self) -> Mask:
+        """Which of them are without a value somewhere, shape (k,)."""
+        found = np.array(self._is_empty)
+        for (place, _), low, high in zip(self._owners, self._low, self._high, strict=True):
+            found[place] |= low <= 0.0 <= high
+        return found
 
 
 def is_free(motion: Motion, quantity: Any) -> bool:
@@ -417,7 +433,7 @@ class Problem:
         A design that is refused, for a charge below the gas's as an example, counts as one that cannot be assembled; `refusal` says
         why. What is refused of the machine as it is set too is a mistake in the question.
         """
-        m = max((np.size(value) for value in designs.values()), default=1)
+        m = max((np.size(value) for value in designs.values() if varies(value)), default=1)
         self.count.add(m)
         try:
             return self._look(designs, m, slopes=slopes)
@@ -460,21 +476,16 @@ class Problem:
         """Return what is seen of m designs; DefinitionError where one of them is refused."""
         ends = self._ends(designs, slopes=slopes)
         whole, reached, margins, margin_slopes = np.ones(m, bool), np.ones(m), [], []
-        found: dict[int, tuple[Seen, SampledSlopes | None]] = {}
+        found: dict[int, Samples] = {}
         for number, poses in enumerate(self.sets):
-            grid = self._grid(poses, designs, ends)
-            sampling = self._sampling(number)
             judged = slopes and poses is self.whole
-            seen = sampling.seen(grid, margins=judged)
-            slope = sampling.slopes(grid, margins=judged) if slopes else None
-            found[number] = seen, slope
-            whole &= seen.reached.all(axis=1)
-            reached = np.minimum(reached, seen.reached.mean(axis=1))
-            if not judged:
-                continue
-            margins.append(np.moveaxis(seen.margins, 0, 1).reshape(m, seen.margins.shape[0] * seen.margins.shape[2]))
-            if slope is not None:
-                total = np.moveaxis(self._by_unit(slope.margins, poses, ends), 1, 0)
+            samples = self._sampling(number).at(self._grid(poses, designs, ends), margins=judged, slopes=slopes)
+            found[number] = samples
+            whole &= samples.reached.all(axis=1)
+            reached = np.minimum(reached, samples.reached.mean(axis=1))
+            if judged and samples.margin_slopes is not None:
+                margins.append(np.moveaxis(samples.margins, 0, 1).reshape(m, samples.margins.shape[0] * samples.margins.shape[2]))
+                total = np.moveaxis(self._by_unit(samples.margin_slopes, poses, ends), 1, 0)
                 margin_slopes.append(total.reshape(len(total), int(np.prod(total.shape[1:]))))  # of no variable too
         rows = {leaf: self._rows(leaf, found, ends) for leaf in self.leaves}
         return Evaluated(
@@ -499,25 +510,24 @@ class Problem:
         strokes = {name: np.asarray(stroke.start, float) for name, stroke in self.plan.strokes.items()}
         for end, sampling in self._samplings_of_ends.items():
             grid = Grid(self.plan, designs, strokes)
-            values = sampling.seen(grid).values[0, :, 0]
+            samples = sampling.at(grid, slopes=slopes)
+            values = samples.values[0, :, 0]
             if not np.isfinite(values).all():
                 raise DefinitionError(f"{self.plan.title}: over=: {words_of(end)} has no value of some designs.")
-            found[id(end)] = values, (sampling.slopes(grid).values[0, :, 0] if slopes else None)
+            found[id(end)] = values, (None if samples.value_slopes is None else samples.value_slopes[0, :, 0])
         return found
 
     def _grid(self, poses: PoseSet, designs: Mapping[str, Any], ends: Mapping[int, tuple[FloatArray, FloatArray | None]]) -> Grid:
         """Return a pose set's grid."""
         follows = any(self.ranges[name].follows for name in poses.axes)
-        arrays = np.meshgrid(*poses.axes.values(), indexing="ij") if poses.axes else []
-        shape = arrays[0].shape if arrays else (len(poses.singles) or 1,)
-        parts = dict(zip(poses.axes, arrays, strict=True))
+        parts = poses.parts
+        shape = tuple(map(len, poses.axes.values())) or (len(poses.singles) or 1,)
         strokes = {}
-        m = max((np.size(value) for value in designs.values()), default=1)
-        batch = next((np.shape(value) for value in designs.values() if np.ndim(value)), ())
+        batch = np.shape(next((value for value in designs.values() if varies(value)), 0.0))
         for name, stroke in self.plan.strokes.items():
             one = self.ranges[name]
             if name in parts:
-                low, high = (self._end(end, ends, m if batch else 0, len(shape)) for end in (one.low, one.high))
+                low, high = (self._end(end, ends, prod(batch) if batch else 0, len(shape)) for end in (one.low, one.high))
                 value = low + parts[name] * (high - low)
             else:
                 rest = one.low if is_number(one.low) else stroke.start
@@ -549,10 +559,9 @@ class Problem:
     def _by_unit(self, slopes: FloatArray, poses: PoseSet, ends: Mapping[int, tuple[FloatArray, FloatArray | None]]) -> FloatArray:
         """Return derivatives by the unit coordinates (k, n, poses), from those by owners and strokes (k, p, poses)."""
         strokes = [name for name in poses.axes if self.ranges[name].follows]
-        parts = dict(zip(poses.axes, np.meshgrid(*poses.axes.values(), indexing="ij"), strict=True)) if poses.axes else {}
         total = np.array(slopes[:, : len(self.owners)])
         for row, name in enumerate(strokes):
-            one, along = self.ranges[name], parts[name].ravel()
+            one, along = self.ranges[name], poses.parts[name].ravel()
             for end, share in ((one.low, 1.0 - along), (one.high, along)):
                 if not is_number(end):
                     by = ends[id(end)][1]
@@ -569,22 +578,22 @@ class Problem:
         return factors
 
     def _rows(
-        self, leaf: Leaf, found: Mapping[int, tuple[Seen, SampledSlopes | None]], ends: Mapping[int, tuple[FloatArray, FloatArray | None]]
+        self, leaf: Leaf, found: Mapping[int, Samples], ends: Mapping[int, tuple[FloatArray, FloatArray | None]]
     ) -> Rows:
         """Return the rows of a leaf."""
         poses, place, single = self._of_leaf[leaf]
-        seen, slope = found[self.sets.index(poses)]
-        values, slopes = seen.values[place], None
-        if slope is not None:
-            slopes = self._by_unit(slope.values[[place]], poses, ends)[0]
+        samples = found[self.sets.index(poses)]
+        values, slopes = samples.values[place], None
+        if samples.value_slopes is not None:
+            slopes = self._by_unit(samples.value_slopes[[place]], poses, ends)[0]
         if poses.inner:
             assert isinstance(leaf.quantity, Worst)
             values, slopes = worst_along(values, slopes, len(poses.axes[poses.inner]), leaf.quantity.sense)
         if single >= 0:
             values, slopes = values[:, [single]], None if slopes is None else slopes[:, [single]]
-        lost = seen.lost[place]
+        lost = samples.lost[place]
         if single >= 0 and len(poses.singles) > 1:
-            lost = np.isnan(seen.values[place][:, single])
+            lost = np.isnan(samples.values[place][:, single])
         if isinstance(leaf, Integral):
             return replace(self._integrated(values, slopes, poses, ends), lost=lost)
         return Rows(values, slopes, lost)
@@ -679,22 +688,18 @@ class Problem:
 
     def assembled(self, machine: Mechanism) -> Motion:
         """Return a machine's motion over the strokes' ranges; AssemblyError where it cannot be assembled, between the poses too."""
-        ends = self._ends(machine.dimensions, slopes=False)
-        axes = []
-        for one in self.ranges.values():
-            low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (one.low, one.high))
-            axes.append(np.array(low) if low == high else np.linspace(low, high, 101 if len(self.ranges) == 1 else 25))
+        count = 101 if len(self.ranges) == 1 else 25
+        axes = [np.array(low) if low == high else np.linspace(low, high, count) for low, high in self.ends(machine.dimensions).values()]
         arrays = iter(np.meshgrid(*[axis for axis in axes if axis.ndim], indexing="ij")) if any(axis.ndim for axis in axes) else iter(())
         at: dict[str, Any] = {name: next(arrays) if axis.ndim else float(axis) for name, axis in zip(self.ranges, axes, strict=True)}
         return machine.at(**at)
 
     def along(self, machine: Mechanism, name: str, count: int) -> Motion:
         """Return a machine's motion along one stroke's range, the others in the middle of theirs, NaN where it is not reached."""
-        ends = self._ends(machine.dimensions, slopes=False)
-        at: dict[str, Any] = {}
-        for stroke, one in self.ranges.items():
-            low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (one.low, one.high))
-            at[stroke] = np.linspace(low, high, count) if stroke == name else 0.5 * (low + high)
+        ends = self.ends(machine.dimensions).items()
+        at: dict[str, Any] = {
+            stroke: np.linspace(low, high, count) if stroke == name else 0.5 * (low + high) for stroke, (low, high) in ends
+        }
         return machine.at(unreachable="nan", **at)
 
     def over_stroke(self, leaf: Leaf, design: Mapping[str, Any], count: int) -> tuple[str, FloatArray, FloatArray] | None:
@@ -726,36 +731,57 @@ class Problem:
         poses = PoseSet({name: np.linspace(0.0, 1.0, count if len(names) == 1 else 5) for name in names})
         return motion_of(self._grid(poses, design, ends))
 
-    def true(self, leaf: Leaf, design: Mapping[str, Any], *, quick: bool = False) -> Truth:
-        """Return the value of a leaf of one design, between the poses too.
+    def truths(self, design: Mapping[str, Any], *, quick: bool = False) -> dict[Leaf, Truth]:
+        """Return the values of all leaves of one design, between the poses too.
 
-        As a motion gives it, or `quick` by the plan's program, which the search itself follows.
+        As a motion gives them, or `quick` by the plan's program, which the search itself follows.
         """
-        poses, _, single = self._of_leaf[leaf]
-        names = tuple(name for name in poses.axes if name != poses.inner)
-        if isinstance(leaf, Integral):
-            lost = bool(self.look(design).rows[leaf].lost[0])
-            return Truth(self.panels(leaf, design)[0] * self.span_of(leaf, design), {}, lost)
-        if isinstance(leaf, At) and not poses.inner and not quick:
-            alone = PoseSet({}, [poses.singles[single]])
-            here = motion_of(self._grid(alone, design, self._ends(design, slopes=False)))
-            value = float(np.ravel(eager(here, leaf.quantity))[0])
-            return Truth(value, {}, bool(np.isnan(value)) and not is_free(here, leaf.quantity))
-        if poses.inner or isinstance(leaf, At) or not names:
-            rows = self.look(design).rows[leaf]
-            return Truth(float(reduced(leaf, rows.values)[0]), {}, bool(rows.lost[0]))
+        found: dict[Leaf, Truth] = {}
+        between: dict[tuple[str, ...], list[Leaf]] = {}
+        sampled: list[Leaf] = []
+        for leaf in self.leaves:
+            poses, _, single = self._of_leaf[leaf]
+            if isinstance(leaf, (Least, Most)) and poses.axes and not poses.inner:
+                between.setdefault(tuple(poses.axes), []).append(leaf)
+            elif isinstance(leaf, At) and not poses.inner and not quick:
+                alone = PoseSet({}, [poses.singles[single]])
+                here = motion_of(self._grid(alone, design, self._ends(design, slopes=False)))
+                value = float(np.ravel(eager(here, leaf.quantity))[0])
+                found[leaf] = Truth(value, {}, bool(np.isnan(value)) and not is_free(here, leaf.quantity))
+            else:
+                sampled.append(leaf)
+        if sampled:
+            self.count.add(len(sampled) - 1)  # as many looks as there are numbers
+            rows = self.look(design).rows
+            for leaf in sampled:
+                value = self._whole_integral(leaf, design) if isinstance(leaf, Integral) else float(reduced(leaf, rows[leaf].values)[0])
+                found[leaf] = Truth(value, {}, bool(rows[leaf].lost[0]))
+        for names, leaves in between.items():
+            found |= self._extremes(leaves, design, names, quick=quick)
+        return found
+
+    def _whole_integral(self, leaf: Integral, design: Mapping[str, Any]) -> float:
+        """Return an integral of one design in panels that are fine enough for it."""
+        return self.panels(leaf, design)[0] * self.span_of(leaf, design)
+
+    def _extremes(self, leaves: Sequence[Leaf], design: Mapping[str, Any], names: Sequence[str], *, quick: bool) -> dict[Leaf, Truth]:
+        """Return the extremes of one design over some strokes, all looked for together."""
         motion = self.motion(design, names)
-        watched = Watched(self.plan, leaf.quantity, quickly_on(self.plan, leaf.quantity) if quick else value_on(leaf.quantity))
-        found = (lowest if isinstance(leaf, Least) else greatest)(motion, watched)
-        parts = {}
+        senses = [-1.0 if isinstance(leaf, Least) else 1.0 for leaf in leaves]
+        watched = WatchedValues(self.plan, [leaf.quantity for leaf in leaves], senses, quick=quick)
+        tops = greatest(motion, watched)
+        parts: list[dict[str, float]] = [{} for _ in leaves]
         for name in names:
-            values = motion.strokes[name]
+            values, given = motion.strokes[name], self.ranges[name]
             low, high = float(values.min()), float(values.max())
-            given = self.ranges[name]
             turned = is_number(given.low) and is_number(given.high) and given.low > given.high
-            part = (float(found.strokes[name]) - low) / (high - low) if high > low else 0.0
-            parts[name] = 1.0 - part if turned else part
-        return Truth(float(found.value), parts, watched.lost)
+            for own, place in zip(parts, np.ravel(tops.strokes[name]), strict=True):
+                part = (float(place) - low) / (high - low) if high > low else 0.0
+                own[name] = 1.0 - part if turned else part
+        values = np.ravel(tops.value) * senses
+        return {
+            leaf: Truth(float(value), own, bool(lost)) for leaf, value, own, lost in zip(leaves, values, parts, watched.lost, strict=True)
+        }
 
     def tops(self, leaf: Leaf, design: Mapping[str, Any]) -> list[float]:
         """Return where between its samples a leaf of one design has tops that come near its worst value, as parts of its stroke's range."""
@@ -767,7 +793,7 @@ class Problem:
         sense = -1.0 if isinstance(leaf, Least) else 1.0
 
         def values(at: FloatArray) -> FloatArray:
-            found = sampling.seen(self._grid(PoseSet({name: at}), design, ends)).values[place, 0]
+            found = sampling.at(self._grid(PoseSet({name: at}), design, ends)).values[place, 0]
             return np.where(np.isfinite(found), sense * found, -np.inf)
 
         seen = values(axis)
@@ -791,7 +817,7 @@ class Problem:
 
         def values(places: FloatArray) -> FloatArray:
             axes = {name: places} | ({poses.inner: poses.axes[poses.inner]} if poses.inner else {})
-            found = sampling.seen(self._grid(PoseSet(axes, weights=None, inner=poses.inner), design, ends)).values[place]
+            found = sampling.at(self._grid(PoseSet(axes, weights=None, inner=poses.inner), design, ends)).values[place]
             if poses.inner:
                 assert isinstance(leaf.quantity, Worst)
                 found, _ = worst_along(found, None, len(poses.axes[poses.inner]), leaf.quantity.sense)
@@ -822,15 +848,15 @@ class Problem:
         places, weights = gauss(self.panels(leaf, design)[1])
         if len(places) <= len(poses.axes[name]):
             return False
-        poses.axes[name], poses.weights = places, weights
+        poses.set_axis(name, places)
+        poses.weights = weights
         return True
 
     def span_of(self, leaf: Leaf, design: Mapping[str, Any]) -> float:
         """Return how long the range of an integral's stroke is [SI]."""
         poses, *_ = self._of_leaf[leaf]
         (name,) = [each for each in poses.axes if each != poses.inner]
-        ends, one = self._ends(design, slopes=False), self.ranges[name]
-        low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (one.low, one.high))
+        low, high = self.ends(design)[name]
         return high - low
 
     def axis_of(self, leaf: Leaf) -> str:
@@ -845,18 +871,23 @@ class Problem:
         for name, part in parts.items():
             axis = poses.axes[name]
             if np.abs(axis - part).min() > CLOSEST:
-                poses.axes[name] = np.sort(np.append(axis, part))
+                poses.set_axis(name, np.sort(np.append(axis, part)))
                 new = True
         return new
 
     def where(self, leaf: Leaf, design: Mapping[str, Any], parts: Mapping[str, float]) -> dict[str, float]:
         """Return the strokes [SI] at parts of their ranges."""
-        ends = self._ends(design, slopes=False)
-        found = {}
-        for name, part in parts.items():
-            low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (self.ranges[name].low, self.ranges[name].high))
-            found[name] = low + part * (high - low)
-        return found
+        ends = self.ends(design)
+        return {name: ends[name][0] + part * (ends[name][1] - ends[name][0]) for name, part in parts.items()}
+
+    def ends(self, design: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
+        """Return from where to where [SI] each stroke of one design is looked at."""
+        found = self._ends(design, slopes=False)
+
+        def number(end: Any) -> float:
+            return float(end) if is_number(end) else float(found[id(end)][0][0])
+
+        return {name: (number(one.low), number(one.high)) for name, one in self.ranges.items()}
 
 
 def size_of_rows(values: FloatArray) -> float:

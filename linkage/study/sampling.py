@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, final
 
 import numpy as np
@@ -26,62 +26,98 @@ DIFFERENCE = 6e-6
 
 @final
 @dataclass(frozen=True, eq=False)
-class Seen:
+class Samples:
     """Quantities at poses: `values` (k, m, n), the `margins` of the loops (r, m, n), and whether a pose is `reached` (m, n).
 
     `lost` (k, m) are those without a value of a design: at a pose that is reached they have none, or a divisor in them changes its sign.
+    Of one design, where they are asked for, also the derivatives by p inputs: of the values (k, p, n), and of the margins (r, p, n).
     """
 
     values: FloatArray
     margins: FloatArray
     reached: Mask
     lost: Mask
+    value_slopes: FloatArray | None = None
+    margin_slopes: FloatArray | None = None
 
 
 @final
 @dataclass(frozen=True, eq=False)
-class SampledSlopes:
-    """Derivatives by p inputs: of k quantities (k, p, n) and of the margins (r, p, n), of one design."""
+class SampleProgram:
+    """Requests and derivatives of some of them as one kernel, so that a look at a design is one call.
 
-    values: FloatArray
-    margins: FloatArray
+    `angles` are those along which any of its numbers goes on from pose to pose. `slopes` are the derivatives alone with their own angles,
+    for poses at which the requests have to be looked at closely; None where there are no derivatives. `may_fail` says whether a request may
+    be without a value though no guard tells of it.
+    """
+
+    requests: tuple[BoundRequest, ...]
+    rows: int
+    kernel: Kernel
+    angles: Angles
+    slopes: tuple[Kernel, Angles] | None
+    may_fail: bool
+
+    @classmethod
+    def of(cls, plan: Plan, evaluation: Evaluation, sloped: Sequence[BoundRequest], owners: tuple[str, ...]) -> SampleProgram:
+        """Return the program of an evaluation's requests, and of derivatives of some by the owners, on a plan that is not traced yet."""
+        bulk = evaluation._make(plan)
+        own = bulk.kernel
+        following = [node for each in evaluation.requests if each.follows_angles for node in each.nodes(plan)]
+        shares = [node for each in sloped for node in Slope(each, owners).nodes(plan)] if owners else []
+        return cls(
+            evaluation.requests, len(own.outputs), Kernel([*own.outputs, *shares], own.guards), angles_of(plan, [*following, *shares]),
+            (Kernel(shares), angles_of(plan, shares)) if shares else None, bulk.may_fail,
+        )  # fmt: skip
+
+    def __call__(self, grid: Grid) -> tuple[FloatArray, FloatArray]:
+        """Return the requests (rows, ...) over a grid, NaN where they have no value, and the derivatives (shares, ...) of one design."""
+        found = self.kernel(grid.flat, size=grid.size)
+        is_told = bool(np.all(found.guards > 0.0)) and not (self.may_fail and not np.isfinite(found.values[: self.rows]).all())
+        if is_told and (not self.angles.angles or self._is_smooth(grid)):
+            values = grid.full(found.values)
+            return values[: self.rows], values[self.rows :]
+        values = np.array([np.broadcast_to(each, grid.shape) for each in Evaluation(grid, self.requests, QUICKEST, "nan").run(None)])
+        if self.slopes is None:
+            return values, np.zeros((0, *grid.shape))
+        kernel, angles = self.slopes
+        continued = angles.continued(grid)
+        return values, grid.full(kernel(grid.flat, size=grid.size).values) if continued is None else continued
+
+    def _is_smooth(self, grid: Grid) -> bool:
+        """Return whether no angle goes on past half a turn."""
+        angles = grid.full(self.angles.kernel(grid.flat, size=grid.size).values)
+        return bool(np.isfinite(angles).all()) and np.array_equal(grid.joined(angles, self.angles.kernel), angles)
 
 
 @final
 class Sampling:
-    """Some quantities of a plan, together: `seen` and `slopes` of designs at poses.
+    """Some quantities of a plan, together, at poses of designs.
 
     `owners` are the inputs they are differentiated by: design variables, and strokes.
     """
 
     def __init__(self, plan: Plan, quantities: Sequence[Any], owners: Sequence[str]) -> None:
         self.plan, self.quantities, self.owners = plan, tuple(quantities), tuple(owners)
-        self._traced: dict[int, BoundRequest] = {}
-        self._eager: list[int] = []
-        for place, quantity in enumerate(self.quantities):
-            request = traced(plan, quantity)
-            if request is None:
-                self._eager.append(place)
-            else:
-                self._traced[place] = request
+        bound = [(place, traced(plan, quantity)) for place, quantity in enumerate(self.quantities)]
+        self._traced = {place: request for place, request in bound if request is not None}
+        self._eager = [place for place, request in bound if request is None]
         self._divisors: list[tuple[int, BoundRequest]] = []
         for place in self._traced:
             found = [traced(plan, each) for each in divisors_of(plan, self.quantities[place])]
             self._divisors += [(place, each) for each in found if each is not None]
+        self._programs: dict[tuple[bool, bool], SampleProgram] = {}
 
-    # -- values ------------------------------------------------------------------------------------------
-
-    def seen(self, grid: Grid, *, margins: bool = False) -> Seen:
-        """Return the quantities over a grid, NaN where they have no value; with the margins where they are asked for."""
-        m, n = grid.size
-        values = np.full((len(self.quantities), m, n), np.nan)
+    def at(self, grid: Grid, *, margins: bool = False, slopes: bool = False) -> Samples:
+        """Return the quantities over a grid, NaN where they have no value; with the margins, and of one design the derivatives."""
+        (m, n), k, p = grid.size, len(self.quantities), len(self.owners)
         loops = Margin.each_of(self.plan) if margins else []  # before anything else is read, which may have triangles of its own
-        requests = (*loops, Placed(), *self._traced.values(), *(each for _, each in self._divisors))
+        first = len(loops) + 1
         with unwarned(), np.errstate(all="ignore"):
-            found = [np.broadcast_to(each, grid.shape).reshape(m, n) for each in Evaluation(grid, requests, QUICKEST, "nan").run(None)]
-            first = len(loops) + 1
-            for place, each in zip(self._traced, found[first:], strict=False):
-                values[place] = each
+            found, shares = self._program(grid, loops, slopes=slopes)(grid)
+            found = found.reshape(len(found), m, n)
+            values = np.full((k, m, n), np.nan)
+            values[[*self._traced]] = found[first : first + len(self._traced)]
             if self._eager:
                 motion = motion_of(grid)
                 for place in self._eager:
@@ -91,7 +127,27 @@ class Sampling:
         lost = self._lost(grid, whole, reached)
         for (place, _), each in zip(self._divisors, found[first + len(self._traced) :], strict=True):
             lost[place] |= changes_sign(each, reached)
-        return Seen(whole, np.array(found[: len(loops)]).reshape(len(loops), m, n), reached, lost)
+        samples = Samples(whole, found[: len(loops)], reached, lost)
+        if not slopes:
+            return samples
+        by_owner = shares.reshape(len(loops) + len(self._traced), p, n)
+        value_slopes = np.zeros((k, p, n))
+        value_slopes[[*self._traced]] = by_owner[: len(self._traced)]
+        with unwarned(), np.errstate(all="ignore"):
+            for place in self._eager:
+                value_slopes[place] = self._differences(grid, self.quantities[place])
+        return replace(samples, value_slopes=value_slopes, margin_slopes=by_owner[len(self._traced) :])
+
+    def _program(self, grid: Grid, loops: Sequence[BoundRequest], *, slopes: bool) -> SampleProgram:
+        """Return the program of the margins, of whether all has a place, of the quantities and of their divisors."""
+        asked = bool(loops), slopes
+        if asked not in self._programs:
+            requests = (*loops, Placed(), *self._traced.values(), *(each for _, each in self._divisors))
+            sloped = [*self._traced.values(), *loops] if slopes else []
+            key = "samples", tuple(each.key for each in requests), len(sloped), self.owners
+            evaluation = Evaluation(grid, requests, QUICKEST, "nan")
+            self._programs[asked] = self.plan.made(key, lambda plan: SampleProgram.of(plan, evaluation, sloped, self.owners))
+        return self._programs[asked]
 
     def _lost(self, grid: Grid, values: FloatArray, reached: Mask) -> Mask:
         """Return which quantities (k, m) have no value at a pose that is reached, though nothing leaves them unlimited there."""
@@ -102,39 +158,6 @@ class Sampling:
             if free is not None:
                 lost[place] = (empty[place] & ~free.reshape(reached.shape)).any(axis=1)
         return lost
-
-    # -- derivatives -------------------------------------------------------------------------------------
-
-    def slopes(self, grid: Grid, *, margins: bool = True) -> SampledSlopes:
-        """Return the derivatives over a grid of one design, those of the margins where they are asked for."""
-        n, p = grid.size[1], len(self.owners)
-        values = np.zeros((len(self.quantities), p, n))
-        if not p:
-            return SampledSlopes(values, np.zeros((len(Margin.each_of(self.plan)) if margins else 0, 0, n)))
-        with unwarned(), np.errstate(all="ignore"):
-            kernel, angles = self._program(margins)
-            found = grid.full(kernel(grid.flat).values)
-            found = np.broadcast_to(found, (len(kernel.plan.outputs), *grid.shape)).reshape(-1, p, n)
-            rows = p * len(self._traced)
-            continued = angles.continued(grid)
-            if continued is not None:
-                found = np.concatenate([continued.reshape(-1, p, n), found[rows // p :]])
-            for row, place in enumerate(self._traced):
-                values[place] = found[row]
-            for place in self._eager:
-                values[place] = self._differences(grid, self.quantities[place])
-        return SampledSlopes(values, found[len(self._traced) :])
-
-    def _program(self, margins: bool) -> tuple[Kernel, Angles]:
-        """Return the kernel of all derivatives, then those of the margins; and the angles behind the first."""
-        keys = tuple(each.key for each in self._traced.values())
-
-        def make(plan: Plan) -> tuple[Kernel, Angles]:
-            loops = Margin.each_of(plan) if margins else []  # before anything else is read, which may have triangles of its own
-            shares = [node for each in self._traced.values() for node in Slope(each, self.owners).nodes(plan)]
-            return Kernel([*shares, *(node for each in loops for node in Slope(each, self.owners).nodes(plan))]), angles_of(plan, shares)
-
-        return self.plan.made(("search slopes", keys, self.owners, margins), make)
 
     def _differences(self, grid: Grid, quantity: Any) -> FloatArray:
         """Return the central differences of a quantity that is not traced, shape (p, n)."""
@@ -168,27 +191,23 @@ def eager(motion: Motion, quantity: Any) -> FloatArray:
     return np.asarray(np.broadcast_to(found, motion.shape))
 
 
-def value_on(quantity: Any) -> Callable[[Motion], FloatArray]:
-    """Return a quantity as a function of a motion, as the search for extremes between poses takes it."""
+def rows_of_motion(plan: Plan, quantities: Sequence[Any]) -> Callable[[Motion], FloatArray]:
+    """Return quantities as one function of a motion (k, ...): by the plan's program, those that are no part of it as the motion gives them.
 
-    def value(motion: Motion) -> FloatArray:
-        return eager(motion, quantity)
+    Poses out of reach have no value.
+    """
+    found = [(place, traced(plan, each)) for place, each in enumerate(quantities)]
+    requests = tuple(request for _, request in found if request is not None)
 
-    return value
-
-
-def quickly_on(plan: Plan, quantity: Any) -> Callable[[Motion], FloatArray]:
-    """Return a quantity as `value_on`, by the plan's program where it is part of it: some times as quick."""
-    request = traced(plan, quantity)
-    if request is None:
-        return value_on(quantity)
-
-    def value(motion: Motion) -> FloatArray:
+    def values(motion: Motion) -> FloatArray:
+        rows = np.empty((len(quantities), *motion.shape))
         with unwarned(), np.errstate(all="ignore"):
-            (found,) = Evaluation(motion._grid, (request,), QUICKEST, "nan").run(None)
-        return np.asarray(np.broadcast_to(np.where(motion.reached, found, np.nan), motion.shape))
+            known = iter(Evaluation(motion._grid, requests, QUICKEST, "nan").run(None)) if requests else iter(())
+        for place, request in found:
+            rows[place] = eager(motion, quantities[place]) if request is None else np.where(motion.reached, next(known), np.nan)
+        return rows
 
-    return value
+    return values
 
 
 # Where there is no value.

@@ -8,9 +8,9 @@ way, so that the solver turns back.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, final
+from typing import Any, NamedTuple, final
 from warnings import catch_warnings, simplefilter
 
 import numpy as np
@@ -42,57 +42,40 @@ LINES, WIDENED = 24, 8
 """Lines of a constraint that trust-constr is given at most, and how often others are added that its end misses."""
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Graded:
-    """A number with its derivatives: adds, multiplies and divides as they do."""
+class Graded(NamedTuple):
+    """A number with its derivatives (p,), or (1,) where it has none."""
 
     value: float
     slope: FloatArray
 
-    @staticmethod
-    def of(given: Any) -> Graded:
-        """Return a number as one."""
-        return given if isinstance(given, Graded) else Graded(float(given), np.zeros(1))
 
-    def __add__(self, other: Any) -> Graded:
-        other = Graded.of(other)
-        with np.errstate(all="ignore"):
-            return Graded(self.value + other.value, self.slope + other.slope)
+def graded(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
+    """Return what a measure makes of its leaves' numbers, with its derivatives by the chain rule."""
+    with np.errstate(all="ignore"):
+        return chained(measure, of_leaf)
 
-    __radd__ = __add__
 
-    def __neg__(self) -> Graded:
-        return Graded(-self.value, -self.slope)
-
-    def __sub__(self, other: Any) -> Graded:
-        return self + -Graded.of(other)
-
-    def __rsub__(self, other: Any) -> Graded:
-        return Graded.of(other) - self
-
-    def __mul__(self, other: Any) -> Graded:
-        other = Graded.of(other)
-        with np.errstate(all="ignore"):
-            return Graded(self.value * other.value, self.slope * other.value + other.slope * self.value)
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Any) -> Graded:
-        other = Graded.of(other)
-        with np.errstate(all="ignore"):
-            value = float(np.divide(self.value, other.value))
-            return Graded(value, (self.slope - value * other.slope) / other.value)
-
-    def __rtruediv__(self, other: Any) -> Graded:
-        return Graded.of(other) / self
-
-    def __pow__(self, other: Any) -> Graded:
-        exponent = Graded.of(other)
-        with np.errstate(all="ignore"):
-            value = float(np.power(self.value, exponent.value))
-            slope = exponent.value * float(np.power(self.value, exponent.value - 1.0)) * self.slope
-            return Graded(value, slope + value * float(np.log(self.value)) * exponent.slope if exponent.slope.any() else slope)
+def chained(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
+    """Return the same as `graded`, which takes care of NumPy's warnings."""
+    if isinstance(measure, Leaf):
+        return of_leaf(measure)
+    if not isinstance(measure, CombinedMeasure):
+        return Graded(float(measure.of(of_leaf)), np.zeros(1))
+    (a, by_a), (b, by_b) = chained(measure.left, of_leaf), chained(measure.right, of_leaf)
+    match measure.symbol:
+        case "+":
+            return Graded(a + b, by_a + by_b)
+        case "-":
+            return Graded(a - b, by_a - by_b)
+        case "*":
+            return Graded(a * b, by_a * b + by_b * a)
+        case "/":
+            value = float(np.divide(a, b))
+            return Graded(value, (by_a - value * by_b) / b)
+        case _:
+            value = float(np.power(a, b))
+            slope = b * float(np.power(a, b - 1.0)) * by_a
+            return Graded(value, slope + value * float(np.log(a)) * by_b if by_b.any() else slope)
 
 
 @final
@@ -139,7 +122,8 @@ class Local:
     ) -> None:
         self.problem, self.combination, self.elastic = problem, tuple(combination), tuple(elastic)
         self.n = len(problem.space.variables)
-        self._cache: dict[bytes, Evaluated] = {}
+        self._looks: dict[bytes, tuple[Evaluated, bool]] = {}
+        self._rows: dict[bytes, list[Row]] = {}
         self._good: tuple[FloatArray, Evaluated] | None = None
         equations = tuple(each.margin for each in problem.constraints if each.symbol == "==")
         self._divisors = divisors((*problem.objectives, *(each.margin for each in problem.constraints)))
@@ -172,9 +156,9 @@ class Local:
 
     def _size(self, objective: Measure, look: Evaluated) -> float:
         """Return what an objective is measured with: itself, where it is next to nothing what the box makes of it."""
-        graded = Graded.of(objective.of(lambda leaf: graded_leaf(leaf, look)))
-        change = float(np.abs(graded.slope[np.isfinite(graded.slope)]).max(initial=0.0))
-        return max(abs(graded.value) if np.isfinite(graded.value) else 0.0, SMALL * change) or 1.0
+        value, slope = graded(objective, lambda leaf: graded_leaf(leaf, look))
+        change = float(np.abs(slope[np.isfinite(slope)]).max(initial=0.0))
+        return max(abs(value) if np.isfinite(value) else 0.0, SMALL * change) or 1.0
 
     def _auxiliaries(self, look: Evaluated) -> list[tuple[Constraint | Measure, Leaf]]:
         """Return the leaves that become variables, each with the constraint or objective in which it does."""
@@ -187,30 +171,34 @@ class Local:
             for leaf in expression.leaves:
                 if not isinstance(leaf, (Least, Most)) or look.rows[leaf].values.shape[1] < 2:
                     continue
-                way = self._grows(expression, leaf, look) * (1.0 if isinstance(owner, Constraint) else -self.problem.sense)
+                way = grows(expression, leaf, self.leaf_values(look)) * (1.0 if isinstance(owner, Constraint) else -self.problem.sense)
                 if way * (1.0 if isinstance(leaf, Least) else -1.0) > 0.0:
                     found.append((owner, leaf))
         return found
-
-    def _grows(self, expression: Measure, leaf: Leaf, look: Evaluated) -> float:
-        """Return how an expression changes with a leaf at a look."""
-        values = self.leaf_values(look)
-        graded = expression.of(lambda each: Graded(values[each], np.array([1.0 if each is leaf else 0.0])))
-        return float(Graded.of(graded).slope[0])
 
     # -- the solver's view -------------------------------------------------------------------------------
 
     def look(self, unit: FloatArray) -> Evaluated:
         """Return what is seen of unit coordinates, once."""
+        return self._looked_at(unit)[0]
+
+    def _looked_at(self, unit: FloatArray) -> tuple[Evaluated, bool]:
+        """Return what is seen of unit coordinates, once, and whether a search can work with it."""
         key = np.asarray(unit, float).tobytes()
-        if key not in self._cache:
-            if len(self._cache) > 4:
-                self._cache.pop(next(iter(self._cache)))
-            self._cache[key] = self.problem.look(self.problem.designs(np.clip(unit, 0.0, 1.0), self.combination), slopes=True)
-        look = self._cache[key]
-        if bool(look.whole[0]) and self._usable(look):
-            self._good = np.array(unit, float), look
-        return look
+        found = self._looks.get(key)
+        if found is None:
+            if len(self._looks) > 4:
+                self._looks.pop(next(iter(self._looks)))
+            look = self.problem.look(self.problem.designs(np.clip(unit, 0.0, 1.0), self.combination), slopes=True)
+            found = self._looks[key] = look, bool(look.whole[0]) and self._usable(look)
+        if found[1]:
+            self._good = np.array(unit, float), found[0]
+        return found
+
+    def _forget(self) -> None:
+        """Look anew: at other poses, or with other scales."""
+        self._looks.clear()
+        self._rows.clear()
 
     def _divisor_signs(self, look: Evaluated) -> tuple[float, ...]:
         """Return the signs of the numbers of a design that another number of it is divided by."""
@@ -232,8 +220,8 @@ class Local:
     def _safe(self, z: FloatArray) -> tuple[Evaluated, FloatArray, float]:
         """Return a look that can be worked with, the way from it to the point that is asked, and the loss there."""
         unit = z[: self.n]
-        look = self.look(unit)
-        if bool(look.whole[0]) and self._usable(look):
+        look, is_usable = self._looked_at(unit)
+        if is_usable:
             return look, np.zeros(self.n), 0.0
         assert self._good is not None
         base, good = self._good
@@ -254,7 +242,7 @@ class Local:
             slope[: self.n] = found.slope
             return Graded(found.value, slope)
 
-        found = Graded.of((owner.margin if isinstance(owner, Constraint) else owner).of(value))
+        found = graded(owner.margin if isinstance(owner, Constraint) else owner, value)
         return Graded(found.value, np.broadcast_to(found.slope, (self.width,)))
 
     def objective(self, z: FloatArray) -> tuple[float, FloatArray]:
@@ -272,23 +260,32 @@ class Local:
 
     def rows(self, z: FloatArray) -> list[Row]:
         """Return the lines of the problem: zero or above where they are kept, zero where they are equations."""
+        key = z.tobytes()
+        if key in self._rows:
+            return self._rows[key]
         look, way, loss = self._safe(z)
-        found = [self._margins(look, way, loss, self.look(z[: self.n]))]
+        here = self.look(z[: self.n])
+        found = [self._margins(look, way, loss, here)]
         for place, each in enumerate(self.problem.constraints):
             found.append(self._constraint(place, each, look, way, loss, z))
         for place, (owner, leaf) in enumerate(self.aux):
             found.append(self._bound(place, owner, leaf, look, way, loss, z))
         if self.several:
             found += [self._objective_line(each, look, way, loss, z) for each in self.problem.objectives]
-        return [each for each in found if each.values.size]
+        found = [each for each in found if each.values.size]
+        if here is look:  # elsewhere they hang on the last good design, too
+            if len(self._rows) > 4:
+                self._rows.pop(next(iter(self._rows)))
+            self._rows[key] = found
+        return found
 
     def _objective_line(self, objective: Measure, look: Evaluated, way: FloatArray, loss: float, z: FloatArray) -> Row:
         """Return the line that holds one of several objectives below the worst of them."""
-        graded, factor = self.graded(objective, look, z), self.problem.sense / self.size
+        (value, by), factor = self.graded(objective, look, z), self.problem.sense / self.size
         column = self.n + len(self.aux)
-        slope = bounded(-factor * graded.slope)
+        slope = bounded(-factor * by)
         slope[column] = 1.0
-        return Row(None, np.array([z[column] - factor * graded.value + slope[: self.n] @ way - loss]), slope[None])
+        return Row(None, np.array([z[column] - factor * value + slope[: self.n] @ way - loss]), slope[None])
 
     def _margins(self, look: Evaluated, way: FloatArray, loss: float, here: Evaluated) -> Row:
         """Return the lines of the links, which are assembled: of what is known `here` itself, of the rest from the look."""
@@ -317,8 +314,8 @@ class Local:
             slopes[:, : self.n] = sign * rows.slopes.T / scale
             values, slopes = without_gaps(values, slopes)
         else:
-            graded = self.graded(each, look, z)
-            values, slopes = np.array([graded.value / scale]), graded.slope[None] / scale
+            value, slope = self.graded(each, look, z)
+            values, slopes = np.array([value / scale]), slope[None] / scale
             if not equation or not np.isfinite(values[0]):
                 values, slopes = without_gaps(values, slopes)
             slopes = bounded(slopes)
@@ -507,15 +504,13 @@ class Local:
 
     def _nearest_good(self, unit: FloatArray) -> FloatArray:
         """Return unit coordinates; where these cannot be worked with, the last ones on the way from the good ones to them that can."""
-        look = self.look(unit)
-        if bool(look.whole[0]) and self._usable(look):
+        if self._looked_at(unit)[1]:
             return unit
         assert self._good is not None
         good, low, high = np.clip(self._good[0], 0.0, 1.0), 0.0, 1.0
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
-            look = self.look(good + middle * (unit - good))
-            low, high = (middle, high) if bool(look.whole[0]) and self._usable(look) else (low, middle)
+            low, high = (middle, high) if self._looked_at(good + middle * (unit - good))[1] else (low, middle)
         return np.asarray(good + low * (unit - good))
 
     def _rescaled(self, unit: FloatArray) -> bool:
@@ -528,6 +523,7 @@ class Local:
         if bool(((ratios < OTHER_SIZE) & (ratios > 1.0 / OTHER_SIZE)).all()):
             return False
         self.leaf_scales, self.scales, self.size = leaf_scales, scales, size
+        self._rows.clear()
         return True
 
     def refine(self, unit: FloatArray) -> bool:
@@ -541,7 +537,7 @@ class Local:
                 added = problem.refined_panels(leaf, design) or added
         if not added:
             return False
-        self._cache.clear()
+        self._forget()
         after = self.leaf_values(self.look(unit))
         return any(self._is_worse(leaf, after[leaf], before[leaf]) for leaf in problem.leaves)
 
@@ -558,14 +554,13 @@ class Local:
         look = self.look(unit)
         if not bool(look.whole[0]):
             return Found(unit, np.nan, np.inf, False), False
-        known, truth, worse = self.leaf_values(look), {}, False
-        for leaf in problem.leaves:
-            truth[leaf] = found = problem.true(leaf, design, quick=True)
+        known, truths, worse = self.leaf_values(look), problem.truths(design, quick=True), False
+        for leaf, found in truths.items():
             if not isinstance(leaf, Integral) and self._is_worse(leaf, found.value, known[leaf]) and problem.refined(leaf, found.parts):
                 worse = True
         if worse:
-            self._cache.clear()
-        values = Numbers(truth)
+            self._forget()
+        values = Numbers(truths)
         value = true_worth(problem, values)
         return Found(unit, value, missing_of(problem.constraints, self.scales, values), True), worse
 
@@ -624,6 +619,11 @@ def graded_leaf(leaf: Leaf, look: Evaluated) -> Graded:
     return Graded(float(rows.values[0, place]), rows.slopes[:, place])
 
 
+def grows(expression: Measure, leaf: Leaf, values: Mapping[Leaf, float]) -> float:
+    """Return how an expression changes with a leaf, from the leaves' numbers."""
+    return float(graded(expression, lambda each: Graded(values[each], np.array([1.0 if each is leaf else 0.0]))).slope[0])
+
+
 def told_margins(look: Evaluated) -> FloatArray:
     """Return the margins (r,) of a look at one design, NaN where they or their derivatives are not known."""
     assert look.margin_slopes is not None
@@ -668,7 +668,7 @@ def scales_of(problem: Problem, look: Evaluated) -> list[float]:
     values = {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
     found = []
     for each in problem.constraints:
-        slope = np.abs(Graded.of(each.margin.of(lambda leaf: graded_leaf(leaf, look))).slope)
+        slope = np.abs(graded(each.margin, lambda leaf: graded_leaf(leaf, look)).slope)
         change = float(slope[np.isfinite(slope)].sum())
         sides = [terms_size(side, sizes, values) for side in (each.left, each.right)]
         found.append(scale_among(each, max([side for side in sides if np.isfinite(side)] + [change])))

@@ -36,6 +36,8 @@ from linkage import (
 )
 from linkage.files.criterion import condition_said, measure_said
 from linkage.files.survey_measures import TextMeasures
+from linkage.motion.measures import conditions_of
+from linkage.program import Kernel
 from linkage.study import InfeasibleError, Target, settings_for
 from linkage.study.kinds import measure_unit
 from linkage.study.problem import Problem
@@ -390,3 +392,26 @@ def test_a_setting_that_does_not_assemble_over_the_whole_stroke_is_no_answer():
 def test_the_least_transmission_is_still_an_angle():
     best = optimise(Boom(), maximise=least(transmission("B")), vary={"OB": (0.25, 0.35)}, subject_to=[500 * mm <= RISE], starts=1)
     assert " deg" in str(best)
+
+
+def test_a_design_with_its_derivatives_is_one_call_of_one_kernel(monkeypatch):
+    machine = Boom()
+    kept = conditions_of([least(transmission("B")) >= 35 * deg], machine)
+    problem = Problem(machine, [most(pressure("lift"))], kept, Space.of(machine, {"OB": (0.28, 0.32)}))
+    design = problem.designs(np.array([0.5]), ())
+    problem.look(design, slopes=True)
+    calls = []
+    own = Kernel.__call__
+    monkeypatch.setattr(Kernel, "__call__", lambda self, *given, **options: calls.append(self) or own(self, *given, **options))
+    found = problem.look(design, slopes=True)
+    assert len(calls) == len(problem.sets) == 1
+    apart = [sampling_at(problem, design, step) for step in (1e-6, -1e-6)]
+    by_hand = (apart[0] - apart[1]) / (2e-6 * 0.04)
+    (leaf,) = problem.objectives[0].leaves
+    assert_allclose(found.rows[leaf].slopes[0] / 0.04, by_hand, rtol=1e-6)
+
+
+def sampling_at(problem, design, by):
+    """Return the rows of the objective of a design with one dimension moved by a part of its range."""
+    (leaf,) = problem.objectives[0].leaves
+    return problem.look(design | {"OB": design["OB"] + by * 0.04}).rows[leaf].values[0]

@@ -20,7 +20,7 @@ from .conditions import Judged
 from .grid import Angles, Grid, angles_of, to_rounding, varies
 from .live import live_source, true_nodes
 from .motion import Motion
-from .requests import BoundRequest, RequestLike, all_bound, examined, identities_of, known_bound, other_law_error
+from .requests import Request, RequestLike, all_bound, examined, identities_of, known_bound, other_law_error
 from .strokes import at_values, float_array, known_strokes
 
 PIECE = 1 << 18
@@ -126,7 +126,7 @@ class Evaluation:
     """Requests over a grid of poses, and how they are worked out."""
 
     grid: Grid
-    requests: tuple[BoundRequest, ...]
+    requests: tuple[Request, ...]
     way: Way
     unreachable: str = "raise"
 
@@ -161,7 +161,7 @@ class Evaluation:
             self._unwrap(found)
         return [found[first : first + rows] if rows > 1 else found[first] for first, rows in program.parts]
 
-    def _starts(self) -> Iterator[tuple[int, BoundRequest]]:
+    def _starts(self) -> Iterator[tuple[int, Request]]:
         """Yield each request with its first row."""
         for (first, _), each in zip(self._program.parts, self.requests, strict=True):
             yield first, each
@@ -233,7 +233,7 @@ class Evaluation:
             for (first, each), gap in zip(self._starts(), empty, strict=True):
                 block[first : first + each.rows, gap] = np.nan
         for k, found in worst.items():
-            conditions.warn_near(found, f"{plan.title}: {self.requests[k]}", "comes")
+            conditions.warn_near(found, f"{plan.title}: {self.requests[k].sentence}", "comes")
 
     def _put_right(self, block: FloatArray, bad: Mask, inputs: dict[str, Any], worst: dict[int, Judged], broken: Any, near: Any) -> None:
         """Fill the poses of a block that a mask names, from their paired inputs.
@@ -298,7 +298,7 @@ class Evaluation:
         for each in self.requests:
             if each.notes(grid.plan).assumed:
                 raise other_law_error(grid.plan, each)
-        names = ", ".join(map(str, self.requests))
+        names = ", ".join(each.sentence for each in self.requests)
         text = f'{grid.plan.title}: {names} has no value at some of these poses. Leave them out, or ask with unreachable="nan".'
         raise SingularError(text, motion=motion)
 
@@ -371,7 +371,7 @@ class PoseProgram:
         self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
 
     @classmethod
-    def of(cls, plan: Plan, requests: tuple[BoundRequest, ...]) -> PoseProgram:
+    def of(cls, plan: Plan, requests: tuple[Request, ...]) -> PoseProgram:
         """Return the program of requests that are bound to a plan."""
         start = {name: np.asarray(stroke.start, float) for name, stroke in plan.strokes.items()}
         evaluation = Evaluation(Grid(plan, plan.defaults, start), requests, QUICKEST)

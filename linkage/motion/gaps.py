@@ -11,23 +11,21 @@ Source: C. Ericson, Real-time collision detection (2005), 5.1 and 5.2.1 (separat
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from functools import reduce
 from itertools import combinations, product
-from typing import TypeAlias, final
+from typing import TypeAlias
 
 import numpy as np
 
 from ..errors import DefinitionError, unknown
 from ..loads import TwoPoint
 from ..plan import Plan
-from ..program import FloatArray, Node
+from ..program import Node
 from ..quantities import Reference, is_number, name_of
 from ..steps import Link
 from ..vectors import Scalar, Vec
-from .conditions import Left
-from .requests import BoundRequest, Request
+from .requests import NodeRequest
 
 Pick: TypeAlias = Callable[[Scalar, Scalar, Scalar, Scalar], Scalar]
 """What gives its third number where the first is at most the second, else the fourth."""
@@ -36,37 +34,7 @@ SMALLEST = 1e-24
 """m2; the square of an edge that is no longer is taken as this, so that two points that coincide give no direction and no harm."""
 
 
-@final
-@dataclass(frozen=True)
-class Gap(Request):
-    """The gap of two bodies or points, less a width [m]."""
-
-    a: str
-    b: str
-    width: float = 0.0
-
-    def identity(self, plan: Plan) -> Hashable:
-        return "gap", self.a, self.b, self.width
-
-    @property
-    def measures(self) -> str:
-        return "length"
-
-    def bound(self, plan: Plan) -> GapOf:
-        a, b = (shape_of(plan, each) for each in (self.a, self.b))
-        shared = [name for name in a if name in b]
-        if shared:
-            what = f"{plan.title}: gap({self.a}, {self.b}): both have {', '.join(shared)}, so that there is no gap between them"
-            first, body, rest = (self.b, self.a, b) if self.b == plan.links[0].name else (self.a, self.b, a)
-            free = next((each for each in rest if each not in shared), first)
-            raise DefinitionError(f"{what}; ask for that of a point, such as gap({free}, {body}).")
-        return GapOf(self.a, self.b, a, b, self.width, self.b == plan.links[0].name, self.a == plan.links[0].name)
-
-    def __str__(self) -> str:
-        return f"gap({self.a}, {self.b}{f', width={self.width:g}' if self.width else ''})"
-
-
-def gap(a: Reference, b: Reference, *, width: float = 0.0) -> Gap:
+def gap(a: Reference, b: Reference, *, width: float = 0.0) -> NodeRequest:
     """Return the request for the gap of two bodies as they are drawn [m]: `gap("EDF", "MK", width=0.06)`, `gap("G", "OBC")`.
 
     A body goes by its points (`"OBC"`), the name of its Link, that of a cylinder, a spring or another straight element, or of a point;
@@ -76,7 +44,34 @@ def gap(a: Reference, b: Reference, *, width: float = 0.0) -> Gap:
     """
     if not is_number(width) or width < 0.0:
         raise DefinitionError(f"gap(width={width!r}): the sum of the half widths is expected [m], zero or more.")
-    return Gap(name_of(a), name_of(b), float(width))
+    one, other = name_of(a), name_of(b)
+
+    def nodes(plan: Plan) -> tuple[Node, ...]:
+        where, frame = plan.trace, plan.links[0].name
+        of_one, of_other = (
+            [[each] for each in points] if name == frame else [points]  # the frame is its points, each for itself
+            for name, points in zip((one, other), two_shapes(plan, one, other), strict=True)
+        )
+        gaps = [signed_gap([where.at(P) for P in p], [where.at(Q) for Q in q], where.graph.pick) for p, q in product(of_one, of_other)]
+        return (where.graph.node(least_number(gaps) - float(width)),)
+
+    return NodeRequest(
+        text=f"gap({one}, {other}{f', width={width:g}' if width else ''})", sentence=f"the gap between {one} and {other}",
+        key=("gap", one, other, float(width)), measures="length", may_fail=True,
+        nodes_of=nodes, names_of=lambda plan: plan.reaches(*(name for points in two_shapes(plan, one, other) for name in points)),
+    )  # fmt: skip
+
+
+def two_shapes(plan: Plan, a: str, b: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the points of two bodies or points by their names; DefinitionError where they share one."""
+    of_a, of_b = shape_of(plan, a), shape_of(plan, b)
+    shared = [name for name in of_a if name in of_b]
+    if shared:
+        what = f"{plan.title}: gap({a}, {b}): both have {', '.join(shared)}, so that there is no gap between them"
+        first, body, rest = (b, a, of_b) if b == plan.links[0].name else (a, b, of_a)
+        free = next((each for each in rest if each not in shared), first)
+        raise DefinitionError(f"{what}; ask for that of a point, such as gap({free}, {body}).")
+    return of_a, of_b
 
 
 def shape_of(plan: Plan, name: str) -> tuple[str, ...]:
@@ -94,46 +89,6 @@ def shape_of(plan: Plan, name: str) -> tuple[str, ...]:
     if name not in known:
         raise unknown("Body", name, known, where=plan.title)
     return known[name]
-
-
-@final
-@dataclass(frozen=True)
-class GapOf(BoundRequest):
-    """The gap of two bodies of a plan, by their names and points; a body that is `apart` is its points, each for itself."""
-
-    a: str
-    b: str
-    points_a: tuple[str, ...]
-    points_b: tuple[str, ...]
-    width: float
-    b_apart: bool = False
-    a_apart: bool = False
-
-    @property
-    def key(self) -> Hashable:
-        return "gap", self.points_a, self.points_b, self.a_apart, self.b_apart, self.width
-
-    def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        where = plan.trace
-        pieces_a, pieces_b = (
-            [[name] for name in points] if apart else [points]
-            for points, apart in ((self.points_a, self.a_apart), (self.points_b, self.b_apart))
-        )
-        gaps = [signed_gap([where.at(P) for P in a], [where.at(Q) for Q in b], where.graph.pick) for a, b in product(pieces_a, pieces_b)]
-        return (where.graph.node(least_number(gaps) - self.width),)
-
-    def names(self, plan: Plan) -> set[str]:
-        return plan.reaches(*self.points_a, *self.points_b)
-
-    @property
-    def may_fail(self) -> bool:
-        return True
-
-    def scale(self, plan: Plan, left: Left) -> FloatArray:
-        return left.size
-
-    def __str__(self) -> str:
-        return f"the gap between {self.a} and {self.b}"
 
 
 def signed_gap(a: Sequence[Vec], b: Sequence[Vec], pick: Pick) -> Scalar:

@@ -47,7 +47,7 @@ from .measures import (
 )
 from .motion import Motion
 from .over import ALLOWED, Over
-from .requests import BoundRequest, Request, SmoothPiece, identity_of
+from .requests import Request, SmoothPiece, identity_of
 from .search import extremum, moving
 from .strokes import at_values
 
@@ -341,7 +341,7 @@ class Asked:
     def __init__(self, place: Domain, rows: Sequence[Sought]) -> None:
         self.place, self.rows, self.seen = place, rows, Coverage()
         self.plan = place.plan
-        self._bound: dict[int, BoundRequest] = {}
+        self._bound: dict[int, Request] = {}
         self._rows: dict[int, Asked] = {}
         for k, row in enumerate(rows):
             bound = traced(self.plan, row.request)
@@ -430,7 +430,7 @@ def reached_grid(motion: Motion) -> Grid:
     return Grid(motion.plan, motion.designs, strokes, per_design=True, joining=grid._joining)
 
 
-def without_bound(plan: Plan, bound: BoundRequest, motion: Motion) -> Mask:
+def without_bound(plan: Plan, bound: Request, motion: Motion) -> Mask:
     """Return where the law of a request has no bound, by its program."""
     kernel = plan.made(("gaps", bound.key), lambda twin: Kernel(nodes_without_bound(twin, bound)))
     if not kernel.plan.outputs:
@@ -439,7 +439,7 @@ def without_bound(plan: Plan, bound: BoundRequest, motion: Motion) -> Mask:
     return np.asarray((found <= 0.0).any(axis=0))
 
 
-def nodes_without_bound(plan: Plan, bound: BoundRequest) -> list[Any]:
+def nodes_without_bound(plan: Plan, bound: Request) -> list[Any]:
     """Return the nodes below zero where a request has no bound."""
     bound.nodes(plan)
     return [*bound.gaps(plan)]

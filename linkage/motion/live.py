@@ -24,7 +24,7 @@ from ..plan import ArrayReading, Plan
 from ..program import Inputs, Level, Node, ancestors, arrow_function, replaced
 from ..steps import Point
 from .conditions import REFUSE
-from .requests import BoundRequest, RequestLike, bound
+from .requests import Request, RequestLike, bound
 
 REGULAR = (1.0 + math.sqrt(1.0 - 0.3**2)) / 0.3
 """The condition up to which a loop does not count where several near dead points lose digits together."""
@@ -53,7 +53,7 @@ def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engi
     pose is reached, else the number from 1 on of the member in `engine.steps` that cannot be placed, and `missing`, by how much [m]. NaN
     stands where there is no value, and for ratios and forces where a dead point is so near that Python refuses them.
     """
-    found: dict[str, BoundRequest] = {}
+    found: dict[str, Request] = {}
     left_out: dict[str, str] = {}
     for each, request in requests.items():
         try:
@@ -67,7 +67,7 @@ def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engi
     return LiveText(text, FrozenDict(rows), FrozenDict(left_out), program.dimensions, tuple(plan.strokes))
 
 
-def live_source(plan: Plan, requests: Sequence[BoundRequest], name: str, design: Mapping[str, float]) -> str:
+def live_source(plan: Plan, requests: Sequence[Request], name: str, design: Mapping[str, float]) -> str:
     """Return JavaScript that declares `poses(d, p)`, requests at one pose, found along the way from the sketch."""
     program = live_program(plan, tuple(requests))
     stated = ", ".join(f"{each} = {design[each]!r}" for each in program.dimensions)
@@ -76,7 +76,7 @@ def live_source(plan: Plan, requests: Sequence[BoundRequest], name: str, design:
     return f"{head}\nconst {name}=(()=>{{{program.text}return (d,p)=>sweep(d,p.map(s=>[s])).values.map(v=>v[0])}})();\n"
 
 
-def live_program(plan: Plan, requests: tuple[BoundRequest, ...]) -> LiveProgram:
+def live_program(plan: Plan, requests: tuple[Request, ...]) -> LiveProgram:
     """Return the program of some requests, made once."""
     return plan.made(("live", tuple(each.key for each in requests)), lambda twin: LiveProgram.of(twin, requests))
 
@@ -91,7 +91,7 @@ class LiveProgram:
     dimensions: tuple[str, ...]
 
     @classmethod
-    def of(cls, plan: Plan, requests: Sequence[BoundRequest]) -> LiveProgram:
+    def of(cls, plan: Plan, requests: Sequence[Request]) -> LiveProgram:
         """Return the program of some requests."""
         nodes = [true_nodes(plan, each) for each in requests]
         rows = [node for each in nodes for node in each]
@@ -153,7 +153,7 @@ def part_text(name: str) -> str:
     return "".join(line for line in lines if not line.startswith("//"))
 
 
-def true_nodes(plan: Plan, what: BoundRequest) -> list[Node]:
+def true_nodes(plan: Plan, what: Request) -> list[Node]:
     """Return a request's nodes, NaN where what they are true under does not hold: the text can look nothing up."""
     nodes = what.nodes(plan)
     truths = [*what.notes(plan).assumed, *what.gaps(plan)]
@@ -236,7 +236,7 @@ def loops_of(plan: Plan) -> dict[str, tuple[Node, Node]]:
     return found
 
 
-def refusals(plan: Plan, requests: Sequence[BoundRequest], loops: Sequence[str]) -> list[list[list[int]]]:
+def refusals(plan: Plan, requests: Sequence[Request], loops: Sequence[str]) -> list[list[list[int]]]:
     """Return the rows that are refused near dead points, with the loops whose dead points these are, by their places."""
     sets: dict[tuple[int, ...], list[int]] = {}
     row = 0

@@ -24,7 +24,7 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import PoseCondition, Quantity, is_number, name_of, x, y
 from .motion import Motion
-from .requests import BoundRequest, Ratio, Request, bound
+from .requests import NodeRequest, Request, Value, bound
 
 MeasuredQuantity: TypeAlias = "str | Quantity | Request | Worst | Callable[[Motion], FloatArray]"
 """What has a value at every pose: a named output, a quantity, a request, or a function of a motion."""
@@ -396,14 +396,14 @@ def conditions_of(given: Any, machine: Any) -> list[Constraint]:
 
 def which_component(plan: Plan, quantity: Any) -> str:
     """Return how one component of a quantity of two is asked for: `ratio(x(G), order=2)` of `ratio(G, order=2)`."""
-    if isinstance(quantity, Ratio) and name_of(quantity.target) in plan.points:
+    if isinstance(quantity, Value) and name_of(quantity.target) in plan.points:
         one, other = (replace(quantity, target=part(name_of(quantity.target))) for part in (x, y))
         return f"say which, {one} or {other}"
     name = words_of(quantity)
     return f'say which, x("{name}") or y("{name}")' if quantity in plan.points else "take x(P) or y(P) for a point P in it"
 
 
-def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
+def traced(plan: Plan, quantity: Any) -> Request | None:
     """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for what is no number."""
     if not isinstance(quantity, (str, Quantity, Request)):
         return None
@@ -420,10 +420,10 @@ def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
     return request
 
 
-def bound_quantity(plan: Plan, quantity: str | Quantity | Request) -> BoundRequest:
+def bound_quantity(plan: Plan, quantity: str | Quantity | Request) -> Request:
     """Return a quantity bound to a plan; a dimension by its name too, `"lift.closed"`."""
     if isinstance(quantity, str) and quantity not in plan.members and quantity in plan.table.spellings:
-        return DimensionValue(*plan.table.spellings[quantity])
+        return dimension_value(*plan.table.spellings[quantity])
     return bound(plan, quantity)
 
 
@@ -438,23 +438,9 @@ def strokes_behind(plan: Plan, quantity: Any) -> tuple[str, ...]:
     return tuple(name for name in plan.strokes if name in names or name in plan.reaches(*(each for each in names if each in plan.members)))
 
 
-@final
-@dataclass(frozen=True)
-class DimensionValue(BoundRequest):
-    """A dimension itself, by its owner and sign."""
-
-    owner: str
-    sign: int
-
-    @property
-    def key(self) -> Any:
-        return "dimension", self.owner, self.sign
-
-    def nodes(self, plan: Plan) -> tuple[Any, ...]:
-        return (plan.trace.inputs[self.owner] * float(self.sign),)
-
-    def names(self, plan: Plan) -> set[str]:
-        return set()
-
-    def __str__(self) -> str:
-        return self.owner
+def dimension_value(owner: str, sign: int) -> NodeRequest:
+    """Return a dimension itself as a request, by its owner and sign."""
+    return NodeRequest(
+        text=owner, key=("dimension", owner, sign), names_of=lambda plan: set(),
+        nodes_of=lambda plan: (plan.trace.inputs[owner] * float(sign),),
+    )  # fmt: skip

@@ -24,18 +24,17 @@ from .limits import Limits, assembly_error, no_joint, span_text, stroke_unit, wh
 from .over import Over, over_of
 from .poles import body_points, body_rates, pole_of, whole_body
 from .requests import (
-    BoundRequest,
-    Places,
     Request,
     RequestLike,
-    Slope,
     Value,
     bound,
     dimensions_of,
     examined,
     near_singular,
     other_law_error,
+    places_of,
     requested_of,
+    slope,
     slopes_of,
     stroke_of,
     watched,
@@ -306,8 +305,8 @@ class Motion(Shown):
         """
         plan = self.plan
         what, dimensions = bound(plan, of), dimensions_of(plan, wrt)
-        names, title = tuple(name for name, _ in dimensions), f"The gradient of {what}"
-        refused = self._refused(Slope(what, names), title)
+        names, title = tuple(name for name, _ in dimensions), f"The gradient of {what.sentence}"
+        refused = self._refused(slope(what, names), title)
         good = self.reached & ~refused
         slopes = plan.made(("gradient", what.key, names), lambda plan: slopes_of(plan, what, names))
         ends = np.cumsum([what.rows * len(names), slopes.assumed, slopes.gaps])
@@ -335,10 +334,10 @@ class Motion(Shown):
         refused = np.zeros(self.shape, bool)
         if not np.all(result.guards > 0.0):
             checks = self._grid.full(program.checks(self._grid.flat, size=self._grid.size).values)
-            refused = self._refused_near(what, str(what), lambda found, mask: self._singular(found, mask, str(what)))
+            refused = self._refused_near(what, what.sentence, lambda found, mask: self._singular(found, mask, what.sentence))
             refused = refused | ~np.all(checks[program.assumed :] > 0.0, axis=0)
             self._check_laws(what, self.reached & ~refused, checks[: program.assumed], ())
-        found = self._finite(np.where(self.reached & ~refused, values, np.nan), refused, str(what))
+        found = self._finite(np.where(self.reached & ~refused, values, np.nan), refused, what.sentence)
         return found if what.rows > 1 else found[0]
 
     # -- how far it goes, and other strokes --------------------------------------------------------------
@@ -406,7 +405,7 @@ class Motion(Shown):
     def _settle_lost(self) -> None:
         """Refuse or mask the poses of which rounding leaves nothing, as where two points that another hangs from come together."""
         words = f"The places of {self.plan.title}"
-        lost = self._refused_near(Places(self.plan.moving), words, lambda found, mask: conditions.lost_places(found, mask, self.strokes))
+        lost = self._refused_near(places_of(self.plan.moving), words, lambda found, mask: conditions.lost_places(found, mask, self.strokes))
         if lost.any():
             self._places = np.where(lost, np.nan, self._places)
             self.reached &= ~lost
@@ -528,7 +527,7 @@ class Motion(Shown):
             raise SingularError(text, mask=missing, motion=self)
         return np.where(good, values, np.nan)
 
-    def _check_laws(self, what: BoundRequest, good: Mask, assumed: FloatArray, switches: Iterable[tuple[str, FloatArray]]) -> None:
+    def _check_laws(self, what: Request, good: Mask, assumed: FloatArray, switches: Iterable[tuple[str, FloatArray]]) -> None:
         """Raise the error of poses where a law is another than the one traced, or changes to another with a dimension."""
         if np.any(good & ~np.all(assumed > 0.0, axis=0)):
             what.refuse(self)
@@ -536,13 +535,13 @@ class Motion(Shown):
         for words, values in switches:
             if np.any(good & (values > 0.0)):
                 raise DefinitionError(
-                    f"{self.plan.title}: {what} has no derivative by {words} that it equals here, and is another law next to it. "
+                    f"{self.plan.title}: {what.sentence} has no derivative by {words} that it equals here, and is another law next to it. "
                     "Leave that dimension out of wrt=, or set it beside that number."
                 )
 
     # -- near singular poses -----------------------------------------------------------------------------
 
-    def _refused(self, what: BoundRequest, words: str) -> Mask:
+    def _refused(self, what: Request, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked. `words` begin a sentence about it."""
         if not self._is_near(what):
             return np.zeros(self.shape, bool)
@@ -552,7 +551,7 @@ class Motion(Shown):
         """Return the error for a result asked at singular poses."""
         return conditions.singular_error(found, mask, self.strokes, words, self)
 
-    def _refused_near(self, what: BoundRequest, words: str, error: Callable[[Judged, Mask], SingularError]) -> Mask:
+    def _refused_near(self, what: Request, words: str, error: Callable[[Judged, Mask], SingularError]) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked.
 
         `error` makes what is raised of how the refused poses are judged and of their mask.
@@ -569,10 +568,10 @@ class Motion(Shown):
             conditions.warn_near(found.at(found.doubtful), f"{words} {where_words(self.plan, doubtful, self.strokes)}")
         return refused
 
-    def _is_near(self, what: BoundRequest) -> bool:
+    def _is_near(self, what: Request) -> bool:
         """Return whether some pose has to be looked at closely: for points that is known, for other values it is told with these."""
         if isinstance(what, Value) and not isinstance(what.member, Point):
-            self._evaluated(what.member, what.along)
+            self._evaluated(what.member, what.strokes)
             return self._watched[what.key]
         return self._is_near_singular
 

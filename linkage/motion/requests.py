@@ -6,17 +6,16 @@ where it has no value, and the error that rounding leaves of it. Kernels, functi
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import reduce
 from itertools import product
 from types import MappingProxyType
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias, cast, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, UntracedError, cited
 from ..loads import DIRECTIONS, Acting
 from ..plan import NEAR, ArrayReading, Mask, Plan
 from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
@@ -29,15 +28,25 @@ from .strokes import checked_name, order_of
 
 
 class Request(Arithmetic):
-    """Something to ask of a mechanism at its poses that is no member of it: a ratio, a thrust, a pin force; sums and products of such."""
+    """Something to ask of a mechanism at its poses that is no member of it: a ratio, a thrust, a pin force; sums and products of such.
+
+    One that has a program says `nodes` and `names`, and `key` where it is not told by itself; one that has none says `of`. What a user
+    writes holds names; `bound` looks them up in a plan, and what it returns, of the same class, is asked for nodes, rows and key.
+    What needs no class of its own is a function that returns a `NodeRequest`.
+    """
+
+    # -- as it is written --------------------------------------------------------------------------------
 
     def identity(self, plan: Plan) -> Hashable:
         """Return what tells it from others of the same plan as long as what it holds lives; None where what it holds may change."""
         return None
 
-    @abstractmethod
-    def bound(self, plan: Plan) -> BoundRequest:
-        """Return the request bound to a plan; DefinitionError where there is no such thing, UntracedError where no program gives it."""
+    def bound(self, plan: Plan) -> Request:
+        """Return the request with its names looked up in a plan; DefinitionError where there is no such thing there.
+
+        UntracedError where no program gives it.
+        """
+        return self
 
     @property
     def measures(self) -> str:
@@ -94,52 +103,32 @@ class Request(Arithmetic):
         """Return the mask of poses at which its law has no bound, such as where the load drives; None where it always has one."""
         return None
 
-
-RequestLike: TypeAlias = str | Member | Request
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class SmoothPiece:
-    """A smooth piece of a question: what has a value at every pose, and the side of the cylinder that it is of, "" for none.
-
-    `reciprocal` is one over it, where that goes on smoothly through zero where the request has no bound: then its greatest value is looked
-    for in the place of the request's least. `below` is the same as the request above zero, and goes on smoothly below zero, where the
-    request stays at zero: it is looked for in the place of the request's greatest value.
-    """
-
-    request: Any
-    side: str = ""
-    reciprocal: Any = None
-    below: Any = None
-
-
-class BoundRequest(ABC):
-    """A request bound to a plan. A subclass says of which nodes it consists, and by what key it is told from others."""
+    # -- bound to a plan ---------------------------------------------------------------------------------
 
     @property
-    @abstractmethod
     def key(self) -> Hashable:
         """What tells this request from others of the same plan."""
+        return self
+
+    @property
+    def sentence(self) -> str:
+        """What it is, in a sentence: `the ratio of G by S`; as text it is what one writes, `ratio(G)`."""
+        return str(self)
 
     @property
     def traced_with(self) -> Hashable:
         """What tells the requests whose program is traced in one with this one's: where one of them can be, all can."""
         return self.key
 
-    @abstractmethod
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        """Return its nodes in a plan's program, one a component."""
+        """Return its nodes in a plan's program, one a component; UntracedError where it has values alone."""
+        raise UntracedError(f"{plan.title}: {self}: it has values, and no program that gives derivatives.")
 
-    @abstractmethod
     def names(self, plan: Plan) -> set[str]:
-        """Return the members that it is built from."""
+        """Return the members that it is built from; UntracedError where it has values alone."""
+        raise UntracedError(f"{plan.title}: {self}: it has values, and no program that gives derivatives.")
 
-    @abstractmethod
-    def __str__(self) -> str:
-        """Return what it is, in words: `the ratio of G by S`."""
-
-    def refuse(self, motion: MotionLike) -> None:  # noqa: B027
+    def refuse(self, motion: MotionLike) -> None:
         """Raise the error of a motion's poses where it has no value; nothing where it has one at all of them, or another refuses it."""
 
     def notes(self, plan: Plan) -> Notes:
@@ -169,7 +158,7 @@ class BoundRequest(ABC):
         """Return the nodes that are above zero where it has a value: elsewhere it is NaN, which is no error, as a load that is no limit."""
         return ()
 
-    def read_own(self, reading: ArrayReading) -> None:  # noqa: B027
+    def read_own(self, reading: ArrayReading) -> None:
         """Work out in an eager reading what is its own, so that its directions are noted; of most there is nothing."""
 
     @property
@@ -203,12 +192,32 @@ class BoundRequest(ABC):
         return False
 
 
-def bound(plan: Plan, request: RequestLike) -> BoundRequest:
+BoundRequest = Request  # until every room has one class for what is written and what is bound
+RequestLike: TypeAlias = str | Member | Request
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class SmoothPiece:
+    """A smooth piece of a question: what has a value at every pose, and the side of the cylinder that it is of, "" for none.
+
+    `reciprocal` is one over it, where that goes on smoothly through zero where the request has no bound: then its greatest value is looked
+    for in the place of the request's least. `below` is the same as the request above zero, and goes on smoothly below zero, where the
+    request stays at zero: it is looked for in the place of the request's greatest value.
+    """
+
+    request: Any
+    side: str = ""
+    reciprocal: Any = None
+    below: Any = None
+
+
+def bound(plan: Plan, request: RequestLike) -> Request:
     """Return a request bound to a plan; DefinitionError where there is nothing of that name, or no saying by which stroke."""
-    return (request if isinstance(request, Request) else Ratio(request, order=0)).bound(plan)
+    return (request if isinstance(request, Request) else Value(request)).bound(plan)
 
 
-def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[BoundRequest, ...]:
+def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[Request, ...]:
     """Return a list of requests bound to a plan; DefinitionError for a lone one, whose letters would be taken for names."""
     if isinstance(requests, (str, Member, Request)):
         raise DefinitionError(f"{plan.title}: {requests!r}: a list of what is asked for is expected, [{requests!r}].")
@@ -272,60 +281,53 @@ def dimensions_of(plan: Plan, names: Any) -> list[tuple[str, int]]:
 
 @final
 @dataclass(frozen=True)
-class Ratio(Request):
-    """The derivative of a point or a quantity by a stroke: the transfer ratio, as something to ask for."""
+class Value(Request):
+    """A point, a vector or a quantity, and the strokes that it is differentiated by, one after the other: a value, or a transfer ratio.
+
+    None stands for the only stroke there is. Bound to a plan `target` is the member itself.
+    """
 
     target: str | Member
-    wrt: str | None = None
-    order: int = 1
+    along: tuple[str | None, ...] = ()
 
     def identity(self, plan: Plan) -> Hashable:
         target = identity_of(plan, self.target)
-        return None if target is None else ("ratio", target, self.wrt, self.order)
+        return None if target is None else ("value", target, self.along)
 
     def of(self, motion: MotionLike) -> FloatArray:
-        return motion.ratio(self.target, wrt=self.wrt, order=self.order) if self.order else motion[self.target]
+        return motion.ratio(self.target, wrt=self.along[0], order=self.order) if self.along else motion[self.target]
 
     def __str__(self) -> str:
-        said = [label(self.target), *([f"wrt={self.wrt}"] if self.wrt else ()), *([f"order={self.order}"] if self.order != 1 else ())]
-        return f"ratio({', '.join(said)})" if self.order else label(self.target)
+        if not self.along:
+            return label(self.target)
+        wrt = [f"wrt={self.along[0]}"] if self.along[0] else []
+        return f"ratio({', '.join([label(self.target), *wrt, *([f'order={self.order}'] if self.order > 1 else [])])})"
 
     def bound(self, plan: Plan) -> Value:
-        along = (stroke_of(plan, self.wrt),) * self.order if self.order else ()
+        along = tuple(stroke_of(plan, name) for name in self.along)
         if isinstance(self.target, Quantity) and not self.target.name:
             plan.reaches(self.target)  # raises for a name in it that there is not
             return Value(self.target, along)
         return Value(plan.members[checked_name("Name", self.target, plan.named(), plan.title)], along)
 
-
-def ratio(target: str | Member, wrt: str | None = None, order: int = 1) -> Ratio:
-    """Return the request for the derivative of a point or a quantity by a stroke, in `evaluate` and `gradient`.
-
-    `ratio("G")` is dG/dS, `ratio("G", order=2)` d2G/dS2; `wrt="S2"` where there are several strokes.
-    """
-    return Ratio(target, wrt, order_of(order))
-
-
-SMALL = 1e-9
-"""A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
-
-
-@final
-@dataclass(frozen=True)
-class Value(BoundRequest):
-    """A member, and the strokes that it is differentiated by, one after the other."""
-
-    member: Member
-    along: tuple[str, ...]
+    @property
+    def member(self) -> Member:
+        """The member, of one that is bound."""
+        return cast(Member, self.target)
 
     @property
-    def target(self) -> str | Quantity:
+    def strokes(self) -> tuple[str, ...]:
+        """The strokes that it is differentiated by, of one that is bound."""
+        return cast(tuple[str, ...], self.along)
+
+    @property
+    def name(self) -> str | Quantity:
         """The member by its name, or itself where it has none."""
         return self.member if isinstance(self.member, Quantity) and not self.member.name else self.member.name
 
     @property
     def key(self) -> Hashable:
-        return self.member.identity if isinstance(self.member, Quantity) else self.target, self.along
+        return self.member.identity if isinstance(self.member, Quantity) else self.name, self.along
 
     @property
     def rows(self) -> int:
@@ -336,14 +338,14 @@ class Value(BoundRequest):
         return len(self.along)
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        return plan.derived(plan.nodes(self.target), self.along)
+        return plan.derived(plan.nodes(self.name), self.strokes)
 
     def names(self, plan: Plan) -> set[str]:
-        return plan.reaches(self.target)
+        return plan.reaches(self.name)
 
     def refuse(self, motion: MotionLike) -> None:
         if self.along:
-            motion.ratio(self.target, wrt=self.along[0], order=self.order)
+            self.of(motion)
         elif isinstance(self.member, Quantity):
             motion.value(self.member)
 
@@ -368,14 +370,27 @@ class Value(BoundRequest):
         scale = natural_size(self.member, left.size)
         if scale is None:
             return super().scale(plan, left)
-        for name in self.along:
+        for name in self.strokes:
             scale = scale / (abs(plan.strokes[name].end - plan.strokes[name].start) or 1.0)
         return LEAST * scale if self.along else scale
 
-    def __str__(self) -> str:
+    @property
+    def sentence(self) -> str:
         what = self.member.name or str(self.member)
         kind = "ratio" if len(self.along) == 1 else "second derivative"
         return f"the {kind} of {what} by {self.along[0]}" if self.along else what
+
+
+def ratio(target: str | Member, wrt: str | None = None, order: int = 1) -> Value:
+    """Return the request for the derivative of a point or a quantity by a stroke, in `evaluate` and `gradient`.
+
+    `ratio("G")` is dG/dS, `ratio("G", order=2)` d2G/dS2; `wrt="S2"` where there are several strokes.
+    """
+    return Value(target, (wrt,) * order_of(order))
+
+
+SMALL = 1e-9
+"""A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
 
 
 def natural_size(member: Member, size: FloatArray) -> FloatArray | None:
@@ -397,10 +412,14 @@ UNIT_SIZE = frozenset({"sin", "cos", "arctan2"})
 @final
 @dataclass(frozen=True)
 class Combined(Request):
-    """What one of NumPy's functions makes of requests, quantities and numbers at every pose."""
+    """What one of NumPy's functions makes of requests, quantities and numbers at every pose. Bound, its parts are requests and numbers.
+
+    `text` is what was written, of one that is bound.
+    """
 
     function: str
     parts: tuple[Request | Quantity | float, ...]
+    text: str = field(default="", compare=False)
 
     def identity(self, plan: Plan) -> Hashable:
         found = [each if isinstance(each, float) else identity_of(plan, each) for each in self.parts]
@@ -456,8 +475,9 @@ class Combined(Request):
         found = [mask for mask in (each.unlimited(motion) for each in self.requests) if mask is not None]
         return reduce(np.logical_or, found) if found else None
 
-    def bound(self, plan: Plan) -> CombinedOf:
-        return CombinedOf(self, tuple(each if isinstance(each, float) else bound(plan, each) for each in self.parts))
+    def bound(self, plan: Plan) -> Combined:
+        parts = tuple(each if isinstance(each, float) else bound(plan, each) for each in self.parts)
+        return Combined(self.function, parts, str(self))
 
     @property
     def binds(self) -> int:
@@ -465,6 +485,8 @@ class Combined(Request):
         return SIGNS[self.function][1] if self.function in SIGNS else 1 if self.function == "negative" else 9
 
     def __str__(self) -> str:
+        if self.text:
+            return self.text
         if self.function == "negative":
             return f"-{bracketed(self.parts[0], 3)}"
         if self.function not in SIGNS:
@@ -472,6 +494,88 @@ class Combined(Request):
             return f"{name}({', '.join(bracketed(each, 0) for each in self.parts)})"
         (sign, _, left, right), (a, b) = SIGNS[self.function], self.parts
         return f"{bracketed(a, left)} {sign} {bracketed(b, right)}"
+
+    # -- bound to a plan ---------------------------------------------------------------------------------
+
+    @property
+    def key(self) -> Hashable:
+        return "combined", self.function, *(each.key if isinstance(each, Request) else each for each in self.parts)
+
+    @property
+    def rows(self) -> int:
+        return max(each.rows for each in self.requests)
+
+    @property
+    def order(self) -> int:
+        return max(each.order for each in self.requests)
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        given = [each.nodes(plan) if isinstance(each, Request) else (cast(float, each),) for each in self.parts]
+        rows = zip(*(each * (self.rows // len(each)) for each in given), strict=True)
+        return tuple(plan.trace.graph.node(NUMPY[self.function](*row)) for row in rows)
+
+    def names(self, plan: Plan) -> set[str]:
+        return set().union(*(each.names(plan) for each in self.requests))
+
+    def differentiated(self, plan: Plan) -> set[str]:
+        return set().union(*(each.differentiated(plan) for each in self.requests))
+
+    def gaps(self, plan: Plan) -> tuple[Node, ...]:
+        return tuple(dict.fromkeys(node for each in self.requests for node in each.gaps(plan)))
+
+    def notes(self, plan: Plan) -> Notes:
+        found = Notes()
+        for each in self.requests:
+            notes = each.notes(plan)
+            found.assumed.update(notes.assumed)
+            found.switches.update(notes.switches)
+        return found
+
+    def refuse(self, motion: MotionLike) -> None:
+        for each in self.requests:
+            each.refuse(motion)
+        self.of(motion)
+
+    def read_own(self, reading: ArrayReading) -> None:
+        for each in self.requests:
+            each.read_own(reading)
+
+    @property
+    def regular(self) -> float:
+        return max(each.regular for each in self.requests)
+
+    @property
+    def stands_for_others(self) -> bool:
+        return any(each.stands_for_others for each in self.requests)
+
+    @property
+    def may_fail(self) -> bool:
+        return True
+
+    @property
+    def follows_angles(self) -> bool:
+        return any(each.follows_angles for each in self.requests)
+
+    def rounded(self, plan: Plan) -> tuple[Node, ...]:
+        return *self.nodes(plan), *(node for each in self.requests for node in each.rounded(plan))
+
+    def error(self, plan: Plan, left: Left) -> FloatArray:
+        return left.part(slice(0, self.rows)).over(self.scale(plan, left))
+
+    def scale(self, plan: Plan, left: Left) -> FloatArray:
+        values, sizes, first = [], [], self.rows
+        for each in self.parts:
+            if not isinstance(each, Request):
+                values.append(np.full(left.size.shape, abs(cast(float, each))))
+                sizes.append(values[-1])
+                continue
+            count = len(each.rounded(plan))
+            own = left.part(slice(first, first + count))
+            values.append(np.abs(own.values[: each.rows]))
+            sizes.append(np.maximum(values[-1], each.scale(plan, own)))
+            first += count
+        with np.errstate(all="ignore"):
+            return np.nan_to_num(np.maximum(combined_size(self.function, values, sizes), SMALL), nan=SMALL)
 
 
 NUMPY: Mapping[str, Callable[..., Any]] = MappingProxyType({name: getattr(np, name) for name in TAKEN})
@@ -496,103 +600,6 @@ def bracketed(part: Request | Quantity | float, binding: int) -> str:
     return f"({text})" if binds < binding else text
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class CombinedOf(BoundRequest):
-    """A combination bound to a plan, from its parts."""
-
-    request: Combined
-    parts: tuple[BoundRequest | float, ...]
-
-    @property
-    def bound_parts(self) -> list[BoundRequest]:
-        """The parts that are no numbers."""
-        return [each for each in self.parts if not isinstance(each, float)]
-
-    @property
-    def key(self) -> Hashable:
-        return "combined", self.request.function, *(each if isinstance(each, float) else each.key for each in self.parts)
-
-    @property
-    def rows(self) -> int:
-        return max(each.rows for each in self.bound_parts)
-
-    @property
-    def order(self) -> int:
-        return max(each.order for each in self.bound_parts)
-
-    def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        given = [(each,) if isinstance(each, float) else each.nodes(plan) for each in self.parts]
-        rows = zip(*(each * (self.rows // len(each)) for each in given), strict=True)
-        return tuple(plan.trace.graph.node(NUMPY[self.request.function](*row)) for row in rows)
-
-    def names(self, plan: Plan) -> set[str]:
-        return set().union(*(each.names(plan) for each in self.bound_parts))
-
-    def differentiated(self, plan: Plan) -> set[str]:
-        return set().union(*(each.differentiated(plan) for each in self.bound_parts))
-
-    def gaps(self, plan: Plan) -> tuple[Node, ...]:
-        return tuple(dict.fromkeys(node for each in self.bound_parts for node in each.gaps(plan)))
-
-    def notes(self, plan: Plan) -> Notes:
-        found = Notes()
-        for each in self.bound_parts:
-            notes = each.notes(plan)
-            found.assumed.update(notes.assumed)
-            found.switches.update(notes.switches)
-        return found
-
-    def refuse(self, motion: MotionLike) -> None:
-        for each in self.bound_parts:
-            each.refuse(motion)
-        self.request.of(motion)
-
-    def read_own(self, reading: ArrayReading) -> None:
-        for each in self.bound_parts:
-            each.read_own(reading)
-
-    @property
-    def regular(self) -> float:
-        return max(each.regular for each in self.bound_parts)
-
-    @property
-    def stands_for_others(self) -> bool:
-        return any(each.stands_for_others for each in self.bound_parts)
-
-    @property
-    def may_fail(self) -> bool:
-        return True
-
-    @property
-    def follows_angles(self) -> bool:
-        return any(each.follows_angles for each in self.bound_parts)
-
-    def rounded(self, plan: Plan) -> tuple[Node, ...]:
-        return *self.nodes(plan), *(node for each in self.bound_parts for node in each.rounded(plan))
-
-    def error(self, plan: Plan, left: Left) -> FloatArray:
-        return left.part(slice(0, self.rows)).over(self.scale(plan, left))
-
-    def scale(self, plan: Plan, left: Left) -> FloatArray:
-        values, sizes, first = [], [], self.rows
-        for each in self.parts:
-            if isinstance(each, float):
-                values.append(np.full(left.size.shape, abs(each)))
-                sizes.append(values[-1])
-                continue
-            count = len(each.rounded(plan))
-            own = left.part(slice(first, first + count))
-            values.append(np.abs(own.values[: each.rows]))
-            sizes.append(np.maximum(values[-1], each.scale(plan, own)))
-            first += count
-        with np.errstate(all="ignore"):
-            return np.nan_to_num(np.maximum(combined_size(self.request.function, values, sizes), SMALL), nan=SMALL)
-
-    def __str__(self) -> str:
-        return str(self.request)
-
-
 def combined_size(function: str, values: Sequence[FloatArray], sizes: Sequence[FloatArray]) -> FloatArray:
     """Return the size that a combination's error is compared with, from the values and sizes of its parts, shape (n,) or (rows, n) each."""
     if function == "multiply":
@@ -606,43 +613,91 @@ def combined_size(function: str, values: Sequence[FloatArray], sizes: Sequence[F
     return np.full(sizes[0].shape, SMALL)
 
 
-# What forces go through, and what a motion works out first.
+# What functions of a plan say.
+
+
+@final
+@dataclass(frozen=True, eq=False, kw_only=True)
+class NodeRequest(Request):
+    """A request that needs no class: functions of a plan say its nodes and the members it is built from, and refuse what is not there.
+
+    `text` is what one writes, `sentence` what is said of it where that is something else, and `key` tells it from others. What it is
+    built from is `parts`, whose names may be another thing's tomorrow where they have none.
+    """
+
+    text: str
+    nodes_of: Callable[[Plan], tuple[Node, ...]]
+    names_of: Callable[[Plan], set[str]]
+    key: Hashable = None
+    sentence: str = ""
+    measures: str = ""
+    parts: tuple[RequestLike, ...] = ()
+    order: int = 0
+    regular_above: float | None = None
+    may_fail: bool = False
+    follows_angles: bool = False
+    stands_for_others: bool = False
+    notes_of: Callable[[Plan], Notes] | None = None
+    error_of: Callable[[Left], FloatArray] | None = None
+    values_of: Callable[[MotionLike], FloatArray] | None = None
+    refused_by: Callable[[MotionLike], None] | None = None
+
+    def identity(self, plan: Plan) -> Hashable:
+        return None if None in [identity_of(plan, each) for each in self.parts] else self.key
+
+    def bound(self, plan: Plan) -> NodeRequest:
+        self.names(plan)  # raises for what there is not
+        return self
+
+    def of(self, motion: MotionLike) -> FloatArray:
+        return super().of(motion) if self.values_of is None else self.values_of(motion)
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        return self.nodes_of(plan)
+
+    def names(self, plan: Plan) -> set[str]:
+        return self.names_of(plan)
+
+    def notes(self, plan: Plan) -> Notes:
+        return Notes() if self.notes_of is None else self.notes_of(plan)
+
+    def refuse(self, motion: MotionLike) -> None:
+        if self.refused_by is not None:
+            self.refused_by(motion)
+        elif self.values_of is not None:
+            motion._finite(self.values_of(motion), np.zeros(motion.shape, bool), f"The {self.sentence}")
+
+    @property
+    def regular(self) -> float:
+        return super().regular if self.regular_above is None else self.regular_above
+
+    def scale(self, plan: Plan, left: Left) -> FloatArray:
+        known = {"length": left.size, "angle": np.ones_like(left.size)}
+        return known.get(self.measures, super().scale(plan, left))
+
+    def error(self, plan: Plan, left: Left) -> FloatArray:
+        return super().error(plan, left) if self.error_of is None else self.error_of(left)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "sentence", self.sentence or self.text)
+
+    def __str__(self) -> str:
+        return self.text
+
 
 MINOR = 1e-3
 """Of the fastest point's ratio: what a slower one's error is compared with where both go into a force."""
 
 
-@final
-@dataclass(frozen=True)
-class Ratios(BoundRequest):
-    """The ratios of all moving points among some members by all strokes: what forces go through."""
+def point_ratios(members: Set[str]) -> NodeRequest:
+    """Return the ratios of all moving points among some members by all strokes: what forces go through."""
+    among = frozenset(members)
 
-    members: frozenset[str]
-
-    @property
-    def key(self) -> Hashable:
-        return "ratios", self.members
-
-    @property
-    def stands_for_others(self) -> bool:
-        return True
-
-    def points(self, plan: Plan) -> list[str]:
-        """Return the points."""
-        return [name for name in plan.moving if name in self.members]
-
-    @property
-    def order(self) -> int:
-        return 1
-
-    def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        places = [node for name in self.points(plan) for node in plan.nodes(name)]
+    def nodes(plan: Plan) -> tuple[Node, ...]:
+        places = [node for name in plan.moving if name in among for node in plan.nodes(name)]
         return tuple(node for stroke in plan.strokes for node in plan.derived(places, (stroke,)))
 
-    def names(self, plan: Plan) -> set[str]:
-        return set(self.members)
-
-    def error(self, plan: Plan, left: Left) -> FloatArray:
+    def error(left: Left) -> FloatArray:
         parts = [left.part(slice(row, row + 2)) for row in range(0, len(left.values), 2)]
         if not parts:
             return np.zeros(left.size.shape)
@@ -650,66 +705,40 @@ class Ratios(BoundRequest):
             largest = np.max([np.hypot(*part.values) for part in parts], axis=0)
         return np.asarray(np.max([part.length.over(MINOR * largest) for part in parts], axis=0))
 
-    def __str__(self) -> str:
-        return "the ratios of the points"
+    return NodeRequest(
+        text="the ratios of the points", key=("ratios", among), nodes_of=nodes, names_of=lambda plan: set(among), order=1,
+        stands_for_others=True, error_of=error,
+    )  # fmt: skip
 
 
-@final
-@dataclass(frozen=True)
-class Places(BoundRequest):
-    """The places of some points together: what a motion works out first."""
+def places_of(points: tuple[str, ...]) -> NodeRequest:
+    """Return the places of some points together: what a motion works out first."""
 
-    points: tuple[str, ...]
-
-    @property
-    def key(self) -> Hashable:
-        return "places", self.points
-
-    def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        return tuple(node for name in self.points for node in plan.nodes(name))
-
-    def names(self, plan: Plan) -> set[str]:
-        return plan.reaches(*self.points)
-
-    def error(self, plan: Plan, left: Left) -> FloatArray:
+    def error(left: Left) -> FloatArray:
         with np.errstate(all="ignore"):
             found = left.errors.max(axis=0, initial=0.0) / left.size
         return np.where(np.isnan(found), np.inf, found)
 
-    def __str__(self) -> str:
-        return "the places"
+    return NodeRequest(
+        text="the places", key=("places", points), nodes_of=lambda plan: tuple(node for name in points for node in plan.nodes(name)),
+        names_of=lambda plan: plan.reaches(*points), error_of=error,
+    )  # fmt: skip
 
 
 # Derivatives by dimensions: reverse mode through the program, all dimensions at once.
 
-@final
-@dataclass(frozen=True)
-class Slope(BoundRequest):
-    """The derivatives of a request by some dimensions, as a request that is looked at near singular poses."""
 
-    what: BoundRequest
-    by: tuple[str, ...]
+def slope(what: Request, by: tuple[str, ...]) -> NodeRequest:
+    """Return the derivatives of a request that is bound by some dimensions, as a request that is looked at near singular poses."""
 
-    @property
-    def key(self) -> Hashable:
-        return "slope", self.what.key, self.by
+    def nodes(plan: Plan) -> tuple[Node, ...]:
+        inputs = [plan.trace.inputs[name] for name in by]
+        return tuple(share for node in what.nodes(plan) for share in gradient(node, inputs))
 
-    @property
-    def order(self) -> int:
-        return 1 + self.what.order
-
-    def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        inputs = [plan.trace.inputs[name] for name in self.by]
-        return tuple(share for node in self.what.nodes(plan) for share in gradient(node, inputs))
-
-    def error(self, plan: Plan, left: Left) -> FloatArray:
-        return left.length.over(SMALL)
-
-    def names(self, plan: Plan) -> set[str]:
-        return self.what.names(plan)
-
-    def __str__(self) -> str:
-        return f"the gradient of {self.what}"
+    return NodeRequest(
+        text=f"the gradient of {what.sentence}", key=("slope", what.key, by), nodes_of=nodes, names_of=what.names, order=1 + what.order,
+        error_of=lambda left: left.length.over(SMALL),
+    )  # fmt: skip
 
 
 @final
@@ -724,10 +753,10 @@ class Slopes:
     touched: tuple[str, ...]
 
 
-def slopes_of(plan: Plan, what: BoundRequest, names: Sequence[str]) -> Slopes:
+def slopes_of(plan: Plan, what: Request, names: Sequence[str]) -> Slopes:
     """Return the derivatives of a request by dimensions, as a kernel."""
     inputs = [plan.trace.inputs[name] for name in names]
-    shares, notes = Slope(what, tuple(names)).nodes(plan), what.notes(plan)
+    shares, notes = slope(what, tuple(names)).nodes(plan), what.notes(plan)
     touched = [
         (switch, f"{name}: the law of {owner} compares what follows {name} with a number")
         for switch, owner in notes.switches.items()
@@ -752,7 +781,7 @@ class Requested:
     assumed: int
 
 
-def requested_of(plan: Plan, what: BoundRequest) -> Requested:
+def requested_of(plan: Plan, what: Request) -> Requested:
     """Return the program of a request's values over a motion."""
     nodes, assumed, gaps = what.nodes(plan), [*what.notes(plan).assumed], what.gaps(plan)
     angles = angles_of(plan, nodes) if what.follows_angles else None
@@ -761,13 +790,13 @@ def requested_of(plan: Plan, what: BoundRequest) -> Requested:
 
 # Near singular poses.
 
-def watched(plan: Plan, what: BoundRequest) -> list[Node]:
+def watched(plan: Plan, what: Request) -> list[Node]:
     """Return the nodes that are above zero where a request is far from every singular pose."""
     what.nodes(plan)  # directions of its own are noted then
     return plan.trace.watched(what.names(plan), what.regular)
 
 
-def near_singular(grid: Grid, what: BoundRequest) -> Mask:
+def near_singular(grid: Grid, what: Request) -> Mask:
     """Return the mask of poses at which a request has to be looked at closely."""
     watch = grid.plan.made(("watch", what.key), lambda twin: Kernel(watched(twin, what)))
     if not watch.plan.outputs:
@@ -776,7 +805,7 @@ def near_singular(grid: Grid, what: BoundRequest) -> Mask:
         return np.asarray(~np.all(grid.full(watch(grid.flat).values) > 0.0, axis=0))
 
 
-def examined(plan: Plan, what: BoundRequest, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:
+def examined(plan: Plan, what: Request, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:
     """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
     what.read_own(reading)
     rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.rounded(twin)))
@@ -785,10 +814,11 @@ def examined(plan: Plan, what: BoundRequest, inputs: Mapping[str, Any], reading:
     return found.as_loops() if what.stands_for_others else found
 
 
-def other_law_error(plan: Plan, what: BoundRequest) -> DefinitionError:
+def other_law_error(plan: Plan, what: Request) -> DefinitionError:
     """Return the error for poses where a law goes another way than the one that was traced."""
     laws = ", ".join(dict.fromkeys(what.notes(plan).assumed.values()))
+    law = f"the law of {laws}" if laws else "a law"
     return DefinitionError(
-        f"{plan.title}: {what}: at some of these poses {f'the law of {laws}' if laws else 'a law'} goes another way than the one traced, "
+        f"{plan.title}: {what.sentence}: at some of these poses {law} goes another way than the one traced, "
         "or has no finite value. Leave them out, choose by np.where in the law, or take finite differences of the forces."
     )

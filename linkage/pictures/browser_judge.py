@@ -67,7 +67,7 @@ class WhereOfBound(BoundRequest):
         return self.inner.names(plan)
 
     def __str__(self) -> str:
-        return f"{LIMITS[self.which]} of {self.inner}"
+        return f"{LIMITS[self.which]} of {self.inner.sentence}"
 
 
 @final

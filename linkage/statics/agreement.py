@@ -16,7 +16,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..motion import require_motion
 from ..motion.limits import where_words
-from ..motion.requests import Ratios, examined
+from ..motion.requests import examined, point_ratios
 from ..plan import NEAR, Mask
 from ..program import FloatArray, elementwise
 from .acting import Movement
@@ -121,7 +121,7 @@ def disagreeing(poses: FlatPoses, miss: FloatArray, limit: FloatArray | float, s
     bad = np.asarray(~(miss <= limit))
     if bad.any():
         motion, mask = require_motion(poses.motion), poses.mask(bad)
-        what = Ratios(frozenset(poses.plan.members))
+        what = point_ratios(set(poses.plan.members))
         error = examined(poses.plan, what, motion._grid.inputs_at(mask), motion._grid.read_at(mask)).error
         sizes = np.broadcast_to(size, bad.shape)[bad]
         bad[bad] = ~(miss[bad] <= MARGIN * np.nan_to_num(error, nan=0.0) * sizes)

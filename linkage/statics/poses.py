@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ..errors import DefinitionError, cited, unwarned
 from ..loads import Poses, require_poses
 from ..motion import BoundRequest
-from ..motion.requests import Ratios
+from ..motion.requests import point_ratios
 from ..plan import Mask, Plan, Reading
 from ..program import FloatArray
 from ..quantities import Reference
@@ -30,7 +30,7 @@ class FlatPoses:
     def __init__(self, motion: AnyMotion, what: str, names: set[str] | None = None) -> None:
         self.motion, self.plan = motion, motion.plan
         behind = frozenset(self.plan.members if names is None else names)
-        self.good: Mask = motion.reached & ~motion._refused(Ratios(behind), what)
+        self.good: Mask = motion.reached & ~motion._refused(point_ratios(behind), what)
         self.count = int(self.good.sum())
         self._at: dict[str, FloatArray] = {}
         self._rates: dict[tuple[str, str], FloatArray] = {}

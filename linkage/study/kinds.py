@@ -14,7 +14,7 @@ from typing import Any, TypeAlias, final
 from ..errors import DefinitionError
 from ..motion import stroke_unit
 from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, Worst, words_of
-from ..motion.requests import Combined, Ratio, stroke_of
+from ..motion.requests import Combined, Value, stroke_of
 from ..plan import Plan, plan_measure
 from ..quantities import Quantity, Ref
 from ..statics import DriveForce
@@ -112,10 +112,10 @@ def kind_of_quantity(plan: Plan, quantity: Any) -> MeasureKind | None:
 
 def kind_of_one(plan: Plan, known: Any) -> MeasureKind | None:
     """Return the kind of a quantity or request that is made of no others."""
-    if isinstance(known, Ratio):
+    if isinstance(known, Value) and known.along:
         target = plan.members.get(known.target) if isinstance(known.target, str) else known.target
         inner = MeasureKind(KINDS["length"]) if isinstance(target, Point) else kind_of_quantity(plan, known.target)
-        by = kind_of_stroke(plan, stroke_of(plan, known.wrt))
+        by = kind_of_stroke(plan, stroke_of(plan, known.along[0]))
         return None if inner is None else inner.times(by.to_the(float(known.order)), -1.0)
     if isinstance(known, DriveForce):
         is_length = stroke_unit(plan, stroke_of(plan, known.drive, "drive")) == "m"

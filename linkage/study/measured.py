@@ -47,7 +47,7 @@ def number_bound(plan: Plan, quantity: Any) -> BoundRequest | None:
 def measured_title(plan: Plan, quantity: Any) -> str:
     """Return a quantity in words; DefinitionError for what is none."""
     found = number_bound(plan, quantity)
-    return str(quantity) if isinstance(quantity, Measure) else words_of(quantity) if found is None else str(found)
+    return str(quantity) if isinstance(quantity, Measure) else words_of(quantity) if found is None else found.sentence
 
 
 def measure_of(plan: Plan, quantity: Any) -> str:

@@ -13,7 +13,7 @@ from ..motion import BoundRequest, Grid, Motion, Request
 from ..motion.evaluation import Evaluation
 from ..motion.grid import Angles, JoinedTo, angles_of
 from ..motion.measures import traced
-from ..motion.requests import Combined, Slope
+from ..motion.requests import Combined, slope
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level
 from ..quantities import Function, Negative, Number, Quantity, Ref, Sum
@@ -64,7 +64,7 @@ class SampleProgram:
         bulk = evaluation._make(plan)
         own = bulk.kernel
         following = [node for each in evaluation.requests if each.follows_angles for node in each.nodes(plan)]
-        shares = [node for each in sloped for node in Slope(each, owners).nodes(plan)] if owners else []
+        shares = [node for each in sloped for node in slope(each, owners).nodes(plan)] if owners else []
         return cls(
             evaluation.requests, len(own.outputs), Kernel([*own.outputs, *shares], own.guards), angles_of(plan, [*following, *shares]),
             (Kernel(shares), angles_of(plan, shares)) if shares else None, bulk.may_fail,

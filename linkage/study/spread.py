@@ -107,7 +107,7 @@ class SigmaOf(BoundRequest):
         return self.what.follows_angles
 
     def __str__(self) -> str:
-        return f"the sigma of {self.what}"
+        return f"the sigma of {self.what.sentence}"
 
 
 def spread(

@@ -13,7 +13,7 @@ import pytest
 from linkage import DefinitionError, Dimension, Mechanism, Stroke, drive_force, ratio
 from linkage.errors import unwarned
 from linkage.loads import ForceElement
-from linkage.motion import LiveText, Ratio, Request, conditions, live_text
+from linkage.motion import LiveText, Request, Value, conditions, live_text
 from linkage.motion.live import REGULAR
 from linkage.quantities import Quantity
 
@@ -145,7 +145,7 @@ def ways(machine, count):
 
 def size_of(plan, request, extent):
     """Return what a value is compared with where it is smaller: a length the machine's, an angle 1 rad, a force 1 N or 1 Nm."""
-    name, along = (request.target, plan.strokes[request.wrt]) if isinstance(request, Ratio) else (request, None)
+    name, along = (request.target, plan.strokes[request.along[0]]) if isinstance(request, Value) else (request, None)
     member = plan.members.get(name) if isinstance(name, str) else None
     measures = getattr(member, "measures", "" if member is None else "length")
     size = {"length": extent, "angle": 1.0}.get(measures, 1.0 if isinstance(request, Request) else 1e-9)

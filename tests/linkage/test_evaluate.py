@@ -34,7 +34,7 @@ def of_motion(motion, request):
     """Return what a motion says to a request."""
     if not hasattr(request, "order"):
         return motion[request] if isinstance(request, str) else motion.value(request)
-    return motion.ratio(request.target, wrt=request.wrt, order=request.order)
+    return motion.ratio(request.target, wrt=request.along[0], order=request.order)
 
 
 @pytest.mark.parametrize("designs", [{}, {"OB": np.linspace(0.28, 0.32, 5)}, {"OB": np.full((3, 1), 0.3), "M": (np.full(2, 0.22), 1.05)}])

@@ -180,7 +180,7 @@ def test_the_drawn_profile_touches_the_drawn_roller():
         along = (at["A"] - at["O"]) / 0.03
         profile = at["O"] + corners @ np.array([along, [-along[1], along[0]]])
         assert_allclose(np.hypot(*(profile - at["R"]).T).min(), 0.01, atol=2e-5)
-    assert roller.P == "R"
+    assert roller.on[0] == "R"
     assert scene.extent[0] < -0.03
 
 
@@ -189,7 +189,7 @@ def test_pictures_and_pages_show_it(tmp_path):
     page(Valve(), path=tmp_path / "valve.html")
     _, _, packed = (tmp_path / "valve.html").read_text(encoding="utf-8").partition('<script id="data" type="text/plain">')
     data = json.loads(decompress(b64decode(packed.partition("<")[0])))
-    assert [data["scene"]["names"][each["P"]] for each in data["scene"]["contours"]] == ["O", "R"]
+    assert [data["scene"]["names"][each["on"][0]] for each in data["scene"]["contours"]] == ["O", "R"]
 
 
 @pytest.mark.parametrize("machine", [Valve, Loose, Rod])

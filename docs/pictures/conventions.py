@@ -14,14 +14,15 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patches import FancyArrowPatch, Polygon
+from matplotlib.patches import FancyArrowPatch
 from matplotlib.patheffects import withStroke
 
 from linkage.pictures import style
-from linkage.pictures.drawing import BodyPart, dot, pin
-from linkage.pictures.scene import Plate, Ram
+from linkage.pictures.drawing import BodyPart, MarkPart, dot, pin
+from linkage.pictures.scene import DrawnMark, Plate, Ram
+from linkage.pictures.shapes import BLOCK, LONG, tube
 from linkage.pictures.style import STRONG
-from linkage.pictures.symbols import CylinderPart, block, ground
+from linkage.pictures.symbols import ground
 
 Place = tuple[float, float]
 
@@ -124,7 +125,7 @@ def cylinder(ax: Axes, A: Place, B: Place, out: float = 0.5) -> None:
     mouth = 0.62 * length
     piston = 2.4 * SIZE + out * (mouth - 3.6 * SIZE)
     ram = Ram("A", "B", 0.0, 1.4 * SIZE, mouth, length - piston, 2.0 * SIZE, mouth - 0.9 * SIZE)
-    CylinderPart(ax, ram, SIZE, STRONG).update({"A": np.array(A), "B": np.array(B)})
+    MarkPart(ax, ram.mark(SIZE), STRONG).update({"A": np.array(A), "B": np.array(B)})
 
 
 def along(A: Place, B: Place, steps: Sequence[tuple[float, float]]) -> list[Place]:
@@ -156,8 +157,8 @@ def rail(ax: Axes, start: Place, end: Place) -> None:
 
 def slider(ax: Axes, at: Place, way: float = RIGHT) -> None:
     """Draw a block that slides in a direction [rad]."""
-    corners = block(np.array(at), np.array(at), np.array(shifted(at, way, 1.0)), 1.25 * SIZE, SIZE)
-    ax.add_patch(Polygon(corners, facecolor=style.RULE, edgecolor=style.INK, linewidth=style.OUTLINE, joinstyle="round", zorder=10.17))
+    box = tube(0.0, -LONG * SIZE, 0.0, LONG * SIZE, BLOCK * SIZE, "RULE")
+    MarkPart(ax, DrawnMark("P", ("P", "Q"), (box,), 0.17, 1.0), STRONG).update({"P": np.array(at), "Q": np.array(shifted(at, way, 1.0))})
 
 
 # -- the pictures ------------------------------------------------------------------------------------------

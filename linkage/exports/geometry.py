@@ -208,12 +208,9 @@ def cylinder_pieces(ram: Ram, length: float, size: float) -> Iterator[tuple[floa
 
 def spring_parts(scene: Scene, at: Places) -> Iterator[Part]:
     """Yield the lines of springs, dampers and struts."""
-    for each in scene.straights:
-        P, Q = at[each.P], at[each.Q]
-        along = unit_vector(P, Q)
-        axes = np.array([along, [-along[1], along[0]]])
-        for line in each.lines:
-            yield Polyline("elements", each.P + each.Q, P + line.at(float(np.hypot(*(Q - P))) * mm) / mm @ axes, closed=line.closed)
+    for mark in scene.straights:
+        for line, drawn in zip(mark.lines, mark.drawn({name: place * mm for name, place in at.items()}), strict=True):
+            yield Polyline("elements", mark.name, drawn / mm, closed=line.closed)
 
 
 # Pins and lengths.

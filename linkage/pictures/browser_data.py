@@ -29,8 +29,7 @@ from .curves import limit_of, typeset
 from .free_space import label_free, props
 from .labels import offsets
 from .poses import named_points
-from .scene import Piece, Plate, Scene, SlideTrack, Straight
-from .shapes import DrawnLine
+from .scene import DrawnMark, Plate, Scene, SlideTrack
 from .strokes import ends_where_begun, is_changing, is_turn
 
 FONT = 14.0
@@ -470,10 +469,10 @@ def scene_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "box": [four_digits(side) for side in scene.box(0.0)],
         "bodies": [body_data(plate, points, index) | {"colour": k % len(style.BODIES)} for k, (plate, points) in enumerate(forms)],
         "tracks": [track_data(track, index, live) for track in scene.tracks],
-        "contours": [straight_data(each, index) for each in (*scene.contours, *scene.sections)],
-        "straights": [straight_data(each, index) for each in scene.straights],
-        "pieces": [piece_data(each, index, scene) for each in scene.surroundings],
-        "marks": [piece_data(each, index, scene) for each in scene.marks],
+        "contours": [mark_data(each, index) for each in (*scene.contours, *scene.sections)],
+        "straights": [mark_data(each, index) for each in scene.straights],
+        "around": [mark_data(each, index, 0.05 * scene.size) for each in scene.surroundings],
+        "loads": [mark_data(each, index, 0.05 * scene.size) for each in scene.load_marks],
         "stays": [[index[P], index[X]] for P, X in scene.stays],
         "pins": [index[name] for name in scene.pins],
         "dots": [index[name] for name in scene.dots],
@@ -498,21 +497,18 @@ def body_data(plate: Plate, points: Sequence[str], index: Mapping[str, int]) -> 
     }
 
 
-def line_data(line: DrawnLine, rows: FloatArray) -> dict[str, Any]:
-    """Return a line: its rows, and how it is drawn."""
-    flags = {"fill": line.fill.lower(), "closed": int(line.closed), "bold": int(line.bold)}
-    return {"rows": [[round(part, 4) for part in row] for row in rows.tolist()]} | {name: flag for name, flag in flags.items() if flag}
+def mark_data(mark: DrawnMark, index: Mapping[str, int], near: float = 0.0) -> dict[str, Any]:
+    """Return a mark: its points, and its lines as rows of ways along and across [m], and a share of the distance where they stretch.
 
-
-def straight_data(each: Straight, index: Mapping[str, int]) -> dict[str, Any]:
-    """Return lines from P to Q: rows of a share of the distance, and ways along and across [m]."""
-    return {"P": index[each.P], "Q": index[each.Q], "lines": [line_data(line, line.rows) for line in each.lines]}
-
-
-def piece_data(piece: Piece, index: Mapping[str, int], scene: Scene) -> dict[str, Any]:
-    """Return what some points carry, or nothing does: lines in its own axes [m], and whether they are hatched on their right."""
-    lines = [line_data(line, sparse(line.rows[:, 1:], 0.05 * scene.size)) for line in piece.lines]
-    return {"on": [index[name] for name in piece.on], "lines": lines} | ({"hatched": 1} if len(piece.hatched) else {})
+    Of lines that keep their form points are left out that lie so near to the line of their neighbours [m]; `hatched` on their right.
+    """
+    lines = []
+    for line in mark.lines:
+        share, keeps = line.rows[:, :1], not line.rows[:, 0].any()
+        rows = sparse(line.rows[:, 1:], near) if keeps else np.column_stack([line.rows[:, 1:], share])
+        flags = {"fill": line.fill.lower(), "closed": int(line.closed), "bold": int(line.bold)}
+        lines.append({"rows": np.round(rows, 4).tolist()} | {name: flag for name, flag in flags.items() if flag})
+    return {"on": [index[name] for name in mark.on], "lines": lines} | ({"hatched": 1} if len(mark.hatched) else {})
 
 
 def sparse(rows: FloatArray, near: float) -> FloatArray:

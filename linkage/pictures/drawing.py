@@ -22,11 +22,11 @@ from ..program import FloatArray
 from . import style
 from .free_space import label_free, props
 from .labels import LabelPart, offsets
-from .scene import Piece, Places, Plate, Scene, Straight
+from .scene import DrawnMark, Places, Plate, Scene
 from .shapes import rounded
 from .sheet import points_a_metre, sheet
 from .style import FAINT, STRONG, Look
-from .symbols import CylinderPart, MovingPart, added, distance_and_direction, ground, polygon, rails, sliders
+from .symbols import MovingPart, SlotPart, added, ground, polygon, rails
 
 
 def mechanism(ax: Axes, motion: Motion, pose: int | tuple[int, ...] = 0, *, faint: bool = False) -> Drawing:
@@ -56,14 +56,10 @@ class Drawing:
         self.ax, self.scene, self.look = ax, scene, look
         plates = zip(scene.plates, cycle(style.BODIES), strict=False)
         self.parts: list[MovingPart] = [
-            *(PiecePart(ax, each, look, -2.0) for each in scene.surroundings if each.on),
-            *(StraightPart(ax, each, look, -0.1) for each in (*scene.contours, *scene.sections)),
+            *(MarkPart(ax, mark, look) for mark in scene.marks if mark.on),
             *(BodyPart(ax, plate, scene.size, colour, look) for plate, colour in plates),
-            *sliders(ax, scene, look),
-            *(CylinderPart(ax, ram, scene.size, look) for ram in scene.rams),
-            *(StraightPart(ax, each, look) for each in scene.straights),
+            *(SlotPart(ax, track.ends, scene.size, look) for track in scene.tracks if not track.fixed),
             *(StayPart(ax, ends, look) for ends in scene.stays),
-            *(PiecePart(ax, each, look, 0.7 if each.on[0] in scene.pins else 0.9) for each in scene.marks),
             *(pin(ax, name, scene.size, look) for name in scene.pins),
             *(dot(ax, name, scene.size * (0.7 if name in scene.minor else 1.0), look) for name in scene.dots),
         ]
@@ -72,9 +68,9 @@ class Drawing:
         """Draw what never moves: the frame under its pins."""
         rails(self.ax, self.scene, self.look)
         at = self.scene.at(0)
-        for piece in self.scene.surroundings:
-            if not piece.on:
-                PiecePart(self.ax, piece, self.look, FIXED - self.look.level).update(at)
+        for mark in self.scene.marks:
+            if not mark.on:
+                MarkPart(self.ax, mark, self.look).update(at)
         for name, way in props(self.scene).items():
             ground(self.ax, at[name], way, self.scene.size, self.look)
 
@@ -126,65 +122,38 @@ class BodyPart(MovingPart):
             artist.set_xy(outline)
 
 
-# Springs, dampers and struts between two points, and the yokes of what stands beside its pins.
-
-
-@final
-class StraightPart(MovingPart):
-    """A straight element from P to Q, or what a step draws of itself, as some lines."""
-
-    artists: tuple[Polygon, ...]
-
-    def __init__(self, ax: Axes, straight: Straight, look: Look, above: float = 0.5) -> None:
-        self.straight, self.points = straight, (straight.P, straight.Q)
-        line = {"edgecolor": look.colour(style.INK), "joinstyle": "round", "capstyle": "round"}
-        self.artists = tuple(
-            polygon(
-                ax, look.level + above + 0.01 * layer, closed=each.closed, fill=bool(each.fill),
-                facecolor=look.colour(getattr(style, each.fill or "PAPER")), linewidth=style.OUTLINE * (1.5 if each.bold else 0.8), **line,
-            )
-            for layer, each in enumerate(straight.lines)
-        )  # fmt: skip
-
-    def move(self, at: Places) -> None:
-        P, Q = at[self.straight.P], at[self.straight.Q]
-        length, along = distance_and_direction(P, Q)
-        turned = np.array([along, [-along[1], along[0]]])
-        for line, artist in zip(self.straight.lines, self.artists, strict=True):
-            artist.set_xy(P + line.at(length) @ turned)
-
-
-# What some points carry, or nothing does: marks of loads, surroundings.
+# What points carry, or nothing does: cylinders, springs, blocks, signs of loads, surroundings.
 
 FIXED = 1.6
 """The layer of what stands still around a mechanism, below all of it."""
 
 
 @final
-class PiecePart(MovingPart):
-    """Some lines that keep their form, their hatches, and a picture under them."""
+class MarkPart(MovingPart):
+    """A mark: its lines, its hatches, and a picture under them."""
 
-    def __init__(self, ax: Axes, piece: Piece, look: Look, above: float) -> None:
-        self.piece, self.points = piece, piece.on
-        level, ink = look.level + above, look.colour(style.AROUND if above < 0.0 else style.INK)
+    def __init__(self, ax: Axes, mark: DrawnMark, look: Look) -> None:
+        self.mark, self.points = mark, mark.on
+        level, ink = look.level + mark.level if mark.on else FIXED, look.colour(getattr(style, mark.ink))
         self.lines = tuple(
             polygon(
                 ax, level + 0.001 * layer, closed=each.closed, fill=bool(each.fill), edgecolor=ink, joinstyle="round", capstyle="round",
-                facecolor=look.colour(getattr(style, each.fill or "PAPER")), linewidth=style.OUTLINE * (1.5 if each.bold else 0.9),
+                facecolor=look.colour(getattr(style, each.fill or "PAPER")), linewidth=style.OUTLINE * (1.5 if each.bold else mark.width),
             )
-            for layer, each in enumerate(piece.lines)
+            for layer, each in enumerate(mark.lines)
         )  # fmt: skip
         self.hatches = LineCollection([], colors=ink, linewidths=0.7 * style.THIN, zorder=level + 0.005)
-        ax.add_collection(self.hatches, autolim=False)
-        self.under = [] if piece.under is None else [Underlay(ax, *piece.under, level - 0.1, look)]
-        self.artists = (*self.lines, self.hatches, *(each.image for each in self.under))
+        if len(mark.hatched):
+            ax.add_collection(self.hatches, autolim=False)
+        self.under = [] if mark.under is None else [Underlay(ax, *mark.under, level - 0.1, look)]
+        self.artists = (*self.lines, *([self.hatches] if len(mark.hatched) else []), *(each.image for each in self.under))
 
     def move(self, at: Places) -> None:
-        for line, artist in zip(self.piece.lines, self.lines, strict=True):
-            artist.set_xy(self.piece.placed(line.rows[:, 1:], at))
-        self.hatches.set_segments(list(self.piece.placed(self.piece.hatched, at)))
+        for line, artist in zip(self.mark.drawn(at), self.lines, strict=True):
+            artist.set_xy(line)
+        self.hatches.set_segments(list(self.mark.placed(self.mark.hatched, at)))
         for each in self.under:
-            each.place(self.piece.placed(each.corners, at))
+            each.place(self.mark.placed(each.corners, at))
 
 
 @final

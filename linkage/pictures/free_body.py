@@ -26,7 +26,7 @@ from .arrows import (
     significant,
     wordings,
 )
-from .drawing import BodyPart, StraightPart, pin
+from .drawing import BodyPart, MarkPart, pin
 from .force_arrows import FRAME, ForceQuestion, ForcesAt, body_layer, drawn_body, forces_at_pose, imbalance
 from .labels import LabelPart, offsets
 from .overlays import sheet_note
@@ -36,7 +36,7 @@ from .shapes import hull, segment
 from .sheet import Picture, fitted_to, points_a_metre, sheet
 from .strokes import stroke_words
 from .style import STRONG
-from .symbols import CylinderPart, MovingPart, polygon
+from .symbols import MovingPart, polygon
 
 FREE_WIDTH, FREE_HEIGHT = 11.0, 6.0
 """The figure's size [inch]."""
@@ -141,11 +141,11 @@ class FreeBodyPicture:
         """Return the body's own parts: a plate or a bar, a cylinder, a spring, a block, and its pins."""
         own, parts = set(self.points), list[MovingPart]()
         rams = [each for each in self.scene.rams if {each.P, each.Q} == own]
-        straights = [each for each in self.scene.straights if {each.P, each.Q} == own]
+        straights = [each for each in self.scene.straights if set(each.on) == own]
         if rams:
-            parts += [CylinderPart(ax, each, self.size, STRONG) for each in rams]
+            parts += [MarkPart(ax, each.mark(self.size), STRONG) for each in rams]
         elif straights:
-            parts += [StraightPart(ax, each, STRONG) for each in straights]
+            parts += [MarkPart(ax, each, STRONG) for each in straights]
         elif len(self.points) == 1:
             x, y = self.at[self.points[0]]
             half = 1.6 * self.size

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..program import FloatArray
-from .scene import Piece, Places, Scene
+from .scene import Places, Scene
 from .shapes import segment
 from .symbols import hatched
 
@@ -29,9 +29,8 @@ def cloud(scene: Scene, at: Places) -> FloatArray:
     lines = [(segment(P, Q, 0.8 * scene.size), 1.0) for P, Q in edges]
     lines += [(segment(at[P], at[Q], 0.8 * scene.size), half) for P, Q, half in pairs if np.isfinite([at[P], at[Q]]).all()]
     wide = [line + offset * half * scene.size * _normal(line) for line, half in lines for offset in (-1.0, 0.0, 1.0)]
-    fed = [Piece("", (each.P, each.Q), each.lines) for each in scene.fed if np.isfinite([at[each.P], at[each.Q]]).all()]
-    marks = [each for each in scene.marks if np.isfinite([at[name] for name in each.on]).all()]
-    beside = [each.placed(each.corners, at) for each in (*fed, *marks)]
+    there = [each for each in (*scene.fed, *scene.load_marks) if np.isfinite([at[name] for name in each.on]).all()]
+    beside = [each.placed(each.corners, at) for each in there]
     points = [place[None] for place in at.values() if np.isfinite(place).all()]
     return np.concatenate([np.empty((0, 2)), *wide, *beside, *points])
 

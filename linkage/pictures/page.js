@@ -154,13 +154,19 @@ function hatches(line, fixed) {
   }
   return found;
 }
-/* What some points carry, or nothing does: lines that keep their form. */
-function piece({ on: [P, Q], lines, hatched }, ink) {
+/* What some points carry, or nothing does: lines, each place a way along and across, and a share of the length where it stretches. */
+function linework({ on: [P, Q], lines, hatched }, ink = "ink", thin = 0.8) {
   const group = draw(sheet, "g", { stroke: css(ink), join: "round", cap: "round" }), flip = (rows) => rows.map(([x, y]) => [x * zoom, -y * zoom]);
-  for (const { rows, fill, closed, bold } of lines) draw(group, closed ? "polygon" : "polyline", { points: pairs(flip(rows)), fill: fill ? css(fill) : "none", w: (bold ? 1.5 : 0.9) * EDGE });
+  const drawn = lines.map(({ rows, fill, closed, bold }) => {
+    const line = draw(group, closed ? "polygon" : "polyline", { fill: fill ? css(fill) : "none", w: (bold ? 1.5 : thin) * EDGE });
+    const put = (length) => set(line, { points: pairs(rows.map(([along, across, share = 0]) => [share * length + along * zoom, -across * zoom])) });
+    put(0);
+    return rows[0].length > 2 && put;
+  }).filter(Boolean);
   if (hatched) draw(group, "path", { w: 0.7, fill: "none", d: broken(lines.flatMap(({ rows, closed }) => hatches(flip(closed ? [...rows, rows[0]] : rows), P === undefined))) });
   return (at) => {
     const [x, y] = P === undefined ? px(0, 0) : at[P], beyond = Q === undefined ? [x + 1, y] : at[Q];
+    for (const put of drawn) put(apart([x, y], beyond));
     set(group, { transform: turned([x, y], beyond) });
   };
 }
@@ -190,15 +196,6 @@ function ram({ P, Q, aside, pressure, most }) {
     if (pressure !== undefined) set(barrel, { fill: heat(pose.values[pressure][0], pose.values[most] ? pose.values[most][0] : scale.most) });
     set(group, { transform: turned(at[P], at[Q]) });
   };
-}
-/* Lines from P to Q, each place a share of the length and a way along and across. */
-function straight({ P, Q, lines }) {
-  const group = draw(sheet, "g", { join: "round", cap: "round", stroke: css("ink") });
-  const drawn = lines.map(({ rows, fill, closed, bold }) => {
-    const line = draw(group, closed ? "polygon" : "polyline", { w: (bold ? 1.5 : 0.8) * EDGE, fill: fill ? css(fill) : "none" });
-    return (length) => set(line, { points: pairs(rows.map(([share, along, across]) => [share * length + along * zoom, -across * zoom])) });
-  });
-  return (at) => { const length = apart(at[P], at[Q]); for (const line of drawn) line(length); set(group, { transform: turned(at[P], at[Q]) }); };
 }
 /* Where a track's ends stand: as far as its riders travel over the stroke, and a margin. */
 function track(each) {
@@ -374,19 +371,19 @@ function build() {
   sheet.replaceChildren();
   set(sheet, { viewBox: `0 0 ${sheetWide} ${sheetTall}` });
   const ghost = draw(sheet, "path", { class: "line", w: 2, dash: "2 5", stroke: css("muted") });
-  const still = [...scene.pieces.map((each) => piece(each, "muted")), ghostly(ghost), ...scene.grounds.map(ground), ...scene.tracks.filter((each) => each.fixed).map(rail)];
+  const still = [...scene.around.map((each) => linework(each, "muted", 0.9)), ghostly(ghost), ...scene.grounds.map(ground), ...scene.tracks.filter((each) => each.fixed).map(rail)];
   const paths = data.paths.map((point) => {
     const line = draw(sheet, "path", { class: "line", w: 2.2, dash: "0.1 4.6", stroke: css("accent") });
     let seen;
     return () => { if (seen !== edition) { seen = edition; set(line, { d: broken([...now.along.keys()].map((i) => (now.reason[i] ? null : px(...spot(now, point, i))))) }); } };
   });
   const isPlate = (each) => (each.shares || each.points).length > 2, plates = scene.bodies.filter(isPlate), bars = scene.bodies.filter((each) => !isPlate(each));
-  const marks = (pinned) => scene.marks.filter((each) => scene.pins.includes(each.on[0]) === pinned).map((each) => piece(each, "ink"));
+  const loads = (pinned) => scene.loads.filter((each) => scene.pins.includes(each.on[0]) === pinned).map((each) => linework(each, "ink", 0.9));
   const blocks = (fixed) => scene.tracks.filter((each) => each.fixed === fixed).flatMap((each) => each.riders.map((rider) => block(each, rider)));
   parts = [
-    ...still, ...paths, ...scene.contours.map(straight), ...plates.map(body), ...blocks(true), ...bars.map(body),
-    ...scene.tracks.filter((each) => !each.fixed).map(slot), ...blocks(false), ...scene.stays.map(stay), ...data.cylinders.filter((each) => each.drawn).map(ram), ...scene.straights.map(straight), ...marks(true),
-    ...scene.pins.map((i) => circle(i, 0.5 * unit0, "paper", "ink", 1.3 * EDGE)), ...scene.dots.map((i) => circle(i, 0.48 * unit0, "ink", "paper", 1)), ...marks(false),
+    ...still, ...paths, ...scene.contours.map((each) => linework(each)), ...plates.map(body), ...blocks(true), ...bars.map(body),
+    ...scene.tracks.filter((each) => !each.fixed).map(slot), ...blocks(false), ...scene.stays.map(stay), ...data.cylinders.filter((each) => each.drawn).map(ram), ...scene.straights.map((each) => linework(each)), ...loads(true),
+    ...scene.pins.map((i) => circle(i, 0.5 * unit0, "paper", "ink", 1.3 * EDGE)), ...scene.dots.map((i) => circle(i, 0.48 * unit0, "ink", "paper", 1)), ...loads(false),
     ...data.arrows.map(arrow), ...scene.names.map((_, i) => name(i)), ...data.grips.map(grip),
   ];
   keys = draw(sheet, "g", {});

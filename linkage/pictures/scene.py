@@ -21,18 +21,23 @@ from ..surroundings import Outline
 from ..vectors import Line
 from .shapes import (
     APART,
+    BLOCK,
     HALF,
+    LONG,
     MARKS,
     ON_BODIES,
     OUTLINES,
+    SLOT,
     DrawnLine,
     accumulators,
+    cylinder,
     hatches,
     hull,
     nested_tubes,
     plate_form,
     stages,
     telescope_sections,
+    tube,
     turning_with,
     yokes,
 )
@@ -139,16 +144,6 @@ class Hung:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Straight:
-    """Lines from P to Q that stretch with the distance."""
-
-    P: str
-    Q: str
-    lines: tuple[DrawnLine, ...]
-
-
-@final
-@dataclass(frozen=True, eq=False)
 class Plate:
     """A body's form: in each corner the shares of its points, shape (k, n), counter-clockwise; two corners are a bar."""
 
@@ -162,39 +157,54 @@ class Plate:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Piece:
-    """What some points carry: lines in axes from the first towards the second [m]; of one point with the frame's directions, of none fixed.
+class DrawnMark:
+    """Lines that some points carry, in axes at the first of them [m]: along the direction of the last two, and to its left.
 
-    `hatched` are short lines, shape (m, 2, 2); `under` is the path of a picture, its corners from the lower left one, and how opaque it is.
+    Of one point, or of none, the axes have the frame's directions. Lines stretch with the distance of the two points as their rows say,
+    and move with the piston where there is a cylinder. `level` is the layer above that of plates, `width` a line's in outlines, `ink` a
+    colour of the style; `hatched` are short lines, shape (m, 2, 2); `under` is the path of a picture, its corners from the lower left one,
+    and how opaque it is. A writer of pictures draws marks and knows no kinds of members.
     """
 
     name: str
     on: tuple[str, ...]
     lines: tuple[DrawnLine, ...]
+    level: float = 0.5
+    width: float = 0.8
+    ink: str = "INK"
     hatched: FloatArray = field(default_factory=lambda: np.empty((0, 2, 2)))
     under: tuple[str, FloatArray, float] | None = None
+    cylinder: Ram | None = None
+
+    def axes(self, at: Places) -> tuple[FloatArray, FloatArray, float]:
+        """Return the origin (2,) and the directions (2, 2) of its axes at a pose, and the distance of the points that it stretches with."""
+        if len(self.on) < 2:
+            return at[self.on[0]] if self.on else np.zeros(2), np.eye(2), 0.0
+        along = at[self.on[-1]] - at[self.on[-2]]
+        length = float(np.hypot(*along))
+        along = along / (length or 1.0)
+        return at[self.on[0]], np.array([along, [-along[1], along[0]]]), length
 
     def placed(self, points: FloatArray, at: Places) -> FloatArray:
-        """Return points of its own axes in the plane, the same shape (..., 2) [m]."""
-        if not self.on:
-            return points
-        origin = at[self.on[0]]
-        if len(self.on) == 1:
-            return np.asarray(origin + points)
-        along = at[self.on[1]] - origin
-        along = along / (np.hypot(*along) or 1.0)
-        return np.asarray(origin + points @ np.array([along, [-along[1], along[0]]]))
+        """Return points of its axes in the plane, the same shape (..., 2) [m]."""
+        origin, ways, _ = self.axes(at)
+        return np.asarray(origin + points @ ways)
 
     def seen(self, place: FloatArray, at: Places) -> FloatArray:
-        """Return where a place (2,) [m] of the plane stands in the axes of its two points."""
-        along = at[self.on[1]] - at[self.on[0]]
-        along = along / (np.hypot(*along) or 1.0)
-        return np.asarray(np.array([along, [-along[1], along[0]]]) @ (place - at[self.on[0]]))
+        """Return where a place (2,) [m] of the plane stands in its axes."""
+        origin, ways, _ = self.axes(at)
+        return np.asarray(ways @ (place - origin))
+
+    def drawn(self, at: Places) -> list[FloatArray]:
+        """Return its lines at a pose, shape (n, 2) each [m]."""
+        origin, ways, length = self.axes(at)
+        piston = 0.0 if self.cylinder is None else self.cylinder.piston(length)
+        return [np.asarray(origin + line.at(length, piston) @ ways) for line in self.lines]
 
     @property
     def corners(self) -> FloatArray:
-        """All its points, shape (n, 2) [m]."""
-        lines = [line.rows[:, 1:] for line in self.lines]
+        """All its points where nothing stretches, shape (n, 2) [m]."""
+        lines = [line.rows[:, 1:3] for line in self.lines]
         return np.concatenate([np.empty((0, 2)), *lines, *([self.under[1]] if self.under else [])])
 
 
@@ -215,6 +225,11 @@ class Ram:
     def piston(self, length: float) -> float:
         """Return where the piston stands at a length [m], from P; it stops where no cylinder could be that long."""
         return float(np.clip(length - self.rod, self.least, self.most))
+
+    def mark(self, size: float) -> DrawnMark:
+        """Return it drawn in a size [m]: the eye, the barrel cut open, the rod, its piston, and the cap at the barrel's mouth."""
+        lines = tuple(line.moved(self.aside) for line in cylinder(self.bottom, self.mouth, size))
+        return DrawnMark(self.P + self.Q, (self.P, self.Q), lines, 0.4, cylinder=self)
 
 
 @final
@@ -368,7 +383,7 @@ class Scene:
         return Ram(hung.P, hung.Q, aside, bottom, mouth, short - least, least, mouth - 0.9 * size)
 
     @cached_property
-    def straights(self) -> tuple[Straight, ...]:
+    def straights(self) -> tuple[DrawnMark, ...]:
         """Springs, dampers, struts and telescopes as lines, the yokes of all that stands beside its pins, and accumulators."""
         found = []
         for hung in self.hung:
@@ -378,11 +393,11 @@ class Scene:
             lines = [line.moved(aside) for line in shape(short, long, self.size)] if shape and long else []
             lines += yokes(aside, self.size) if aside else ()
             if lines:
-                found.append(Straight(hung.P, hung.Q, tuple(lines)))
+                found.append(DrawnMark(hung.P + hung.Q, (hung.P, hung.Q), tuple(lines)))
         return (*found, *self.fed)
 
     @cached_property
-    def fed(self) -> tuple[Straight, ...]:
+    def fed(self) -> tuple[DrawnMark, ...]:
         """The accumulators of gas-fed lines, each on its cylinder's barrel, on the side where there is room."""
         found = []
         for _, glyph in self.glyphs:
@@ -391,7 +406,8 @@ class Scene:
                 start = min(2.6 * self.size, 0.3 * self._lengths(hung.P, hung.Q)[0])
                 side = self._free_side(hung)
                 across = (hung.aside + side * HALF["cylinder"] * 0.85) * self.size
-                found.append(Straight(hung.P, hung.Q, accumulators(min(max(glyph.count, 1), MOST_SHOWN), start, across, self.size)))
+                lines = accumulators(min(max(glyph.count, 1), MOST_SHOWN), start, across, self.size)
+                found.append(DrawnMark(hung.P + hung.Q, (hung.P, hung.Q), lines))
         return tuple(found)
 
     def _free_side(self, hung: Hung) -> float:
@@ -406,30 +422,34 @@ class Scene:
         return 1.0 if left < right else -1.0
 
     @cached_property
-    def marks(self) -> tuple[Piece, ...]:
+    def load_marks(self) -> tuple[DrawnMark, ...]:
         """The signs of weights, forces and supports at their points, each kind once a point."""
         kinds = dict.fromkeys((glyph.drawn_as, glyph.points, glyph.way) for _, glyph in self.glyphs if glyph.drawn_as in MARKS)
-        at_points = [Piece(points[0], points, MARKS[kind](self.size, way)) for kind, points, way in kinds]
+        at_points = [self._load_mark(points, MARKS[kind](self.size, way)) for kind, points, way in kinds]
         return (*at_points, *self._on_bodies())
 
-    def _on_bodies(self) -> Iterator[Piece]:
+    def _load_mark(self, points: tuple[str, ...], lines: tuple[DrawnLine, ...]) -> DrawnMark:
+        """Return the sign of a load, under the circle of a pin and over a point's dot."""
+        return DrawnMark(points[0], points, lines, 0.7 if points[0] in self.pins else 0.9, 0.9)
+
+    def _on_bodies(self) -> Iterator[DrawnMark]:
         """Yield the signs of masses and moments of rigid bodies, each at its place in the body's axes."""
         shown = self._whole.some(3)
         given = [each for _, each in self.glyphs if each.drawn_as in ON_BODIES]
         for kind, points, away in dict.fromkeys((each.drawn_as, each.points, each.away) for each in given):
-            frame = Piece(points[0], points[:2], ())
+            frame = DrawnMark(points[0], points[:2], ())
             ways = np.array([[frame.seen(at[name], at) for name in points] for at in shown]) if len(points) > 1 else np.empty(0)
             if ways.size and np.isfinite(ways).all() and np.ptp(ways, axis=0).max() < 1e-6 * self.size:
                 place = np.append(0.0, ways[0].mean(axis=0) if away is None else away)
                 lines = (DrawnLine(line.rows + place, line.fill, line.closed, line.bold) for line in ON_BODIES[kind](0.8 * self.size, 0.0))
-                yield Piece(points[0], points[:2], tuple(lines))
+                yield self._load_mark(points[:2], tuple(lines))
 
     @cached_property
-    def surroundings(self) -> tuple[Piece, ...]:
+    def surroundings(self) -> tuple[DrawnMark, ...]:
         """The outlines that the machine declares of what stands around it."""
         return tuple(self._surrounding(name, each) for name, each in self.motion.plan.of_kind(Outline).items())
 
-    def _surrounding(self, name: str, given: Outline) -> Piece:
+    def _surrounding(self, name: str, given: Outline) -> DrawnMark:
         """Return an outline with the design's dimensions."""
 
         def value(quantity: Quantity) -> float:
@@ -440,10 +460,10 @@ class Scene:
         drawn = tuple(DrawnLine(np.column_stack([np.zeros(len(line)), line]), fill=fill, closed=given.closed) for line in lines)
         ends = [np.concatenate([line, line[:1]]) if given.closed else line for line in lines] if given.hatched else []
         lengthy = np.concatenate([np.empty((0, 2, 2)), *(hatches(line, 0.9 * self.size) for line in ends)])
-        return Piece(name, given.carriers, drawn, lengthy, given.under(value))
+        return DrawnMark(name, given.carriers, drawn, -2.0, 0.9, "AROUND", lengthy, given.under(value))
 
     @cached_property
-    def sections(self) -> tuple[Straight, ...]:
+    def sections(self) -> tuple[DrawnMark, ...]:
         """The sections of telescopes: what comes out of a body towards a point that a stroke moves along it."""
         found = []
         for point in self.motion.plan.telescopes:
@@ -452,7 +472,8 @@ class Scene:
             body = next((points for points in self.bodies if origin in points and self._reach(origin, point, points) > 0.0), ())
             if origin and body:
                 short, long = self._lengths(origin, point)
-                found.append(Straight(origin, point, telescope_sections(short, long, self._reach(origin, point, body), self.size)))
+                lines = telescope_sections(short, long, self._reach(origin, point, body), self.size)
+                found.append(DrawnMark(origin + point, (origin, point), lines, -0.1))
         return tuple(found)
 
     def _reach(self, origin: str, point: str, points: tuple[str, ...]) -> float:
@@ -466,10 +487,10 @@ class Scene:
         return max((float(way @ along) for way in ways if abs(way[0] * along[1] - way[1] * along[0]) < self.size), default=0.0)
 
     @cached_property
-    def contours(self) -> tuple[Straight, ...]:
+    def contours(self) -> tuple[DrawnMark, ...]:
         """What steps draw of themselves, behind the bodies."""
         found = [each for step in self.motion.plan.points.values() for each in step.outline(self.motion._reading)]
-        return tuple(Straight(each.P, each.Q, (turning_with(each),)) for each in found)
+        return tuple(DrawnMark(each.P + each.Q, (each.P, each.Q), (turning_with(each),), -0.1) for each in found)
 
     def _lengths(self, P: str, Q: str) -> tuple[float, float]:
         """Return the least and the greatest distance of two points over the motions and the declared strokes' ends [m]; inf, 0 for none."""
@@ -489,6 +510,22 @@ class Scene:
     def tracks(self) -> tuple[SlideTrack, ...]:
         """The guides and slots that something slides on."""
         return slide_tracks(self.motion)
+
+    @cached_property
+    def blocks(self) -> tuple[DrawnMark, ...]:
+        """The slider blocks: on a fixed rail above it, in a slot as wide as the slot."""
+        found = []
+        for track in self.tracks:
+            level, half = (0.17, BLOCK) if track.fixed else (0.32, SLOT)
+            lines = (tube(0.0, -LONG * self.size, 0.0, LONG * self.size, half * self.size, "RULE"),)
+            found += [DrawnMark(rider, (rider, *track.ends), lines, level, 1.0) for rider in track.riders]
+        return tuple(found)
+
+    @cached_property
+    def marks(self) -> tuple[DrawnMark, ...]:
+        """All that is drawn as lines on points: what stands around, contours, blocks, cylinders, elements, the signs of loads."""
+        cylinders = [ram.mark(self.size) for ram in self.rams]
+        return (*self.surroundings, *self.contours, *self.sections, *self.blocks, *cylinders, *self.straights, *self.load_marks)
 
     @cached_property
     def rims(self) -> Places:
@@ -553,10 +590,11 @@ class Scene:
         low, high = every.min(axis=1), every.max(axis=1)
         return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
-    def _swept(self, contour: Straight) -> FloatArray:
+    def _swept(self, contour: DrawnMark) -> FloatArray:
         """Return the box that a contour turns in about its first point, its corners at every pose, shape (2, n) [m]."""
         reach = max(float(np.max(np.hypot(*line.rows.T[1:]), initial=0.0)) for line in contour.lines)
-        return np.concatenate([self.places[contour.P] + reach * np.array([[x], [y]]) for x, y in product((-1.0, 1.0), repeat=2)], axis=1)
+        place = self.places[contour.on[0]]
+        return np.concatenate([place + reach * np.array([[x], [y]]) for x, y in product((-1.0, 1.0), repeat=2)], axis=1)
 
     @cached_property
     def size(self) -> float:
@@ -597,12 +635,7 @@ class Scene:
     @cached_property
     def straights_reach(self) -> FloatArray:
         """The corners of all accumulators, at some poses, shape (n, 2) [m]: they stand outside the points that carry them."""
-        found = [np.empty((0, 2))]
-        for at in self.some(5):
-            for each in self.fed:
-                piece = Piece("", (each.P, each.Q), tuple(line for line in each.lines))
-                found.append(piece.placed(piece.corners, at))
-        return np.concatenate(found)
+        return np.concatenate([np.empty((0, 2)), *(each.placed(each.corners, at) for at in self.some(5) for each in self.fed)])
 
     def _around(self) -> FloatArray:
         """Return the points of the surroundings that the sheet should show, shape (n, 2) [m]: of an open line the nearest ones alone."""

@@ -144,7 +144,7 @@ YOKE = 0.38
 @final
 @dataclass(frozen=True, eq=False)
 class DrawnLine:
-    """One line of an element: rows of a share of its length, a way along it [m] and one across, to the left [m].
+    """One line of a mark: rows of a share of its length, a way along it [m], one across, to the left [m], and what moves with a piston a 1.
 
     `fill` is a colour of the style by its name, or none.
     A place stands share * length + way from the first point, so that it moves as the element grows.
@@ -155,17 +155,19 @@ class DrawnLine:
     closed: bool = False
     bold: bool = False
 
-    def at(self, length: float) -> FloatArray:
-        """Return the line at a length, along and across, shape (n, 2) [m]."""
-        share, along, across = self.rows.T
-        return np.column_stack([share * length + along, across])
+    def at(self, length: float, piston: float = 0.0) -> FloatArray:
+        """Return the line at a length and a place of the piston [m], along and across, shape (n, 2) [m]."""
+        share, along, across, *slides = self.rows.T
+        return np.column_stack([share * length + along + sum(slide * piston for slide in slides), across])
 
     def moved(self, aside: float) -> DrawnLine:
         """Return it moved to the left [m]."""
-        return DrawnLine(self.rows + np.array([0.0, 0.0, aside]), self.fill, self.closed, self.bold)
+        rows = self.rows.copy()
+        rows[:, 2] += aside
+        return DrawnLine(rows, self.fill, self.closed, self.bold)
 
 
-def outline(*rows: tuple[float, float, float], fill: str = "", closed: bool = False, bold: bool = False) -> DrawnLine:
+def outline(*rows: tuple[float, ...], fill: str = "", closed: bool = False, bold: bool = False) -> DrawnLine:
     """Return a line through some rows."""
     return DrawnLine(np.array(rows), fill, closed, bold)
 
@@ -205,7 +207,25 @@ def strut(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
     return (outline((0.0, 0.0, half), (1.0, 0.0, half), (1.0, 0.0, -half), (0.0, 0.0, -half), fill="ROD", closed=True),)
 
 
-# Telescopes, and the accumulators of a gas-fed line.
+# Cylinders, telescopes, and the accumulators of a gas-fed line; the blocks that slide on tracks.
+
+LONG, BLOCK, SLOT = 2.1, 1.25, 0.7
+"""Half a block's length and width, and half a slot's width, in sizes."""
+
+
+def cylinder(bottom: float, mouth: float, size: float) -> tuple[DrawnLine, ...]:
+    """Return the eye, the barrel cut open from its bottom to its mouth [m], the rod, the piston, and the cap at the mouth."""
+    half, ends = 1.12 * size, 0.42 * size
+    rod = outline((0.0, 0.0, ends, 1.0), (1.0, 0.0, ends, 0.0), (1.0, 0.0, -ends, 0.0), (0.0, 0.0, -ends, 1.0), fill="ROD", closed=True)
+    disc = [(0.0, along * 0.45 * size, across * half, 1.0) for along, across in ((-1, 1), (1, 1), (1, -1), (-1, -1))]
+    return (
+        tube(0.0, 0.0, 0.0, bottom, 0.62 * size, "PISTON"),
+        tube(0.0, bottom, 0.0, mouth, 1.3 * size, "BARREL"),
+        rod,
+        outline(*disc, fill="PISTON", closed=True),
+        tube(0.0, mouth - 0.35 * size, 0.0, mouth + 0.35 * size, 1.5 * size, "PISTON"),
+    )
+
 
 SINGLE, FREE = 0.95, 0.8
 """The share of its closed length that a rod alone comes out at most, and that each stage of a telescope does."""

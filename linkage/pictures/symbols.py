@@ -1,4 +1,4 @@
-"""Parts of the picture: artists made once and moved from pose to pose; cylinders, ground symbols, sliders and rails."""
+"""Parts of the picture: artists made once and moved from pose to pose; ground symbols, slots and rails."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from matplotlib.patches import Patch, Polygon
 
 from ..program import FloatArray
 from . import style
-from .scene import Places, Ram, Scene, SlideTrack
-from .shapes import rounded
+from .scene import Places, Scene, SlideTrack
+from .shapes import BLOCK, SLOT, rounded
 from .style import Look
 
 Kind = TypeVar("Kind", bound=Patch)
@@ -51,61 +51,6 @@ def polygon(ax: Axes, level: float, **options: Any) -> Polygon:
     return added(ax, Polygon(np.zeros((1, 2)), zorder=level, **options))
 
 
-def distance_and_direction(start: FloatArray, end: FloatArray) -> tuple[float, FloatArray]:
-    """Return the distance of two points and the unit vector from one to the other, shape (2,)."""
-    length = float(np.hypot(*(end - start)))
-    return length, (end - start) / (length or 1.0)
-
-
-# Hydraulic cylinders: a barrel cut open, its piston, and the rod to the other end.
-
-#: part -> half its width, and half the thickness of the two that are discs, in sizes
-WIDTH = {"eye": 0.62, "rod": 0.42, "barrel": 1.3, "piston": 1.12, "cap": 1.5}
-THICK = {"piston": 0.45, "cap": 0.35}
-FILL = {"eye": style.PISTON, "barrel": style.BARREL, "rod": style.ROD, "piston": style.PISTON, "cap": style.PISTON}
-"""The pieces from the lowest layer up, with their colours."""
-
-
-@final
-class CylinderPart(MovingPart):
-    """A cylinder from P to Q: the barrel is pinned at P, the rod at Q."""
-
-    def __init__(self, ax: Axes, ram: Ram, size: float, look: Look) -> None:
-        self.ram, self.size, self.points = ram, size, (ram.P, ram.Q)
-        line = {"edgecolor": look.colour(style.INK), "linewidth": 0.8 * style.OUTLINE, "joinstyle": "round"}
-        self.pieces = {
-            name: polygon(ax, look.level + 0.4 + 0.02 * layer, facecolor=look.colour(fill), **line)
-            for layer, (name, fill) in enumerate(FILL.items())
-        }
-        self.artists = tuple(self.pieces.values())
-
-    def move(self, at: Places) -> None:
-        P, Q = at[self.ram.P], at[self.ram.Q]
-        length, along = distance_and_direction(P, Q)
-        P = P + self.ram.aside * np.array([-along[1], along[0]])
-        for name, (start, end) in lengthwise(self.ram, length, self.size).items():
-            self.pieces[name].set_xy(box(P, along, start, end, WIDTH[name] * self.size))
-
-
-def lengthwise(ram: Ram, length: float, size: float) -> dict[str, tuple[float, float]]:
-    """Return where each piece of a cylinder starts and ends, from P along to Q [m], at a length [m]."""
-    piston = ram.piston(length)
-    return {
-        "eye": (0.0, ram.bottom),
-        "barrel": (ram.bottom, ram.mouth),
-        "rod": (piston, max(length, piston)),
-        "piston": (piston - THICK["piston"] * size, piston + THICK["piston"] * size),
-        "cap": (ram.mouth - THICK["cap"] * size, ram.mouth + THICK["cap"] * size),
-    }
-
-
-def box(P: FloatArray, along: FloatArray, start: float, end: float, half: float) -> FloatArray:
-    """Return a box along a line from P, shape (4, 2) [m]."""
-    across = half * np.array([-along[1], along[0]])
-    near, far = P + start * along, P + end * along
-    return np.array([near - across, far - across, far + across, near + across])
-
-
 # Pins on the frame: a triangle on hatched ground.
 
 HEIGHT, BASE = 3.2, 1.9
@@ -136,10 +81,7 @@ def support(pin: FloatArray, way: float, size: float) -> tuple[FloatArray, Float
     return np.array([pin, place(HEIGHT, BASE), place(HEIGHT, -BASE)]), np.array(lines)
 
 
-# Sliding: slots on moving bodies, the blocks that slide along, and fixed rails with their hatching.
-
-LONG, HALF, SLOT = 2.1, 1.25, 0.7
-"""Half a block's length and width, and half a slot's width, in sizes."""
+# Sliding: slots on moving bodies, and fixed rails with their hatching.
 
 
 @final
@@ -153,38 +95,6 @@ class SlotPart(MovingPart):
 
     def move(self, at: Places) -> None:
         self.face.set_xy(rounded(np.array([at[name] for name in self.points]), SLOT * self.size))
-
-
-@final
-class BlockPart(MovingPart):
-    """A slider block: a box along its track."""
-
-    def __init__(self, ax: Axes, rider: str, ends: tuple[str, str], half: float, size: float, look: Look) -> None:
-        self.points, self.half, self.size = (rider, *ends), half, size
-        fill, edge, level = look.colour(style.RULE), look.colour(style.INK), look.level + (0.17 if half == HALF else 0.32)
-        self.face = polygon(ax, level, facecolor=fill, edgecolor=edge, linewidth=style.OUTLINE, joinstyle="round")
-        self.artists = (self.face,)
-
-    def move(self, at: Places) -> None:
-        rider, start, end = (at[name] for name in self.points)
-        self.face.set_xy(block(rider, start, end, self.half * self.size, self.size))
-
-
-def block(rider: FloatArray, start: FloatArray, end: FloatArray, half: float, size: float) -> FloatArray:
-    """Return a block's corners, shape (4, 2) [m]; `half` is half its width [m]."""
-    return box(rider, distance_and_direction(start, end)[1], -LONG * size, LONG * size, half)
-
-
-def sliders(ax: Axes, scene: Scene, look: Look) -> list[MovingPart]:
-    """Return the slots and the blocks."""
-    slots = [SlotPart(ax, track.ends, scene.size, look) for track in scene.tracks if not track.fixed]
-    riding = [(track, rider) for track in scene.tracks for rider in track.riders]
-    return [*slots, *(BlockPart(ax, rider, track.ends, half_width(track.fixed), scene.size, look) for track, rider in riding)]
-
-
-def half_width(fixed: bool) -> float:
-    """Return half a block's width, in sizes: in a slot it fits the slot."""
-    return HALF if fixed else SLOT
 
 
 def rails(ax: Axes, scene: Scene, look: Look) -> None:
@@ -214,7 +124,7 @@ def side_of_rail(scene: Scene, track: SlideTrack, along: FloatArray) -> FloatArr
     below = np.array([along[1], -along[0]]) / (np.hypot(*along) or 1.0)
     below = -below if below[1] > 1e-6 or (abs(below[1]) <= 1e-6 and below[0] < 0.0) else below
     hanging = [
-        float((at[name] - at[rider]) @ below) > HALF * scene.size
+        float((at[name] - at[rider]) @ below) > BLOCK * scene.size
         for at in scene.some(5)
         for rider in track.riders
         for points in scene.bodies
@@ -227,8 +137,9 @@ def side_of_rail(scene: Scene, track: SlideTrack, along: FloatArray) -> FloatArr
 
 def rail(start: FloatArray, end: FloatArray, below: FloatArray, pins: list[FloatArray], size: float) -> list[FloatArray]:
     """Return the pieces of a rail on a side of its track, each a line and its hatches; none where a pin's support stands in its way."""
-    long, along = distance_and_direction(start, end)
-    base, hatch, room = start + HALF * size * below, HATCH * size, 1.6 * BASE * size
+    long = float(np.hypot(*(end - start)))
+    along = (end - start) / (long or 1.0)
+    base, hatch, room = start + BLOCK * size * below, HATCH * size, 1.6 * BASE * size
     stops = sorted(float((pin - start) @ along) for pin in pins if -size < (pin - start) @ below < 4.0 * size)
     stops = [stop for stop in stops if -room < stop < long + room]
     starts = [0.0, *(stop + room for stop in stops)]

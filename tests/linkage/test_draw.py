@@ -32,12 +32,12 @@ from linkage import (
 )
 from linkage.pictures import draw, mechanism, plot, style
 from linkage.pictures.curves import limit_crossings
-from linkage.pictures.drawing import BodyPart
+from linkage.pictures.drawing import BodyPart, MarkPart
 from linkage.pictures.scene import Scene
 from linkage.pictures.shapes import hull, rounded
 from linkage.pictures.sheet import sheet
 from linkage.pictures.strokes import stroke_words
-from linkage.pictures.symbols import BlockPart, hatched, lengthwise
+from linkage.pictures.symbols import hatched
 from mechanisms.classics.inverted_slider_crank import InvertedSliderCrank
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.slider_crank import SliderCrank
@@ -219,11 +219,14 @@ def test_the_piston_stays_in_the_barrel_and_travels_the_stroke(cls, ram):
     scene = Scene(corners)
     cylinder = scene.rams[ram]
     short, long = corners.distance(cylinder.P, cylinder.Q)
-    pieces = [lengthwise(cylinder, length, scene.size) for length in (short, long)]
-    for each, length in zip(pieces, (short, long), strict=True):
-        assert each["barrel"][0] < each["piston"][0] < each["piston"][1] < each["cap"][0] < length
-        assert each["rod"][1] == length
-    assert_allclose(pieces[1]["piston"][0] - pieces[0]["piston"][0], long - short)
+    pistons = []
+    for length in (short, long):
+        lines = cylinder.mark(scene.size).drawn({cylinder.P: np.zeros(2), cylinder.Q: np.array([length, 0.0])})
+        _, barrel, rod, piston, cap = (line[:, 0] for line in lines)
+        assert barrel.min() < piston.min() < piston.max() < cap.min() < length
+        assert rod.max() == length
+        pistons.append(piston.min())
+    assert_allclose(pistons[1] - pistons[0], long - short)
 
 
 def test_a_pose_may_be_counted_from_the_end_or_in_a_grid():
@@ -261,15 +264,15 @@ def test_a_batch_of_designs_is_refused():
 @pytest.mark.parametrize("cls", [SliderCrank, ScotchYoke, InvertedSliderCrank])
 def test_blocks_ride_on_their_points_and_tracks_hold_the_travel(cls):
     motion = cls().sweep(25)
-    scene = Scene(motion)
     drawing = mechanism(axes(), motion)
-    blocks = [part for part in drawing.parts if isinstance(part, BlockPart)]
+    scene = drawing.scene
+    blocks = [part for part in drawing.parts if isinstance(part, MarkPart) and part.mark in scene.blocks]
     assert blocks
     for pose in scene.reached:
         drawing.update(pose)
         for part in blocks:
             rider, start, end = (scene.at(pose)[name] for name in part.points)
-            assert_allclose(part.face.get_xy()[:4].mean(axis=0), rider, atol=1e-12)
+            assert_allclose(part.lines[0].get_xy()[:4].mean(axis=0), rider, atol=1e-12)
             share = (rider - start) @ (end - start) / ((end - start) @ (end - start))
             assert 0.0 < share < 1.0
             assert_allclose(start + share * (end - start), rider, atol=1e-9)

@@ -34,11 +34,10 @@ from linkage import (
 )
 from linkage.loads import TwoPoint
 from linkage.pictures import mechanism, style
-from linkage.pictures.browser_data import straight_data
-from linkage.pictures.drawing import BodyPart, StraightPart
+from linkage.pictures.browser_data import mark_data
+from linkage.pictures.drawing import BodyPart, MarkPart
 from linkage.pictures.scene import Scene
 from linkage.pictures.shapes import HALF
-from linkage.pictures.symbols import CylinderPart
 from linkage.units import bar, litre
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -136,6 +135,14 @@ def parts(drawing, kind):
     return [part for part in drawing.parts if isinstance(part, kind)]
 
 
+def elements(drawing):
+    return [part for part in parts(drawing, MarkPart) if part.mark in drawing.scene.straights]
+
+
+def cylinders(drawing):
+    return [part for part in parts(drawing, MarkPart) if part.mark.cylinder is not None]
+
+
 def circles(drawing):
     return {part.points[0]: part.circle for part in drawing.parts if hasattr(part, "circle")}
 
@@ -154,23 +161,23 @@ def test_every_element_reaches_from_pin_to_pin_at_every_pose(cls):
     assert hung <= {frozenset((each.P, each.Q)) for each in scene.hung}
     for pose in range(5):
         drawing.update(pose)
-        for part in parts(drawing, StraightPart):
-            if part.straight in scene.fed:
+        for part in elements(drawing):
+            if part.mark in scene.fed:
                 continue  # accumulators stand beside a barrel
             P, Q = (motion[name][:, pose] for name in part.points)
             places = local(np.concatenate([each.get_xy() for each in part.artists]), P, Q)
             length = np.hypot(*(Q - P))
             assert_allclose([places[:, 0].min(), places[:, 0].max()], [0.0, length], atol=0.5 * scene.size)
-        for part in parts(drawing, CylinderPart):
+        for part in cylinders(drawing):
             P, Q = (motion[name][:, pose] for name in part.points)
             places = local(np.concatenate([each.get_xy() for each in part.artists]), P, Q)
             assert_allclose([places[:, 0].min(), places[:, 0].max()], [0.0, np.hypot(*(Q - P))], atol=1e-9)
-            assert_allclose(0.5 * (places[:, 1].min() + places[:, 1].max()), part.ram.aside, atol=1e-12)
+            assert_allclose(0.5 * (places[:, 1].min() + places[:, 1].max()), part.mark.cylinder.aside, atol=1e-12)
 
 
 def test_a_spring_is_a_zigzag_about_its_line_that_stretches():
     motion, drawing = drawn(Hung)
-    (part,) = [each for each in parts(drawing, StraightPart) if each.points == ("P", "B")]
+    (part,) = [each for each in elements(drawing) if each.points == ("P", "B")]
     (line,) = part.artists
     assert not line.get_closed() and not line.get_fill()
     counts = set()
@@ -185,7 +192,7 @@ def test_a_spring_is_a_zigzag_about_its_line_that_stretches():
 
 def test_a_dampers_plate_stays_in_its_pot():
     motion, drawing = drawn(Hung, 31)
-    (part,) = [each for each in parts(drawing, StraightPart) if each.points == ("P", "T")]
+    (part,) = [each for each in elements(drawing) if each.points == ("P", "T")]
     pot, *_, plate = part.artists
     places = []
     for pose in range(31):
@@ -212,7 +219,7 @@ def test_elements_on_the_same_pins_stand_side_by_side():
     drawing.update(2)
     K, B = motion["K"][:, 2], motion["B"][:, 2]
     spans = {}
-    for part in parts(drawing, (StraightPart, CylinderPart)):
+    for part in (*elements(drawing), *cylinders(drawing)):
         inner = [local(each.get_xy(), K, B) for each in part.artists]
         body = np.concatenate([each[(each[:, 0] > 0.2) & (each[:, 0] < np.hypot(*(B - K)) - 0.2)] for each in inner])
         if body.size:
@@ -260,12 +267,12 @@ def test_a_users_own_is_a_strut_unless_it_says_otherwise():
 
 def test_primitives_with_links_look_like_the_composite_spelling():
     one, other = (drawn(cls) for cls in (Primitive, Composite))
-    for kind in (BodyPart, CylinderPart):
+    for kind in (lambda drawing: parts(drawing, BodyPart), cylinders):
         for pose in range(5):
             outlines = []
             for _, drawing in (one, other):
                 drawing.update(pose)
-                outlines.append([artist.get_xy() for part in parts(drawing, kind) for artist in part.artists])
+                outlines.append([artist.get_xy() for part in kind(drawing) for artist in part.artists])
             assert len(outlines[0]) == len(outlines[1]) > 0
             for first, second in zip(*outlines, strict=True):
                 assert_allclose(sorted(first.tolist()), sorted(second.tolist()), atol=1e-9)
@@ -274,7 +281,7 @@ def test_primitives_with_links_look_like_the_composite_spelling():
 
 def test_a_faint_element_is_paler():
     motion = Hung().sweep(3)
-    strong, faint = (parts(mechanism(axes(), motion, faint=each), StraightPart)[0].artists[0].get_edgecolor() for each in (False, True))
+    strong, faint = (elements(mechanism(axes(), motion, faint=each))[0].artists[0].get_edgecolor() for each in (False, True))
     assert sum(faint[:3]) > sum(strong[:3])
 
 
@@ -282,16 +289,16 @@ def test_a_page_stretches_the_same_lines():
     drawing = drawn(Shared)[1]
     scene = drawing.scene
     names = list(scene.places)
-    data = [straight_data(each, {name: place for place, name in enumerate(names)}) for each in scene.straights]
+    data = [mark_data(each, {name: place for place, name in enumerate(names)}) for each in scene.straights]
     assert {line.get("fill", "") for each in data for line in each["lines"]} <= {"", "piston", "rod", "barrel"}
     assert all(hasattr(style, line["fill"].upper()) for each in data for line in each["lines"] if "fill" in line)
     pose = 3
     drawing.update(pose)
-    for part, each in zip(parts(drawing, StraightPart), data, strict=True):
-        P, Q = (scene.at(pose)[names[each[end]]] for end in "PQ")
+    for part, each in zip(elements(drawing), data, strict=True):
+        P, Q = (scene.at(pose)[names[number]] for number in each["on"])
         along = (Q - P) / np.hypot(*(Q - P))
         turned = np.array([along, [-along[1], along[0]]])
         for artist, line in zip(part.artists, each["lines"], strict=True):
-            share, way, across = np.array(line["rows"]).T
+            way, across, share = (*np.array(line["rows"]).T, 0.0)[:3]
             seen = P + np.column_stack([share * np.hypot(*(Q - P)) + way, across]) @ turned
             assert_allclose(seen, artist.get_xy()[: len(seen)], atol=2e-4)

@@ -127,7 +127,7 @@ def test_points_of_a_construction_have_small_names():
 def test_masses_and_moments_of_bodies_are_marked_at_their_places():
     motion = Loaded().sweep(5)
     scene = Scene(motion)
-    marks = {each.on: each for each in scene.marks if len(each.on) == 2}
+    marks = {each.on: each for each in scene.load_marks if len(each.on) == 2}
     assert set(marks) == {("A", "B"), ("O", "A"), ("Q", "B")}
     for pose in range(5):
         at = scene.at(pose)

@@ -12,8 +12,8 @@ from hydraulics import Cylinder, FloatCircuit
 from linkage import Crank, Force, ForceElement, Ground, Guide, Mechanism, OnGuide, OnLink, Stroke, Support, Weight
 from linkage.loads import Glyph
 from linkage.pictures import mechanism, style
-from linkage.pictures.browser_data import body_data, piece_data
-from linkage.pictures.drawing import BodyPart, PiecePart, StraightPart
+from linkage.pictures.browser_data import body_data, mark_data
+from linkage.pictures.drawing import BodyPart, MarkPart
 from linkage.pictures.labels import LabelPart
 from linkage.pictures.poses import empty_page
 from linkage.pictures.scene import Scene, rigid_together
@@ -155,7 +155,7 @@ def test_a_long_stroke_is_a_telescope_of_nested_tubes():
     motion, drawing = drawn(Ramp, 9)
     scene = drawing.scene
     assert scene.rams == ()
-    (part,) = parts(drawing, StraightPart)
+    (part,) = [part for part in parts(drawing, MarkPart) if part.mark in scene.straights]
     widths, tips = [], []
     for pose in range(9):
         drawing.update(pose)
@@ -179,8 +179,8 @@ def test_sections_come_out_of_the_body_that_they_slide_in():
     motion = Crane().sweep(phi=0.9, psi=1.5, t=5)
     drawing = mechanism(Figure(figsize=(7, 6)).add_subplot(), motion)
     (section,) = drawing.scene.sections
-    assert (section.P, section.Q) == ("J", "T")
-    (part,) = [part for part in parts(drawing, StraightPart) if part.straight is section]
+    assert section.on == ("J", "T")
+    (part,) = [part for part in parts(drawing, MarkPart) if part.mark is section]
     for pose in range(5):
         drawing.update(pose)
         J, K, T = (motion[name].reshape(2, -1)[:, pose] for name in "JKT")
@@ -199,8 +199,8 @@ def test_a_cylinder_along_a_bar_hangs_beside_it():
 def test_a_gas_fed_cylinder_carries_its_accumulators():
     motion, drawing = drawn(HeaderBalancer)
     (fed,) = drawing.scene.fed
-    assert {fed.P, fed.Q} == {"A", "B"}
-    (part,) = [part for part in parts(drawing, StraightPart) if part.straight is fed]
+    assert set(fed.on) == {"A", "B"}
+    (part,) = [part for part in parts(drawing, MarkPart) if part.mark is fed]
     count = len(HeaderBalancer.plan.of_kind(FloatCircuit)["floating"].block.accumulators)
     shells = [each for each in part.artists if len(each.get_xy()) > 20]
     assert count == len(shells) == 2
@@ -232,12 +232,12 @@ class Loaded(Mechanism):
 
 def test_loads_are_marked_at_their_places_without_turning():
     motion, drawing = drawn(Loaded)
-    marks = [part for part in parts(drawing, PiecePart) if part.piece in drawing.scene.marks]
-    assert sorted((part.piece.name, len(part.lines)) for part in marks) == [("B", 1), ("C", 2), ("C", 4)]
+    marks = [part for part in parts(drawing, MarkPart) if part.mark in drawing.scene.load_marks]
+    assert sorted((part.mark.name, len(part.lines)) for part in marks) == [("B", 1), ("C", 2), ("C", 4)]
     shapes = []
     for pose in range(5):
         drawing.update(pose)
-        shapes.append([[line.get_xy()[:2] - motion[part.piece.name][:, pose] for line in part.lines] for part in marks])
+        shapes.append([[line.get_xy()[:2] - motion[part.mark.name][:, pose] for line in part.lines] for part in marks])
     for later in shapes[1:]:
         for one, other in zip(shapes[0], later, strict=True):
             for first, second in zip(one, other, strict=True):
@@ -262,10 +262,10 @@ def test_an_element_of_ones_own_says_what_it_is_drawn_as():
             return (Glyph("weight", (self.point.name,)),)
 
     own = type("Own", (Mechanism,), {"phi": Stroke(0.0, 1.0), "O": Ground(0.0, 0.0), "B": Crank("O", OB=0.5, angle="phi")})
-    assert Scene(own().sweep(3)).marks == ()
+    assert Scene(own().sweep(3)).load_marks == ()
     B = Crank("O", OB=0.5, angle="phi")
     own = type("Own", (Mechanism,), {"phi": Stroke(0.0, 1.0), "O": Ground(0.0, 0.0), "B": B, "hopper": Hopper(B)})
-    assert [mark.name for mark in Scene(own().sweep(3)).marks] == ["B"]
+    assert [mark.name for mark in Scene(own().sweep(3)).load_marks] == ["B"]
 
 
 def test_a_page_has_the_same_forms():
@@ -277,7 +277,7 @@ def test_a_page_has_the_same_forms():
         assert [names[number] for number in given["points"]] == list(plate.points)
         if "shares" in given:
             assert_allclose(given["shares"], plate.shares, rtol=1e-3, atol=1e-3)
-    assert [names[piece_data(mark, index, scene)["on"][0]] for mark in scene.marks] == [mark.name for mark in scene.marks]
+    assert [names[mark_data(mark, index)["on"][0]] for mark in scene.load_marks] == [mark.name for mark in scene.load_marks]
 
 
 # -- names -------------------------------------------------------------------------------------------------

@@ -11,8 +11,8 @@ from numpy.testing import assert_allclose
 from linkage import LEFT, Crank, DefinitionError, Dimension, FileError, Ground, Link, Mechanism, OnLink, Outline, Stroke, Weight, deg, draw
 from linkage.files import from_dict, load, to_dict, to_toml
 from linkage.pictures import mechanism
-from linkage.pictures.browser_data import piece_data
-from linkage.pictures.drawing import PiecePart
+from linkage.pictures.browser_data import mark_data
+from linkage.pictures.drawing import MarkPart
 from linkage.pictures.scene import Scene
 from linkage.statics import driving_force
 from mechanisms.classics.front_loader import FrontLoader
@@ -50,8 +50,8 @@ def drawn(cls, count=5):
 
 
 def piece(drawing, name):
-    around = [part for part in drawing.parts if isinstance(part, PiecePart) and part.piece in drawing.scene.surroundings]
-    (found,) = [part for part in around if part.piece.name == name]
+    around = [part for part in drawing.parts if isinstance(part, MarkPart) and part.mark in drawing.scene.surroundings]
+    (found,) = [part for part in around if part.mark.name == name]
     return found
 
 
@@ -207,7 +207,7 @@ def test_a_page_has_the_same_lines():
     scene = Scene(Placed().sweep(5))
     names = list(scene.places)
     for each in scene.surroundings:
-        data = piece_data(each, {name: place for place, name in enumerate(names)}, scene)
+        data = mark_data(each, {name: place for place, name in enumerate(names)}, 0.05 * scene.size)
         assert tuple(names[number] for number in data["on"]) == each.on
         for line, own in zip(data["lines"], each.lines, strict=True):
             seen, corners = np.array(line["rows"]), own.rows[:, 1:]

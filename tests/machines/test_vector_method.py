@@ -111,7 +111,7 @@ def test_the_drawing_has_the_same_rods_and_pins(which):
     assert set(map(frozenset, one.bodies)) == set(map(frozenset, other.bodies))
     assert {(each.P, each.Q) for each in one.hung} == {(each.P, each.Q) for each in other.hung}
     assert (set(one.pins), set(one.dots), set(one.grounds)) == (set(other.pins), set(other.dots), set(other.grounds))
-    assert [(each.P, each.Q) for each in one.sections] == [(each.P, each.Q) for each in other.sections]
+    assert [each.on for each in one.sections] == [each.on for each in other.sections]
     assert one.stays == other.stays == ()
 
 

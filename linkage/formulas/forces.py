@@ -265,8 +265,10 @@ class ForceLines:
         strokes: Mapping[str, Any] = self.plan.sketch_strokes
         return term(float(self.design.at(**strokes).value(quantity)))
 
-    def ratio(self, target: Reference, *, wrt: str | None = None) -> Any:
+    def ratio(self, target: Reference, *, wrt: str | None = None, order: int = 1) -> Any:
         """Return the derivative of a loaded point, shape (2,), or of a member's length; DefinitionError for what no line gives."""
+        if order != 1:
+            raise DefinitionError(f"{self.plan.title}: no equation gives a ratio of order {order}.")
         chain = self._chains.get(stroke_of(self.plan, wrt))
         if chain is not None and isinstance(target, Distance):
             ends = name_of(target.P), name_of(target.Q)

@@ -173,8 +173,8 @@ class Poses(Protocol):
     def sketched(self, quantity: Quantity) -> Array:
         """Return what a quantity is at the sketch pose of each design [SI]; broadcasts against results."""
 
-    def ratio(self, target: Reference, *, wrt: str | None = None) -> Array:
-        """Return the derivative of a point or a quantity by a stroke."""
+    def ratio(self, target: Reference, *, wrt: str | None = None, order: int = 1) -> Array:
+        """Return the derivative of a point or a quantity by a stroke, of `order` 1 or 2."""
 
 
 class Formulas(Poses, Protocol):

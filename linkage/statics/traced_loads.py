@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ..errors import DefinitionError, LawError, UntracedError, unwarned
 from ..motion import BoundRequest, Motion, OnePose
 from ..motion.requests import stroke_of
-from ..motion.strokes import checked_name
+from ..motion.strokes import checked_name, order_of
 from ..plan import ArrayReading, Mask, Plan, Trace
 from ..program import FloatArray, Level, Node, Notes, Traced, eliminated, node_of
 from ..quantities import Angle, Distance, Member, Quantity, Reference
@@ -229,11 +229,14 @@ class TracedMotion(OnePose):
         """Return a point's y coordinate [m]."""
         return cast(FloatArray, self[point][1])
 
-    def ratio(self, target: Reference, *, wrt: str | None = None) -> FloatArray:
-        """Return the derivative of a point, a vector or a quantity by a stroke."""
+    def ratio(self, target: Reference, *, wrt: str | None = None, order: int = 1) -> FloatArray:
+        """Return the derivative of a point, a vector or a quantity by a stroke, of `order` 1 or 2."""
         stroke = stroke_of(self.plan, wrt)
         self.through |= self.plan.reaches(target if isinstance(target, str) else target.name or target)
-        return self._shaped(tuple(self._reading.tangent(stroke).of(self.node(each)) for each in self._nodes(target)))
+        nodes = tuple(self.node(each) for each in self._nodes(target))
+        for _ in range(order_of(order)):
+            nodes = tuple(self._reading.tangent(stroke).of(node) for node in nodes)
+        return self._shaped(nodes)
 
 
 # The equations of equilibrium on the nodes of a program, eliminated symbolically.

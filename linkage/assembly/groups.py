@@ -141,7 +141,7 @@ class StrokeRoute(InputRoute):
     """Along one stroke, a lane for every design: upwards from the sketch, or downwards."""
 
     def __init__(self, plan: Plan, designs: Mapping[str, Any], name: str, sense: float) -> None:
-        self.plan, self.designs, self.name, self.sense = plan, designs, name, sense
+        self.plan, self.designs, self.name, self.sense = plan, FlatDesigns(designs), name, sense
         self.sketch = plan.sketch_strokes[name]
 
     @property
@@ -153,7 +153,7 @@ class StrokeRoute(InputRoute):
 
     def lines(self, lane: Index) -> dict[str, tuple[Any, Any]]:
         """Return the inputs of designs, and the stroke."""
-        return of_designs(self.designs, lane) | {self.name: (self.sketch, self.sense)}
+        return self.designs.lines(lane) | {self.name: (self.sketch, self.sense)}
 
 
 @final
@@ -161,19 +161,27 @@ class LineRoute(InputRoute):
     """To poses of several strokes, each along its own straight line from the sketch: a lane for every design and pose."""
 
     def __init__(self, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], n: int) -> None:
-        self.designs, self.n = designs, n
+        self.designs, self.n = FlatDesigns(designs), n
         self.ways = {name: (plan.sketch_strokes[name], np.ravel(value) - plan.sketch_strokes[name]) for name, value in strokes.items()}
 
     def lines(self, lane: Index) -> dict[str, tuple[Any, Any]]:
         """Return the inputs of designs and poses."""
         moved = {name: (start, float(way[0]) if way.size == 1 else way[lane % self.n]) for name, (start, way) in self.ways.items()}
-        return of_designs(self.designs, lane // self.n) | moved
+        return self.designs.lines(lane // self.n) | moved
 
 
-def of_designs(designs: Mapping[str, Any], row: Index) -> dict[str, tuple[Any, Any]]:
-    """Return the dimensions of some designs, floats or arrays like the rows, which do not change on the way."""
-    flat = {name: np.ravel(value) if np.ndim(value) else value for name, value in designs.items()}
-    return {name: (value[row if value.size > 1 else 0] if np.ndim(value) else value, 0.0) for name, value in flat.items()}
+@final
+class FlatDesigns:
+    """The dimensions of designs, which do not change on the way: those of all alike, and those of which each has its own, (m,)."""
+
+    def __init__(self, designs: Mapping[str, Any]) -> None:
+        flat = {name: np.ravel(value) if np.ndim(value) else value for name, value in designs.items()}
+        self.shared = {name: (value[0] if np.ndim(value) else value, 0.0) for name, value in flat.items() if np.size(value) == 1}
+        self.own = {name: value for name, value in flat.items() if np.size(value) > 1}
+
+    def lines(self, row: Index) -> dict[str, tuple[Any, Any]]:
+        """Return the inputs of some designs and their changes, floats or arrays like the rows."""
+        return {**self.shared, **{name: (value[row], 0.0) for name, value in self.own.items()}}
 
 
 Found = tuple[list[FloatArray], npt.NDArray[Any], tuple[float, ...]]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, final
 
@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ..program import BACKEND, FloatArray
 from .lanes import STUCK, Program, place_rows, state_rows
-from .newton import Newton
+from .newton import Newton, at_poses
 from .rules import FIRST, TOUCH, goes_on, interpolated, predicted, step_judged
 
 Index = npt.NDArray[np.intp]
@@ -22,6 +22,10 @@ ROOM = 64
 """The places of a lane that memory is first made for."""
 FEW = 4
 """So many lanes are followed one by one in plain floats: an array operation on a few numbers costs more than a step."""
+
+
+STEPS_KEPT = 1024
+"""The places of steps of later groups of which the pins are kept."""
 
 
 class InputRoute(ABC):
@@ -67,6 +71,8 @@ class GroupPath:
         self.newton, self.route, self.before, self.lanes = newton, route, before, lanes
         self._row = {name: k for k, name in enumerate(state_rows(len(lanes.u)))}
         self._kept = len(place_rows(len(lanes.u)))
+        self._is_first = set(newton.programs.inputs) <= set(route.lines(lanes.lane[:1]))
+        self._at_steps: dict[tuple[bytes, bytes], FloatArray] = {}
         count = len(lanes.u)
         self._pins, self._old, self._older = (slice(self._row[name], self._row[name] + count) for name in ("u0", "w0", "x0"))
         self._state: FloatArray = np.zeros((len(self._row), len(lanes.lane))) if begun is None else begun._state.copy()
@@ -83,11 +89,22 @@ class GroupPath:
         return GroupPath(self.newton, self.route, before, replace(self.lanes, goal=np.maximum(goal, self.lanes.goal)), self)
 
     def _held(self, lane: Index, place: FloatArray) -> dict[str, Any]:
-        """Return what is known at places of lanes, the pins of the groups before this one included."""
+        """Return what this group's programs take at places of lanes, the pins of the groups before it included."""
         inputs = self.route.inputs(lane, place)
-        for track in self.before:
-            inputs |= dict(zip(track.newton.names, track.at(lane, place), strict=True))
+        for track in self.before:  # each is told the pins of those before itself, which would else be found 2^k times
+            inputs |= dict(zip(track.newton.names, track._at_step(lane, place, inputs), strict=True))
         return self.newton.held(inputs)
+
+    def _at_step(self, lane: Index, place: FloatArray, inputs: Mapping[str, Any]) -> FloatArray:
+        """Return the pins at places of a later group, with the inputs there; of few lanes they are kept, as other groups step there too."""
+        if len(lane) > FEW:
+            return self.at(lane, place, inputs)
+        key = lane.tobytes(), place.tobytes()
+        if key not in self._at_steps:
+            if len(self._at_steps) >= STEPS_KEPT:
+                self._at_steps.clear()
+            self._at_steps[key] = self.at(lane, place, inputs)
+        return self._at_steps[key]
 
     def _begin(self) -> None:
         """Set the lanes to their beginning."""
@@ -131,8 +148,7 @@ class GroupPath:
     def _program(self) -> Program | None:
         """Return the program of lanes; None where another group comes first."""
         plan, group = self.newton.plan, self.newton.group
-        program = plan.made(("lanes", group.name), lambda twin: Program.of(twin, group))
-        return program if set(program.inputs) <= set(self.route.lines(self.lanes.lane[:1])) else None
+        return plan.made(("lanes", group.name), lambda twin: Program.of(twin, group)) if self._is_first else None
 
     def _compiled_program(self, steps: float) -> Program | None:
         """Return the program where so many steps are done by compiled loops."""
@@ -244,13 +260,18 @@ class GroupPath:
 
     # -- between the places ----------------------------------------------------------------------------
 
-    def at(self, lane: Index, place: FloatArray) -> FloatArray:
-        """Return the pins at places of lanes, shape (coordinates, n) [m]; NaN behind the end of a way."""
+    def at(self, lane: Index, place: FloatArray, inputs: Mapping[str, Any] | None = None) -> FloatArray:
+        """Return the pins at places of lanes, shape (coordinates, n) [m]; NaN behind the end of a way.
+
+        `inputs` are those of the program at these places with the pins of the groups before this one, where they are known.
+        """
         program = self._compiled_program(len(lane))
         if program is not None:
             return self._between(lane, place, self._filled(program, lane, place))
-        blocks = [slice(k, k + BLOCK) for k in range(0, len(lane), BLOCK)]
-        parts = [self._between(lane[each], place[each], self._near(lane[each], place[each])) for each in blocks]
+        parts = []
+        for block in (slice(k, k + BLOCK) for k in range(0, len(lane), BLOCK)):
+            held = self._held(lane[block], place[block]) if inputs is None else self.newton.held(at_poses(inputs, block))
+            parts.append(self._between(lane[block], place[block], self._near(lane[block], place[block], held)))
         return np.concatenate(parts, axis=1) if parts else np.empty((len(self.u), 0))
 
     def _left(self, lane: Index, place: FloatArray) -> Index:
@@ -278,7 +299,7 @@ class GroupPath:
         found[:, close <= 0.0] = np.nan
         return found
 
-    def _near(self, lane: Index, place: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _near(self, lane: Index, place: FloatArray, held: Mapping[str, Any]) -> tuple[FloatArray, FloatArray]:
         """Return what Newton's method finds at places, 1 where that is near enough to what is expected, -1 beyond the end of a way."""
         left = self._left(lane, place)
         right, before = np.minimum(left + 1, self.last[lane]), np.maximum(left - 1, self.first[lane])
@@ -287,7 +308,7 @@ class GroupPath:
         with np.errstate(all="ignore"):
             (guess,), bound = interpolated(place, places, [[each] for each in pins], clear, sizes)
             within = place <= self.ended[lane]
-            found, done = self.newton.correct(self._held(lane, place), np.where(within, guess, np.nan), sizes[0])
+            found, done = self.newton.correct(held, np.where(within, guess, np.nan), sizes[0])
             close = done & (np.abs(found - guess).max(axis=0) <= bound)
         return found, np.where(within, close, -1.0)
 

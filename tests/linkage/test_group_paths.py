@@ -1,5 +1,7 @@
 """Where a group of links is does not depend on what else is asked: many poses or few, any order, either side of the sketch, any start."""
 
+import types
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -203,3 +205,47 @@ def test_compiled_paths_of_many_designs_are_the_same():
     assert_array_equal(found.reached, expected.reached)
     for pin in "ABD":
         assert_allclose(found[pin], expected[pin], rtol=0, atol=2e-12)
+
+
+def chained_groups(count):
+    """Return a class of plates one above the other, each held by three legs on the one below: every plate is a group of its own."""
+
+    def place(letter, k):
+        x, y = {"P": (0.3 * (k % 2), 0.0), "Q": (1.0, 0.2), "R": (2.0 - 0.2 * (k % 2), -0.1)}[letter]
+        return (x, k + y) if k else ({"P": 0.0, "Q": 1.0, "R": 2.0}[letter], 0.0)
+
+    S = Stroke(0.0, 0.05)
+    body = {"S": S} | {f"{letter}0": Ground(*place(letter, 0)) for letter in "PQR"}
+    for k in range(1, count + 1):
+        body |= {f"{letter}{k}": Pin(near=place(letter, k)) for letter in "PQR"}
+        sides = {f"{a}{k}{b}{k}": float(np.hypot(*np.subtract(place(a, k), place(b, k)))) for a, b in ("PQ", "QR", "PR")}
+        body[f"plate{k}"] = Link(f"P{k} Q{k} R{k}", **sides)
+        for letter in "PQR":
+            length = float(np.hypot(*np.subtract(place(letter, k), place(letter, k - 1))))
+            given = {f"{letter}{k - 1}{letter}{k}": length + S if (letter, k) == ("P", 1) else length}
+            body[f"leg{letter}{k}"] = Link(f"{letter}{k - 1} {letter}{k}", **given)
+    return types.new_class(f"Chained{count}", (Mechanism,), {}, lambda space: [space.__setitem__(*each) for each in body.items()])
+
+
+def test_groups_in_a_chain_cost_as_many_solutions_as_there_are_groups(monkeypatch):
+    solved, correct = [], newton.Newton.correct
+    monkeypatch.setattr(newton.Newton, "correct", lambda *given: solved.append(given[0].group.name) or correct(*given))
+    counts = []
+    for count in (1, 3, 5):
+        solved.clear()
+        kind = chained_groups(count)
+        assert len(kind.plan.groups) == count
+        kind().at(S=[0.01, 0.04])
+        counts.append(len(solved))
+    assert counts[2] - counts[1] < 1.5 * (counts[1] - counts[0])
+
+
+def test_groups_in_a_chain_keep_their_lengths():
+    kind = chained_groups(5)
+    motion = kind().at(S=np.linspace(0.0, 0.05, 9))
+    for k in range(1, 6):
+        for letter in "PQR":
+            length = motion.distance(f"{letter}{k - 1}", f"{letter}{k}") - (motion.strokes["S"] if (letter, k) == ("P", 1) else 0.0)
+            assert_allclose(length, length[0], rtol=1e-12)
+    alone = np.array([kind().at(S=S)["Q5"] for S in np.linspace(0.0, 0.05, 9)]).T
+    assert_allclose(motion["Q5"], alone, rtol=0, atol=1e-12)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
-from math import isfinite
+from math import isfinite, nan
 from typing import Any, TypeAlias, final
 
 import numpy as np
@@ -20,7 +20,7 @@ from .conditions import Judged
 from .grid import Angles, Grid, angles_of, to_rounding, varies
 from .live import live_source, true_nodes
 from .motion import Motion
-from .requests import Request, RequestLike, all_bound, examined, identities_of, known_bound, other_law_error
+from .requests import Request, RequestLike, all_bound, examined, identities_of, keeps_digits, known_bound, nearness_of, other_law_error
 from .strokes import at_values, float_array, known_strokes
 
 PIECE = 1 << 18
@@ -93,7 +93,7 @@ def at_one_pose(
     identities = identities_of(plan, requests)
     if identities is None:
         return None
-    program = plan.made(("one pose", identities), lambda _: PoseProgram.of(plan, all_bound(plan, requests)))
+    program = plan.made(("one pose", identities), lambda _: PoseProgram(plan, all_bound(plan, requests)))
     pose = program.of_design(designs)
     found = None if pose is None else pose(values)
     if found is None:
@@ -178,7 +178,7 @@ class Evaluation:
 
     def _guards(self, plan: Plan) -> list[Node]:
         """Return the guards of what the requests are built from."""
-        return plan.trace.watched(self.names)
+        return plan.trace.watched(self.names, max((each.regular for each in self.requests), default=0.0))
 
     def _assumed(self, plan: Plan) -> list[Node]:
         """Return what the requests take to be above zero."""
@@ -191,14 +191,12 @@ class Evaluation:
     def _watch(self, plan: Plan) -> tuple[int, list[int], Kernel]:
         """Return how many of its outputs are assumptions, and gaps of each request; and the kernel.
 
-        Its outputs are the assumptions, the guards, how near each request is, and the gaps of each.
+        Its outputs are the assumptions, what tells whether there is a place, how near each request is, and the gaps of each.
         """
-        for each in self.requests:
-            each.nodes(plan)  # directions of its own are noted then
         assumed = self._assumed(plan)
-        near = [plan.trace.nearness(each.names(plan)) - each.regular for each in self.requests]
+        near = [nearness_of(plan, each) for each in self.requests]
         gaps = self._gaps(plan)
-        kernel = Kernel([*assumed, *self._guards(plan), *near, *(node for each in gaps for node in each)])
+        kernel = Kernel([*assumed, *plan.trace.placeable(self.names), *near, *(node for each in gaps for node in each)])
         return len(assumed), list(map(len, gaps)), kernel
 
     def _target(self, rows: int, out: FloatArray | None) -> FloatArray | None:
@@ -224,12 +222,13 @@ class Evaluation:
                 empty = [np.asarray(~each.all(axis=0)) for each in np.split(present, np.cumsum(gaps)[:-1])]
                 for (first, each), gap in zip(self._starts(), empty, strict=True):
                     block[first : first + each.rows, gap] = 0.0
-                bad = ~np.all(above[: len(above) - len(self.requests)], axis=0) | ~np.isfinite(block).all(axis=0)
+                near, hard = ~above[len(above) - len(self.requests) :], above[: len(above) - len(self.requests)]
+                for each, here in zip(self.requests, near, strict=True):
+                    here &= ~keeps_digits(plan, each, inputs, here)
+                bad = ~np.all(hard, axis=0) | near.any(axis=0) | ~np.isfinite(block).all(axis=0)
             if bad.any():
                 at_bad = {name: input_at(value, name in plan.table.entries, bad) for name, value in inputs.items()}
-                flagged = above[:, bad]
-                near = ~flagged[len(above) - len(self.requests) :]
-                self._put_right(block, bad, at_bad, worst, ~flagged[:assumed].all(axis=0), near)
+                self._put_right(block, bad, at_bad, worst, ~hard[:assumed, bad].all(axis=0), near[:, bad])
             for (first, each), gap in zip(self._starts(), empty, strict=True):
                 block[first : first + each.rows, gap] = np.nan
         for k, found in worst.items():
@@ -363,19 +362,16 @@ Pose: TypeAlias = Callable[[Sequence[float]], tuple[float, ...] | None]
 class PoseProgram:
     """Some requests in floats: `of_design(designs)` is a function of the strokes, the design worked out."""
 
-    def __init__(self, strokes: Sequence[str], kernel: Kernel, rows: Sequence[int], may_fail: bool) -> None:
-        self._kernel, self._may_fail = kernel, may_fail
-        self.rows = tuple(zip(accumulate(rows, initial=0), rows))  # noqa: B905 - one more than there are: the end
-        self._count = len(strokes)
-        self._order = [list(strokes).index(node.value) for node in kernel.plan.pose_inputs]
-        self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
-
-    @classmethod
-    def of(cls, plan: Plan, requests: tuple[Request, ...]) -> PoseProgram:
-        """Return the program of requests that are bound to a plan."""
+    def __init__(self, plan: Plan, requests: tuple[Request, ...]) -> None:
         start = {name: np.asarray(stroke.start, float) for name, stroke in plan.strokes.items()}
         evaluation = Evaluation(Grid(plan, plan.defaults, start), requests, QUICKEST)
-        return cls([*plan.strokes], evaluation.kernel, [each.rows for each in requests], evaluation.may_fail)
+        self._plan, self._requests = plan, requests
+        self._kernel, self._may_fail = evaluation.kernel, evaluation.may_fail
+        rows = [each.rows for each in requests]
+        self.rows = tuple(zip(accumulate(rows, initial=0), rows))  # noqa: B905 - one more than there are: the end
+        self._tells_nearness = plan.trace.nearness(evaluation.names).op != "constant"
+        self._order = [list(plan.strokes).index(node.value) for node in self._kernel.plan.pose_inputs]
+        self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
 
     def of_design(self, designs: Mapping[str, Any]) -> Pose | None:
         """Return the function of one design, that of the latest kept; None of several designs."""
@@ -388,7 +384,8 @@ class PoseProgram:
         return pose
 
     def _pose(self, designs: Mapping[str, Any]) -> Pose:
-        floats, count, order, may_fail, many = self._kernel.floats, len(self._kernel.plan.outputs), self._order, self._may_fail, self._count
+        floats, count, order, may_fail = self._kernel.floats, len(self._kernel.plan.outputs), self._order, self._may_fail
+        many = len(self._plan.strokes)
         passed = floats.design([float(designs[node.value]) for node in self._kernel.plan.design_inputs])
         pose, is_ordered = floats.quick["pose"], order == list(range(many))
 
@@ -403,10 +400,21 @@ class PoseProgram:
                 return None
             for guard in found[count:]:
                 if not guard > 0.0:
-                    return None
+                    is_placed = self._tells_nearness and all([each > 0.0 for each in found[count:-1]])
+                    if not (is_placed and self._keeps_digits(designs, strokes)):
+                        return None
+                    break  # the last guard tells how near singular poses are
             return None if may_fail and not all(map(isfinite, found)) else found[:count]
 
         return at
+
+    def _keeps_digits(self, designs: Mapping[str, Any], strokes: Sequence[float]) -> bool:
+        """Return whether a coarse look shows that all requests keep their digits at a pose."""
+        inputs = {**designs, **dict(zip(self._plan.strokes, strokes, strict=True))}
+        return all(keeps_digits(self._plan, each, inputs, ONE_POSE)[0, 0] for each in self._requests)
+
+
+ONE_POSE = np.ones((1, 1), bool)
 
 
 @final
@@ -416,17 +424,22 @@ class PoseFunction:
     def __init__(self, plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike]) -> None:
         if any(np.ndim(value) for value in designs.values()):
             raise DefinitionError(f"{plan.title}: a function of floats is of one design; use evaluate for several.")
-        self._plan, self._designs = plan, dict(designs)
+        self._plan, self._designs, self._names = plan, dict(designs), tuple(plan.strokes)
         self._requests = tuple(requests) if isinstance(requests, Iterator) else requests
         try:
             found = all_bound(plan, self._requests)
-            self._pose = None if plan.solved else PoseProgram.of(plan, found).of_design(self._designs)
+            self._pose = None if plan.solved else PoseProgram(plan, found).of_design(self._designs)
         except UntracedError:
             self._pose = None
 
     def __call__(self, *strokes: float, **named: float) -> tuple[float, ...]:
         """Return all components one after the other at strokes [SI], in their order or by name."""
-        found = None if named or self._pose is None else self._pose(strokes)
+        if self._pose is None:
+            return self._closely(strokes, named)
+        at = strokes
+        if named and len(strokes) + len(named) == len(self._names):
+            at = (*strokes, *(named.get(name, nan) for name in self._names[len(strokes) :]))
+        found = self._pose(at)
         return self._closely(strokes, named) if found is None else found
 
     def _closely(self, strokes: Sequence[float], named: Mapping[str, float]) -> tuple[float, ...]:

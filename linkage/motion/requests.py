@@ -18,7 +18,7 @@ import numpy as np
 from ..errors import DefinitionError, UntracedError, cited
 from ..loads import DIRECTIONS, Acting
 from ..plan import NEAR, ArrayReading, Mask, Plan
-from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
+from ..program import LAST, FloatArray, Kernel, Node, Notes, ancestors, disturbed, gradient
 from ..quantities import TAKEN, Arithmetic, Member, Number, Quantity, label, quantity, spelled
 from ..quantities.quantity import PoseCondition
 from ..steps import Arrow, Point
@@ -798,11 +798,47 @@ def watched(plan: Plan, what: Request) -> list[Node]:
 
 def near_singular(grid: Grid, what: Request) -> Mask:
     """Return the mask of poses at which a request has to be looked at closely."""
-    watch = grid.plan.made(("watch", what.key), lambda twin: Kernel(watched(twin, what)))
-    if not watch.plan.outputs:
-        return np.zeros(grid.shape, bool)
+    watch = grid.plan.made(("watch", what.key), lambda twin: Kernel([nearness_of(twin, what), *twin.trace.placeable(what.names(twin))]))
     with np.errstate(invalid="ignore"):
-        return np.asarray(~np.all(grid.full(watch(grid.flat).values) > 0.0, axis=0))
+        above = watch(grid.flat, size=grid.size).values > 0.0
+    near = ~above[0]
+    clear = keeps_digits(grid.plan, what, grid.flat, near)
+    return np.asarray(grid.full((~np.all(above[1:], axis=0) | (near & ~clear))[None])[0])
+
+
+def nearness_of(plan: Plan, what: Request) -> Node:
+    """Return the node that is above zero where a request is far from every singular pose."""
+    what.nodes(plan)  # directions of its own are noted then
+    return plan.trace.nearness(what.names(plan)) - what.regular
+
+
+DIGITS = 3e-12
+"""The relative error that a coarse look finds, below which rounding surely leaves nine digits: such a look errs by less than 100."""
+MANY = 1.0 / 64
+"""Of so many poses at least, all are looked at coarsely by a compiled program; of fewer each is looked at closely."""
+
+
+def keeps_digits(plan: Plan, what: Request, inputs: Mapping[str, Any], near: Mask) -> Mask:
+    """Return the mask of poses (designs, poses) of which a coarse look shows that a request keeps its digits; none where few are `near`.
+
+    The product of all parts that come near says what is lost where each multiplies what the others lose, as hardly any machine does.
+    Pins that are found by iteration are not looked at so.
+    """
+    if plan.solved or near.sum() < MANY * near.size:
+        return np.zeros(near.shape, bool)
+    kernel, count = plan.made(("coarse", what.key), lambda twin: coarse_look(twin, what))
+    values = np.broadcast_to(kernel(inputs, size=near.shape).values, (len(kernel.plan.outputs), *near.shape)).reshape(-1, near.size)
+    own, size, shaken, least = values[:count], values[count], values[count + 1 : -1], values[-1]
+    with np.errstate(all="ignore"):
+        error = what.error(plan, Left(own, LAST * np.abs(shaken - own), np.sqrt(size)))
+        return np.asarray(((error <= DIGITS) & (least > NEAR**2)).reshape(near.shape))
+
+
+def coarse_look(plan: Plan, what: Request) -> tuple[Kernel, int]:
+    """Return the kernel of what tells a request's error, the size, the same disturbed and the least part; and the number of the first."""
+    own = what.rounded(plan)
+    least = plan.trace.least_part(what.names(plan))
+    return Kernel([*own, plan.trace.graph.node(plan.trace.extent), *disturbed(own), least]), len(own)
 
 
 def examined(plan: Plan, what: Request, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:

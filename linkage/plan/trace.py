@@ -192,11 +192,20 @@ class Trace(Reading):
                 found = found * self.graph.apply("minimum", measure.exact if exact else measure.node, 1.0)
         return found
 
+    def least_part(self, names: Container[str]) -> Node:
+        """Return the least of what measures the distance of some members from singular poses, at most 1."""
+        parts = [measure.exact for measure in self.measures if measure.member in names or not measure.member]
+        return reduce(lambda a, b: self.graph.apply("minimum", a, b), parts, self.graph.one)
+
     def watched(self, names: Container[str], near: float = NEAR**2) -> list[Node]:
         """Return the nodes that are above zero where some members can be worked out, far from every singular pose."""
         nearness = self.nearness(names)
+        return [*self.placeable(names), *([] if nearness.op == "constant" else [nearness - near])]
+
+    def placeable(self, names: Container[str]) -> list[Node]:
+        """Return the nodes that are above zero where some members can be worked out, with fixed points near enough to the origin."""
         guards = [guard.node for guard in self.guards if guard.member in names or not guard.member]
-        return [*guards, *([] if nearness.op == "constant" else [self.away, nearness - near])]
+        return guards if self.nearness(names).op == "constant" else [*guards, self.away]
 
     def angle_of(self, vector: Vec) -> Scalar:
         square = self.graph.node(vector.square())

@@ -6,7 +6,7 @@ from .compact import Inputs, arrow_function, inside, number, short_names
 from .derivatives import Tangent, gradient, jacobian
 from .elimination import eliminated, expanded, is_zero
 from .foreign import c_text, javascript_text
-from .interpret import Iterated, interpret, scatter
+from .interpret import LAST, Iterated, disturbed, interpret, scatter
 from .intervals import Enclosure, enclosures
 from .kernel import BACKEND, QUICKEST, Kernel, Result, Way, fixed_backend
 from .linear import solve_arrays

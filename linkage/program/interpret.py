@@ -13,9 +13,9 @@ import numpy as np
 from ..vectors import FloatArray, Numbers
 from .derivatives import jacobian
 from .linear import solve_arrays
-from .node import Closure, Node
+from .node import Closure, Level, Node
 from .operations import OPERATIONS
-from .schedule import ancestors
+from .schedule import ancestors, rewritten
 
 
 def interpret(
@@ -169,3 +169,32 @@ def near_first(angle: FloatArray) -> FloatArray:
     if angle.ndim < 2:
         return angle
     return angle - 2.0 * np.pi * np.round((angle - angle[:1]) / (2.0 * np.pi))
+
+
+# The same seen by a program of its own, compiled: run once with digits shaken that are far from the last ones.
+
+COARSE = 2.0**-30
+"""About how much a result of an operation is changed, relative: by between half of it and all of it."""
+LAST = 2.0 * float(np.finfo(float).eps) / COARSE
+"""What rounding does to a result, of what such changes do to it."""
+SPREADING = frozenset(("add", "subtract", "sqrt"))
+"""Operations whose results are changed, besides all that poses are worked out from: those that lose digits."""
+
+
+def disturbed(outputs: Sequence[Node]) -> list[Node]:
+    """Return nodes like some outputs, worked out from inputs and by sums and roots whose digits are changed by about COARSE."""
+
+    def changed(node: Node) -> Node:
+        return node.graph.made("multiply", (node, node.graph.constant(1.0 + COARSE * coarse_noise()[node.number % PERIOD])))
+
+    behind = ancestors(outputs)
+    read = {arg.origin for node in behind if node.level is Level.POSE for arg in node.args}
+    leaves = {node: changed(node) for node in behind if node in read and (node.op == "input" or node.level is Level.DESIGN)}
+    return rewritten(outputs, lambda node, args: changed(node.graph.made(node.op, args)) if node.op in SPREADING else None, leaves)
+
+
+@cache
+def coarse_noise() -> tuple[float, ...]:
+    """Return the changes of nodes by their numbers, over and over: between a half and one, of either sign."""
+    random = np.random.default_rng(3)
+    return tuple((random.uniform(0.5, 1.0, PERIOD) * random.choice([-1.0, 1.0], PERIOD)).tolist())

@@ -34,8 +34,13 @@ from linkage import (
     pin_force,
     pin_forces,
     ratio,
+    ref,
 )
 from linkage.loads import Weight
+from linkage.motion import evaluation, motion, requests
+from linkage.motion.grid import Grid
+from linkage.motion.requests import bound, examined, keeps_digits
+from tests.laws.near_singular import pose
 
 STEPS = 10.0 ** -np.arange(1.0, 16.0)
 
@@ -256,3 +261,59 @@ def test_a_condition_does_not_hang_on_what_is_asked_beside_it(beside):
         assert_allclose(found[:2], 2.0 / 0.3)
         assert_allclose(found[2:], 2.0 * 1.0 / 1e-6, rtol=0.7)
         assert found[2] == pytest.approx(found[3], rel=1e-9)
+
+
+def leaning(count):
+    """Return a class of dyads one on the other, whose legs stand 8 degrees from line."""
+    lean = np.radians(8.0)
+    members = dict(S=Stroke(0.0, 0.05), O=Ground(0, 0), A0=Crank("O", OA0=0.3, angle=4.0 * ref("S") + 1.2))
+    place, share = 0.3 * np.exp(1.2j), 0.55
+    for k in range(1, count + 1):
+        members[f"G{k}"] = Ground(k + 0.2, 0.0)
+        base = k + 0.2 - place
+        size = abs(base) / np.sqrt(share**2 + (1.0 - share) ** 2 + 2.0 * share * (1.0 - share) * np.cos(lean))
+        near, far = share * size, (1.0 - share) * size
+        members[f"A{k}"] = Dyad(f"A{k - 1}", f"G{k}", **{f"A{k - 1}A{k}": float(near), f"G{k}A{k}": float(far)}, side=LEFT)
+        turn = np.arccos((abs(base) ** 2 + near**2 - far**2) / (2.0 * abs(base) * near))
+        place = place + near * np.exp(1j * turn) * base / abs(base)
+    return type(f"Leaning{count}", (Mechanism,), members)
+
+
+def test_what_only_the_product_of_its_parts_suspects_is_looked_at_by_a_compiled_program(monkeypatch):
+    """Six dyads of which each is far from its dead point: none of their poses is worked out node by node, and the values are the same."""
+    machine, S = leaning(6)(), np.linspace(0.0, 2e-4, 300)
+    closely = []
+    for module in (evaluation, motion):
+        monkeypatch.setattr(module, "examined", lambda *given: closely.append(given) or requests.examined(*given))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        places, ratios = machine.evaluate(["A6", ratio("A6")], S=S)
+        assert_allclose(machine.at(S=S).ratio("A6"), ratios, rtol=1e-9)
+        f = machine.function(["A6", ratio("A6")])
+        for k in (0, 100, 299):
+            assert_allclose(f(S[k]), [*places[:, k], *ratios[:, k]], rtol=1e-9)
+    step = 1e-6
+    central = (machine.evaluate(["A6"], S=S + step)[0] - machine.evaluate(["A6"], S=S - step)[0]) / (2.0 * step)
+    assert_allclose(ratios, central, rtol=1e-4)
+    assert not closely
+
+
+@pytest.mark.parametrize("part", range(4))
+def test_a_coarse_look_passes_nothing_that_loses_digits(part):
+    passed = 0
+    for seed in range(8 * part, 8 * part + 8):
+        drafted = pose(seed)
+        if drafted is None or drafted[0].plan.solved:
+            continue
+        kind, strokes, target, _ = drafted
+        random, name = np.random.default_rng(seed), next(iter(strokes))
+        shifted = {each: np.full(10, value) for each, value in strokes.items()}
+        shifted[name] = strokes[name] * (1.0 + random.normal(size=10) * 10.0 ** random.uniform(-12, -1, 10))
+        grid, everywhere = Grid(kind.plan, kind().dimensions, shifted), np.ones(10, bool)
+        for asked in (target, ratio(target, wrt=name), ratio(target, wrt=name, order=2)):
+            what = bound(kind.plan, asked)
+            keeps = keeps_digits(kind.plan, what, grid.flat, everywhere[None])[0]
+            error = examined(kind.plan, what, grid.inputs_at(everywhere), grid.read_at(everywhere)).error
+            assert not (error[keeps] > 1e-9).any()
+            passed += int(keeps.sum())
+    assert passed > 10

@@ -1,6 +1,7 @@
 """The short equation of state of nitrogen against CoolProp's reference equation (Span et al. 2000)."""
 
-import CoolProp
+from functools import cache
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -11,14 +12,22 @@ from linkage.units import bar, litre
 
 TEMPERATURES = np.linspace(245.0, 340.0, 20)
 PRESSURES = np.concatenate([np.geomspace(0.5, 20.0, 8), np.linspace(27.0, 500.0, 40)]) * bar
-STATE = CoolProp.AbstractState("HEOS", "Nitrogen")
+
+
+@cache
+def coolprop():
+    """Return CoolProp and its nitrogen; loaded here, as that takes two seconds."""
+    import CoolProp
+
+    return CoolProp, CoolProp.AbstractState("HEOS", "Nitrogen")
 
 
 def reference(pressure, temperature):
     """Return the molar density [mol/m3] and the isentropic exponent of CoolProp."""
-    STATE.update(CoolProp.PT_INPUTS, pressure, temperature)
-    rho = STATE.rhomolar()
-    return rho, rho / pressure * STATE.first_partial_deriv(CoolProp.iP, CoolProp.iDmolar, CoolProp.iSmolar)
+    known, state = coolprop()
+    state.update(known.PT_INPUTS, pressure, temperature)
+    rho = state.rhomolar()
+    return rho, rho / pressure * state.first_partial_deriv(known.iP, known.iDmolar, known.iSmolar)
 
 
 @pytest.fixture(scope="module")
@@ -45,8 +54,9 @@ def test_charge_at_another_temperature():
     for i, charge in enumerate(charges):
         rho = reference(charge, 293.15)[0]
         for j, T in enumerate(temperatures):
-            STATE.update(CoolProp.DmolarT_INPUTS, rho, T)
-            expected[i, j] = STATE.p()
+            known, state = coolprop()
+            state.update(known.DmolarT_INPUTS, rho, T)
+            expected[i, j] = state.p()
     assert_allclose(real_nitrogen().charge_at(charges[:, None], temperatures), expected, rtol=5e-5)
 
 
@@ -71,11 +81,12 @@ def test_fast_change_of_an_accumulator_follows_the_isentrope(p1, error):
     """The exponent at p1, held over a change of volume by a third; with n = 1.4 the error is 3 to 4 times as large."""
     block = AccumulatorBlock([Accumulator(4 * litre, 40 * bar)], real_nitrogen(), atmosphere=0.0)
     rho, _ = reference(p1, 293.15)
-    entropy = STATE.smolar()
+    known, state = coolprop()
+    entropy = state.smolar()
     for share in (0.7, 0.85, 1.15, 1.3):
-        STATE.update(CoolProp.DmolarSmolar_INPUTS, rho * share, entropy)
+        state.update(known.DmolarSmolar_INPUTS, rho * share, entropy)
         withdrawn = block.gas_volume(p1) * (1 / share - 1)
-        ours, ideal = (block.fast_pressure(p1, withdrawn, exponent) / STATE.p() - 1 for exponent in (None, 1.4))
+        ours, ideal = (block.fast_pressure(p1, withdrawn, exponent) / state.p() - 1 for exponent in (None, 1.4))
         assert abs(ours) < error
         assert abs(ideal) > 3 * abs(ours)
 

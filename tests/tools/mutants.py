@@ -33,7 +33,10 @@ from tests.tools.mutations import Mutant, mutants
 from tests.tools.reach import Reach
 
 ROOT = Path(__file__).parents[2]
-ROOMS = ("linkage/steps", "linkage/assembly", "linkage/program", "linkage/motion", "linkage/statics", "hydraulics")
+ROOMS = (
+    "linkage/steps", "linkage/assembly", "linkage/program", "linkage/motion", "linkage/statics", "linkage/study", "linkage/formulas",
+    "linkage/documents", "linkage/exports", "hydraulics",
+)  # fmt: skip
 COPIED = ("linkage", "hydraulics", "mechanisms", "tests", "docs", "README.md", "CHANGELOG.md", "pyproject.toml", "run", ".ci")
 NOT_ASKED = ("tests/benchmarks", "tests/tools", "tests/test_demo.py", "tests/test_house.py", "tests/linkage/test_run.py")
 """Tests of speed, of the whole demo, of the sources' text and of the shell script: no mutant needs them."""

@@ -104,7 +104,9 @@ class Kernel:
         design, poses = split_inputs(backend.plan, inputs)
         values = allocated(len(self.plan.outputs), m, n, backend.turns(m, n)) if out is None else out
         guards = self._unseen.copy()
-        if m * n:
+        if m == n == 1 and isinstance(backend, PlainFloats):
+            backend.run(design, poses, values, guards)
+        elif m * n:
             with np.errstate(all="ignore"):
                 if way.threads > 1:
                     run_threads(backend, design, poses, values, guards, way.threads)

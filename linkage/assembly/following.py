@@ -19,6 +19,7 @@ import numpy.typing as npt
 
 from ..plan import Plan
 from ..program import FloatArray, Kernel
+from ..vectors import Numbers
 from .groups import GroupSolution, solve_groups
 from .newton import Mask
 
@@ -42,7 +43,7 @@ NONE_SOLVED = GroupSolution({}, np.zeros((1, 1), bool))
 """What is solved where there are no groups."""
 
 
-def with_angles(found: GroupSolution, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray]) -> GroupSolution:
+def with_angles(found: GroupSolution, plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[str, FloatArray]) -> GroupSolution:
     """Return what is solved with the references of followed angles [rad], shape (designs, poses); NaN where one cannot be followed.
 
     Designs are floats or (m,), strokes (n,) or (m, n).
@@ -65,9 +66,9 @@ def with_angles(found: GroupSolution, plan: Plan, designs: Mapping[str, Any], st
     return replace(found, inputs={**found.inputs, **references})
 
 
-def kept_paths(plan: Plan, designs: Mapping[str, float], ways: StrokeLines) -> Mapping[str, AnglePath]:
+def kept_paths(plan: Plan, designs: Mapping[str, Numbers], ways: StrokeLines) -> Mapping[str, AnglePath]:
     """Return the followed angles of one design along both ways of its one stroke; those of the last design are kept."""
-    key, known = tuple(designs.values()), KEPT.get(plan)
+    key, known = tuple(map(float, designs.values())), KEPT.get(plan)
     if known is not None and known[0] == key and np.all(known[1] >= ways.length):
         return known[2]
     ((name, stroke),) = plan.strokes.items()
@@ -79,13 +80,15 @@ def kept_paths(plan: Plan, designs: Mapping[str, float], ways: StrokeLines) -> M
     return found
 
 
-def singled(designs: Mapping[str, Any]) -> dict[str, Any]:
+def singled(designs: Mapping[str, Numbers]) -> dict[str, Numbers]:
     """Return dimensions as floats, and as arrays (m,) where they differ from design to design."""
     flat = {name: np.ravel(np.asarray(value, float)) for name, value in designs.items()}
     return {name: float(value[0]) if value.size == 1 else value for name, value in flat.items()}
 
 
-def ambiguous_angle(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], references: Mapping[str, FloatArray]) -> str:
+def ambiguous_angle(
+    plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[str, FloatArray], references: Mapping[str, FloatArray]
+) -> str:
     """Return an angle that does not change from each pose (m, *shape) to the next as it does on the straight line between them; "" if none.
 
     With several strokes the ways from the sketch to two poses may pass a pose where the ends of the angle meet on either side.
@@ -168,7 +171,7 @@ class StrokeLines:
         ends = np.cumsum(self.length[used] + 1) // MANY
         return [replace(self, lines=used[ends == each]) for each in np.unique(ends)]
 
-    def tracks(self, plan: Plan, designs: Mapping[str, Any], begin: Mapping[str, FloatArray] = NOWHERE) -> dict[str, AnglePath]:
+    def tracks(self, plan: Plan, designs: Mapping[str, Numbers], begin: Mapping[str, FloatArray] = NOWHERE) -> dict[str, AnglePath]:
         """Return every followed angle along these ways, which begin at the sketch, or where the angles are about `begin` [rad]."""
         found: dict[str, AnglePath] = {}
         for name in plan.followed:
@@ -283,7 +286,7 @@ class Vectors:
     """The vector whose direction is followed, anywhere on ways; `known` are the angles that it may hang on."""
 
     plan: Plan
-    designs: Mapping[str, Any]
+    designs: Mapping[str, Numbers]
     ways: StrokeLines
     name: str
     known: Mapping[str, AnglePath]
@@ -302,11 +305,11 @@ class Vectors:
         nodes = (plan.trace.graph.node(vector.x), plan.trace.graph.node(vector.y))
         return Kernel([*nodes, *(each for stroke in plan.strokes for each in plan.derived(nodes, (stroke,)))])
 
-    def _inputs(self, line: Index, place: FloatArray) -> tuple[dict[str, Any], bool]:
+    def _inputs(self, line: Index, place: FloatArray) -> tuple[dict[str, Numbers], bool]:
         """Return the inputs at places, and whether designs differ: then these are (k,) and strokes (k, 1)."""
         design = self.ways.design[line]
         rows = any(np.ndim(value) for value in self.designs.values())
-        inputs = {name: value[design] if np.ndim(value) else value for name, value in self.designs.items()}
+        inputs = {name: value[design] if isinstance(value, np.ndarray) and value.ndim else value for name, value in self.designs.items()}
         moved = {name: self.ways.first[name][line] + slope[line] * place for name, slope in self.ways.along.items()}
         moved |= {name: np.rint(track.at(line, place)) for name, track in self.known.items()}
         if self.plan.groups:
@@ -318,13 +321,13 @@ class Vectors:
         found = {name: np.full(len(design), np.nan) for name in self.plan.grouped}
         for each in np.unique(design):
             here = design == each
-            own = {name: float(value[each]) if np.ndim(value) else value for name, value in self.designs.items()}
+            own = {name: value if np.ndim(value) == 0 else float(np.asarray(value)[each]) for name, value in self.designs.items()}
             solved = solve_groups(self.plan, own, {name: value[here] for name, value in strokes.items()})
             for name in found:
                 found[name][here] = np.broadcast_to(solved.inputs[name], (1, int(here.sum())))[0]
         return found
 
-    def _placed(self, value: FloatArray, inputs: Mapping[str, Any]) -> FloatArray:
+    def _placed(self, value: FloatArray, inputs: Mapping[str, Numbers]) -> FloatArray:
         """Return the vector with the places filled in that stand at a dead point, to rounding."""
         missing = ~np.isfinite(value).all(axis=0)
         if not missing.any():

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, final
+from typing import final
 
 import numpy as np
 import numpy.typing as npt
 
 from ..plan import Plan
 from ..program import FloatArray
+from ..vectors import Numbers
 from .newton import Newton, at_sketch
 from .path import GroupPath, Index, InputRoute, Lanes
 
@@ -31,12 +32,12 @@ class GroupSolution:
     """The inputs that groups' solutions supply, shape (designs, poses), and the group whose branches cross on the way, counted from 1."""
 
     inputs: Mapping[str, FloatArray]
-    crossed: npt.NDArray[Any]
+    crossed: npt.NDArray[np.int_]
     stops: tuple[float, ...] = ()
     """Where the ways of a single design ended before the last value asked for, along its one stroke."""
 
 
-def solve_groups(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray]) -> GroupSolution:
+def solve_groups(plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[str, FloatArray]) -> GroupSolution:
     """Return the pins of all groups for designs (float or (m,)) and strokes (n,); NaN where they cannot be reached."""
     newtons = [Newton(plan, group) for group in plan.groups.values()]
     if all(np.size(value) == 1 for value in designs.values()):
@@ -67,7 +68,7 @@ class Known:
     tracks: dict[tuple[str, float], list[GroupPath]]
 
 
-def known(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Any]) -> Known:
+def known(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Numbers]) -> Known:
     """Return what is known of some designs; of a single one it is kept, the last ones of a plan."""
     if any(map(np.ndim, designs.values())):
         return Known(designed(plan, newtons, designs), {})
@@ -84,7 +85,7 @@ def known(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Any]) -> 
 # -- where the ways begin -------------------------------------------------------------------------------------
 
 
-def designed(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Any]) -> list[FloatArray]:
+def designed(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Numbers]) -> list[FloatArray]:
     """Return the pins of every group at the sketch for all designs, continued from the class's, shape (coordinates, m)."""
     base = at_sketch(plan)
     changed = {name: np.asarray(value, float) for name, value in designs.items() if np.ndim(value) or value != plan.defaults[name]}
@@ -127,20 +128,20 @@ class DesignRoute(InputRoute):
     """From the class's design at place 0 to others at place 1, at the sketch."""
 
     def __init__(self, plan: Plan, changed: Mapping[str, FloatArray]) -> None:
-        self.fixed: dict[str, Any] = plan.defaults | plan.sketch_strokes
+        self.fixed: dict[str, Numbers] = {**plan.defaults, **plan.sketch_strokes}
         self.moved = {name: (plan.defaults[name], value.ravel() - plan.defaults[name]) for name, value in changed.items()}
 
-    def lines(self, lane: Index) -> dict[str, tuple[Any, Any]]:
+    def lines(self, lane: Index) -> dict[str, tuple[Numbers, Numbers]]:
         """Return the inputs, one a design."""
         moved = {name: (old, float(change[0]) if change.size == 1 else change[lane]) for name, (old, change) in self.moved.items()}
-        return {name: (value, 0.0) for name, value in self.fixed.items()} | moved
+        return {**{name: (value, 0.0) for name, value in self.fixed.items()}, **moved}
 
 
 @final
 class StrokeRoute(InputRoute):
     """Along one stroke, a lane for every design: upwards from the sketch, or downwards."""
 
-    def __init__(self, plan: Plan, designs: Mapping[str, Any], name: str, sense: float) -> None:
+    def __init__(self, plan: Plan, designs: Mapping[str, Numbers], name: str, sense: float) -> None:
         self.plan, self.designs, self.name, self.sense = plan, FlatDesigns(designs), name, sense
         self.sketch = plan.sketch_strokes[name]
 
@@ -151,7 +152,7 @@ class StrokeRoute(InputRoute):
         step = abs(stroke.end - stroke.start) / STEPS or 1.0
         return min(step, ANGLE) if self.name in self.plan.turning else step
 
-    def lines(self, lane: Index) -> dict[str, tuple[Any, Any]]:
+    def lines(self, lane: Index) -> dict[str, tuple[Numbers, Numbers]]:
         """Return the inputs of designs, and the stroke."""
         return self.designs.lines(lane) | {self.name: (self.sketch, self.sense)}
 
@@ -160,11 +161,11 @@ class StrokeRoute(InputRoute):
 class LineRoute(InputRoute):
     """To poses of several strokes, each along its own straight line from the sketch: a lane for every design and pose."""
 
-    def __init__(self, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], n: int) -> None:
+    def __init__(self, plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[str, FloatArray], n: int) -> None:
         self.designs, self.n = FlatDesigns(designs), n
         self.ways = {name: (plan.sketch_strokes[name], np.ravel(value) - plan.sketch_strokes[name]) for name, value in strokes.items()}
 
-    def lines(self, lane: Index) -> dict[str, tuple[Any, Any]]:
+    def lines(self, lane: Index) -> dict[str, tuple[Numbers, Numbers]]:
         """Return the inputs of designs and poses."""
         moved = {name: (start, float(way[0]) if way.size == 1 else way[lane % self.n]) for name, (start, way) in self.ways.items()}
         return self.designs.lines(lane // self.n) | moved
@@ -174,21 +175,21 @@ class LineRoute(InputRoute):
 class FlatDesigns:
     """The dimensions of designs, which do not change on the way: those of all alike, and those of which each has its own, (m,)."""
 
-    def __init__(self, designs: Mapping[str, Any]) -> None:
-        flat = {name: np.ravel(value) if np.ndim(value) else value for name, value in designs.items()}
-        self.shared = {name: (value[0] if np.ndim(value) else value, 0.0) for name, value in flat.items() if np.size(value) == 1}
-        self.own = {name: value for name, value in flat.items() if np.size(value) > 1}
+    def __init__(self, designs: Mapping[str, Numbers]) -> None:
+        flat = {name: np.ravel(value) for name, value in designs.items()}
+        self.shared = {name: (value.item(), 0.0) for name, value in flat.items() if value.size == 1}
+        self.own = {name: value for name, value in flat.items() if value.size > 1}
 
-    def lines(self, row: Index) -> dict[str, tuple[Any, Any]]:
+    def lines(self, row: Index) -> dict[str, tuple[Numbers, Numbers]]:
         """Return the inputs of some designs and their changes, floats or arrays like the rows."""
         return {**self.shared, **{name: (value[row], 0.0) for name, value in self.own.items()}}
 
 
-Found = tuple[list[FloatArray], npt.NDArray[Any], tuple[float, ...]]
+Found = tuple[list[FloatArray], npt.NDArray[np.int_], tuple[float, ...]]
 
 
 def along_one(
-    plan: Plan, newtons: Sequence[Newton], known: Known, designs: Mapping[str, Any], name: str, values: FloatArray
+    plan: Plan, newtons: Sequence[Newton], known: Known, designs: Mapping[str, Numbers], name: str, values: FloatArray
 ) -> Found:
     """Return the pins of every group over one stroke, shape (coordinates, m * n), what crossed, and where a single design's ways end."""
     start, m, values = known.start, known.start[0].shape[1], np.ravel(values)
@@ -229,7 +230,7 @@ def along_many(newtons: Sequence[Newton], start: Sequence[FloatArray], route: Li
     return u, crossed, ()
 
 
-def sines(newton: Newton, inputs: Mapping[str, Any], strokes: Mapping[str, FloatArray], u: FloatArray) -> FloatArray:
+def sines(newton: Newton, inputs: Mapping[str, Numbers], strokes: Mapping[str, FloatArray], u: FloatArray) -> FloatArray:
     """Return how near every pose is to a singular one, shape (designs, poses).
 
     Of many poses along one stroke a sample is worked out and the rest read between its values, except near a singular pose.
@@ -239,7 +240,8 @@ def sines(newton: Newton, inputs: Mapping[str, Any], strokes: Mapping[str, Float
         return newton.sine(inputs, u)
 
     def at(places: npt.NDArray[np.intp]) -> FloatArray:
-        moving = {name: value[..., places] for name, value in inputs.items() if name not in newton.plan.defaults and np.size(value) > 1}
+        along = {name: np.asarray(value) for name, value in inputs.items() if name not in newton.plan.defaults and np.size(value) > 1}
+        moving = {name: value[..., places] for name, value in along.items()}
         return newton.sine({**inputs, **moving}, u[:, :, places])
 
     ((_, values),) = strokes.items()

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field
 from itertools import permutations
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from ..program import FloatArray
 from ..quantities import Member, name_of
 from ..shown import Shown
 from ..steps import Link, Pin, Step
-from ..vectors import Side
+from ..vectors import Numbers, Side
 from .groups import solve_groups
 from .newton import Newton, at_sketch
 from .sketch import Place, places_at
@@ -42,7 +42,7 @@ class Assembly(Shown):
     lines: Mapping[str, str] = field(default_factory=dict)
     pins: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     plan: Plan | None = field(default=None, repr=False, compare=False)
-    inputs: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
+    inputs: Mapping[str, Numbers] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def is_declared(self) -> bool:
@@ -59,7 +59,7 @@ class Assembly(Shown):
         return ", ".join([*said, *(f"{name} near ({x:.4g}, {y:.4g})" for name, (x, y) in self.pins.items())])
 
 
-def assemblies(plan: Plan, inputs: Mapping[str, Any], declared: Mapping[str, Member]) -> list[Assembly]:
+def assemblies(plan: Plan, inputs: Mapping[str, Numbers], declared: Mapping[str, Member]) -> list[Assembly]:
     """Return the assembly modes that exist for given inputs [SI], the declared one first where it exists.
 
     `declared` are the members as the class writes them. Where there are groups, the pins of these are found from places at random, and
@@ -80,7 +80,7 @@ def assemblies(plan: Plan, inputs: Mapping[str, Any], declared: Mapping[str, Mem
 
 
 def _modes(
-    plan: Plan, inputs: Mapping[str, Any], members: dict[str, Member], left: list[str]
+    plan: Plan, inputs: Mapping[str, Numbers], members: dict[str, Member], left: list[str]
 ) -> Iterator[tuple[dict[str, Side], dict[str, tuple[float, float]]]]:
     """Yield sides and places with the sides of the remaining dyads chosen, the declared side first; a mode out of reach is cut off."""
     reading = ArrayReading(members, plan.table.lengths, inputs)
@@ -174,7 +174,7 @@ def rounded_to(value: float, digits: int = 4) -> float:
 # Groups: their pins' solutions at the sketch, found from many places.
 
 
-def group_modes(plan: Plan, inputs: Mapping[str, Any]) -> Iterator[tuple[dict[str, Place], dict[str, Member], Mapping[str, Any]]]:
+def group_modes(plan: Plan, inputs: Mapping[str, Numbers]) -> Iterator[tuple[dict[str, Place], dict[str, Member], Mapping[str, Numbers]]]:
     """Yield the modes of a plan's groups, the declared one first: pins' places at the sketch, the members, the pins at the inputs."""
     yield {}, with_own_groups(plan, {}), {}
     if not plan.groups:
@@ -199,7 +199,7 @@ def with_own_groups(plan: Plan, pins: Mapping[str, tuple[float, float]]) -> dict
     return members
 
 
-def solved_from(plan: Plan, inputs: Mapping[str, Any]) -> Mapping[str, Any] | None:
+def solved_from(plan: Plan, inputs: Mapping[str, Numbers]) -> Mapping[str, Numbers] | None:
     """Return the pins of a plan's groups at some inputs; None where the way from the sketch does not reach them."""
     designs = {name: inputs[name] for name in plan.defaults}
     strokes = {name: np.atleast_1d(np.asarray(inputs[name], float)) for name in plan.strokes}
@@ -214,7 +214,7 @@ def solved_from(plan: Plan, inputs: Mapping[str, Any]) -> Mapping[str, Any] | No
 def group_solutions(plan: Plan) -> Iterator[dict[str, tuple[float, float]]]:
     """Yield other solutions of a plan's groups at the sketch, default dimensions: the pins of one group elsewhere, then of the next."""
     known = at_sketch(plan)
-    inputs: dict[str, Any] = plan.defaults | plan.sketch_strokes
+    inputs: dict[str, Numbers] = {**plan.defaults, **plan.sketch_strokes}
     for name, group in plan.groups.items():
         newton = Newton(plan, group)
         for u in other_solutions(newton, inputs, known[name]):
@@ -222,7 +222,7 @@ def group_solutions(plan: Plan) -> Iterator[dict[str, tuple[float, float]]]:
         inputs |= dict(zip(newton.names, known[name], strict=True))
 
 
-def other_solutions(newton: Newton, inputs: Mapping[str, Any], known: FloatArray) -> list[FloatArray]:
+def other_solutions(newton: Newton, inputs: Mapping[str, Numbers], known: FloatArray) -> list[FloatArray]:
     """Return the solutions of a group beside the known one, shape (coordinates, 1) each, from many places."""
     x, y = known[0::2], known[1::2]
     plan = newton.plan
@@ -246,7 +246,7 @@ def other_solutions(newton: Newton, inputs: Mapping[str, Any], known: FloatArray
     return found[1:]
 
 
-def is_solution(newton: Newton, inputs: Mapping[str, Any], u: FloatArray, size: float) -> bool:
+def is_solution(newton: Newton, inputs: Mapping[str, Numbers], u: FloatArray, size: float) -> bool:
     """Return whether pins fulfil their group's equations and are held there: where they could give way the modes meet."""
     residual, rows, _ = newton.system(inputs, u)
     held = np.linalg.svd(rows[:, :, 0], compute_uv=False)[-1] > SAME if np.isfinite(rows).all() else False

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
-from typing import Any, final
+from typing import final
 
 import numpy as np
 import numpy.typing as npt
@@ -30,6 +30,7 @@ from ..program import (
 )
 from ..steps import Group, Pin
 from ..units import mm
+from ..vectors import Numbers
 from .rules import newton_ended
 
 Mask = npt.NDArray[np.bool_]
@@ -57,24 +58,24 @@ class Newton:
         """Newton's step and the clearance, written out for this group."""
         return self.plan.made(("newton", self.group.name), lambda plan: Programs.of(plan, self.group))
 
-    def held(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
+    def held(self, inputs: Mapping[str, Numbers]) -> dict[str, Numbers]:
         """Return what the programs take of the inputs, floats or arrays like these: all that does not hang on the group's own pins."""
         programs = self.programs
         with np.errstate(all="ignore"):
             known = programs.hold(*(inputs[name] for name in programs.inputs))
         return {f"@k{k}": value if np.ndim(value) else float(value) for k, value in enumerate(known)}
 
-    def _run(self, kernel: Kernel, held: Mapping[str, Any], u: FloatArray) -> FloatArray:
+    def _run(self, kernel: Kernel, held: Mapping[str, Numbers], u: FloatArray) -> FloatArray:
         """Return the values of a kernel, shape (outputs, n)."""
         return kernel({**held, **dict(zip(self.names, u, strict=True))}, size=(1, u.shape[1])).values[:, 0]
 
-    def raw(self, held: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def raw(self, held: Mapping[str, Numbers], u: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the residuals and the Jacobian by rows as the constraints state them, shape (c, n) and (c, c, n)."""
         count, n = u.shape
         values = self._run(self.programs.raw, held, u)
         return values[:count], values[count:].reshape(count, count, n)
 
-    def system(self, inputs: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def system(self, inputs: Mapping[str, Numbers], u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the residuals [m], the Jacobian with rows of length one, and the rows' own lengths [m], at one pose."""
         kernel = self.plan.made(("equations", self.group.name), lambda plan: GroupEquations.of(plan, self.group)).kernel
         values = kernel({**inputs, **dict(zip(self.names, u, strict=True))}).values[:, 0]
@@ -83,7 +84,7 @@ class Newton:
         with np.errstate(all="ignore"):
             return residual / size, rows / size[:, None], size
 
-    def start(self, inputs: Mapping[str, Any], sketch: FloatArray, iterations: int = 100) -> tuple[FloatArray, bool, float]:
+    def start(self, inputs: Mapping[str, Numbers], sketch: FloatArray, iterations: int = 100) -> tuple[FloatArray, bool, float]:
         """Return the solution nearest a rough sketch by damped steps, whether it was found, and what is missing [m]."""
         u = sketch
         with np.errstate(all="ignore"):
@@ -105,7 +106,7 @@ class Newton:
                     return u, True, 0.0
         return u, False, float(np.abs(residual).max())
 
-    def correct(self, held: Mapping[str, Any], guess: FloatArray, size: FloatArray) -> tuple[FloatArray, Mask]:
+    def correct(self, held: Mapping[str, Numbers], guess: FloatArray, size: FloatArray) -> tuple[FloatArray, Mask]:
         """Return the solution next to a guess and the mask of the poses where it was found; each stands when its own steps have ended.
 
         `size` is about that of the group at each pose [m].
@@ -127,7 +128,7 @@ class Newton:
                 left, u, last, size, held = left[on], np.take(u, on, axis=1), change[on], size[on], at_poses(held, on)
         return found, done
 
-    def _step(self, held: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _step(self, held: Mapping[str, Numbers], u: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the pins after one step and how far they went [m]; a pose whose pivots are small with pivots of its own."""
         values = self._run(self.programs.step, held, u)
         on, change, pivot = values[:-2], values[-2], values[-1]
@@ -139,7 +140,7 @@ class Newton:
             on[:, weak], change[weak] = u[:, weak] - step, np.abs(step).max(axis=0)
         return on, change
 
-    def sense(self, held: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def sense(self, held: Mapping[str, Numbers], u: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return how near each pose is to a singular one, and the group's size [m].
 
         The sign is that of the determinant, which changes where branches cross. The nearness is 2 over the condition of the Jacobian
@@ -151,7 +152,7 @@ class Newton:
             sense[weak] = nearness(self.raw(at_poses(held, weak), u[:, weak])[1])
         return sense, size
 
-    def sine(self, inputs: Mapping[str, Any], u: FloatArray) -> FloatArray:
+    def sine(self, inputs: Mapping[str, Numbers], u: FloatArray) -> FloatArray:
         """Return how near poses are to a singular one, without a sign: designs (m,), strokes (n,) or (m, n), pins (coordinates, m, n)."""
         sense, pivot = self.programs.sine({**inputs, **dict(zip(self.names, u, strict=True))}, size=u.shape[1:]).values
         weak = ~(pivot > 0.0)
@@ -163,9 +164,9 @@ class Newton:
         return np.where(np.isfinite(u).all(axis=0), np.where(np.isnan(sense), 0.0, np.abs(sense)), np.nan)
 
 
-def at_poses(inputs: Mapping[str, Any], which: Any) -> dict[str, Any]:
+def at_poses(inputs: Mapping[str, Numbers], which: slice | npt.NDArray[np.intp]) -> dict[str, Numbers]:
     """Return the inputs of some poses."""
-    return {name: value[which] if np.ndim(value) else value for name, value in inputs.items()}
+    return {name: value[which] if isinstance(value, np.ndarray) and value.ndim else value for name, value in inputs.items()}
 
 
 def nearness(rows: FloatArray) -> FloatArray:
@@ -205,7 +206,7 @@ class GroupEquations:
     def at_sketch(self, plan: Plan) -> FloatArray:
         """Return the Jacobian at the sketch, default dimensions, shape (c, c)."""
         pins = at_sketch(plan)
-        inputs: dict[str, Any] = plan.defaults | plan.sketch_strokes
+        inputs: dict[str, Numbers] = {**plan.defaults, **plan.sketch_strokes}
         for group in plan.groups.values():
             inputs |= dict(zip(group.inputs, pins[group.name][:, 0], strict=False))
         count = len(self.rows)
@@ -223,7 +224,7 @@ class Programs:
 
     inputs: tuple[str, ...]
     known: tuple[Node, ...]
-    hold: Callable[..., tuple[Any, ...]]
+    hold: Callable[..., tuple[Numbers, ...]]
     """What is known, from the inputs."""
     nodes: tuple[Node, ...]
     """The pins after a step, its largest change [m] and the pivots' worth; the clearance and the size [m]."""
@@ -405,7 +406,7 @@ def at_sketch(plan: Plan) -> dict[str, FloatArray]:
 
 def started(plan: Plan) -> dict[str, FloatArray]:
     """Return the pins of every group at the sketch from their rough places."""
-    inputs: dict[str, Any] = plan.defaults | plan.sketch_strokes
+    inputs: dict[str, Numbers] = {**plan.defaults, **plan.sketch_strokes}
     found: dict[str, FloatArray] = {}
     for name, group in plan.groups.items():
         pins = [plan.of_kind(Pin)[pin] for pin in group.pins]

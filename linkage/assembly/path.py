@@ -5,12 +5,13 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, final
+from typing import final
 
 import numpy as np
 import numpy.typing as npt
 
 from ..program import BACKEND, FloatArray
+from ..vectors import Numbers
 from .lanes import STUCK, Program, place_rows, state_rows
 from .newton import Newton, at_poses
 from .rules import FIRST, TOUCH, goes_on, interpolated, predicted, step_judged
@@ -32,10 +33,10 @@ class InputRoute(ABC):
     """Ways from the sketch: straight lines of the program's inputs over places of lanes. A place is 0 at the sketch."""
 
     @abstractmethod
-    def lines(self, lane: Index) -> dict[str, tuple[Any, Any]]:
+    def lines(self, lane: Index) -> dict[str, tuple[Numbers, Numbers]]:
         """Return every input at place 0 and its change over a unit of place, floats or arrays like the lanes."""
 
-    def inputs(self, lane: Index, place: FloatArray) -> dict[str, Any]:
+    def inputs(self, lane: Index, place: FloatArray) -> dict[str, Numbers]:
         """Return the inputs at places of lanes, arrays (n,) or floats."""
         lines = self.lines(lane).items()
         return {name: start if np.ndim(slope) == 0 and slope == 0.0 else start + place * slope for name, (start, slope) in lines}
@@ -88,14 +89,14 @@ class GroupPath:
             return self
         return GroupPath(self.newton, self.route, before, replace(self.lanes, goal=np.maximum(goal, self.lanes.goal)), self)
 
-    def _held(self, lane: Index, place: FloatArray) -> dict[str, Any]:
+    def _held(self, lane: Index, place: FloatArray) -> dict[str, Numbers]:
         """Return what this group's programs take at places of lanes, the pins of the groups before it included."""
         inputs = self.route.inputs(lane, place)
         for track in self.before:  # each is told the pins of those before itself, which would else be found 2^k times
             inputs |= dict(zip(track.newton.names, track._at_step(lane, place, inputs), strict=True))
         return self.newton.held(inputs)
 
-    def _at_step(self, lane: Index, place: FloatArray, inputs: Mapping[str, Any]) -> FloatArray:
+    def _at_step(self, lane: Index, place: FloatArray, inputs: Mapping[str, Numbers]) -> FloatArray:
         """Return the pins at places of a later group, with the inputs there; of few lanes they are kept, as other groups step there too."""
         if len(lane) > FEW:
             return self.at(lane, place, inputs)
@@ -260,7 +261,7 @@ class GroupPath:
 
     # -- between the places ----------------------------------------------------------------------------
 
-    def at(self, lane: Index, place: FloatArray, inputs: Mapping[str, Any] | None = None) -> FloatArray:
+    def at(self, lane: Index, place: FloatArray, inputs: Mapping[str, Numbers] | None = None) -> FloatArray:
         """Return the pins at places of lanes, shape (coordinates, n) [m]; NaN behind the end of a way.
 
         `inputs` are those of the program at these places with the pins of the groups before this one, where they are known.
@@ -299,7 +300,7 @@ class GroupPath:
         found[:, close <= 0.0] = np.nan
         return found
 
-    def _near(self, lane: Index, place: FloatArray, held: Mapping[str, Any]) -> tuple[FloatArray, FloatArray]:
+    def _near(self, lane: Index, place: FloatArray, held: Mapping[str, Numbers]) -> tuple[FloatArray, FloatArray]:
         """Return what Newton's method finds at places, 1 where that is near enough to what is expected, -1 beyond the end of a way."""
         left = self._left(lane, place)
         right, before = np.minimum(left + 1, self.last[lane]), np.maximum(left - 1, self.first[lane])

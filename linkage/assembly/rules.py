@@ -11,11 +11,11 @@ become small in proportion where branches cross or end, and a way comes to an en
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 
 from ..program import pick
+from ..vectors import Scalar
 
 TOUCH = 1e-6
 """The clearance at which a way ends: below it two branches are not told from each other."""
@@ -32,10 +32,10 @@ QUADRATIC = 1e-7
 """A step of Newton's method so small, against the group's size, leaves an error of its square: 1e-14 and less."""
 TINY = 1e-300
 
-Choose = Callable[[Any, Any, Any, Any], Any]
+Choose = Callable[[Scalar, Scalar, Scalar, Scalar], Scalar]
 
 
-def newton_ended(change: Any, last: Any, size: Any, choose: Choose = pick) -> tuple[Any, Any]:
+def newton_ended(change: Scalar, last: Scalar, size: Scalar, choose: Choose = pick) -> tuple[Scalar, Scalar]:
     """Return whether steps of Newton's method have ended, and whether at a solution, from their last two changes and the size [m].
 
     The errors follow each other's squares, next to a singular pose by a large factor; of the first step nothing is known.
@@ -47,8 +47,8 @@ def newton_ended(change: Any, last: Any, size: Any, choose: Choose = pick) -> tu
 
 
 def predicted(
-    step: Any, limit: Any, places: Sequence[Any], pins: Sequence[Sequence[Any]], choose: Choose = pick
-) -> tuple[Any, list[Any], list[Any]]:
+    step: Scalar, limit: Scalar, places: Sequence[Scalar], pins: Sequence[Sequence[Scalar]], choose: Choose = pick
+) -> tuple[Scalar, list[Scalar], list[Scalar]]:
     """Return the next place, not beyond a limit, the pins expected there and where Newton's method begins.
 
     Expected on the line through the last two places; the parabola through the last three is mostly nearer. `places` are these three, the
@@ -64,7 +64,9 @@ def predicted(
     return choose(step, limit - t, t + step, limit), line, start
 
 
-def step_judged(h: Any, was: Any, largest: Any, near: Any, miss: Any, sense: Any, size: Any, choose: Choose = pick) -> tuple[Any, Any]:
+def step_judged(
+    h: Scalar, was: Scalar, largest: Scalar, near: Scalar, miss: Scalar, sense: Scalar, size: Scalar, choose: Choose = pick
+) -> tuple[Scalar, Scalar]:
     """Return whether what was found a step `h` ahead is the same branch, and the next step.
 
     `near`: whether Newton's method came to a solution; `miss`: how far from where it was expected [m]; `sense` and `was`: the clearance
@@ -80,15 +82,20 @@ def step_judged(h: Any, was: Any, largest: Any, near: Any, miss: Any, sense: Any
     return good, choose(0.5, good, np.minimum(largest, onward), again)
 
 
-def goes_on(t: Any, sense: Any, step: Any, largest: Any, choose: Choose = pick) -> Any:
+def goes_on(t: Scalar, sense: Scalar, step: Scalar, largest: Scalar, choose: Choose = pick) -> Scalar:
     """Return whether a way goes on: clear of singular poses, by steps that lead somewhere."""
     on = choose(TOUCH, np.abs(sense), 1.0, 0.0)
     return choose(step, LEAST * largest, 0.0, choose(t + step, t, 0.0, on))
 
 
 def interpolated(
-    place: Any, places: Sequence[Any], pins: Sequence[Sequence[Any]], clear: Sequence[Any], sizes: Sequence[Any], choose: Choose = pick
-) -> tuple[list[Any], Any]:
+    place: Scalar,
+    places: Sequence[Scalar],
+    pins: Sequence[Sequence[Scalar]],
+    clear: Sequence[Scalar],
+    sizes: Sequence[Scalar],
+    choose: Choose = pick,
+) -> tuple[list[Scalar], Scalar]:
     """Return the pins expected between two places and how far a solution may lie from there [m]; each of clear and sizes a pair.
 
     `places` and `pins` are of the place before, the one on the left and the one on the right, so that what comes later changes nothing.

@@ -12,15 +12,16 @@ from ..errors import AssemblyError, DefinitionError
 from ..plan import ArrayReading, Plan, missing_words, strokes_text
 from ..quantities import Member, name_of
 from ..steps import Point, Step
+from ..vectors import Numbers
 from .following import NONE_SOLVED, with_angles
 from .groups import solve_groups
 
 Place = tuple[float, float]
 
 
-def inputs_at(plan: Plan, strokes: Mapping[str, float]) -> dict[str, Any]:
+def inputs_at(plan: Plan, strokes: Mapping[str, float]) -> dict[str, Numbers]:
     """Return all inputs at some strokes and default dimensions, the pins of groups included [SI]."""
-    inputs: dict[str, Any] = plan.defaults | dict(strokes)
+    inputs: dict[str, Numbers] = {**plan.defaults, **strokes}
     if plan.solved:
         at = {name: np.array([value]) for name, value in strokes.items()}
         solved = with_angles(solve_groups(plan, plan.defaults, at) if plan.groups else NONE_SOLVED, plan, plan.defaults, at)
@@ -28,7 +29,7 @@ def inputs_at(plan: Plan, strokes: Mapping[str, float]) -> dict[str, Any]:
     return inputs
 
 
-def places_at(plan: Plan, strokes: Mapping[str, float]) -> tuple[dict[str, Place], dict[str, Any]]:
+def places_at(plan: Plan, strokes: Mapping[str, float]) -> tuple[dict[str, Place], dict[str, Numbers]]:
     """Return where all points are at some strokes [m], and the inputs; AssemblyError where they cannot be assembled."""
     inputs = inputs_at(plan, strokes)
     with np.errstate(all="ignore"):

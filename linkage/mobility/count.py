@@ -17,7 +17,7 @@ from ..program import FloatArray, Level, Node, Tangent, ancestors, interpret
 from ..quantities import quantity
 from ..steps import Link, match
 from ..units import mm, show
-from ..vectors import Vec
+from ..vectors import Numbers, Vec
 
 # The constraints of a mechanism with all its points free: their Jacobian at a pose, from the rules of the steps.
 
@@ -51,7 +51,7 @@ def loose_trace(plan: Plan, points: tuple[str, ...]) -> Trace:
     return trace
 
 
-def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Any]) -> ConstraintRows:
+def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Numbers]) -> ConstraintRows:
     """Return the rows of the steps' own constraints at a pose; points that no body holds are left out."""
     trace = loose_trace(plan, tuple(plan.points))
     residuals: dict[str, tuple[Any, ...]] = {}
@@ -287,7 +287,7 @@ def check_lengths(plan: Plan) -> None:
             check_labels(plan, name, link, *known[0])
 
 
-def check_labels(plan: Plan, name: str, link: Link, places: Mapping[str, tuple[float, float]], inputs: Mapping[str, Any]) -> None:
+def check_labels(plan: Plan, name: str, link: Link, places: Mapping[str, tuple[float, float]], inputs: Mapping[str, Numbers]) -> None:
     """Raise DefinitionError where what a link says of its points is not how other labels place them."""
     reading = Reading(plan.members, plan.table.lengths, inputs)
     for label, value in link.labels.items():
@@ -328,7 +328,7 @@ def check_slides(plan: Plan) -> None:
                 )
 
 
-def sample(plan: Plan, share: float) -> tuple[dict[str, tuple[float, float]], dict[str, Any]] | None:
+def sample(plan: Plan, share: float) -> tuple[dict[str, tuple[float, float]], dict[str, Numbers]] | None:
     """Return the places of all points at a share of every stroke, and the inputs there; None where it cannot be assembled."""
     try:
         return places_at(plan, {name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()})

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import combinations
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..plan import ChainBody, Plan, Reading
 from ..quantities import spelled
 from ..steps import Link
+from ..vectors import Numbers
 
 if TYPE_CHECKING:
     import networkx as nx
 
 
-def chain_graph(plan: Plan, inputs: Mapping[str, Any]) -> nx.MultiGraph:
+def chain_graph(plan: Plan, inputs: Mapping[str, Numbers]) -> nx.MultiGraph:
     """Return the graph of a machine's chain at some inputs: design variables and strokes [SI].
 
     Of a node, `kind` is "frame", "body", "barrel", "rod", "arm", "carriage" or "block", `points` are its points, `link` is the `Link` that
@@ -38,7 +39,7 @@ def chain_graph(plan: Plan, inputs: Mapping[str, Any]) -> nx.MultiGraph:
     return graph
 
 
-def distances(body: ChainBody, reading: Reading) -> dict[str, Any]:
+def distances(body: ChainBody, reading: Reading) -> dict[str, Numbers]:
     """Return the distances of a body's points [m], by their names joined: a float, or an array of a batch of designs."""
     with np.errstate(all="ignore"):
         found = {P + Q: np.asarray(reading.link_length(P, Q), float) for P, Q in combinations(body.points, 2)}

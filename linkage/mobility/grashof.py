@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from ..errors import DefinitionError, cited
 from ..plan import Plan, Reading
 from ..quantities import is_number
+from ..vectors import Numbers
 
 EQUAL = 1e-9
 
@@ -59,7 +59,7 @@ def grashof(ground: float, crank: float, coupler: float, follower: float) -> str
     return kinds[min(lengths, key=lambda name: lengths[name])]
 
 
-def four_bars(plan: Plan, inputs: Mapping[str, Any]) -> list[FourBar]:
+def four_bars(plan: Plan, inputs: Mapping[str, Numbers]) -> list[FourBar]:
     """Return the four-bars whose frame link is fixed: a dyad on a fixed point and on the end of a link that hangs on another."""
     reading = Reading(plan.members, plan.table.lengths, inputs)
     rigid = [(bar.P, bar.Q) for bar in plan.rods]

@@ -38,8 +38,10 @@ def evaluate(
     per_design: bool = False,
 ) -> list[FloatArray]:
     """Return the values of requests of designs at strokes; see Mechanism.evaluate."""
-    if out is None and way == QUICKEST and unreachable in ("raise", "nan"):
-        found = at_one_pose(plan, designs, strokes, requests)
+    if out is None and unreachable in ("raise", "nan"):
+        found = at_one_pose(plan, designs, strokes, requests) if way == QUICKEST else None
+        if found is None:
+            found = at_few_poses(plan, designs, strokes, requests, way)
         if found is not None:
             return found
     grid = Grid(plan, designs, at_values(strokes, plan, float_array), per_design=per_design)
@@ -102,6 +104,38 @@ def at_one_pose(
     return [array[first : first + rows] if rows > 1 else array[first] for first, rows in program.rows]
 
 
+FEW = 8192
+"""Poses of one design that are worked out at once before any of them is looked at closely."""
+
+
+def at_few_poses(
+    plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], requests: Sequence[RequestLike], way: Way
+) -> list[FloatArray] | None:
+    """Return the same of one design at arrays of strokes, shape (n,), within the declared ranges; None as `at_one_pose` does."""
+    if plan.solved or len(strokes) != len(plan.strokes) or set(map(type, designs.values())) > {float}:
+        return None
+    sizes = set()
+    for name, stroke in plan.strokes.items():
+        value = strokes.get(name)
+        if type(value) is not np.ndarray or value.dtype != np.float64 or value.ndim != 1 or not 0 < value.size <= FEW:
+            return None
+        low, high = (stroke.start, stroke.end) if stroke.start <= stroke.end else (stroke.end, stroke.start)
+        if not (low <= value.min() and value.max() <= high):  # what is not finite neither
+            return None
+        sizes.add(value.size)
+    identities = identities_of(plan, requests)
+    if identities is None or len(sizes) != 1:
+        return None
+    program = plan.made(("few poses", identities), lambda _: BulkProgram.of(plan, all_bound(plan, requests)))
+    if program.angles:
+        return None
+    result = program.kernel({**designs, **strokes}, None, way, (1, sizes.pop()))
+    if not (result.guards > 0.0).all() or (program.may_fail and not np.isfinite(result.values).all()):
+        return None
+    found = result.values[:, 0]
+    return [found[first : first + rows] if rows > 1 else found[first] for first, rows in program.parts]
+
+
 @dataclass(frozen=True)
 class BulkProgram:
     """The kernel of some requests: `parts`, the first row and the rows of each; `angles` of those that follow them, by their place.
@@ -114,7 +148,13 @@ class BulkProgram:
     angles: Mapping[int, Angles]
     may_fail: bool
 
-    @property
+    @classmethod
+    def of(cls, plan: Plan, requests: tuple[Request, ...]) -> BulkProgram:
+        """Return the program of requests that are bound to a plan."""
+        start = {name: np.asarray(stroke.start, float) for name, stroke in plan.strokes.items()}
+        return Evaluation(Grid(plan, plan.defaults, start), requests, QUICKEST).program
+
+    @cached_property
     def rows(self) -> int:
         """The rows of all requests."""
         return sum(rows for _, rows in self.parts)
@@ -138,21 +178,21 @@ class Evaluation:
     @property
     def kernel(self) -> Kernel:
         """The kernel of the requests, watched by the guards of what they are built from."""
-        return self._program.kernel
+        return self.program.kernel
 
     @cached_property
-    def _program(self) -> BulkProgram:
+    def program(self) -> BulkProgram:
         """The kernel and what its rows are, made once for these requests."""
         return self.grid.plan.made(("bulk", tuple([each.key for each in self.requests])), self._make)
 
     @property
     def may_fail(self) -> bool:
         """Whether there may be poses without a value that no guard tells of."""
-        return self._program.may_fail
+        return self.program.may_fail
 
     def run(self, out: FloatArray | None) -> list[FloatArray]:
         """Return one array a request, in the usual shapes; rows of `out` where it is given."""
-        grid, program = self.grid, self._program
+        grid, program = self.grid, self.program
         result = program.kernel(grid.flat, self._target(program.rows, out), self.way, grid.size)
         if not (result.guards > 0.0).all() or (program.may_fail and not np.isfinite(result.values).all()):
             self._settle(result.values)
@@ -163,7 +203,7 @@ class Evaluation:
 
     def _starts(self) -> Iterator[tuple[int, Request]]:
         """Yield each request with its first row."""
-        for (first, _), each in zip(self._program.parts, self.requests, strict=True):
+        for (first, _), each in zip(self.program.parts, self.requests, strict=True):
             yield first, each
 
     def _make(self, plan: Plan) -> BulkProgram:
@@ -305,8 +345,8 @@ class Evaluation:
 
     def _unwrap(self, found: FloatArray) -> None:
         """Make the angles in requests continuous along the stroke, in place."""
-        for k, angles in self._program.angles.items():
-            first, rows = self._program.parts[k]
+        for k, angles in self.program.angles.items():
+            first, rows = self.program.parts[k]
             values = found[first : first + rows]
             reached = np.isfinite(values).all(axis=0)
             continued = angles.continued(self.grid, np.asarray(reached), self.way)
@@ -363,13 +403,11 @@ class PoseProgram:
     """Some requests in floats: `of_design(designs)` is a function of the strokes, the design worked out."""
 
     def __init__(self, plan: Plan, requests: tuple[Request, ...]) -> None:
-        start = {name: np.asarray(stroke.start, float) for name, stroke in plan.strokes.items()}
-        evaluation = Evaluation(Grid(plan, plan.defaults, start), requests, QUICKEST)
+        program = BulkProgram.of(plan, requests)
         self._plan, self._requests = plan, requests
-        self._kernel, self._may_fail = evaluation.kernel, evaluation.may_fail
-        rows = [each.rows for each in requests]
-        self.rows = tuple(zip(accumulate(rows, initial=0), rows))  # noqa: B905 - one more than there are: the end
-        self._tells_nearness = plan.trace.nearness(evaluation.names).op != "constant"
+        self._kernel, self._may_fail, self.rows = program.kernel, program.may_fail, program.parts
+        names = set().union(*(each.names(plan) for each in requests))
+        self._tells_nearness = plan.trace.nearness(names).op != "constant"
         self._order = [list(plan.strokes).index(node.value) for node in self._kernel.plan.pose_inputs]
         self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
 

@@ -7,10 +7,12 @@ the ratios come from one interleaved run; the median of the rounds is printed. A
 from __future__ import annotations
 
 import json
+import os
 import platform
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -202,25 +204,32 @@ def table(work: Work, times: dict[str, float]) -> str:
 
 FIRST = """
 import json, sys, time
-t0 = time.perf_counter(); import numpy
-t1 = time.perf_counter(); import linkage
-t2 = time.perf_counter(); heavy = {"matplotlib", "sympy", "scipy", "networkx", "pydantic", "rich"}
+t0 = time.process_time(); import numpy
+t1 = time.process_time(); import linkage
+t2 = time.process_time(); heavy = {"matplotlib", "sympy", "scipy", "networkx", "pydantic", "rich"}
 loaded = sorted({name.partition(".")[0] for name in sys.modules} & heavy)
 from mechanisms.three_point_hitch import ThreePointHitch
-t3 = time.perf_counter(); motion = ThreePointHitch().sweep(101); motion["G"]
-t4 = time.perf_counter(); motion.ratio("G")
-t5 = time.perf_counter()
+t3 = time.process_time(); motion = ThreePointHitch().sweep(101); motion["G"]
+t4 = time.process_time(); motion.ratio("G")
+t5 = time.process_time()
 print(json.dumps([[1e3 * (b - a) for a, b in ((t0, t1), (t1, t2), (t2, t3), (t3, t4), (t4, t5))], loaded]))
 """
 STAGES = ("import numpy", "import linkage", "import the machine", "first positions, 101 poses", "first exact ratios")
 
 
 def first_result(runs: int) -> tuple[dict[str, float], list[str]]:
-    """Return the time of each stage in a fresh process [ms], medians, and the heavy modules `import linkage` loads."""
-    found = [
-        json.loads(subprocess.run([sys.executable, "-c", FIRST], cwd=ROOT, check=True, capture_output=True, text=True).stdout)
-        for _ in range(runs)
-    ]
+    """Return the processor time of each stage in a fresh process [ms], medians, and the heavy modules `import linkage` loads.
+
+    The bytecode of all modules is on disk, as after any first run of an installed package.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        variables = os.environ | {"PYTHONPYCACHEPREFIX": folder}
+        variables.pop("PYTHONDONTWRITEBYTECODE", None)
+        texts = [
+            subprocess.run([sys.executable, "-c", FIRST], cwd=ROOT, check=True, capture_output=True, text=True, env=variables).stdout
+            for _ in range(runs + 1)
+        ]
+    found = [json.loads(text) for text in texts[1:]]
     return dict(zip(STAGES, map(statistics.median, zip(*(times for times, _ in found), strict=True)), strict=True)), found[-1][1]
 
 

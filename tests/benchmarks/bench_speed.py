@@ -78,6 +78,12 @@ def prepared(kernel: Kernel, inputs: dict[str, Any], way: Way) -> Run:
     return lambda: kernel(inputs, out, way)
 
 
+def public(design: Mechanism, strokes: dict[str, Any], points: str, way: Way) -> Run:
+    """Return the public call of the same points, its results included."""
+    names = list(points)
+    return lambda: design.evaluate(names, backend=way.backend, **strokes)
+
+
 def ways() -> dict[str, Way]:
     return {"NumPy": Way("numpy")} | ({"Numba": Way("numba")} if is_there() else {})
 
@@ -121,6 +127,8 @@ def add_points(cases: Cases, peer: Peer | None, poses: int, designs: int) -> Non
     kernel = ThreePointHitch.plan.kernel(ThreePointHitch.plan.moving)
     for word, way in ways().items():
         cases.add(f"{word}: {designs} designs of the hitch", designs * 100, prepared(kernel, flat, way))
+        run = public(ThreePointHitch(**varied), {"S": stroke[::every]}, "BCDFKG", way)
+        cases.add(f"{word}: evaluate, {designs} designs of the hitch", designs * 100, run)
     if peer is not None:
         peer.make("ensemble", "hitch", hitch.at(S=stroke[::every]), "OB", "BCDFKG", poses=100, count=6, designs=designs)
         cases.asked[f"pylinkage: {designs} designs of the hitch"] = (lambda repeat: peer.run("ensemble", repeat)), designs * 100
@@ -134,6 +142,8 @@ def add_machine(cases: Cases, peer: Peer | None, title: str, design: Mechanism, 
     kernel = design.plan.kernel(tuple(points))
     for word, way in ways().items():
         cases.add(f"{word}: {title}", poses, prepared(kernel, dict(design.dimensions) | strokes, way))
+        cases.add(f"{word}: evaluate, {title}", poses, public(design, strokes, points, way))
+    cases.add(f"at(), {title}", poses, lambda: list(map(design.at(**strokes).__getitem__, points)))
     if peer is not None:
         peer.make(title, title.split()[0], design.at(**strokes), crank, points, poses=poses, count=len(points))
         cases.asked[f"pylinkage: {title}"] = (lambda repeat: peer.run(title, repeat)), poses
@@ -192,6 +202,9 @@ def statements(cases: Cases, designs: int, poses: int) -> list[tuple[str, str, f
         for title, bound in zip(titles, least, strict=True):
             times = over(f"pylinkage: {title}", f"{word}: {title}")
             found.append((f"{title}: pylinkage over {word}", f">= {bound}" if bound else "", times))
+            found.append((f"{title}: pylinkage over evaluate, {word}", ">= 5", over(f"pylinkage: {title}", f"{word}: evaluate, {title}")))
+    for title in ("hitch", "four_bar 1000", f"four_bar {poses}"):
+        found.append((f"{title}: pylinkage over at()", "", over(f"pylinkage: {title}", f"at(), {title}")))
     for word in ("NumPy", "Numba"):
         found.append((f"{word}: G, dG_y/dS over G", "<= 1.6" if word == "NumPy" else "", over(f"{word}: G, dG_y/dS", f"{word}: G")))
         found.append((f"{word}: gradient over dG_y/dS", "<= 3.3", over(f"{word}: gradient of dG_y/dS by 10 lengths", f"{word}: dG_y/dS")))

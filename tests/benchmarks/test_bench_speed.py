@@ -28,7 +28,7 @@ def test_every_case_is_timed_and_every_expectation_looked_at(cases):
     assert all(each > 0.0 for each in cases.times.values())
     said = statements(cases, 20, 1000)
     expected = [bound for _, bound, _ in said if bound]
-    assert len(expected) == 11
+    assert len(expected) == 19
     measured = {what for what, _, ratio in said if math.isfinite(ratio)}
     assert "NumPy: gradient over dG_y/dS" in measured
     assert ("G, dG_y/dS: NumPy over C" in measured) == has_compiler()

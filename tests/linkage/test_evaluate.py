@@ -48,6 +48,28 @@ def test_values_and_ratios_are_those_of_a_motion(designs):
 
 
 @MACHINES
+def test_a_table_of_strokes_gives_what_a_row_of_them_gives(machine):
+    strokes = {name: np.linspace(stroke.start, stroke.end, 23) for name, stroke in machine.plan.strokes.items()}
+    asked = [*machine.plan.moving, ratio(machine.plan.moving[-1], wrt=next(iter(strokes)))]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        row = machine().evaluate(asked, unreachable="nan", backend="numpy", **strokes)
+        table = machine().evaluate(asked, unreachable="nan", backend="numpy", **{name: value[None, :] for name, value in strokes.items()})
+    for one, other in zip(row, table, strict=True):
+        assert_array_equal(one, other[..., 0, :])
+
+
+def test_a_pose_without_a_value_is_refused_among_many_that_have_one():
+    hitch = ThreePointHitch(L0=0.7)
+    reached = hitch.at(S=STROKE, unreachable="nan").reached
+    assert 0 < reached.sum() < reached.size
+    with pytest.raises(AssemblyError, match="cannot be assembled"):
+        hitch.evaluate(["G"], S=STROKE)
+    (place,) = hitch.evaluate(["G"], S=STROKE, unreachable="nan")
+    assert_array_equal(np.isfinite(place).all(axis=0), reached)
+
+
+@MACHINES
 def test_every_machine_is_evaluated(machine):
     strokes = {name: np.linspace(stroke.start, stroke.end, 23) for name, stroke in machine.plan.strokes.items()}
     first = next(iter(strokes))

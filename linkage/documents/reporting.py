@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..disk import check_place
+from ..disk import check_name, check_place
 from ..errors import DefinitionError, LinkageError, cited, unknown, unwarned
 from ..language import current_language, heading_of, said, said_of
 from ..language import language as spoken
@@ -40,6 +40,7 @@ WRITERS: Mapping[str, Callable[[Document, Path], None]] = {".html": write_html, 
 
 def report(machine: Mechanism, path: str | Path, *, language: str | None = None, units: str | None = None, **given: Any) -> Path:
     """Return the path of the report it wrote, .html, .pdf or .md; `given` are the other arguments of `linkage.report`."""
+    check_name(path)
     place = Path(path)
     if place.suffix.lower() not in WRITERS:
         raise DefinitionError(f"{cited(str(path))}: a report's name ends in one of {', '.join(WRITERS)}, which chooses the format.")
@@ -77,7 +78,7 @@ def report_document(
 @contextmanager
 def speaking(name: str | None, units: str | None) -> Iterator[None]:
     """Speak a language and show a system of units; those that hold already where none is named."""
-    with spoken(name or current_language()), unit_system(units or current_system() or None):
+    with spoken(current_language() if name is None else name), unit_system((current_system() or None) if units is None else units):
         yield
 
 
@@ -146,6 +147,8 @@ def span_words(looked: Looked) -> str:
 
 def checked_limits(limits: Mapping[str, Sequence[Any]], columns: Sequence[str], title: str) -> Mapping[str, Sequence[Any]]:
     """Return limits by column; DefinitionError for one of no column, or that is none."""
+    if not isinstance(limits, Mapping):
+        raise DefinitionError(f'limits={cited(limits)}: limits by the names of columns are expected, limits={{"tilt": (0.1, "most")}}.')
     for name, given in limits.items():
         if name not in columns:
             raise unknown("Column", name, columns, where=f"limits of {title}")

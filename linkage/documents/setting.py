@@ -26,8 +26,10 @@ def face(name: str) -> FontProperties:
 
 @lru_cache(maxsize=8192)
 def advance(letter: str, name: str) -> float:
-    """Return the width of a letter in a face at the size 1."""
+    """Return the width of a letter in a face at the size 1; of one that the font does not have, a square."""
     font = get_font(fontManager.findfont(face(name)))
+    if not font.get_char_index(ord(letter)):
+        return 1.0
     font.set_size(EM, 72)
     return float(font.load_char(ord(letter), flags=LoadFlags.NO_HINTING).linearHoriAdvance) / 65536.0 / EM
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..disk import Place, check_place, replacing
+from ..disk import Place, check_name, check_place, replacing
 from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, columns_of
@@ -36,6 +36,7 @@ def export(
     columns: Sequence[Column] = (),
 ) -> Path:
     """Return the path of the file it wrote; see `linkage.export`."""
+    check_name(path)
     file = Path(path)
     kind = file.suffix.lower()
     if kind not in ENDINGS:
@@ -57,16 +58,18 @@ def check_exportable(what: Any, kind: str, at: Any, trace: Any, columns: Any) ->
         raise DefinitionError(f"{title}: a file holds one design, and this machine is a batch of them; choose one of its designs.")
     if isinstance(what, Motion) and kind == ".xlsx":
         raise DefinitionError(f"{title}: a workbook follows its dimensions, so it is made of a machine: export(machine, ...).")
+    if not isinstance(at, Mapping) or not all(isinstance(name, str) for name in at):
+        raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
     if isinstance(what, Motion) and at:
         raise DefinitionError(f"{title}: a motion has its poses; at= goes with a machine.")
-    if not isinstance(at, Mapping):
-        raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
+    if isinstance(trace, str) or not isinstance(trace, Sequence):
+        raise DefinitionError(f'{title}: trace={cited(trace)}: a list of points is expected, such as trace=["G"].')
+    if not isinstance(columns, (list, tuple)) or not all(isinstance(each, Column) for each in columns):
+        raise DefinitionError(f"{title}: columns={cited(columns)}: a list of columns is expected, such as results(machine, motion).")
     if trace and kind not in (".dxf", ".svg"):
         raise DefinitionError(f"{title}: trace= draws the paths of points, in .dxf and .svg.")
     if columns and kind != ".csv":
         raise DefinitionError(f"{title}: columns= chooses what a .csv holds.")
-    if isinstance(trace, str) or not isinstance(trace, Sequence):
-        raise DefinitionError(f'{title}: trace={cited(trace)}: a list of points is expected, such as trace=["G"].')
 
 
 def content_of(

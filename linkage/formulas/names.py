@@ -122,7 +122,8 @@ class SymbolNames:
 
     def indexed(self, text: str) -> str:
         """Return a joined name in LaTeX: OG1 is O G_1."""
-        return " ".join(map(self._scalar_latex, self.pair(text))) if any(each.isdigit() for each in text) and self.pair(text) else text
+        pair = self.pair(text) if any(each.isdigit() or each == "_" for each in text) else ()
+        return " ".join(map(self._scalar_latex, pair)) if pair else escaped_latex(text)
 
     def _vector_latex(self, name: str) -> str:
         if len(self.pair(name)) == 2 and name not in self.points:
@@ -146,8 +147,14 @@ class SymbolNames:
 
 
 def _letters_and_index(name: str) -> tuple[str, str, str]:
-    """Return a name's letters, the same as a Greek letter where they spell one, and its index: L0, k_m, rail.x."""
-    match = re.fullmatch(r"([^\W\d_]+)[_.]?(\w*)", name)
-    head, tail = match.groups() if match else (name, "")
+    """Return a name's letters, the same as a Greek letter where they spell one, and its index: L0, k_m, rail.x; M_ has the index _."""
+    match = re.fullmatch(r"([^\W\d_]+)(?:[_.](?=.*[^_]))?(\w*?)(_*)", name)
+    head, tail, last = match.groups() if match else (name, "", "")
     greek = sympy.latex(sympy.Symbol(head))
-    return head.replace("_", r"\_"), greek if greek.startswith("\\") and greek.count("\\") == 1 else "", tail.replace("_", ",")
+    index = tail.replace("_", ",") + escaped_latex(last)
+    return escaped_latex(head), greek if re.fullmatch(r"\\[A-Za-z]+", greek) else "", index
+
+
+def escaped_latex(text: str) -> str:
+    """Return a name whose underscores mean nothing in LaTeX."""
+    return text.replace("_", r"\_")

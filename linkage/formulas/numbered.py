@@ -14,7 +14,7 @@ import mpmath
 import numpy as np
 import sympy
 
-from ..errors import DefinitionError, cited, unknown
+from ..errors import DefinitionError, cited, known_name, unknown
 from ..language import translated
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..motion.requests import stroke_of
@@ -40,7 +40,7 @@ def equations(
 ) -> Equations:
     """Return a mechanism's equations, numbered from `start`, in the vector method's primitives; see `linkage.equations`."""
     design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
-    check_given(design, start, at)
+    check_given(design, start, at, ratio, dict(numbers=numbers, forces=forces))
     listing = Listing(design.plan)
     listing.write(declared(type(design)))
     lines = list(listing.lines)
@@ -55,11 +55,22 @@ def equations(
     return Equations(design, lines, listing, start, {} if numbers and at is None else at if numbers or at else None, written)
 
 
-def check_given(design: Any, start: Any, at: Any) -> None:
-    """Raise DefinitionError for what is no mechanism, no number to begin with, or no pose."""
+def check_given(design: Any, start: Any, at: Any, ratio: Any, flags: Mapping[str, Any]) -> None:
+    """Raise DefinitionError for what is no mechanism, no number to begin with, no pose, no name or names, and for no True or False."""
     require_mechanism(design)
     if not is_whole(start):
         raise DefinitionError(f"start={cited(start)}: the first equation's number is expected, such as 1.")
+    check_pose(design, at)
+    names = [ratio] if isinstance(ratio, str) else ratio
+    if not isinstance(names, (list, tuple)) or not all(isinstance(name, str) for name in names):
+        raise DefinitionError(f'ratio={cited(ratio)}: the name of a point or an output is expected, ratio="G", or a list of them.')
+    for flag, value in flags.items():
+        if np.ndim(value):
+            raise DefinitionError(f"{flag}={cited(value)}: True or False is expected.")
+
+
+def check_pose(design: Mechanism, at: Any) -> None:
+    """Raise DefinitionError for what is no pose: strokes by name, or None."""
     if at is not None and not isinstance(at, Mapping):
         raise DefinitionError(f"{design.plan.title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
 
@@ -247,14 +258,16 @@ class Equations(Sequence[Equation], Shown):
         `at` are strokes, numbers or arrays; those not named are at their start. With `digits` the values are
         SymPy numbers of so many digits, from the dimensions as decimals. Raises AssemblyError where the pose cannot be assembled.
         """
+        if digits is not None and (not is_whole(digits) or not 1 <= digits <= MOST_DIGITS):
+            raise DefinitionError(f"digits={cited(digits)}: a whole number of digits is expected, 1 to {MOST_DIGITS}.")
         found = evaluated(self._lines, self._inputs(at), digits)
         return {line.name: found[line.lhs] for line in self._lines}
 
     def _pose(self, at: Mapping[str, Any] | None) -> dict[str, Any]:
         strokes = self.machine.plan.strokes
+        check_pose(self.machine, at)
         for name in at or {}:
-            if name not in strokes:
-                raise unknown("Stroke", name, strokes, where=self.machine.plan.title)
+            known_name("Stroke", name, strokes, self.machine.plan.title)
         return {name: stroke.start for name, stroke in strokes.items()} | dict(at or {})
 
     def _inputs(self, at: Mapping[str, Any] | None, unreachable: str = "raise") -> dict[Any, Any]:
@@ -263,6 +276,7 @@ class Equations(Sequence[Equation], Shown):
         motion = self.machine.at(unreachable=unreachable, **pose)
         if motion._design_shape:
             raise DefinitionError(f"{self.machine.plan.title}: its equations take one design, each dimension a single number.")
+        pose = {name: value if np.ndim(value) == 0 else np.asarray(value, float) for name, value in pose.items()}
         given = {names.quantity(name): value for name, value in {**self.machine.dimensions, **pose}.items()}
         for point in (*self.machine.plan.ground, *self._listing.unknowns):
             given |= dict(zip(explicit(names.vector(point)), motion[point], strict=True))
@@ -284,7 +298,9 @@ class Equations(Sequence[Equation], Shown):
 
         For short chains: a closed form grows by a factor at each step. Raises DefinitionError above `limit` operations.
         """
-        target = self[name]
+        if not is_whole(limit):
+            raise DefinitionError(f"limit={cited(limit)}: the number of operations is expected, such as 20000.")
+        target = self[known_name("Equation", name, [each.name for each in self._items], self.machine.plan.title)]
         known: dict[Any, Any] = {}
         for each in self._items[: self._items.index(target) + 1]:
             written = tuple(part.xreplace(known) for part in explicit(each.rhs))
@@ -299,6 +315,7 @@ class Equations(Sequence[Equation], Shown):
 
     def text(self, numbers: bool | None = None, at: Mapping[str, Any] | None = None) -> str:
         """Return the legend and the numbered equations; with `numbers` each followed by its evaluation at a pose."""
+        check_pose(self.machine, at)
         filled = numbers if numbers is not None else self._poses is not None or at is not None
         values, shown = self._filled(at or self._poses) if filled else ({}, {})
         width = len(f"({self._items[-1].number})") if self._items else 0
@@ -337,6 +354,7 @@ class Equations(Sequence[Equation], Shown):
 
         `known` are the left sides' values there by name [SI], where `values` gave them already.
         """
+        check_pose(self.machine, at)
         values, shown = self._filled(at or self._poses, known)
         return [each.sheet(self._listing.names.latex, values, shown) for each in self._items]
 
@@ -352,7 +370,8 @@ class Equations(Sequence[Equation], Shown):
 
     def symbol_latex(self, name: str) -> str:
         """Return the LaTeX of a stroke or a design variable."""
-        symbol = self._listing.names.quantity(name)
+        given = [*self.machine.plan.strokes, *self.machine.dimensions]
+        symbol = self._listing.names.quantity(known_name("Stroke or dimension", name, given, self.machine.plan.title))
         return str(self._listing.names.latex.get(symbol.name, symbol.name))
 
     @property
@@ -381,6 +400,7 @@ def strokes_followed(line: Written, strokes: Sequence[Any]) -> tuple[Any, ...]:
 # What stands in front of the equations: the words' definitions, the sign convention, and what is given.
 
 WIDTH = 110
+MOST_DIGITS = 1000
 TOGETHER = "\N{NO-BREAK SPACE}"
 CONVENTION = (
     "x to the right, y up; angles counter-clockwise positive; lengths in m.",

@@ -221,11 +221,11 @@ class _Reader:
             return found
         if token.startswith("\\"):
             return self.command(token[1:])
-        if token[0].isdigit():
+        if token[:1].isdigit():
             return Sign("number", token)
         if token.isalpha():
             return Sign("variable", token)
-        return Sign("operator", {"-": "−", "*": "·", "'": "′"}.get(token, token))
+        return Sign("operator", {"-": "−", "*": "·", "'": "′"}.get(token, token)) if token else BoxRow(())
 
     def command(self, name: str) -> Box:
         """Return the box of a command."""

@@ -472,10 +472,10 @@ class PoseFunction:
 
     def __call__(self, *strokes: float, **named: float) -> tuple[float, ...]:
         """Return all components one after the other at strokes [SI], in their order or by name."""
-        if self._pose is None:
+        if self._pose is None or (named and len(strokes) + len(named) != len(self._names)):
             return self._closely(strokes, named)
         at = strokes
-        if named and len(strokes) + len(named) == len(self._names):
+        if named:
             at = (*strokes, *(named.get(name, nan) for name in self._names[len(strokes) :]))
         found = self._pose(at)
         return self._closely(strokes, named) if found is None else found

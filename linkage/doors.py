@@ -106,7 +106,8 @@ def draw(
     from .pictures import draw, draw_chain, draw_designs, draw_modes, draw_optimum
     from .study import Optimum
 
-    is_laid = bool(ax is not None or pose or faint or forces or velocities is not None or pole)
+    is_laid = ax is not None or velocities is not None or any(each is not None and each is not False for each in (faint, forces, pole))
+    is_laid = is_laid or not (isinstance(pose, int) and pose == 0)
     if isinstance(machine, Sequence):
         modes = [each for each in machine if isinstance(each, Assembly)]
         designs = [each for each in machine if not isinstance(each, Assembly)]

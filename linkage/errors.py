@@ -147,6 +147,13 @@ def one_word(what: str, word: object, words: Sequence[str]) -> str:
     return word
 
 
+def is_yes(name: str, given: object) -> bool:
+    """Return an option that is True or False; DefinitionError for anything else."""
+    if not isinstance(given, bool):
+        raise DefinitionError(f"{name}={cited(given)}: True or False is expected.")
+    return given
+
+
 def unknown(kind: str, name: object, known: Iterable[str], where: str = "", *, member: str = "") -> DefinitionError:
     """Return the error for a name that is not there: it lists the valid names and the nearest one; `member` is whose part it is."""
     names = list(known)

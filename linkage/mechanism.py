@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies
-from .errors import DefinitionError, cited, told, unknown
+from .errors import DefinitionError, cited, is_yes, told, unknown
 from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
 from .mobility import FourBar, Mobility, chain_graph, check, four_bars, mobility
@@ -114,13 +114,6 @@ class ClassBody(dict[str, object]):
             both = f"{name} = {as_line(first)} stands there already, and {name} = {as_line(value)} would take its place without a word"
             raise DefinitionError(f"{self.title}: {both}; give one of them another name, or take one out.", member=name)
         super().__setitem__(name, value)
-
-
-def is_yes(name: str, given: object) -> bool:
-    """Return an option that is True or False; DefinitionError for anything else."""
-    if not isinstance(given, bool):
-        raise DefinitionError(f"{name}={cited(given)}: True or False is expected.")
-    return given
 
 
 def as_line(value: object) -> str:

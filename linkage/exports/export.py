@@ -22,6 +22,8 @@ from .geometry import PoseDrawing, path_parts, pose_parts
 from .workbook import check_count, workbook
 
 ENDINGS = (".xlsx", ".csv", ".dxf", ".svg")
+MOST_ROWS, ROW = 500_000, 2000
+"""The rows of a table that is written, and about how many bytes one takes on its way."""
 MOST_POSES = 50
 """More poses in one drawing are no drawing any more."""
 
@@ -62,7 +64,7 @@ def check_exportable(what: Any, kind: str, at: Any, trace: Any, columns: Any) ->
         raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
     if isinstance(what, Motion) and at:
         raise DefinitionError(f"{title}: a motion has its poses; at= goes with a machine.")
-    if isinstance(trace, str) or not isinstance(trace, Sequence):
+    if not isinstance(trace, (list, tuple)):
         raise DefinitionError(f'{title}: trace={cited(trace)}: a list of points is expected, such as trace=["G"].')
     if not isinstance(columns, (list, tuple)) or not all(isinstance(each, Column) for each in columns):
         raise DefinitionError(f"{title}: columns={cited(columns)}: a list of columns is expected, such as results(machine, motion).")
@@ -103,6 +105,13 @@ def over_strokes(machine: Mechanism, at: Mapping[str, Any], count: int) -> Motio
     free = {name: np.linspace(each.start, each.end, count) for name, each in machine.strokes.items()}
     axes = {name: np.atleast_1d(at.get(name, values)) for name, values in free.items()}
     many = {name: axis for name, axis in axes.items() if len(axis) > 1 or name not in at}
+    rows = int(np.prod([float(len(axis)) for axis in many.values()]))
+    if rows > MOST_ROWS:
+        each = " x ".join(str(len(axis)) for axis in many.values())
+        most = int(MOST_ROWS ** (1.0 / len(many)))
+        hold = ", ".join(f"{name}=..." for name in list(many)[1:]) or f"{next(iter(many))}=..."
+        said = f"{machine.plan.title}: {each} poses are {rows:,} rows, some {rows * ROW / 1e9:.1f} GB"
+        raise DefinitionError(f"{said}; give count={most} at most, or hold strokes, at=dict({hold}).")
     grids = dict(zip(many, np.meshgrid(*many.values(), indexing="ij"), strict=True)) if many else {}
     unknown_names = {name: at[name] for name in at if name not in axes}
     strokes = {name: grids.get(name, axis[0]) for name, axis in axes.items()}

@@ -25,7 +25,7 @@ from ..units import UNITS, deg, display_unit, factor, shown_in
 from ..verdict import Verdict
 from . import style
 from .browser_judge import LiveQuestions
-from .curves import limit_of, typeset
+from .curves import check_poses, limit_of, typeset
 from .free_space import label_free, props
 from .labels import offsets
 from .poses import named_points
@@ -265,6 +265,7 @@ def chosen_columns(machine: Mechanism, motion: Motion, given: Any) -> dict[str, 
         if isinstance(each, str):
             found[each] = own[known_name("Column", each, own, where=machine.plan.title)]
         elif isinstance(each, Column):
+            check_poses(each, motion)
             found[each.name] = own.get(each.name, (each, each.name, "its values were given, and not what asks for them"))
         else:
             column = Column.of(motion, each)

@@ -74,7 +74,19 @@ def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> li
     for name in names:
         if name not in own:
             raise unknown("Column", name, own, where=motion.plan.title)
-    return [own[each] if isinstance(each, str) else each if isinstance(each, Column) else Column.of(motion, each) for each in columns]
+    found = [own[each] if isinstance(each, str) else each if isinstance(each, Column) else Column.of(motion, each) for each in columns]
+    for column in found:
+        check_poses(column, motion)
+    return found
+
+
+def check_poses(column: Column, motion: Motion) -> None:
+    """Raise DefinitionError for a column that has not one value a pose of a motion."""
+    try:
+        np.broadcast_to(column.values, motion.shape)
+    except ValueError:
+        said = f"{motion.plan.title}: the column {column.name} has values of shape {np.shape(column.values)}"
+        raise DefinitionError(f"{said}, and the motion poses of shape {motion.shape}; give one value for each pose.") from None
 
 
 def panel_grid(count: int) -> tuple[Figure, list[Axes]]:

@@ -15,8 +15,9 @@ from matplotlib.image import AxesImage, imread
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 from matplotlib.transforms import Affine2D
+from PIL import Image
 
-from ..errors import FileError
+from ..errors import DefinitionError, FileError, cited
 from ..motion import Motion
 from ..program import FloatArray
 from . import style
@@ -24,7 +25,7 @@ from .free_space import label_free, props
 from .labels import LabelPart, offsets
 from .scene import DrawnMark, Places, Plate, Scene
 from .shapes import rounded
-from .sheet import points_a_metre, sheet
+from .sheet import MOST_PIXELS, pixels_text, points_a_metre, sheet
 from .style import FAINT, STRONG, Look
 from .symbols import MovingPart, SlotPart, added, ground, polygon, rails
 
@@ -37,6 +38,8 @@ def mechanism(ax: Axes, motion: Motion, pose: int | tuple[int, ...] = 0, *, fain
     Raises DefinitionError for a batch of designs or a pose that is not there.
     """
     scene = Scene(motion)
+    if not isinstance(ax, Axes):
+        raise DefinitionError(f"draw(ax={cited(ax)}): axes of matplotlib are expected, Figure().add_subplot().")
     index = scene.index(pose)
     if not ax.has_data():
         sheet(ax, scene.box())
@@ -180,7 +183,13 @@ def read_picture(path: str) -> FloatArray:
     if not Path(path).is_file():
         raise FileError(f"{path}: there is no such picture; give the path from where the program runs, or a whole one.")
     try:
+        with Image.open(path) as file:
+            wide, high = file.size
+        if wide * high > MOST_PIXELS:
+            raise FileError(f"{path}: {pixels_text(wide, high)}; make it smaller, {MOST_PIXELS / 1e6:.0f} million pixels at most.")
         return np.asarray(imread(path))
+    except Image.DecompressionBombError as error:
+        raise FileError(f"{path}: more pixels than can be drawn; make it smaller, {MOST_PIXELS / 1e6:.0f} million at most.") from error
     except (OSError, ValueError, SyntaxError) as error:
         raise FileError(f"{path} is no picture that can be read: {error}") from error
 

@@ -46,7 +46,8 @@ def force_question(forces: object, loads: Any, case: Any, direction: str, drive:
     """Return what `draw(forces=...)` asks for, None where it asks for nothing; DefinitionError for what is neither."""
     if forces is False or forces is None:
         given = {"loads": loads, "case": case, "drive": drive}
-        named = next((name for name, value in given.items() if value is not None), "direction" if direction != "frictionless" else "")
+        named = next((name for name, value in given.items() if value is not None), "")
+        named = named or ("" if isinstance(direction, str) and direction == "frictionless" else "direction")
         if named:
             raise DefinitionError(f"draw({named}=...) says of which forces; say forces=True, or the name of a body, too.")
         return None

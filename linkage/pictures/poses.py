@@ -55,7 +55,8 @@ def draw(
     if ax is not None and overlays:
         raise DefinitionError("draw(ax=...): forces, velocities and poles have a figure of their own; leave out ax=.")
     if isinstance(machine, Motion):
-        if at is not None or path or count != 101:
+        is_plain = at is None and isinstance(path, (list, tuple)) and not path and is_whole(count) and count == 101
+        if not is_plain:
             raise DefinitionError(
                 f"{machine.plan.title}: a motion is drawn at one of its poses, pose=; at=, path= and count= go with a machine."
             )

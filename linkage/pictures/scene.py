@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -11,11 +12,11 @@ from typing import TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 from ..loads import ForceElement, Glyph
 from ..motion import Motion, require_motion
 from ..program import FloatArray
-from ..quantities import Joint, Quantity, Where, needs
+from ..quantities import Joint, Quantity, Where, is_whole, needs
 from ..steps import Arrow, Guide, Point
 from ..surroundings import Outline
 from ..vectors import Line
@@ -265,8 +266,11 @@ class Scene:
     def index(self, pose: int | tuple[int, ...]) -> int:
         """Return the flat index of a pose; DefinitionError where there is none such."""
         shape = self.motion._stroke_shape
+        if not is_whole(pose) and not (isinstance(pose, tuple) and len(pose) == len(shape) and all(map(is_whole, pose))):
+            said = f"{self.motion.plan.title}: pose={cited(pose)}: a place among {shape or 1} poses is expected"
+            raise DefinitionError(f"{said}, a whole number, or of a grid one for each stroke, (2, 0).")
         try:
-            return int(range(int(np.prod(shape, dtype=int)))[pose] if isinstance(pose, int) else np.ravel_multi_index(pose, shape))
+            return int(range(int(np.prod(shape, dtype=int)))[pose] if not isinstance(pose, tuple) else np.ravel_multi_index(pose, shape))
         except (IndexError, ValueError):
             raise DefinitionError(f"{self.motion.plan.title}: there is no pose {pose!r} among {shape or 1} poses.") from None
 
@@ -588,6 +592,9 @@ class Scene:
         if not every.size:
             raise DefinitionError(f"{self.motion.plan.title}: there is nothing to draw, no point stands anywhere.")
         low, high = every.min(axis=1), every.max(axis=1)
+        if float(np.max(high - low)) > LARGE:
+            said = f"{self.motion.plan.title} is {float(np.max(high - low)):.4g} m across; lengths are in m"
+            warnings.warn(f"{said}, write 500 * mm if these are millimetres.", stacklevel=2)
         return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
     def _swept(self, contour: DrawnMark) -> FloatArray:
@@ -656,6 +663,8 @@ class Scene:
         return np.concatenate(found)
 
 
+LARGE = 200.0
+"""A machine that is larger [m] is asked about: its lengths are more likely millimetres."""
 SHARE = 0.3
 """How far each side of the sheet moves outwards for what stands around, as a share of the mechanism's own larger side."""
 BESIDE = 2.6

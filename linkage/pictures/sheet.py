@@ -15,7 +15,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator, ScalarFormatter
 
 from ..disk import check_place, replacing
+from ..errors import DefinitionError
 from ..language import translated
+from ..quantities import is_number
 from ..units import factor, shown_in
 from . import style
 from .scene import Bounds
@@ -107,6 +109,15 @@ def points_a_metre(ax: Axes) -> float:
 
 SCREEN = 72
 """Pixels an inch of a picture takes in a notebook."""
+VECTORS = ("svg", "svgz", "pdf", "ps", "eps", "pgf")
+"""The formats that have no pixels."""
+MOST_PIXELS = 150_000_000
+"""The pixels of a picture that is written or laid under a machine: 0.6 GB while it is drawn."""
+
+
+def pixels_text(wide: int, high: int) -> str:
+    """Return how large a picture of so many pixels is, in words."""
+    return f"{wide} x {high} pixels take {4e-9 * wide * high:.2g} GB to draw"
 
 
 @final
@@ -120,6 +131,14 @@ class Picture(Figure):
         wide, high = (round(SCREEN * inches) for inches in self.get_size_inches())
         return drawn.getvalue(), {"width": wide, "height": high}
 
+    def check_pixels(self, path: Path, kind: str, dpi: object) -> None:
+        """Raise DefinitionError where a file of pixels would be too large to draw; `dpi` are its pixels an inch, or the figure's own."""
+        fine = dpi if is_number(dpi) else self.dpi
+        wide, high = (round(min(inches * fine, 1e9)) for inches in self.get_size_inches())
+        if kind.lower() not in VECTORS and not 0 < wide * high <= MOST_PIXELS:
+            most = int(fine * (MOST_PIXELS / (wide * high)) ** 0.5) if wide * high > 0 else int(self.dpi)
+            raise DefinitionError(f"{path}: {pixels_text(wide, high)}; save it with dpi={most} at most, or as .svg or .pdf.")
+
     def savefig(self, fname: Any, **options: Any) -> None:
         """Write the picture into a file, in the format that its name's ending says, or into a stream."""
         if not isinstance(fname, (str, os.PathLike)):
@@ -129,6 +148,7 @@ class Picture(Figure):
         kind = options.pop("format", None) or path.suffix[1:] or str(rcParams["savefig.format"])
         path = path if path.suffix else path.with_name(f"{path.name}.{kind}")
         check_place(path)
+        self.check_pixels(path, kind, options.get("dpi"))
         drawn = BytesIO()
         super().savefig(drawn, format=kind, **options)
         with replacing(path) as stream:

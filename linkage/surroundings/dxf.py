@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,9 @@ import numpy.typing as npt
 from ..errors import DefinitionError, FileError
 
 MOST = 20_000
-"""Corners that are drawn of a drawing; more do not fit into a picture."""
+"""Corners that are drawn of a drawing, and lines that are looked at; more do not fit into a picture."""
+DEEP = 16
+"""How deep blocks may stand in blocks."""
 
 
 def dxf_lines(path: str, layers: Sequence[str] = ()) -> list[npt.NDArray[np.float64]]:
@@ -31,25 +34,36 @@ def dxf_lines(path: str, layers: Sequence[str] = ()) -> list[npt.NDArray[np.floa
         space = filemanagement.readfile(path).modelspace()
     except (OSError, lldxf.const.DXFError) as error:
         raise FileError(f"{path} is no DXF drawing that can be read: {error}") from error
-    entities = [each for each in unblocked(space) if not layers or each.dxf.layer in layers]
+    every = list(islice(unblocked(space, path), MOST + 1))
+    if len(every) > MOST:
+        raise DefinitionError(f"{path}: its blocks, inserted, are more than {MOST} lines, which no picture shows; take some of them out.")
+    entities = [each for each in every if not layers or each.dxf.layer in layers]
     span = span_of(list(curves.make_path(each).control_vertices() for each in drawable(entities, curves)))
     found = [polyline(curves.make_path(each), 1e-3 * span) for each in drawable(entities, curves)]
     found = [each for each in found if len(each) > 1]
     if not found:
-        on = f" on {', '.join(layers)}; its layers: {', '.join(sorted({each.dxf.layer for each in unblocked(space)}))}" if layers else ""
+        on = f" on {', '.join(layers)}; its layers: {', '.join(sorted({each.dxf.layer for each in every}))}" if layers else ""
         raise DefinitionError(f"{path}: there is no line{on}.")
     if sum(map(len, found)) > MOST:
         raise DefinitionError(f"{path}: {sum(map(len, found))} corners are more than a picture shows, {MOST}; name the layers to take.")
     return found
 
 
-def unblocked(space: Any) -> Iterator[Any]:
-    """Yield the entities of a space, those of inserted blocks too."""
+def unblocked(space: Any, path: str, around: tuple[str, ...] = ()) -> Iterator[Any]:
+    """Yield the entities of a space, those of inserted blocks too; FileError for a block that stands in itself, or too deep in others.
+
+    `around` names the blocks that the space stands in, from the outermost one.
+    """
     for each in space:
-        if each.dxftype() == "INSERT":
-            yield from unblocked(each.virtual_entities())
-        else:
+        if each.dxftype() != "INSERT":
             yield each
+            continue
+        name = str(each.dxf.name)
+        if name in around:
+            raise FileError(f"{path}: the block {name} inserts itself ({' > '.join([*around, name])}); mend the drawing.")
+        if len(around) == DEEP:
+            raise FileError(f"{path}: blocks stand in blocks more than {DEEP} deep, {' > '.join(around[:3])} > ...; explode some of them.")
+        yield from unblocked(each.virtual_entities(), path, (*around, name))
 
 
 def drawable(entities: Sequence[Any], curves: Any) -> Iterator[Any]:

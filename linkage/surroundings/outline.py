@@ -15,7 +15,7 @@ from typing import Any, ClassVar, TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, FileError, cited, is_yes
 from ..quantities import Member, Number, Operand, Quantity, Reference, Stroke, is_number, label, name_of, needs, quantity, spelled
 from ..quantities.quantity import plain
 from ..steps import Link
@@ -51,7 +51,8 @@ class Outline(Member):
     ) -> None:  # fmt: skip
         self.points = outline_corners(points, "Outline", least=2)
         self.on = carrier(on, "Outline")
-        self.closed, self.filled, self.hatched = bool(closed), bool(filled) and bool(closed), bool(hatched)
+        self.closed = is_yes("Outline: closed", closed)
+        self.filled, self.hatched = is_yes("Outline: filled", filled) and self.closed, is_yes("Outline: hatched", hatched)
 
     # -- the other forms -------------------------------------------------------------------------------
 
@@ -149,7 +150,7 @@ class CircleOutline(Outline):
         self.at: Any = centre if centre is not None else corner_of(at, "Outline.circle(at=...)")
         self.radius = length_above_zero(radius, "Outline.circle(radius=...)")
         self.on = carrier(on, "Outline.circle")
-        self.closed, self.filled, self.hatched = True, bool(filled), False
+        self.closed, self.filled, self.hatched = True, is_yes("Outline.circle: filled", filled), False
 
     @property
     def _on(self) -> tuple[Reference, ...]:
@@ -180,7 +181,7 @@ class LineOutline(Outline):
 
     def __init__(self, points: Sequence[Corner], *, on: Reference | Sequence[Reference] | None = None, hatched: bool = True) -> None:
         self.points, self.on = outline_corners(points, "Outline.line", least=2), carrier(on, "Outline.line")
-        self.closed, self.filled, self.hatched = False, False, bool(hatched)
+        self.closed, self.filled, self.hatched = False, False, is_yes("Outline.line: hatched", hatched)
 
     def __str__(self) -> str:
         return written("Outline.line", list(map(corner_text, self.points)), self.on, {} if self.hatched else {"hatched": "False"})
@@ -199,6 +200,13 @@ class PlacedFile(Outline):
             raise DefinitionError(f"{self.form}: the path of the file is missing.")
         self.path, self.on = path, carrier(on, self.form)
         self.at, self.angle = corner_of(at, f"{self.form}(at=...)"), quantity(angle)
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        """Raise FileError where the file is not there, too."""
+        super().examine(members, title)
+        if not Path(self.path).is_file():
+            where = "give the path from where the program runs, or a whole one"
+            raise FileError(f"{title}: {self.name} = {self}: there is no such file as {self.path}; {where}.")
 
     def numbers(self) -> tuple[Quantity, ...]:
         return (*self.at, self.angle)
@@ -235,10 +243,10 @@ class DxfOutline(PlacedFile):
         self._place(path, on, at, angle)
         if not is_number(scale) or not scale > 0.0:
             raise DefinitionError(f"Outline.dxf: scale={cited(scale)} is no size; give metres per unit of the drawing, 1e-3 for mm.")
-        if isinstance(layers, str) or not all(isinstance(each, str) for each in layers):
+        if not isinstance(layers, (list, tuple)) or not all(isinstance(each, str) for each in layers):
             raise DefinitionError(f'Outline.dxf: layers={cited(layers)} is no list of layers; write layers=["0"].')
         self.scale, self.layers = float(scale), tuple(layers)
-        self.closed, self.filled, self.hatched = False, bool(filled), False
+        self.closed, self.filled, self.hatched = False, is_yes("Outline.dxf: filled", filled), False
 
     def lines(self, value: Value) -> tuple[Array, ...]:
         """Return its lines; FileError where the file cannot be read, DefinitionError where there are no lines in it."""

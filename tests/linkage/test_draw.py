@@ -1,5 +1,6 @@
 """Pictures: everything stands where the motion says, labels keep clear, and what cannot be drawn is said in words."""
 
+import contextlib
 from math import pi
 
 import numpy as np
@@ -22,9 +23,11 @@ from linkage import (
     Dyad,
     Ground,
     Link,
+    LinkageError,
     Mechanism,
     Offset,
     OnLink,
+    Outline,
     Stroke,
     Turn,
     Vector,
@@ -460,3 +463,51 @@ def test_what_cannot_be_plotted_is_said_in_words():
     grid = Crane().sweep(S1=3, S2=3)
     with pytest.raises(DefinitionError, match="sweep one stroke and give every other a value"):
         plot(grid, [Column("T_x", grid.x("T"), "m")])
+
+
+def test_a_file_of_more_pixels_than_can_be_drawn_is_refused_in_words(tmp_path):
+    figure = draw(one_motion(FourBar))
+    words = r"a.png: 90000 x \d+ pixels take .* GB to draw; save it with dpi=1\d\d\d at most, or as .svg or .pdf"
+    with pytest.raises(DefinitionError, match=words):
+        figure.savefig(tmp_path / "a.png", dpi=10_000)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_machine_in_millimetres_for_metres_is_asked_about():
+    class Wide(Mechanism):
+        phi = Stroke(0.0, 1.0)
+        O = Ground(0.0, 0.0)
+        B = Crank(O, OB=500.0, angle=phi)
+
+    with pytest.warns(UserWarning, match=r"Wide is 500 m across; lengths are in m, write 500 \* mm if these are millimetres"):
+        draw(Wide())
+
+
+ODD = (
+    None, 3, -1, 2.5, float("nan"), "x", "", b"a", [], [3], ["x"], {}, {"phi": None}, {"phi": "a"}, {3: 3}, (), (1, 2, 3), object(), int,
+    True, 10**30, np.array([]), np.ones((2, 2)), np.array(["a"]), {"phi": [0.1, "a"]}, (1, "a"), {"B": 3}, 1 + 2j,
+)  # fmt: skip
+"""What nobody means, and somebody writes."""
+ASKED = {
+    "draw": ("at", "path", "count", "pose", "faint", "ax", "forces", "loads", "case", "direction", "drive", "velocities", "pole"),
+    "Outline": ("on", "closed", "filled", "hatched"),
+    "Outline.circle": ("on", "filled"),
+    "Outline.dxf": ("on", "at", "angle", "scale", "layers", "filled"),
+    "Outline.image": ("on", "at", "angle", "opacity"),
+}
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_nobody_means_is_refused_in_words_or_taken(seed):
+    rng, motion = np.random.default_rng(seed), one_motion(FourBar, 3)
+    calls = {
+        "draw": lambda given: draw(motion, **given),
+        "Outline": lambda given: Outline([(0, 0), (1, 0)], **given),
+        "Outline.circle": lambda given: Outline.circle((0, 0), 1.0, **given),
+        "Outline.dxf": lambda given: Outline.dxf("a.dxf", **given),
+        "Outline.image": lambda given: Outline.image("a.png", width=1.0, **given),
+    }
+    for _ in range(60):
+        name = str(rng.choice(list(ASKED)))
+        with contextlib.suppress(LinkageError):
+            calls[name]({str(rng.choice(ASKED[name])): ODD[rng.integers(len(ODD))]})

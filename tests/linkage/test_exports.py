@@ -435,3 +435,17 @@ def test_the_command_writes_them(tmp_path, capsys):
         assert main(["export", "four_bar", "-o", str(path), *more]) == 0
         assert capsys.readouterr().out.strip() == str(path) and path.stat().st_size > 100
     assert main(["export", "four_bar", "-o", str(tmp_path / "x.pdf")]) == 2
+
+
+def test_a_table_of_a_million_rows_is_refused_with_what_it_would_take(tmp_path):
+    class Three(Mechanism):
+        a, b, c = Stroke(0.0, 1.0), Stroke(0.0, 1.0), Stroke(0.0, 1.0)
+        O = Ground(0.0, 0.0)
+        A = Crank(O, OA=1.0, angle=a)
+        B = Crank(A, AB=1.0, angle=b)
+        C = Crank(B, BC=1.0, angle=c)
+
+    words = r"Three: 101 x 101 x 101 poses are 1,030,301 rows, some 2.1 GB; give count=79 at most, or hold strokes, at=dict\(b=..., c=...\)"
+    with pytest.raises(DefinitionError, match=words):
+        export(Three(), tmp_path / "a.csv")
+    assert len(export(Three(), tmp_path / "a.csv", count=3).read_text().splitlines()) == 28

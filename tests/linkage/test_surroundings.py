@@ -1,6 +1,10 @@
 """What stands around a mechanism: declared, drawn with what carries it, kept in files, and without any effect on what is computed."""
 
+import struct
+import warnings
+import zlib
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -80,7 +84,11 @@ def test_a_printed_plan_pastes_back():
         assert_allclose(one.corners, other.corners, rtol=0.0, atol=0.0)
 
 
-def test_files_hold_them():
+def test_files_hold_them(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("arm.dxf", "photo.png"):
+        Path(name).touch()
+
     class Files(Placed):
         part = Outline.dxf("arm.dxf", on="B C", at=(0.1, 0.0), angle=30 * deg, layers=["0"])
         photo = Outline.image("photo.png", width="R", at=(-1.0, 0.0))
@@ -249,10 +257,11 @@ def test_a_dxf_drawing_is_drawn_in_its_scale(tmp_path):
     assert_allclose(np.hypot(*(circle.get_xy() - place(0.1, 0.05)).T), 0.02, rtol=0.02)
     for wrong, error, words in (
         (Outline.dxf(path, layers=["walls"]), DefinitionError, "there is no line on walls; its layers: 0, dimensions"),
-        (Outline.dxf(tmp_path / "none.dxf"), FileError, "there is no such file"),
     ):
         with pytest.raises(error, match=words):
             Scene(type("Wrong", (Lever,), {"bad": wrong})().sweep(3)).box()
+    with pytest.raises(FileError, match=r"Wrong: bad = .* there is no such file as .*none.dxf"):  # as soon as it is declared
+        type("Wrong", (Lever,), {"bad": Outline.dxf(tmp_path / "none.dxf")})
     (tmp_path / "broken.dxf").write_text("this is no drawing")
     with pytest.raises(FileError, match="is no DXF drawing"):
         Scene(type("Wrong", (Lever,), {"bad": Outline.dxf(tmp_path / "broken.dxf")})().sweep(3)).box()
@@ -278,5 +287,48 @@ def test_a_picture_lies_under_the_mechanism_in_its_place(tmp_path):
 
     assert colour(0.25, 0.15) == [255, 0, 0] and colour(0.95, 0.12) == [0, 0, 0]  # 0.8 m wide, half as high
     assert colour(0.25, 0.48) == [255, 0, 0] and colour(0.25, 0.52) != [255, 0, 0]
+    with pytest.raises(FileError, match=r"there is no such file as .*no.png"):
+        type("Wrong", (Lever,), {"bad": Outline.image(tmp_path / "no.png", width=1.0)})
+    own = cls()
+    path.unlink()
     with pytest.raises(FileError, match="there is no such picture"):
-        draw(type("Wrong", (Lever,), {"bad": Outline.image(tmp_path / "no.png", width=1.0)})())
+        draw(own)
+
+
+def test_a_picture_of_too_many_pixels_is_refused_before_it_is_read(tmp_path):
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    for side, words in ((13_000, "13000 x 13000 pixels take 0.68 GB"), (60_000, "more pixels than can be drawn")):
+        head = struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)
+        path = tmp_path / f"wide{side}.png"
+        path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", b"") + chunk(b"IEND", b""))
+        machine = type("Own", (Lever,), {"photo": Outline.image(path, width=0.8)})()
+        with pytest.raises(FileError, match=words), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            draw(machine)
+
+
+def test_blocks_that_stand_in_themselves_or_too_deep_are_refused(tmp_path):
+    ezdxf = pytest.importorskip("ezdxf", reason="drawings are read with ezdxf")
+
+    def drawn_from(inserts):
+        drawing, path = ezdxf.new(), tmp_path / "blocks.dxf"
+        for name, inside in inserts.items():
+            block = drawing.blocks.new(name)
+            block.add_line((0, 0), (10, 5))
+            for each in inside:
+                block.add_blockref(each, (1, 1))
+        drawing.modelspace().add_blockref(next(iter(inserts)), (0, 0))
+        drawing.saveas(path)
+        return Scene(type("Own", (Lever,), {"part": Outline.dxf(path)})().sweep(3)).surroundings
+
+    assert len(drawn_from({"A": ["B", "B"], "B": []})[0].lines) == 3
+    with pytest.raises(FileError, match=r"the block A inserts itself \(A > B > A\)"):
+        drawn_from({"A": ["B"], "B": ["A"]})
+    chain = {f"B{k}": [f"B{k + 1}"] for k in range(20)} | {"B20": []}
+    with pytest.raises(FileError, match="blocks stand in blocks more than 16 deep, B0 > B1 > B2"):
+        drawn_from(chain)
+    bushy = {f"B{k}": [f"B{k + 1}"] * 4 for k in range(10)} | {"B10": []}
+    with pytest.raises(DefinitionError, match="more than 20000 lines"):
+        drawn_from(bushy)

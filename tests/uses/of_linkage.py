@@ -1036,7 +1036,7 @@ USES = [
         '0.3, "ell"; 0.3, 3; 0.3, None',
         ("is unknown.", "Known: m, mm, cm, inch, in, ft, rad, deg, °,", "kgf/cm2, psi, l, litre, cm3, m3,"),
     ),
-    ("export(bar4, @)", '3; None; []; 2.5; b"a.csv"', ("export:", "is no path of a file; give one that ends in one of .xlsx, .csv")),
+    ("export(bar4, @)", '3; None; []; 2.5; b"a.csv"', ("is no path of a file; give its name as text, or a pathlib.Path.",)),
     ('export(bar4, "a.csv", at=@)', "3; {3: 3}; [1]", ("FourBar: at=", "values of strokes by name are expected")),
     ('export(bar4, "a.svg", trace=@)', '3; np.zeros(2); "B"', ("FourBar: trace=", "a list of points is expected")),
     ('export(motion, "a.csv", columns=@)', '3; np.zeros(2); ["B"]; int', ("Lift: columns=", "a list of columns is expected")),

@@ -7,7 +7,8 @@ from linkage.motion import highest
 from linkage.motion.box import highest_in
 from tests.linkage.box_cases import InUnitBox, case, waves
 
-DAILY, ALL = range(200), range(200, 10_200)
+LOTS = [range(first, first + 50) for first in range(0, 200, 50)]  # a test each: none takes long
+ALL = range(200, 10_200)
 SLOW = pytest.mark.slow
 
 
@@ -38,9 +39,10 @@ def check_case(seed, k):
     assert np.all((unit >= 0.0) & (unit <= 1.0)) and one.f(unit) == pytest.approx(value, abs=1e-12 * one.span)
 
 
+@pytest.mark.parametrize("seeds", LOTS, ids=str)
 @pytest.mark.parametrize("k", [1, 2, 3])
-def test_tops_that_are_known(k):
-    for seed in DAILY:
+def test_tops_that_are_known(k, seeds):
+    for seed in seeds:
         check_case(seed, k)
 
 
@@ -65,9 +67,10 @@ def check_waves(seed, k, poses):
         assert (sense * values).max() <= value + 1e-6 * np.ptp(values)
 
 
+@pytest.mark.parametrize("first", [0, 20, 40])
 @pytest.mark.parametrize("k", [1, 2, 3])
-def test_no_random_pose_betters_a_sum_of_waves(k):
-    for seed in range(60):
+def test_no_random_pose_betters_a_sum_of_waves(k, first):
+    for seed in range(first, first + 20):
         check_waves(seed, k, 10_000)
 
 
@@ -99,9 +102,10 @@ def test_more_strokes(k):
         np.testing.assert_array_equal(unit, slope > 0.0)
 
 
+@pytest.mark.parametrize("first", [0, 10, 20, 30])
 @pytest.mark.parametrize("k", [2, 3])
-def test_an_answer_does_not_follow_from_what_else_is_asked(k):
-    cases = [case(seed, k) for seed in range(40)]
+def test_an_answer_does_not_follow_from_what_else_is_asked(k, first):
+    cases = [case(seed, k) for seed in range(first, first + 10)]
     together = highest_in(InUnitBox(k, *(each.f for each in cases))).value[:, 0]
     alone = np.array([found_by(k, each.f)[0] for each in cases])
     close = np.array([min(each.close, 1e-7) * each.span for each in cases])
@@ -120,9 +124,10 @@ def test_functions_together_cost_few_poses():
     assert box.count < 1.05 * box.side**3
 
 
+@pytest.mark.parametrize("first", [0, 10, 20])
 @pytest.mark.parametrize("k", [2, 3])
-def test_a_box_turned_and_mirrored_is_the_same(k):
-    for seed in range(30):
+def test_a_box_turned_and_mirrored_is_the_same(k, first):
+    for seed in range(first, first + 10):
         one = case(seed, k)
         value, _ = found_by(k, one.f)
         turned, _ = found_by(k, lambda x, one=one: one.f(x[..., ::-1]))

@@ -7,7 +7,6 @@ import pytest
 
 from linkage import (
     LEFT,
-    RIGHT,
     Acting,
     Crank,
     DefinitionError,
@@ -16,7 +15,6 @@ from linkage import (
     Ground,
     LoadCase,
     Mechanism,
-    OnLink,
     Over,
     PinFriction,
     Stroke,
@@ -27,21 +25,14 @@ from linkage import (
     pin_forces,
 )
 from linkage.statics.table import joint_key
+from tests.linkage.known_machines import GrabArms
 
 
-class Grab(Mechanism):
+class Grab(GrabArms):
     """A boom and a jib on cylinders: two strokes, two load cases, friction in a pin."""
 
-    S, T = Stroke(0.0, 0.25), Stroke(0.0, 0.3)
-    A, O = Ground(0.2, -0.4), Ground(0.0, 0.0)
-    B = Dyad(A, O, AB=0.65 + S, OB=0.6, side=RIGHT)
-    C = OnLink(O, B, OC=1.5)
-    D = OnLink(O, B, OD=0.9, BOD=20 * deg)
-    H = Dyad(D, C, DH=0.5 + T, CH=0.3, side=LEFT)
-    P = OnLink(C, H, CP=1.2, HCP=-150 * deg)
-    load = Weight(P, mass=300.0)
-    wind = Force(P, vector=(900.0, 0.0))
-    rub = PinFriction(O, radius=0.02, coefficient=0.1)
+    wind = Force("P", vector=(900.0, 0.0))
+    rub = PinFriction("O", radius=0.02, coefficient=0.1)
     calm = LoadCase("calm", scale={"wind": 0.0})
 
 

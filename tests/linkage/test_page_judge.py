@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, RIGHT, Dyad, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Weight, deg
+from linkage import LoadCase, Over, Stroke
 from linkage.motion import live_text
 from linkage.pictures.browser import page_part
 from linkage.pictures.browser_data import PageRequests, page_data
@@ -18,6 +18,7 @@ from mechanisms.grapple import Grapple
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.in_node import NEEDED
+from tests.linkage.known_machines import GrabArms
 
 RUNNER = """
 const fs=require('fs'),job=JSON.parse(fs.readFileSync(0,'utf8'));
@@ -28,21 +29,13 @@ process.stdout.write(JSON.stringify(found,(_,x)=>shown(x)));
 """
 
 
-class Grab(Mechanism):
+class Grab(GrabArms):
     """A boom and a jib on cylinders: two strokes, two load cases, a stroke that is declared, two circuits."""
 
-    S, T = Stroke(0.0, 0.25), Stroke(0.0, 0.3)
-    A, O = Ground(0.2, -0.4), Ground(0.0, 0.0)
-    B = Dyad(A, O, AB=0.65 + S, OB=0.6, side=RIGHT)
-    C = OnLink(O, B, OC=1.5)
-    D = OnLink(O, B, OD=0.9, BOD=20 * deg)
-    H = Dyad(D, C, DH=0.5 + T, CH=0.3, side=LEFT)
-    P = OnLink(C, H, CP=1.2, HCP=-150 * deg)
-    load = Weight(P, mass=300.0)
     shock = LoadCase("with shock", scale={"load": 1.8})
-    lift = Cylinder(A, B, bore=80 * mm, rod=45 * mm, closed=0.64, stroke=0.26)
+    lift = Cylinder("A", "B", bore=80 * mm, rod=45 * mm, closed=0.64, stroke=0.26)
     pump = LiftCircuit(lift, pressure=160 * bar, relief=180 * bar)
-    jib = Cylinder(D, H, bore=40 * mm, rod=22 * mm, works="both")
+    jib = Cylinder("D", "H", bore=40 * mm, rod=22 * mm, works="both")
     aid = LiftCircuit(jib, pressure=120 * bar, mechanical_efficiency=0.9)
 
 

@@ -43,20 +43,14 @@ from linkage.study.kinds import measure_unit
 from linkage.study.problem import Problem
 from linkage.study.space import Space
 from linkage.units import bar, kN
+from tests.linkage.known_machines import BoomArm
 from tests.machines.test_excavator import Excavator
 
 
-class Boom(Mechanism):
+class Boom(BoomArm):
     """A boom lifted by one cylinder below it."""
 
-    S = Stroke(0.0, 0.25)
-    A = Ground(0.0, 0.0)
-    O = Ground(0.6, 0.1)
-    B = Dyad(A, O, AB=0.5 + S, OB=0.3, side=RIGHT)
-    G = OnLink(O, B, OG=0.8, BOG=100 * deg)
-    tilt = angle(O, G)
-    load = Weight(G, mass=500)
-    lift = Cylinder(A, B, bore=80 * mm, rod=63 * mm, closed=0.5, stroke=0.25)
+    lift = Cylinder("A", "B", bore=80 * mm, rod=63 * mm, closed=0.5, stroke=0.25)
     circuit = LiftCircuit(lift, pressure=180 * bar)
 
 

@@ -2,12 +2,12 @@
 
 from ..vectors import FloatArray, pick
 from .cache import compiled
-from .compact import Inputs, arrow_function, inside, number, short_names
 from .derivatives import Tangent, gradient, jacobian
 from .elimination import eliminated, expanded, is_zero
-from .foreign import c_text, javascript_text
+from .foreign import c_text
 from .interpret import LAST, Iterated, disturbed, interpret, scatter
 from .intervals import Enclosure, enclosures
+from .javascript import Inputs, arrow_function, inside, javascript_text, number, short_names
 from .kernel import BACKEND, QUICKEST, Kernel, Result, Way, fixed_backend
 from .linear import solve_arrays
 from .loop import HEAD, NUMBA, lane_loop

@@ -1,4 +1,4 @@
-"""A program in other languages: a C function over the poses of one design, a JavaScript function of one pose."""
+"""A program in C: a function over the poses of one design."""
 
 from __future__ import annotations
 
@@ -13,12 +13,6 @@ from .schedule import Schedule, schedule
 from .text import TEMPLATES, Dialect, NodeNames
 
 NOTHING: Mapping[str, float] = MappingProxyType({})
-CHOICES = {
-    "sign": "({0} > 0.0 ? 1.0 : {0} < 0.0 ? -1.0 : {0})",
-    "minimum": "({0} <= {1} || {0} != {0} ? {0} : {1})",
-    "maximum": "({0} >= {1} || {0} != {0} ? {0} : {1})",
-    "pick": "({0} <= {1} ? {2} : {3})",
-}
 
 
 def number_text(value: float, infinite: str, nothing: str) -> str:
@@ -29,21 +23,18 @@ def number_text(value: float, infinite: str, nothing: str) -> str:
 
 
 C = Dialect(
-    {**TEMPLATES, **CHOICES, "arctan2": "atan2({}, {})", "absolute": "fabs({})", "power": "pow({}, {})"},
-    lambda value: number_text(value, "INFINITY", "NAN"),
-    "const double {} = {};",
-)
-JAVASCRIPT = Dialect(
     {
         **TEMPLATES,
-        **CHOICES,
-        **{name: f"Math.{name}({{}})" for name in ("sqrt", "sin", "cos", "tan", "exp", "log")},
-        "arctan2": "Math.atan2({}, {})",
-        "absolute": "Math.abs({})",
-        "power": "Math.pow({}, {})",
+        "sign": "({0} > 0.0 ? 1.0 : {0} < 0.0 ? -1.0 : {0})",
+        "minimum": "({0} <= {1} || {0} != {0} ? {0} : {1})",
+        "maximum": "({0} >= {1} || {0} != {0} ? {0} : {1})",
+        "pick": "({0} <= {1} ? {2} : {3})",
+        "arctan2": "atan2({}, {})",
+        "absolute": "fabs({})",
+        "power": "pow({}, {})",
     },
-    lambda value: number_text(value, "Infinity", "NaN"),
-    "const {} = {};",
+    lambda value: number_text(value, "INFINITY", "NAN"),
+    "const double {} = {};",
 )
 
 
@@ -59,7 +50,7 @@ def c_text(outputs: Sequence[Node], name: str = "poses", design: Mapping[str, fl
         "#include <math.h>",
         comment(plan, design),
         f"void {name}(long n, const double *d, const double *const *p, double *const *o) {{",
-        *(f"    {line}" for line in design_lines(plan, C)),
+        *(f"    {line}" for line in design_lines(plan)),
         *(f"    const double *restrict x{k} = p[{k}];" for k in range(len(plan.pose_inputs))),
         *(f"    double *restrict o{k} = o[{k}];" for k in range(len(plan.outputs))),
         "    for (long b = 0; b < n; b++) {",
@@ -72,27 +63,11 @@ def c_text(outputs: Sequence[Node], name: str = "poses", design: Mapping[str, fl
     return "\n".join(lines) + "\n"
 
 
-def javascript_text(outputs: Sequence[Node], name: str = "poses", design: Mapping[str, float] = NOTHING) -> str:
-    """Return the text of a JavaScript `function poses(d, p)`: dimensions and strokes in arrays, as a comment names them; outputs in one."""
-    plan = schedule(expanded(outputs))
-    inside = loop_text(plan, JAVASCRIPT)
-    lines = [
-        comment(plan, design),
-        f"function {name}(d, p) {{",
-        *(f"    {line}" for line in design_lines(plan, JAVASCRIPT)),
-        *(f"    const i{k} = p[{k}];" for k in range(len(plan.pose_inputs))),
-        *(f"    {line}" for line in inside.lines),
-        f"    return [{', '.join(inside.outputs)}];",
-        "}",
-    ]
-    return "\n".join(lines) + "\n"
-
-
-def design_lines(plan: Schedule, dialect: Dialect) -> list[str]:
+def design_lines(plan: Schedule) -> list[str]:
     """Return the design part, its results called as the loop calls them."""
-    names = NodeNames(dialect, {node: f"d[{k}]" for k, node in enumerate(plan.design_inputs)})
+    names = NodeNames(C, {node: f"d[{k}]" for k, node in enumerate(plan.design_inputs)})
     lines = names.assign(plan.design, "w")
-    return lines + [dialect.assignment.format(name, names.read(node)) for node, name in lettered("c", plan.passed).items()]
+    return lines + [C.assignment.format(name, names.read(node)) for node, name in lettered("c", plan.passed).items()]
 
 
 def comment(plan: Schedule, design: Mapping[str, float]) -> str:

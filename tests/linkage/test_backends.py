@@ -19,7 +19,8 @@ from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, LinkageError, Me
 from linkage.program import Graph, Kernel, Level, Way, interpret, jacobian, solve_arrays
 from linkage.program.cache import CompiledFile, compiled
 from linkage.program.elimination import expanded
-from linkage.program.foreign import c_text, javascript_text
+from linkage.program.foreign import c_text
+from linkage.program.javascript import javascript_text
 from linkage.program.loop import numba_text
 from linkage.program.numpy_backend import aligned, cache_size, with_half_angles
 from linkage.program.schedule import ancestors, lowered, schedule

@@ -1,12 +1,13 @@
-"""A program as JavaScript in as few letters as it takes: for pages that carry it in one file.
+"""A program as JavaScript in few letters: for pages that carry it in one file, and for pages of one's own.
 
 An operation that is read once stands where it is read; every other has a name of a letter or two. Nothing is worked out in another order or
-another way, so that the numbers are those of the program. Systems of equations are solved where the page runs, angles are continued there:
-`MATHS` and `PARTS` say by which functions.
+another way, so that the numbers are those of the program. In a page systems of equations are solved and angles are continued where it runs:
+`MATHS` and `PARTS` say by which functions; a text that stands alone brings its own.
 """
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -15,9 +16,10 @@ from string import ascii_lowercase, ascii_uppercase
 from types import MappingProxyType
 from typing import final
 
-from .foreign import number_text
+from .elimination import expanded
+from .foreign import NOTHING, comment, number_text
 from .node import Level, Node
-from .schedule import ancestors, lowered
+from .schedule import ancestors, lowered, schedule
 
 MATHS: Mapping[str, str] = MappingProxyType(
     {"sqrt": "Q", "sin": "S", "cos": "C", "tan": "T", "exp": "E", "log": "L", "power": "P", "absolute": "A", "arctan2": "X"}
@@ -25,7 +27,22 @@ MATHS: Mapping[str, str] = MappingProxyType(
 """What Math's functions are called."""
 PARTS: Mapping[str, str] = MappingProxyType({"minimum": "I", "maximum": "M", "sign": "G", "solve": "J", "turns": "U"})
 """What the functions are called that JavaScript has not: least, greatest and sign with NaN passed on, a system, a continued angle."""
-KEPT = frozenset({*MATHS.values(), *PARTS.values(), "V", "do", "if", "in", "of", "as", "is"})
+ALONE: Mapping[str, str] = MappingProxyType(
+    {
+        **{name: f"Math.{name}" for name in ("sqrt", "sin", "cos", "tan", "exp", "log")},
+        **{"power": "Math.pow", "absolute": "Math.abs", "arctan2": "Math.atan2"},
+    }
+)
+"""What Math's functions are called in a text that stands alone."""
+OWN: Mapping[str, str] = MappingProxyType(
+    {
+        PARTS["minimum"]: "(a, b) => a <= b || a !== a ? a : b",
+        PARTS["maximum"]: "(a, b) => a >= b || a !== a ? a : b",
+        PARTS["sign"]: "a => a > 0 ? 1 : a < 0 ? -1 : a",
+    }
+)
+"""The functions that such a text brings along where it needs them."""
+KEPT = frozenset({*MATHS.values(), *PARTS.values(), "V", "do", "if", "in", "of", "as", "is", "for", "let", "new", "try", "var"})
 DEEP = 40
 """An operation nested so deep has a name."""
 SUM, PRODUCT, UNARY, ATOM, CHOICE = 1, 2, 3, 4, 0
@@ -62,6 +79,7 @@ class Expressions:
     taken: set[str]
     turning: Mapping[Node, int] = field(default_factory=dict)
     uses: Counter[Node] = field(default_factory=Counter)
+    maths: Mapping[str, str] = field(default_factory=lambda: MATHS)
     depth: dict[Node, int] = field(default_factory=dict)
     """How deep the text of a node is nested."""
 
@@ -113,7 +131,7 @@ class Expressions:
         given = ",".join(map(self.read, args))
         if node.op == "solve":
             return f"{PARTS['solve']}([{given}])", ATOM
-        text = f"{MATHS[node.op] if node.op in MATHS else PARTS[node.op]}({given})"
+        text = f"{self.maths[node.op] if node.op in self.maths else PARTS[node.op]}({given})"
         return (f"{PARTS['turns']}({self.turning[node]},{text})" if node in self.turning else text), ATOM
 
 
@@ -180,9 +198,19 @@ def named_inputs(writer: Expressions, given: Sequence[Node], inputs: Inputs) -> 
     return f"const {','.join(found)};" if found else ""
 
 
-def inside(given: Mapping[Node, str], results: Sequence[Node], outer: Collection[str] = ()) -> str:
+def inside(given: Mapping[Node, str], results: Sequence[Node], outer: Collection[str] = (), maths: Mapping[str, str] = MATHS) -> str:
     """Return `{...;return[...]}`, a function's inside: results from nodes that are called so; `outer` are names that mean others there."""
     results = lowered(results)
     nodes = [node for node in ancestors(results, given) if node not in given and node.op != "constant"]
-    writer = Expressions(dict(given), {*given.values(), *outer}, {}, uses=counted(results, nodes))
+    writer = Expressions(dict(given), {*given.values(), *outer}, {}, uses=counted(results, nodes), maths=maths)
     return f"{{{writer.statements(nodes)}return[{','.join(map(writer.read, results))}]}}"
+
+
+def javascript_text(outputs: Sequence[Node], name: str = "poses", design: Mapping[str, float] = NOTHING) -> str:
+    """Return the text of a JavaScript `function poses(d, p)`: dimensions and strokes in arrays, as a comment names them; outputs in one."""
+    plan = schedule(expanded(outputs))
+    given = {node: f"{letter}[{k}]" for letter, part in (("d", plan.design_inputs), ("p", plan.pose_inputs)) for k, node in enumerate(part)}
+    text = inside(given, plan.outputs, ("d", "p"), ALONE)
+    own = "".join(f"    const {each} = {rule};\n" for each, rule in OWN.items() if f"{each}(" in text)
+    lines = re.sub(r",(?=\w+=[^=])", ",\n        ", text[1:-1]).replace(";return", ";\n    return ")
+    return f"{comment(plan, design)}\nfunction {name}(d, p) {{\n{own}    {lines};\n}}\n"

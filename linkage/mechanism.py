@@ -39,7 +39,7 @@ from .motion import (
     sweep_values,
 )
 from .plan import Body, Plan
-from .program import FloatArray, Way
+from .program import FloatArray, RunOptions
 from .quantities import Member, Stroke, is_name, needs
 from .shown import Shown, ShownList
 from .steps import Drawn
@@ -321,7 +321,8 @@ class Mechanism(Shown, metaclass=MechanismType):
         change points between them. Raises AssemblyError out of reach and SingularError for ratios at a dead point, unless
         `unreachable="nan"`.
         """
-        return evaluate(self.plan, self._values, strokes, of, out, Way(backend, threads), unreachable, is_yes("per_design", per_design))
+        options = RunOptions(backend, threads)
+        return evaluate(self.plan, self._values, strokes, of, out, options, unreachable, is_yes("per_design", per_design))
 
     @of_a_design
     def function(self, of: Sequence[RequestLike]) -> PoseFunction:

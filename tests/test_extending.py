@@ -42,7 +42,7 @@ from linkage import (
 )
 from linkage.files import load, to_json, to_toml
 from linkage.pictures.scene import Scene
-from linkage.program import Way
+from linkage.program import RunOptions
 from tests.benchmarks.c_reference import POINTER, address, built, has_compiler
 from tests.linkage.test_backends import agree, as_loop, by_nodes, everything
 
@@ -126,8 +126,8 @@ def test_gradients_are_exact(variable):
 def test_every_way_to_run_a_program_agrees():
     kernel, inputs = everything(Valve), Valve().at(phi=np.linspace(-7.0, 14.0, 300))._grid.flat
     wanted = by_nodes(kernel, inputs)
-    agree(kernel(inputs, way=Way("numpy")).values[:, 0], wanted)
-    agree(kernel(inputs, way=Way("floats")).values[:, 0], wanted)
+    agree(kernel(inputs, way=RunOptions("numpy")).values[:, 0], wanted)
+    agree(kernel(inputs, way=RunOptions("floats")).values[:, 0], wanted)
     agree(as_loop(kernel, inputs).values[:, 0], wanted)
 
 

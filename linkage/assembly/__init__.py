@@ -1,7 +1,7 @@
 """Pins, links and slides turned into steps; groups solved and continued along the stroke."""
 
+from .angle_continuation import NONE_SOLVED, ambiguous_angle, with_angles
 from .assemble import assembled
-from .following import NONE_SOLVED, ambiguous_angle, with_angles
 from .groups import GroupSolution, solve_groups
 from .live import angles_text, constants_text, groups_text, json_of
 from .modes import Assembly, assemblies

@@ -12,8 +12,8 @@ import numpy.typing as npt
 from ..plan import Plan
 from ..program import FloatArray
 from ..vectors import Numbers
+from .group_continuation import GroupPath, Index, InputRoute, Lanes
 from .newton import Newton, at_sketch
-from .path import GroupPath, Index, InputRoute, Lanes
 
 SAMPLED = 1024
 NEARBY = 0.05

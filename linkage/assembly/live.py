@@ -8,8 +8,8 @@ from typing import Any
 from ..plan import Plan
 from ..program import Graph, Inputs, Level, Node, arrow_function, inside, number, short_names
 from ..steps import Group
-from . import following
-from .following import piece_length
+from . import angle_continuation
+from .angle_continuation import piece_length
 from .groups import LINE, StrokeRoute
 from .newton import ITERATIONS, Programs, at_sketch
 from .rules import FIRST, TOUCH, goes_on, interpolated, newton_ended, predicted, step_judged
@@ -97,9 +97,9 @@ def angles_text(plan: Plan, clipped: Callable[[Plan, Sequence[Node]], Sequence[N
         "followed": f"[{','.join(vectors)}]",
         "FOLLOWED": json_of(len(plan.strokes) + len(plan.grouped)),
         "units": json_of([piece_length(plan, name) for name in plan.strokes]),
-        "SHORT": json_of(following.SHORT),
-        "LEAST": json_of(following.LEAST),
-        "STRAIGHT": json_of(following.STRAIGHT),
+        "SHORT": json_of(angle_continuation.SHORT),
+        "LEAST": json_of(angle_continuation.LEAST),
+        "STRAIGHT": json_of(angle_continuation.STRAIGHT),
     }
     return constants_text(constants)
 

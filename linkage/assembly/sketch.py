@@ -13,7 +13,7 @@ from ..plan import ArrayReading, Plan, missing_words, strokes_text
 from ..quantities import Member, name_of
 from ..steps import Point, Step
 from ..vectors import Numbers
-from .following import NONE_SOLVED, with_angles
+from .angle_continuation import NONE_SOLVED, with_angles
 from .groups import solve_groups
 
 Place = tuple[float, float]

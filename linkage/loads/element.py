@@ -139,7 +139,7 @@ class Declared(Protocol):
     def moves(self, quantity: Member) -> bool:
         """Return whether a quantity follows a stroke."""
 
-    def strays(self, quantity: Quantity) -> tuple[str, ...]:
+    def untracked(self, quantity: Quantity) -> tuple[str, ...]:
         """Return the angles whose whole turns a quantity depends on."""
 
 
@@ -335,9 +335,9 @@ class ForceElement(Jointed):
         if key in motion.inputs and type(member) is type(self) and getattr(member, name) is given:
             return motion.inputs[key]
         if isinstance(given, (str, Quantity)):
-            strays = motion.plan.strays(quantity(given))
-            if strays:
-                what = f"{self.name or self}: {name} = {value_text(given)} depends on the whole turns of {strays[0]}, which are followed"
+            untracked = motion.plan.untracked(quantity(given))
+            if untracked:
+                what = f"{self.name or self}: {name} = {value_text(given)} depends on the whole turns of {untracked[0]}, which are followed"
                 raise DefinitionError(f"{what} for the loads of a class only; declare it in the class, or use sines and cosines.")
             at_poses = motion.value(quantity(given))
             if name in self.not_negative and np.any(at_poses < 0.0):

@@ -16,7 +16,7 @@ from typing import Any, final
 import numpy as np
 
 from ..plan import Loop, Mask, Plan
-from ..program import FloatArray, Kernel, Level, Way
+from ..program import FloatArray, Kernel, Level, RunOptions
 from .grid import Grid
 from .limits import stroke_number, stroke_text, stroke_unit
 from .line import last_holding
@@ -34,7 +34,7 @@ END = 1e-7
 ROUNDING = 8 * np.finfo(float).eps
 MOST = 4096
 
-ON_ARRAYS = Way("numpy")
+ON_ARRAYS = RunOptions("numpy")
 INNER = np.arange(1, PARTS) / PARTS
 
 

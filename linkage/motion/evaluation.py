@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import DefinitionError, SingularError, UntracedError, one_word
 from ..plan import ArrayReading, Mask, Plan, failures, negative
-from ..program import NO_VALUE, QUICKEST, FloatArray, Kernel, Node, Way, c_text, javascript_text
+from ..program import NO_VALUE, QUICKEST, FloatArray, Kernel, Node, RunOptions, c_text, javascript_text
 from ..quantities import real
 from . import conditions
 from .conditions import Judged
@@ -33,7 +33,7 @@ def evaluate(
     strokes: Mapping[str, Any],
     requests: Sequence[RequestLike],
     out: FloatArray | None,
-    way: Way,
+    way: RunOptions,
     unreachable: str,
     per_design: bool = False,
 ) -> list[FloatArray]:
@@ -48,7 +48,9 @@ def evaluate(
     return evaluate_grid(grid, requests, out, way, unreachable)
 
 
-def evaluate_grid(grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: Way, unreachable: str) -> list[FloatArray]:
+def evaluate_grid(
+    grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: RunOptions, unreachable: str
+) -> list[FloatArray]:
     """Return the values of requests over a grid; see Mechanism.evaluate."""
     one_word("unreachable", unreachable, ("raise", "nan"))
     try:
@@ -58,7 +60,9 @@ def evaluate_grid(grid: Grid, requests: Sequence[RequestLike], out: FloatArray |
     return Evaluation(grid, found, way, unreachable).run(out)
 
 
-def evaluate_apart(grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: Way, unreachable: str) -> list[FloatArray]:
+def evaluate_apart(
+    grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: RunOptions, unreachable: str
+) -> list[FloatArray]:
     """Return the same of requests some of which have no program: these as a motion of the same poses gives them."""
     motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design)
     found = []
@@ -167,7 +171,7 @@ class Evaluation:
 
     grid: Grid
     requests: tuple[Request, ...]
-    way: Way
+    way: RunOptions
     unreachable: str = "raise"
 
     @property

@@ -14,7 +14,7 @@ from ..assembly import NONE_SOLVED, GroupSolution, solve_groups, with_angles
 from ..errors import DefinitionError
 from ..frozen import FrozenDict, read_only
 from ..plan import ArrayReading, Mask, Plan
-from ..program import QUICKEST, FloatArray, Kernel, Level, Node, Way, ancestors, interpret
+from ..program import QUICKEST, FloatArray, Kernel, Level, Node, RunOptions, ancestors, interpret
 from ..quantities import Member, Quantity
 
 
@@ -278,7 +278,7 @@ class Angles:
     angles: tuple[Node, ...]
     kernel: Kernel
 
-    def continued(self, grid: Grid, reached: Mask | None = None, way: Way = QUICKEST) -> FloatArray | None:
+    def continued(self, grid: Grid, reached: Mask | None = None, way: RunOptions = QUICKEST) -> FloatArray | None:
         """Return the nodes' values, shape (nodes, ...), with angles that do not jump; None where none of them does.
 
         `reached` are the poses that have a place, of which some may stand at a dead point to rounding.

@@ -17,10 +17,10 @@ from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from ..vectors import Scalar
 from .chain import KinematicChain, chain_of
-from .followed import angles_that_count, followed_angles, has_angles, load_quantities
 from .members import Members
 from .reading import ArrayReading, Reading
 from .trace import Trace
+from .tracked_angles import angles_that_count, followed_angles, has_angles, load_quantities
 
 Made = TypeVar("Made")
 
@@ -33,7 +33,7 @@ class Plan(Members):
     """The ordered members of a mechanism with their program: printable, traceable, the same for every design."""
 
     _first: Plan | None = None
-    """The plan that this one is a twin of."""
+    """The plan that this one is a fork of."""
 
     def __init__(self, members: Mapping[str, Member], title: str) -> None:
         super().__init__(members, title)
@@ -46,10 +46,10 @@ class Plan(Members):
 
     def __reduce__(self) -> tuple[object, ...]:
         """Return what pickle is to make a plan of: its members go, what follows from them does not."""
-        KNOWN[self.key] = self
+        REGISTRY[self.key] = self
         found_later = {name for base in type(self).__mro__ for name, member in vars(base).items() if isinstance(member, cached_property)}
         kept = {name: value for name, value in vars(self).items() if name not in found_later | {"_kernels"}}
-        return arrived, (self.key, type(self), kept)
+        return restored, (self.key, type(self), kept)
 
     @cached_property
     def chain(self) -> KinematicChain:
@@ -128,17 +128,17 @@ class Plan(Members):
         """Return a kernel, or what holds one, made once from a program of its own: it does not depend on what was asked for before."""
         found = cast(Made | None, self._kernels.get(key))
         if found is None:
-            self._kernels[key] = found = make(self._twin())
+            self._kernels[key] = found = make(self._fork())
             for old in list(self._kernels)[:-MOST_KERNELS]:
                 self._kernels.pop(old, None)
         return found
 
-    def _twin(self) -> Plan:
+    def _fork(self) -> Plan:
         """Return the same plan, not traced yet."""
-        twin = object.__new__(type(self))
-        vars(twin).update(vars(self), _first=self._first or self)
-        vars(twin).pop("trace", None)
-        return twin
+        fork = object.__new__(type(self))
+        vars(fork).update(vars(self), _first=self._first or self)
+        vars(fork).pop("trace", None)
+        return fork
 
     @cached_property
     def grouped(self) -> tuple[str, ...]:
@@ -175,7 +175,7 @@ class Plan(Members):
         """Whether a place may have no value where no guard tells: by arithmetic, or as an angle cannot be followed."""
         return super().may_overflow or bool(self.followed)
 
-    def strays(self, quantity: Quantity) -> tuple[str, ...]:
+    def untracked(self, quantity: Quantity) -> tuple[str, ...]:
         """Return the angles that a quantity uses, other than by whole multiples, cosines and sines, and that are not followed."""
         if not has_angles(self, (quantity,)):
             return ()
@@ -183,20 +183,20 @@ class Plan(Members):
         return angles_that_count(trace, [trace.graph.node(trace.value(quantity))])
 
 
-KNOWN: WeakValueDictionary[str, Plan] = WeakValueDictionary()
+REGISTRY: WeakValueDictionary[str, Plan] = WeakValueDictionary()
 """The plans that came from another process or went to one, by their keys: what arrives twice is the same plan. Of the whole process, as
-pickle calls `arrived` with nothing but what was sent.
+pickle calls `restored` with nothing but what was sent.
 """
-LATEST: deque[Plan] = deque(maxlen=8)
+RECENT: deque[Plan] = deque(maxlen=8)
 """Those that came last, kept with their kernels: a class that is sent by its text comes with every task anew."""
 
 
-def arrived(key: str, kind: type[Plan], parts: Mapping[str, object]) -> Plan:
+def restored(key: str, kind: type[Plan], parts: Mapping[str, object]) -> Plan:
     """Return the plan of a key: the one that is here already, or one of these parts."""
-    plan = KNOWN.get(key)
+    plan = REGISTRY.get(key)
     if plan is None:
         plan = object.__new__(kind)
         plan.__dict__.update(parts, _kernels={}, key=key)
-        plan = KNOWN.setdefault(key, plan)
-        LATEST.append(plan)
+        plan = REGISTRY.setdefault(key, plan)
+        RECENT.append(plan)
     return plan

@@ -8,7 +8,7 @@ from .foreign import c_text
 from .interpret import LAST, Iterated, disturbed, interpret, scatter
 from .intervals import Enclosure, enclosures
 from .javascript import Inputs, arrow_function, inside, javascript_text, number, short_names
-from .kernel import BACKEND, QUICKEST, Kernel, Result, Way, fixed_backend
+from .kernel import BACKEND, QUICKEST, Kernel, Result, RunOptions, fixed_backend
 from .linear import solve_arrays
 from .loop import HEAD, NUMBA, lane_loop
 from .node import Closure, Graph, Level, Node

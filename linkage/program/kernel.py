@@ -51,7 +51,7 @@ class Result:
 
 @final
 @dataclass(frozen=True)
-class Way:
+class RunOptions:
     """How a kernel is run: "floats", "numpy" or "numba", by itself the quickest for the work; and on how many threads."""
 
     backend: str | None = None
@@ -64,7 +64,7 @@ class Way:
             raise DefinitionError(f"threads={self.threads!r}: a whole number of at least 1 is expected.")
 
 
-QUICKEST = Way()
+QUICKEST = RunOptions()
 
 
 class Backend(Protocol):
@@ -97,7 +97,7 @@ class Kernel:
         self._spent = 0
 
     def __call__(
-        self, inputs: Mapping[str, Numbers], out: FloatArray | None = None, way: Way = QUICKEST, size: tuple[int, int] | None = None
+        self, inputs: Mapping[str, Numbers], out: FloatArray | None = None, way: RunOptions = QUICKEST, size: tuple[int, int] | None = None
     ) -> Result:
         m, n = size or (sized(*split_inputs(self.plan, inputs)) if out is None else out.shape[1:])
         backend = self._backend(way, m, n)
@@ -114,7 +114,7 @@ class Kernel:
                     backend.run(design, poses, values, guards)
         return Result(values, guards)
 
-    def _backend(self, way: Way, m: int, n: int) -> Backend:
+    def _backend(self, way: RunOptions, m: int, n: int) -> Backend:
         """Return what to run: the one that is named, the fixed one, or the quickest for so many designs and poses."""
         name = way.backend or ("floats" if m == 1 and n <= FEW else BACKEND.get())
         if name == "floats":

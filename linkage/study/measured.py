@@ -17,7 +17,7 @@ from ..motion.grid import JoinedTo
 from ..motion.measures import At, Integral, Leaf, Least, Measure, Most, Worst, strokes_behind, traced, words_of
 from ..motion.requests import Combined, stroke_of
 from ..plan import Plan
-from ..program import FloatArray, Way
+from ..program import FloatArray, RunOptions
 from ..quantities import Function, Negative, Number, Quantity, Ref, Sum
 from ..statics import DriveForce
 from ..units import show
@@ -128,7 +128,7 @@ class StudyPoses:
             said.append(f"{name} = {' to '.join(dict.fromkeys(ends))}")
         return ", ".join(said) + (f", {self.count} poses" if self.count > 1 else "")
 
-    def traced(self, machine: Mechanism, requests: Sequence[Any], way: Way, poses: slice = slice(None)) -> list[FloatArray]:
+    def traced(self, machine: Mechanism, requests: Sequence[Any], way: RunOptions, poses: slice = slice(None)) -> list[FloatArray]:
         """Return requests of m designs at n of the poses, an array (m, n) each, NaN where they have no value."""
         found = evaluate_grid(self._grid(machine, poses), requests, None, way, "nan")
         return [each.reshape(-1, each.shape[-1]) for each in found]
@@ -146,12 +146,12 @@ class StudyPoses:
             return eager(motion, quantity).reshape(-1, self.count)
         return function_array(quantity, motion)
 
-    def of_measure(self, machine: Mechanism, measure: Measure, way: Way) -> FloatArray:
+    def of_measure(self, machine: Mechanism, measure: Measure, way: RunOptions) -> FloatArray:
         """Return a measure of m designs, shape (m, 1), over the poses that are looked at."""
         found = measure.of(lambda leaf: self.of_leaf(machine, leaf, way))
         return np.array(np.broadcast_to(found, prod(np.broadcast_shapes(*map(np.shape, machine.dimensions.values()))))).reshape(-1, 1)
 
-    def of_leaf(self, machine: Mechanism, leaf: Leaf, way: Way) -> FloatArray:
+    def of_leaf(self, machine: Mechanism, leaf: Leaf, way: RunOptions) -> FloatArray:
         """Return what is taken of a quantity over the poses, of m designs, shape (m,)."""
         if isinstance(leaf, At):
             return self.at(leaf).values(machine, leaf.quantity, way)[:, 0]
@@ -182,7 +182,7 @@ class StudyPoses:
         values = self.flat[by]
         return float(0.5 * (values[min(place + 1, self.count - 1)] - values[max(place - 1, 0)]))
 
-    def values(self, machine: Mechanism, quantity: Any, way: Way) -> FloatArray:
+    def values(self, machine: Mechanism, quantity: Any, way: RunOptions) -> FloatArray:
         """Return a quantity of m designs at the poses, shape (m, n), or (m, 1) of one number for each design."""
         with unwarned(), np.errstate(all="ignore"):
             if isinstance(quantity, Measure):

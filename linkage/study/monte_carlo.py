@@ -14,7 +14,7 @@ from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion.measures import At, Condition, Constraint, Leaf, Measure, conditions_of
 from ..plan import Mask, Plan
-from ..program import FloatArray, Way
+from ..program import FloatArray, RunOptions
 from ..quantities import is_number
 from ..units import display_unit
 from .measured import Measured, StudyPoses, fold, fold_start, measure_of, measured_title, number_bound
@@ -142,13 +142,13 @@ def monte_carlo(
     named = tolerances_of(plan, tolerances)
     asked, conditions = quantities_listed(plan, of), limits_listed(machine, subject_to)
     order = percentages(percentiles)
-    way = Way(one_word("backend", backend, ("numpy", "numba")), threads)
+    way = RunOptions(one_word("backend", backend, ("numpy", "numba")), threads)
     designs = sampled_designs(machine, named, count, method, seed, threads)
     with unwarned(), np.errstate(all="ignore"):
         run = MonteCarloRun(poses, machine.replaced(**designs), count, way, order)
         run.measure(asked, conditions)
         ends = {title: worst_case(machine, poses, quantity, named) for title, quantity in asked.items()}
-        nominal = {title: poses.values(machine, quantity, Way())[0] for title, quantity in asked.items()}
+        nominal = {title: poses.values(machine, quantity, RunOptions())[0] for title, quantity in asked.items()}
     units = {title: display_unit(measure_of(plan, quantity), "mm") for title, quantity in asked.items()}
     bands = {title: band_of(title, units[title], poses, nominal[title], run.moments[title], order, ends[title]) for title in asked}
     kept = {str(each): float(np.mean(good)) for each, good in zip(conditions, run.kept, strict=True)}
@@ -215,9 +215,9 @@ Stored: TypeAlias = Mapping[Hashable, list[FloatArray]]
 class MonteCarloRun:
     """The designs of a Monte Carlo: `moments` of each quantity, `lost` and `kept` designs."""
 
-    def __init__(self, poses: StudyPoses, designs: Mechanism, count: int, way: Way, order: Sequence[float]) -> None:
+    def __init__(self, poses: StudyPoses, designs: Mechanism, count: int, way: RunOptions, order: Sequence[float]) -> None:
         self.poses, self.designs, self.count, self.order = poses, designs, count, order
-        self.threads, self.way = way.threads, Way(way.backend)
+        self.threads, self.way = way.threads, RunOptions(way.backend)
         self.moments: dict[str, FloatArray] = {}
         self.lost = np.zeros(count, bool)
         self.kept: list[Mask] = []
@@ -346,7 +346,7 @@ def worst_case(
     steps = np.concatenate([-np.eye(k), np.eye(k)])
 
     def at(levels: FloatArray) -> FloatArray:
-        values = poses.values(machine.replaced(**shifted_designs(machine, tolerances, levels)), quantity, Way())
+        values = poses.values(machine.replaced(**shifted_designs(machine, tolerances, levels)), quantity, RunOptions())
         return np.broadcast_to(values, (len(levels), values.shape[1]))
 
     alone = at(steps)

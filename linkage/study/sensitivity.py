@@ -13,7 +13,7 @@ from ..errors import DefinitionError, cited, one_word, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..plan import Plan
-from ..program import FloatArray, Way
+from ..program import FloatArray, RunOptions
 from ..quantities import is_whole
 from ..units import display_unit, show, unit_or_none
 from .measured import Measured, StudyPoses, measure_of, measured_title, number_bound
@@ -102,7 +102,7 @@ def tornado(machine: Mechanism, quantity: Measured, tolerances: Mapping[str, Tol
     named = tolerances_of(plan, tolerances)
     k = len(named)
     levels = np.concatenate([np.zeros((1, k)), -np.eye(k), np.eye(k)])
-    values = poses.values(machine.replaced(**shifted_designs(machine, named, levels)), quantity, Way())
+    values = poses.values(machine.replaced(**shifted_designs(machine, named, levels)), quantity, RunOptions())
     if values.shape[1] != 1:
         said = "say one pose, or give a measure such as most(...)"
         raise DefinitionError(f"{plan.title}: {measured_title(plan, quantity)} at {poses.count} poses; {said}.")
@@ -134,7 +134,7 @@ def gradient_at(machine: Mechanism, poses: StudyPoses, quantity: Measured, toler
     k = len(tolerances)
     steps = {name: Tolerance(STEP * max(each.high, -each.low)) for name, each in tolerances.items()}
     levels = np.concatenate([-np.eye(k), np.eye(k)])
-    values = poses.values(machine.replaced(**shifted_designs(machine, steps, levels)), quantity, Way())[:, 0]
+    values = poses.values(machine.replaced(**shifted_designs(machine, steps, levels)), quantity, RunOptions())[:, 0]
     apart = np.array([2.0 * each.high for each in steps.values()])
     return np.asarray(np.divide(values[k:] - values[:k], apart, out=np.zeros(k), where=apart > 0.0))
 
@@ -192,7 +192,7 @@ def sobol(
         raise DefinitionError(f"count={cited(count)}: a power of two is expected, such as {SAMPLES}.")
     if not is_whole(seed) or seed < 0:
         raise DefinitionError(f"seed={cited(seed)}: a whole number is expected, at least 0.")
-    way, sigmas = Way(one_word("backend", backend, ("numpy", "numba")), threads), []
+    way, sigmas = RunOptions(one_word("backend", backend, ("numpy", "numba")), threads), []
 
     def values(x: FloatArray) -> FloatArray:
         designs = {name: machine[name] + row for name, row in zip(named, x, strict=True)}

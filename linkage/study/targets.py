@@ -15,7 +15,7 @@ from ..motion import BoundRequest, Motion, RequestLike, evaluate_grid, stroke_di
 from ..motion.grid import Grid, JoinedTo
 from ..motion.requests import dimensions_of, slopes_of
 from ..plan import Plan
-from ..program import FloatArray, Way
+from ..program import FloatArray, RunOptions
 from ..quantities import is_number
 from ..units import deg, display_unit, mm, show, unit_or_none
 from .box import Box, setting_words, unit_points
@@ -147,7 +147,7 @@ class Aim:
     def misses(self, machine: Mechanism) -> FloatArray:
         """Return how far m designs are off each target, in its units, shape (m, targets); NaN where they have no value."""
         unique = {request.key: each.quantity for request, each in zip(self.bound, self.targets, strict=True)}
-        found = dict(zip(unique, evaluate_grid(self._grid(machine), list(unique.values()), None, Way("numpy"), "nan"), strict=True))
+        found = dict(zip(unique, evaluate_grid(self._grid(machine), list(unique.values()), None, RunOptions("numpy"), "nan"), strict=True))
         columns = [np.atleast_2d(found[request.key])[:, place] for place, request in enumerate(self.bound)]
         return np.asarray((np.stack(columns, axis=1) - self.wanted) / self.scale)
 
@@ -160,7 +160,7 @@ class Aim:
         for request in self.bound:
             if request.key not in found:
                 kept = plan.made(("gradient", request.key, owners), lambda twin, what=request: slopes_of(twin, what, owners))  # type: ignore[misc]
-                found[request.key] = kept.kernel(flat, way=Way("numpy"), size=self._grid(machine).size).values[: len(owners)]
+                found[request.key] = kept.kernel(flat, way=RunOptions("numpy"), size=self._grid(machine).size).values[: len(owners)]
         columns = [found[request.key][:, :, place] for place, request in enumerate(self.bound)]
         return np.asarray(np.stack(columns, axis=0).transpose(2, 0, 1) * signs / self.scale[:, None])
 

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from linkage import LEFT, Crank, Dyad, Ground, Mechanism, OnLink, Stroke, deg, ratio
-from linkage.program import Kernel, Way, gradient
+from linkage.program import Kernel, RunOptions, gradient
 from linkage.program.numba_backend import is_there
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks.bench_kernel import ROOT, first_result, machine
@@ -72,20 +72,20 @@ class Cases:
         return self.times.get(name, float("nan")) / self.times.get(other, float("nan"))
 
 
-def prepared(kernel: Kernel, inputs: dict[str, Any], way: Way) -> Run:
+def prepared(kernel: Kernel, inputs: dict[str, Any], way: RunOptions) -> Run:
     """Return a call that fills the same array each time."""
     out = kernel(inputs, way=way).values
     return lambda: kernel(inputs, out, way)
 
 
-def public(design: Mechanism, strokes: dict[str, Any], points: str, way: Way) -> Run:
+def public(design: Mechanism, strokes: dict[str, Any], points: str, way: RunOptions) -> Run:
     """Return the public call of the same points, its results included."""
     names = list(points)
     return lambda: design.evaluate(names, backend=way.backend, **strokes)
 
 
-def ways() -> dict[str, Way]:
-    return {"NumPy": Way("numpy")} | ({"Numba": Way("numba")} if is_there() else {})
+def ways() -> dict[str, RunOptions]:
+    return {"NumPy": RunOptions("numpy")} | ({"Numba": RunOptions("numba")} if is_there() else {})
 
 
 def add_hitch(cases: Cases, folder: Path, poses: int) -> None:

@@ -16,7 +16,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, LinkageError, Mechanism, Stroke
-from linkage.program import Graph, Kernel, Level, Way, interpret, jacobian, solve_arrays
+from linkage.program import Graph, Kernel, Level, RunOptions, interpret, jacobian, solve_arrays
 from linkage.program.cache import CompiledFile, compiled
 from linkage.program.elimination import expanded
 from linkage.program.foreign import c_text
@@ -76,7 +76,7 @@ def as_loop(kernel, inputs):
     """Return a kernel's values by the fused loop, uncompiled."""
     fused = kernel.fused
     fused._ready[False] = uncompiled(fused.plan)
-    return kernel(inputs, way=Way("numba"))
+    return kernel(inputs, way=RunOptions("numba"))
 
 
 def by_nodes(kernel, inputs):
@@ -93,8 +93,8 @@ def by_nodes(kernel, inputs):
 def test_all_ways_agree_over_the_shipped_machines(machine):
     kernel, inputs = everything(machine), given(machine, 60)
     wanted, good = by_nodes(kernel, inputs), firm(machine, inputs)
-    agree(kernel(inputs, way=Way("numpy")).values[:, 0], wanted, good)
-    agree(kernel(inputs, way=Way("floats")).values[:, 0], wanted, good)
+    agree(kernel(inputs, way=RunOptions("numpy")).values[:, 0], wanted, good)
+    agree(kernel(inputs, way=RunOptions("floats")).values[:, 0], wanted, good)
     with np.errstate(all="ignore"):
         agree(as_loop(kernel, inputs).values[:, 0], wanted, good)
 
@@ -105,16 +105,16 @@ def test_places_are_those_of_the_steps(machine):
     with np.errstate(all="ignore"):
         reading = machine.plan.read(inputs)
     steps = [np.ravel(part) for name in machine.plan.moving for part in (reading.at(name).x, reading.at(name).y)]
-    agree(everything(machine)(inputs, way=Way("numpy")).values[: len(steps), 0], steps, firm(machine, inputs))
+    agree(everything(machine)(inputs, way=RunOptions("numpy")).values[: len(steps), 0], steps, firm(machine, inputs))
 
 
 def check_random(seed):
     machine = random_mechanism(seed, strokes=1 + seed % 2, joints=5)
     kernel, inputs = everything.__wrapped__(machine, guarded=True), given(machine, 40, seed=seed)
     wanted, good = by_nodes(kernel, inputs), firm(machine, inputs)
-    first = kernel(inputs, way=Way("numpy"))
+    first = kernel(inputs, way=RunOptions("numpy"))
     agree(first.values[:, 0], wanted, good)
-    agree(kernel(inputs, way=Way("floats")).values[:, 0], wanted, good)
+    agree(kernel(inputs, way=RunOptions("floats")).values[:, 0], wanted, good)
     if seed % 10 == 0:
         with np.errstate(all="ignore"):
             second = as_loop(kernel, inputs)
@@ -153,10 +153,10 @@ def test_designs_and_poses_in_every_proportion(m, n):
     kernel, inputs = everything(ThreePointHitch), hitch_designs(m, n)
     tall = {name: value if name == "S" or np.ndim(value) == 0 else value[:, None] for name, value in inputs.items()}
     wanted = np.array([np.broadcast_to(part, (m, n)) for part in interpret(kernel.outputs, tall)])
-    agree(kernel(inputs, way=Way("numpy")).values, wanted)
-    agree(kernel(inputs, way=Way("numpy", threads=3)).values, wanted)
+    agree(kernel(inputs, way=RunOptions("numpy")).values, wanted)
+    agree(kernel(inputs, way=RunOptions("numpy", threads=3)).values, wanted)
     out = np.full((24, m, n), 7.0)
-    assert kernel(inputs, out, Way("numpy")).values is out
+    assert kernel(inputs, out, RunOptions("numpy")).values is out
     agree(out, wanted)
 
 
@@ -167,8 +167,8 @@ def test_the_loop_along_designs_is_the_loop_along_poses(turned):
     if not turned:
         kernel.fused._ready[True] = uncompiled(kernel.fused.plan, turned=True)
         inputs |= {"S": np.tile(inputs["S"], (300, 1))}  # a stroke for each design: the loop goes along the poses
-    found = kernel(inputs, way=Way("numba"))
-    agree(found.values, kernel(inputs, way=Way("numpy")).values)
+    found = kernel(inputs, way=RunOptions("numba"))
+    agree(found.values, kernel(inputs, way=RunOptions("numpy")).values)
     assert np.all(found.guards > 0.0)
 
 
@@ -176,7 +176,7 @@ def test_a_guard_tells_in_every_way():
     kernel, inputs = everything(ThreePointHitch, guarded=True), hitch_designs(1, 30) | {"S": np.linspace(0.2, 0.5, 30)}
     kernel.fused._ready = {False: uncompiled(kernel.fused.plan)}
     with np.errstate(all="ignore"):
-        told = [kernel(inputs, way=Way(name)).guards > 0.0 for name in ("numpy", "floats", "numba")]
+        told = [kernel(inputs, way=RunOptions(name)).guards > 0.0 for name in ("numpy", "floats", "numba")]
     assert not told[0].all()
     assert_array_equal(told[0], told[1])
     assert_array_equal(told[0], told[2])
@@ -196,13 +196,13 @@ def test_the_compiled_loop_agrees_and_is_cached(machine, cache_folder):
     pytest.importorskip("numba")
     inputs = given(machine, 300)
     first, second = everything.__wrapped__(machine, guarded=True), everything.__wrapped__(machine, guarded=True)
-    wanted = first(inputs, way=Way("numpy"))
-    found = first(inputs, way=Way("numba", threads=2))
+    wanted = first(inputs, way=RunOptions("numpy"))
+    found = first(inputs, way=RunOptions("numba", threads=2))
     agree(found.values[:, 0], wanted.values[:, 0], firm(machine, inputs))
     assert_array_equal(found.guards > 0.0, wanted.guards > 0.0)
     kept = {file: file.stat().st_mtime_ns for file in cache_folder.rglob("*.nbc")}
     assert len(kept) == 1
-    assert_array_equal(second(inputs, way=Way("numba")).values, first(inputs, way=Way("numba")).values)
+    assert_array_equal(second(inputs, way=RunOptions("numba")).values, first(inputs, way=RunOptions("numba")).values)
     assert {file: file.stat().st_mtime_ns for file in cache_folder.rglob("*.nbc")} == kept
 
 
@@ -223,13 +223,13 @@ def test_without_numba_everything_works_and_asking_for_it_says_how(monkeypatch):
     kernel._spent = 10**12
     assert kernel(hitch_designs(1, 50)).values.shape == (24, 1, 50)
     with pytest.raises(LinkageError, match=r"hydrolinkage\[fast\]"):
-        kernel(hitch_designs(1, 50), way=Way("numba"))
+        kernel(hitch_designs(1, 50), way=RunOptions("numba"))
 
 
 @pytest.mark.parametrize("asked", [{"backend": "cuda"}, {"threads": 0}, {"threads": 1.5}])
 def test_an_unknown_way_is_refused(asked):
     with pytest.raises(DefinitionError, match=next(iter(asked))):
-        Way(**asked)
+        RunOptions(**asked)
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="no C compiler")
@@ -245,7 +245,7 @@ def test_the_text_in_c_agrees(machine, tmp_path):
     poses = [np.ascontiguousarray(np.ravel(inputs[node.value])) for node in plan.pose_inputs]
     arguments = [(pointer * len(rows))(*(row.ctypes.data_as(pointer) for row in rows)) for rows in (poses, out)]
     ctypes.CDLL(str(tmp_path / "k.so")).poses(ctypes.c_long(200), design.ctypes.data_as(pointer), *arguments)
-    agree(out, kernel(inputs, way=Way("numpy")).values[:, 0], firm(machine, inputs))
+    agree(out, kernel(inputs, way=RunOptions("numpy")).values[:, 0], firm(machine, inputs))
 
 
 @pytest.mark.parametrize("name", ["sin", "cos"])
@@ -274,7 +274,7 @@ def test_the_text_in_javascript_agrees(machine):
     call = f"const [d, rows] = {asked}; console.log(JSON.stringify(rows.map(p => poses(d, p.map(v => v === null ? NaN : v)))))"
     said = subprocess.run(["node", "-e", javascript_text(kernel.outputs) + call], check=True, capture_output=True, text=True).stdout
     found = np.array([[np.nan if part is None else part for part in row] for row in json.loads(said)]).T
-    agree(found, kernel(inputs, way=Way("numpy")).values[:, 0], firm(machine, inputs))
+    agree(found, kernel(inputs, way=RunOptions("numpy")).values[:, 0], firm(machine, inputs))
 
 
 # -- the program itself --------------------------------------------------------------------------------------

@@ -28,7 +28,7 @@ from linkage import (
     pin_forces,
     ratio,
 )
-from linkage.program import Way
+from linkage.program import RunOptions
 from tests.linkage.sympy_program import program_expressions
 from tests.linkage.test_backends import agree, as_loop, by_nodes, everything
 
@@ -85,7 +85,7 @@ def test_every_way_to_run_a_program_agrees():
     kernel, inputs = everything(Lifted), Lifted().at(phi=np.linspace(-7.0, 14.0, 200))._grid.flat
     wanted = by_nodes(kernel, inputs)
     for way in ("numpy", "floats"):
-        agree(kernel(inputs, way=Way(way)).values[:, 0], wanted)
+        agree(kernel(inputs, way=RunOptions(way)).values[:, 0], wanted)
     agree(as_loop(kernel, inputs).values[:, 0], wanted)
 
 

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import Crank, Dyad, Ground, Mechanism, Stroke
-from linkage.program import Kernel, Way
+from linkage.program import Kernel, RunOptions
 from linkage.program import numba_backend as fused
 from tests.linkage.test_backends import uncompiled
 
@@ -48,8 +48,8 @@ SHAPES = [(1, 1), (1, 13), (4, 13), (7, 1), (8, 17), (17, 2), (20, 1), (18, 16),
 @pytest.mark.parametrize(("m", "n"), SHAPES)
 def test_blocks_do_not_show(kernel, m, n, table):
     given = inputs(m, n, table)
-    wanted = kernel(given, way=Way("numpy"), size=(m, n))
-    found = kernel(given, way=Way("numba"), size=(m, n))
+    wanted = kernel(given, way=RunOptions("numpy"), size=(m, n))
+    found = kernel(given, way=RunOptions("numba"), size=(m, n))
     assert found.values.shape == (4, m, n)
     assert_allclose(found.values, wanted.values, rtol=0, atol=1e-14)
     assert_array_equal(found.guards > 0.0, wanted.guards > 0.0)
@@ -62,9 +62,9 @@ def test_results_go_where_they_are_wanted(kernel, m, n, order):
     room = np.full((8, 2 * m, 2 * n), 7.0, order="F" if order == "F" else "C")
     out = room[::2, ::2, ::2] if order == "strided" else room[:4, :m, :n]
     given = inputs(m, n, table=False)
-    found = kernel(given, out, Way("numba"))
+    found = kernel(given, out, RunOptions("numba"))
     assert np.shares_memory(found.values, room)
-    assert_allclose(out, kernel(given, way=Way("numpy")).values, rtol=0, atol=1e-14)
+    assert_allclose(out, kernel(given, way=RunOptions("numpy")).values, rtol=0, atol=1e-14)
     assert np.count_nonzero(room != 7.0) == out.size
 
 
@@ -72,7 +72,7 @@ def test_each_single_design_has_its_own_constants(kernel):
     """The design part is kept for the next call only where all numbers are the same."""
     for seed in (1, 2, 1, 3, 3):
         given = inputs(1, 9, table=False, seed=seed)
-        assert_allclose(kernel(given, way=Way("numba")).values, kernel(given, way=Way("numpy")).values, rtol=0, atol=1e-14)
+        assert_allclose(kernel(given, way=RunOptions("numba")).values, kernel(given, way=RunOptions("numpy")).values, rtol=0, atol=1e-14)
 
 
 @pytest.mark.parametrize(("m", "n"), [(1, 40), (40, 1), (7, 11)])
@@ -84,7 +84,7 @@ def test_one_bad_pose_in_any_block_is_told(kernel, m, n, place):
     else:
         given["OA"] = np.array(given["OA"])
         given["OA"][place] = 3.0
-    found, wanted = (kernel(given, way=Way(way)) for way in ("numba", "numpy"))
+    found, wanted = (kernel(given, way=RunOptions(way)) for way in ("numba", "numpy"))
     assert_array_equal(found.guards > 0.0, wanted.guards > 0.0)
     assert not np.all(found.guards > 0.0)
     assert_array_equal(np.isnan(found.values), np.isnan(wanted.values))

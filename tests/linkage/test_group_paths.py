@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import AssemblyError, Crank, Ground, Guide, Link, Mechanism, Pin, Slide, Stroke, drawn
-from linkage.assembly import newton, path
+from linkage.assembly import group_continuation, newton
 from linkage.program import fixed_backend
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from tests.linkage.random_parts import group_parts
@@ -170,7 +170,7 @@ def check_same(found, expected):
 @pytest.mark.parametrize("seed", range(3))
 def test_lanes_in_floats_and_in_arrays_are_the_same(seed, monkeypatch):
     in_floats = solved(seed)
-    monkeypatch.setattr(path, "FEW", 0)
+    monkeypatch.setattr(group_continuation, "FEW", 0)
     check_same(solved(seed), in_floats)
 
 
@@ -178,7 +178,7 @@ def test_lanes_in_floats_and_in_arrays_are_the_same(seed, monkeypatch):
 def test_small_pivots_change_nothing(few, monkeypatch):
     """No pivot is large enough: every step and every clearance falls back on pivots of its own."""
     expected = solved(1)
-    monkeypatch.setattr(path, "FEW", few)
+    monkeypatch.setattr(group_continuation, "FEW", few)
     for name in ("PIVOT", "SURE_PIVOT"):
         monkeypatch.setattr(newton, name, 1e9)
     check_same(solved(1), expected)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from linkage import LinkageError, StudyError
-from linkage.plan.plan import KNOWN, LATEST
+from linkage.plan.plan import RECENT, REGISTRY
 from linkage.study import batching, survey
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.survey_measures import deadly, failing, far_points, group_designs, hitch_designs, logged, travel
@@ -124,9 +124,9 @@ def test_a_plan_that_arrives_again_is_the_same_with_its_kernels():
     plan = type("Other", (ThreePointHitch,), {}).plan
     plan.kernel(plan.moving)
     sent = pickle.dumps(plan)
-    KNOWN.pop(plan.key)
+    REGISTRY.pop(plan.key)
     arrived = pickle.loads(sent)
-    assert arrived is not plan and arrived is pickle.loads(sent) and arrived in LATEST
+    assert arrived is not plan and arrived is pickle.loads(sent) and arrived in RECENT
     assert not arrived._kernels and "trace" not in vars(arrived) and str(arrived) == str(plan)
     inputs = dict(ThreePointHitch().dimensions) | {"S": np.linspace(0.0, 0.25, 30)}
     np.testing.assert_array_equal(arrived.kernel(("G",))(inputs).values, plan.kernel(("G",))(inputs).values)

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ..program import BACKEND, FloatArray
 from ..vectors import Numbers
-from .lanes import STUCK, Program, place_rows, state_rows
+from .batched_continuation import STUCK, Program, place_rows, state_rows
 from .newton import Newton, at_poses
 from .rules import FIRST, TOUCH, goes_on, interpolated, predicted, step_judged
 

@@ -113,7 +113,7 @@ FEW = 8192
 
 
 def at_few_poses(
-    plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], requests: Sequence[RequestLike], way: Way
+    plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], requests: Sequence[RequestLike], way: RunOptions
 ) -> list[FloatArray] | None:
     """Return the same of one design at arrays of strokes, shape (n,), within the declared ranges; None as `at_one_pose` does."""
     if plan.solved or len(strokes) != len(plan.strokes) or set(map(type, designs.values())) > {float}:

@@ -32,7 +32,7 @@ from ..units import factor, show, shown_number, unit_sign
 from .calculation import has_loads
 from .content import Block, Cell, Illustration, Paragraph, Section, TableBlock
 from .inputs import length_unit
-from .run import Looked, member_tables
+from .run import Looked
 
 WIDE = 6.6
 """The width of a picture across the page [inch]."""
@@ -140,16 +140,10 @@ def results_section(looked: Looked, names: Sequence[str] | None, first: str, lim
 
 def curve_columns(looked: Looked) -> dict[str, Column]:
     """Return the columns of results and of members at the poses of the curves, by name."""
-    with unwarned():
-        found = {column.name: column for column in results(looked.machine, looked.curve)}
-        for member in member_curves(looked):
-            found.setdefault(member.name, member)
+    found = {column.name: column for column in looked.columns}
+    for name, column in looked.member_columns:
+        found.setdefault(f"{column.name} {name}", replace(column, name=f"{column.name} {name}"))
     return {name: column for name, column in found.items() if name not in looked.machine.strokes}
-
-
-def member_curves(looked: Looked) -> Iterator[Column]:
-    """Yield what members show of themselves, with their names; nothing of one that is refused."""
-    yield from (replace(column, name=f"{column.name} {name}") for name, column in member_tables(looked.machine, looked.curve))
 
 
 # Beside each curve, what the judge finds over all that the machine runs: a line where that lies beyond the curve.
@@ -247,7 +241,7 @@ def members_section(looked: Looked) -> Section | None:
     if not members:
         return None
     with unwarned():
-        columns = list(member_tables(looked.machine, looked.curve))
+        columns = looked.member_columns
         asked = [column.request if column.request is not None else values_in_rows(looked, name, column) for name, column in columns]
         questions = [[side(quantity) for side in sides_asked(quantity)] for quantity in asked]
         try:
@@ -362,7 +356,11 @@ def drive_rows(looked: Looked) -> Iterator[tuple[str, ...]]:
     """Yield the least and the greatest force of every drive and thrust of every member, in which situation and where."""
     one, plan = looked.forces[0], looked.machine.plan
     asked: list[tuple[str, Request, str]] = [(name, drive_force(name), drive_unit(plan, name)) for name in one.drives]
-    asked += [(said("thrust of {name}", name=name), MemberThrust(Acting(), name), "kN") for name in one.thrusts]
+    known = {name: column.request for name, column in looked.member_columns if column.name == "thrust"}  # these have a program
+    for name in one.thrusts:
+        own = known.get(name)
+        request = own if isinstance(own, Request) else MemberThrust(Acting(), name)
+        asked.append((said("thrust of {name}", name=name), request, "kN"))
     answers = looked.judge.answers([each(request) for _, request, _ in asked for each in (least, most)])
     for (name, _, unit), low, high in zip(asked, answers[::2], answers[1::2], strict=True):
         column = Column(name, np.zeros(1), unit, 3)

@@ -19,7 +19,7 @@ from ..mechanism import Mechanism
 from ..motion import Answer, Constraint, Leaf, least, most, places_text, stroke_display_unit
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
-from ..pictures.strokes import column_shown
+from ..pictures.strokes import column_among
 from ..reports import NOTHING, At, ColumnOf
 from ..statics import situation_of
 from ..units import current_system, show, shown_number, unit_system
@@ -92,8 +92,7 @@ def composed(
 ) -> Document:
     """Return the document, in the language and the units that hold."""
     machine, featured = looked.machine, looked.machine.featured()
-    with unwarned():
-        first = column_shown(machine, looked.curve, None).name
+    first = column_among(machine, looked.columns, None).name
     names = list(curve_columns(looked))
     own = {name: given for name, given in featured.limits.items() if name in names}
     bounds = checked_limits(own if limits is None else limits, names, machine.plan.title)

@@ -16,7 +16,7 @@ from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Judge, Motion, Request, Tabled, stroke_display_unit
 from ..motion.measures import MeasuredQuantity
 from ..quantities import Quantity, is_whole
-from ..reports import At, ColumnOf, Run, column_requests, run_of
+from ..reports import At, ColumnOf, Run, column_requests, results, run_of
 from ..reports.results import asked_by_name
 from ..statics import PinForces, drive_force, pin_forces, pin_forces_under
 from ..units import show
@@ -124,14 +124,26 @@ class Looked:
         return moving != set(self.run.ways) or len(self.run.held) > 0 or len(self.judge.places) > 1
 
     @cached_property
+    def columns(self) -> list[Column]:
+        """The results at the poses of the curves."""
+        with unwarned():
+            return results(self.machine, self.curve)
+
+    @cached_property
+    def member_columns(self) -> list[tuple[str, Column]]:
+        """What members show of themselves at the poses of the curves, each with the member's name; nothing of one that is refused."""
+        with unwarned():
+            return [*member_tables(self.machine, self.curve)]
+
+    @cached_property
     def quantities(self) -> dict[str, MeasuredQuantity]:
         """What asks for the columns of results and of members anywhere, by their names; nothing for one that only the table gives."""
         with unwarned():
-            own = column_requests(self.machine, self.curve).items()
+            own = column_requests(self.machine, self.curve, self.columns).items()
             asked = {name: request for name, (_, request, why) in own if not (why and isinstance(request, ColumnOf))}
             kinds = str, Quantity, Request
             found: dict[str, MeasuredQuantity] = {name: request for name, request in asked.items() if isinstance(request, kinds)}
-            for name, column in member_tables(self.machine, self.curve):
+            for name, column in self.member_columns:
                 if isinstance(column.request, (str, Quantity, Request)):
                     found.setdefault(f"{column.name} {name}", column.request)
         return found

@@ -221,5 +221,6 @@ def is_within(points: FloatArray, box: Bounds) -> bool:
 
 def covering(each: LengthLine | AngleArc, taken: FloatArray) -> float:
     """Return how many of the points that a dimension would cover lie within a letter of one that is taken."""
-    near = np.abs(each.covered[:, None, :] - taken[None, :, :]).max(axis=2) < 0.7 * each.letter
+    off_x, off_y = (np.abs(each.covered[:, axis, None] - taken[:, axis]) for axis in (0, 1))
+    near = (off_x < 0.7 * each.letter) & (off_y < 0.7 * each.letter)
     return float(np.count_nonzero(near.any(axis=1)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, final
 
@@ -207,7 +208,12 @@ def is_changing(values: FloatArray) -> bool:
 
 def column_shown(machine: Mechanism, motion: Motion, name: str | None) -> Column:
     """Return a column of results by name; without one, what the machine is about if it changes, else the last that does."""
-    columns = {column.name: column for column in results(machine, motion) if column.name not in motion.strokes}
+    return column_among(machine, results(machine, motion), name)
+
+
+def column_among(machine: Mechanism, found: Sequence[Column], name: str | None) -> Column:
+    """Return a column of those that results gave, by name; without one, as `column_shown`."""
+    columns = {column.name: column for column in found if column.name not in machine.strokes}
     if name is None and columns:
         moving = [each for each, column in columns.items() if is_changing(column.drawn)]
         about = machine.featured().column

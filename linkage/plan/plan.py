@@ -24,7 +24,7 @@ from .tracked_angles import angles_that_count, followed_angles, has_angles, load
 
 Made = TypeVar("Made")
 
-MOST_KERNELS = 512
+MOST_KERNELS = 1024
 """The kernels of a plan that are kept: loads with numbers of their own make one for each number."""
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -58,11 +58,16 @@ class ColumnOf(LawRequest):
         return f"the column {self.name}"
 
 
-def column_requests(machine: Mechanism, motion: Motion) -> dict[str, tuple[Column, RequestLike, str]]:
-    """Return the columns of a motion of one design by their names: each, what asks for it, and why that does not give it, or ""."""
+def column_requests(
+    machine: Mechanism, motion: Motion, columns: Sequence[Column] | None = None
+) -> dict[str, tuple[Column, RequestLike, str]]:
+    """Return the columns of a motion of one design by their names: each, what asks for it, and why that does not give it, or "".
+
+    `columns` are its results, where they are known already.
+    """
     plain, names = plain_requests(machine.plan), Counter[str]()
     found: dict[str, tuple[Column, RequestLike, str]] = {}
-    for place, column in enumerate(results(machine, motion)):
+    for place, column in enumerate(results(machine, motion) if columns is None else columns):
         names[column.name] += 1
         name = column.name if names[column.name] == 1 else f"{column.name} ({names[column.name]})"
         own = ColumnOf(machine, place, column.name)

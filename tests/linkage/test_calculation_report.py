@@ -156,6 +156,16 @@ def test_checks_are_measured_and_kept(hitch):
         assert row[4].ok and 0.0 <= float(row[2]) <= float(row[3]) <= 1e-6
 
 
+def test_the_results_of_a_pose_are_asked_for_once(monkeypatch):
+    from linkage.documents import outcome, run
+
+    asked = []
+    for place in (run, outcome):
+        monkeypatch.setattr(place, "results", lambda machine, motion: asked.append(motion.shape) or results(machine, motion))
+    report_document(Lifter())
+    assert sorted(asked) == [(11,), (run.CURVE,)]
+
+
 def test_a_check_fails_where_a_length_is_not_kept(monkeypatch):
     from linkage.documents import checks
 

@@ -353,7 +353,7 @@ def test_what_fails_on_its_way_is_told():
 
 
 def test_a_batch_whose_ways_differ_is_refused_with_the_remedy():
-    assert Crane(**{"lift.bore": [0.125, 0.14]}).verdicts()[0].ok
+    assert Crane(**{"lift.bore": [0.125, 0.14]}).answers([reachable])[0].ok.all()
     with pytest.raises(DefinitionError, match="the same for all designs: take one design, or give over="):
         Crane(phi_0=[0.3, 0.4]).verdicts()
-    assert Crane(phi_0=[0.3, 0.4]).verdicts(over=Over())[0].ok
+    assert Crane(phi_0=[0.3, 0.4]).answers([reachable], over=Over())[0].ok.all()

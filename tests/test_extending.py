@@ -44,7 +44,7 @@ from linkage.files import load, to_json, to_toml
 from linkage.pictures.scene import Scene
 from linkage.program import RunOptions
 from tests.benchmarks.c_reference import POINTER, address, built, has_compiler
-from tests.linkage.test_backends import agree, as_loop, by_nodes, everything
+from tests.linkage.program.test_backends import agree, as_loop, by_nodes, everything
 
 
 def rise(share):

@@ -13,7 +13,7 @@ from linkage import pin_force, pin_forces
 from linkage.errors import LinkageError, unwarned
 from linkage.loads import ForceElement
 from linkage.motion import live_text
-from tests.linkage.in_node import SHIPPED, asked_of, ways
+from tests.linkage.motion.in_node import SHIPPED, asked_of, ways
 
 RUNNER = """
 const found=[];

@@ -17,8 +17,8 @@ from linkage.quantities import Member
 from linkage.study import survey
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.linkage.file_machines import EveryStep, Hitch, Loaded, Parts
-from tests.linkage.survey_measures import travel
+from tests.linkage.files.file_machines import EveryStep, Hitch, Loaded, Parts
+from tests.linkage.study.survey_measures import travel
 
 SHIPPED = [point.load() for point in entry_points(group="hydrolinkage.machines")]
 MACHINES = [*SHIPPED, EveryStep, Hitch, Loaded, Parts]

@@ -41,8 +41,8 @@ from linkage.study.space import Space
 from linkage.units import bar, kN
 from mechanisms.mower_lift import MowerLift
 from tests.laws.random_machines import random_machine
-from tests.linkage.test_optimise import TRAVEL, VARY
-from tests.linkage.test_optimise import Boom as Lift
+from tests.linkage.study.test_optimise import TRAVEL, VARY
+from tests.linkage.study.test_optimise import Boom as Lift
 from tests.machines.test_axle import Axle
 from tests.machines.test_double_wishbone import Wishbone
 from tests.machines.test_excavator import Excavator

@@ -38,7 +38,7 @@ ROOMS = (
     "linkage/documents", "linkage/exports", "hydraulics",
 )  # fmt: skip
 COPIED = ("linkage", "hydraulics", "mechanisms", "tests", "docs", "README.md", "CHANGELOG.md", "pyproject.toml", "run", ".ci")
-NOT_ASKED = ("tests/benchmarks", "tests/tools", "tests/test_demo.py", "tests/test_house.py", "tests/linkage/test_run.py")
+NOT_ASKED = ("tests/benchmarks", "tests/tools", "tests/test_demo.py", "tests/test_house.py", "tests/linkage/documents/test_run.py")
 """Tests of speed, of the whole demo, of the sources' text and of the shell script: no mutant needs them."""
 HEAVY = ("numpy", "scipy.optimize", "scipy.linalg", "sympy", "networkx", "matplotlib.pyplot", "numba", "rich")
 KILLED, SURVIVED, BROKEN = "killed", "survived", "broken"

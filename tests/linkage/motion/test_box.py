@@ -1,0 +1,136 @@
+"""The search in a box: what is higher than all else is found where it holds a box of 1/4096, 1/128, 1/32 of each of 1, 2, 3 strokes."""
+
+import numpy as np
+import pytest
+
+from linkage.motion import highest
+from linkage.motion.box import highest_in
+from tests.linkage.motion.box_cases import InUnitBox, case, waves
+
+LOTS = [range(first, first + 50) for first in range(0, 200, 50)]  # a test each: none takes long
+ALL = range(200, 10_200)
+SLOW = pytest.mark.slow
+
+
+def on_line(f):
+    """Return the highest value of a function of places (..., 1), and the place, from 4097 samples of a single stroke."""
+
+    def look(leg, t):
+        t = np.atleast_2d(t)
+        return f(t[..., None])[None], np.ones(t.shape, bool)
+
+    found = highest(look, (4096,))
+    return found.value.item(), found.t.reshape(1)
+
+
+def found_by(k, f):
+    """Return the highest value of a function of places (..., k) of the unit box, and the place."""
+    if k == 1:
+        return on_line(f)
+    found = highest_in(InUnitBox(k, f))
+    return found.value.item(), found.unit[0, 0]
+
+
+def check_case(seed, k):
+    """Check that a top is found, and that the place told has the value told."""
+    one = case(seed, k)
+    value, unit = found_by(k, one.f)
+    assert value >= one.top - one.close * one.span, (one.kind, (one.top - value) / one.span)
+    assert np.all((unit >= 0.0) & (unit <= 1.0)) and one.f(unit) == pytest.approx(value, abs=1e-12 * one.span)
+
+
+@pytest.mark.parametrize("seeds", LOTS, ids=str)
+@pytest.mark.parametrize("k", [1, 2, 3])
+def test_tops_that_are_known(k, seeds):
+    for seed in seeds:
+        check_case(seed, k)
+
+
+@SLOW
+@pytest.mark.parametrize("k", [1, 2, 3])
+def test_tops_that_are_known_at_length(k):
+    for seed in ALL:
+        check_case(seed, k)
+
+
+TURNS = {1: 100.0, 2: 8.0, 3: 4.0}  # of a wave over each stroke, at most
+
+
+def check_waves(seed, k, poses):
+    """Check that no random pose betters what is found, of a sum of waves, of its lowest, and of a kink in it."""
+    rng = np.random.default_rng([seed, k, 7])
+    wave = waves(rng, k, TURNS[k])
+    at = rng.uniform(size=(poses, k))
+    values = wave(at)
+    for sense in (1.0, -1.0):
+        value, _ = found_by(k, lambda x, sense=sense: sense * wave(x))
+        assert (sense * values).max() <= value + 1e-6 * np.ptp(values)
+
+
+@pytest.mark.parametrize("first", [0, 20, 40])
+@pytest.mark.parametrize("k", [1, 2, 3])
+def test_no_random_pose_betters_a_sum_of_waves(k, first):
+    for seed in range(first, first + 20):
+        check_waves(seed, k, 10_000)
+
+
+@SLOW
+@pytest.mark.parametrize("k", [1, 2, 3])
+def test_none_of_a_million_random_poses_betters_a_sum_of_waves(k):
+    for seed in range(60):
+        check_waves(seed, k, 1_000_000)
+
+
+def bell(top, matrix):
+    """Return a bell about a place, skewed by a matrix."""
+    return lambda x: np.exp(-np.einsum("...i,ij,...j", x - top, matrix, x - top))
+
+
+@pytest.mark.parametrize("k", [4, 5, 6])
+def test_more_strokes(k):
+    """A skewed bell, and a plane: its top is in a corner."""
+    for seed in range(4):
+        rng = np.random.default_rng([seed, k])
+        top, turn = rng.uniform(size=k), np.linalg.qr(rng.normal(size=(k, k)))[0]
+        matrix = turn @ np.diag(rng.uniform(0.5, 3.0, k)) @ turn.T
+        value, unit = found_by(k, bell(top, matrix))
+        assert value == pytest.approx(1.0, abs=1e-9)
+        np.testing.assert_allclose(unit, top, atol=1e-4)
+        slope = rng.normal(size=k)
+        value, unit = found_by(k, lambda x, slope=slope: x @ slope)
+        assert value == pytest.approx(np.maximum(slope, 0.0).sum(), abs=1e-12)
+        np.testing.assert_array_equal(unit, slope > 0.0)
+
+
+@pytest.mark.parametrize("first", [0, 10, 20, 30])
+@pytest.mark.parametrize("k", [2, 3])
+def test_an_answer_does_not_follow_from_what_else_is_asked(k, first):
+    cases = [case(seed, k) for seed in range(first, first + 10)]
+    together = highest_in(InUnitBox(k, *(each.f for each in cases))).value[:, 0]
+    alone = np.array([found_by(k, each.f)[0] for each in cases])
+    close = np.array([min(each.close, 1e-7) * each.span for each in cases])
+    assert np.all(np.abs(together - alone) <= close)
+
+
+def test_functions_together_cost_few_poses():
+    """Sixty sums of waves in three strokes: fewer poses than twice the grid; sixty planes ask next to nothing beyond it."""
+    rng = np.random.default_rng(1)
+    box = InUnitBox(3, *(waves(rng, 3, 0.5) for _ in range(60)))
+    highest_in(box)
+    assert box.count < 2 * box.side**3
+    slopes = rng.normal(size=(60, 3))
+    box = InUnitBox(3, *(lambda x, slope=slope: x @ slope for slope in slopes))
+    highest_in(box)
+    assert box.count < 1.05 * box.side**3
+
+
+@pytest.mark.parametrize("first", [0, 10, 20])
+@pytest.mark.parametrize("k", [2, 3])
+def test_a_box_turned_and_mirrored_is_the_same(k, first):
+    for seed in range(first, first + 10):
+        one = case(seed, k)
+        value, _ = found_by(k, one.f)
+        turned, _ = found_by(k, lambda x, one=one: one.f(x[..., ::-1]))
+        mirrored, _ = found_by(k, lambda x, one=one: one.f(1.0 - x))
+        assert turned == pytest.approx(value, abs=2.0 * one.close * one.span)
+        assert mirrored == pytest.approx(value, abs=2.0 * one.close * one.span)

@@ -1,0 +1,146 @@
+"""What a live page says of its questions is what Python's judge says of the same poses: numbers to 1e-9, and whether they are kept."""
+
+import json
+import subprocess
+
+import numpy as np
+import pytest
+
+from hydraulics import Cylinder, LiftCircuit
+from linkage import LoadCase, Over, Stroke
+from linkage.motion import live_text
+from linkage.pictures.browser import page_part
+from linkage.pictures.browser_data import PageRequests, page_data
+from linkage.reports import ColumnOf
+from linkage.units import bar, mm
+from mechanisms.crane import Crane
+from mechanisms.grapple import Grapple
+from mechanisms.mower_lift import MowerLift
+from mechanisms.three_point_hitch import ThreePointHitch
+from tests.linkage.known_machines import GrabArms
+from tests.linkage.motion.in_node import NEEDED
+
+RUNNER = """
+const fs=require('fs'),job=JSON.parse(fs.readFileSync(0,'utf8'));
+const {engine,judging}=new Function(job.text+';return {engine,judging}')();
+const judge=judging(engine,job.judge),shown=x=>typeof x==='number'&&!Number.isFinite(x)?String(x):x;
+const found=job.asked.map(([design,n,refines])=>judge.ask(design,n,refines));
+process.stdout.write(JSON.stringify(found,(_,x)=>shown(x)));
+"""
+
+
+class Grab(GrabArms):
+    """A boom and a jib on cylinders: two strokes, two load cases, a stroke that is declared, two circuits."""
+
+    shock = LoadCase("with shock", scale={"load": 1.8})
+    lift = Cylinder("A", "B", bore=80 * mm, rod=45 * mm, closed=0.64, stroke=0.26)
+    pump = LiftCircuit(lift, pressure=160 * bar, relief=180 * bar)
+    jib = Cylinder("D", "H", bore=40 * mm, rod=22 * mm, works="both")
+    aid = LiftCircuit(jib, pressure=120 * bar, mechanical_efficiency=0.9)
+
+
+class Cornered(Grab):
+    """The same with a longer jib cylinder, which leaves a part of the box, over a path and a box with a condition."""
+
+    T = Stroke(0.0, 0.75)
+    work = Over(T=(0.0, 0.7), cases=("shock",), lost="allowed")
+    way = Over.path(S=[0.0, 0.1, 0.25], T=[0.0, 0.2, 0.1])
+
+
+class Lost(Cornered):
+    """The same, which nobody allows to be lost: nothing is kept."""
+
+    work = None
+    way = Over(T=(0.0, 0.7))
+
+
+def asked_in_node(machine, jobs):
+    """Return the page's questions of a machine, and what JavaScript says of some designs: (dimensions, values a stroke, refined)."""
+    requests = PageRequests(machine, 11, at={})
+    live = live_text(machine.plan, requests.by_name, name="engine")
+    data = page_data(requests, live)["judge"]
+    asked = [([float({**machine.dimensions, **design}[name]) for name in live.dimensions], n, refines) for design, n, refines in jobs]
+    given = json.dumps({"text": f"{live.text}\n{page_part('judge.js')}", "judge": data, "asked": asked})
+    run = subprocess.run(["node", "-e", RUNNER], input=given, capture_output=True, text=True)
+    assert not run.returncode, run.stderr[-2000:]
+    return requests.questions, data, json.loads(run.stdout)
+
+
+def poses_of(over, motion, n):
+    """Return the grid of an `Over` that the page looks at, as poses."""
+    if over.shape == "box":
+        axes = [np.linspace(np.min(each), np.max(each), n if np.ptp(each) else 1) for each in motion.strokes.values()]
+        grid = [each.ravel() for each in np.meshgrid(*axes, indexing="ij")]
+    else:
+        legs = [np.ravel(each) for each in motion.strokes.values()]
+        along = np.linspace(0.0, len(legs[0]) - 1.0, (len(legs[0]) - 1) * (n - 1) + 1)
+        grid = [np.interp(along, np.arange(len(each)), each) for each in legs]
+    values = {name: each.tolist() for name, each in zip(motion.strokes, grid, strict=True)}
+    return Over.poses(only=over.only, cases=over.cases, lost=over.lost, **values)
+
+
+def number(value):
+    return {"Infinity": np.inf, "-Infinity": -np.inf, "NaN": np.nan}.get(value, value)
+
+
+def check(machine, designs, n=9):
+    """Compare the page's answers with Python's over the same poses; return how many were compared, and what was kept."""
+    questions, data, found = asked_in_node(machine, [(design, n, False) for design in designs])
+    known = {rule: constraints for rule, constraints, _ in questions.asked}
+    count, kept = 0, set()
+    for design, said in zip(designs, found, strict=True):
+        other = machine.replaced(**design)
+        judge = other.judge()
+        overs = [poses_of(place.over, place.motion, said["n"]) for place in judge.places]
+        for asked, live in zip(data["questions"], said["found"], strict=True):
+            if live.get("unknown"):
+                continue
+            own = any(isinstance(leaf.quantity, ColumnOf) for each in known[asked["rule"]] for leaf in each.margin.leaves)
+            where = [each for each in overs if not own or each.cases is None or "plain" in each.cases]
+            answers = other.answers(known[asked["rule"]], over=where)
+            if any(each.ok is False for each in answers):
+                assert live["ok"] is False, (asked["rule"], live, list(map(str, answers)))
+            else:
+                assert live["ok"] is (None if all(each.ok is None for each in answers) else True), (asked["rule"], live)
+            chosen = answers[live.get("c", 0)]
+            assert number(live["value"]) == pytest.approx(float(chosen.value), rel=1e-9, abs=1e-9, nan_ok=True), asked["rule"]
+            count += 1
+            kept.add(live["ok"])
+    return count, kept
+
+
+@NEEDED
+@pytest.mark.parametrize("machine", [ThreePointHitch, MowerLift, Grapple, Grab, Cornered, Lost])
+def test_a_page_says_of_its_poses_what_python_says(machine):
+    names = [name for name, entry in machine.plan.table.entries.items() if entry.kind == "length"][:3]
+    designs = [{}, *({name: machine().dimensions[name] * factor} for name in names for factor in (0.98, 1.03))]
+    count, kept = check(machine(), designs)
+    assert count >= len(designs)
+    assert (True in kept) is (machine is not Lost)
+
+
+@NEEDED
+def test_the_cranes_page_says_of_its_poses_what_python_says():
+    count, kept = check(Crane(), [{}])
+    assert count >= 9 and kept == {True, False}
+
+
+@NEEDED
+def test_it_looks_at_five_thousand_poses_at_most_and_finer_where_it_is_worst():
+    _, _, (coarse, fine, refined) = asked_in_node(Grab(), [({}, 9, False), ({}, 17, False), ({}, 17, True)])
+    assert (coarse["n"], fine["n"], refined["n"]) == (9, 17, 17)
+    assert coarse["count"] == 81 and fine["count"] == 289 and refined["count"] <= 5000
+    for a, b, c in zip(coarse["found"], fine["found"], refined["found"], strict=True):
+        if None not in (a["ok"], b["ok"], c["ok"]) and a["c"] == b["c"] == c["c"]:
+            assert c["margin"] <= b["margin"] <= a["margin"] + 1e-9
+    _, _, (crane,) = asked_in_node(Crane(), [({}, 17, True)])
+    assert crane["n"] == 17 and crane["count"] <= 5000
+
+
+@NEEDED
+def test_a_live_reserve_is_near_that_of_the_delivered_verdict():
+    _, data, (said,) = asked_in_node(Grab(), [({}, 17, True)])
+    place = next(k for k, each in enumerate(data["questions"]) if each["rule"] == "lifting pump")
+    verdict = next(each for each in Grab().verdicts() if getattr(each, "rule", "") == "lifting pump")
+    assert said["found"][place]["value"] == pytest.approx(verdict.answer.value, rel=1e-3)
+    assert said["found"][place]["case"] == verdict.answer.case == "shock"

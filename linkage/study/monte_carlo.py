@@ -12,12 +12,14 @@ import numpy as np
 from ..errors import DefinitionError, cited, one_word, unknown, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
-from ..motion.measures import At, Condition, Constraint, Leaf, Measure, conditions_of
+from ..motion import Request
+from ..motion.measures import At, Condition, Constraint, Leaf, Least, Measure, Most, conditions_of
 from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import is_number
 from ..units import display_unit
 from .measured import Measured, StudyPoses, fold, fold_start, measure_of, measured_title, number_bound
+from .sampling import unlimited
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, shifted_designs, tolerance_words, tolerances_of
 
 Task = TypeVar("Task")
@@ -222,6 +224,9 @@ class MonteCarloRun:
         self.lost = np.zeros(count, bool)
         self.kept: list[Mask] = []
         self._leaves: dict[Leaf, Any] = {}
+        self._asked: dict[Hashable, Any] = {}
+        self._unlimited: dict[Leaf, Any] = {}
+        """At how many poses nothing limits a leaf's quantity, of each design."""
 
     def measure(self, asked: Mapping[str, Measured], conditions: Sequence[Constraint]) -> None:
         """Measure quantities and conditions of all designs."""
@@ -229,7 +234,7 @@ class MonteCarloRun:
         leaves = list(dict.fromkeys(leaf for measure in measures for leaf in measure.leaves))
         self._leaves = {leaf: fold_start(leaf) for leaf in leaves if not isinstance(leaf, At)}
         every = [each for each in asked.values() if not isinstance(each, Measure)] + [leaf.quantity for leaf in self._leaves]
-        quantities = {self._key(each): each for each in every}
+        quantities = self._asked = {self._key(each): each for each in every}
         bound = [key for key, each in quantities.items() if self._is_traced(each)]
         found: Stored = {key: [] for key in quantities}
         if bound:
@@ -242,7 +247,9 @@ class MonteCarloRun:
             if key not in bound:
                 self._take([key], self._of_function(quantity)[None], 0, found)
         self._leaves |= {leaf: self._at(leaf) for leaf in leaves if isinstance(leaf, At)}
-        self.kept = [np.asarray(each.margin.of(self._leaves.__getitem__) >= 0.0) & np.ones(self.count, bool) for each in conditions]
+        for leaf, places in self._unlimited.items():
+            self._leaves[leaf] = np.where(places == (1 if isinstance(leaf, At) else self.poses.count), np.nan, self._leaves[leaf])
+        self.kept = [self._keeps(each) for each in conditions]
         for title, each in asked.items():
             if isinstance(each, Measure):
                 column = np.array(np.broadcast_to(each.of(self._leaves.__getitem__), (self.count,)), float)
@@ -279,25 +286,60 @@ class MonteCarloRun:
         """Return a quantity at its own pose, shape (designs,)."""
         pose = self.poses.at(leaf)
         found = np.concatenate([pose.values(self._block(block), leaf.quantity, self.way)[:, 0] for block in blocks(self.count, 1)])
-        self.lost |= np.isnan(found)
+        free = self._free(pose, leaf.quantity, found[None])
+        if free is not None:
+            self._unlimited[leaf] = free[0].astype(int)
+        self.lost |= np.isnan(found) if free is None else np.isnan(found) & ~free[0]
         return found
+
+    def _keeps(self, condition: Constraint) -> Mask:
+        """Return which designs keep a condition; one says nothing of those at which a quantity of it is limited nowhere."""
+        kept = np.asarray(condition.margin.of(self._leaves.__getitem__) >= 0.0) & np.ones(self.count, bool)
+        for leaf in condition.margin.leaves:
+            if leaf in self._unlimited:
+                kept |= np.isnan(self._leaves[leaf]) & (self._unlimited[leaf] > 0)
+        return kept
+
+    def _free(self, poses: StudyPoses, quantity: Any, values: FloatArray) -> Mask | None:
+        """Return where nothing limits a quantity, so that it has no value (poses, designs) there; None where each has one."""
+        if not isinstance(quantity, Request) or not np.isnan(values).any():
+            return None
+        found = np.zeros(values.shape, bool)
+        for block in blocks(self.count, poses.count):
+            if np.isnan(values[:, block]).any():
+                free = unlimited(poses.motion(self._block(block)), quantity)
+                if free is None:
+                    return None
+                found[:, block] = free.reshape(-1, poses.count).T
+        return found & np.isnan(values)
 
     def _block(self, block: slice) -> Mechanism:
         return self.designs._part(block.start, block.stop)
 
     def _take(self, keys: Sequence[Hashable], store: FloatArray, first: int, found: Stored) -> None:
         """Take in the results of some quantities from a pose on, shape (quantities, poses, designs), which are used up."""
-        for leaf in [*self._leaves]:
-            key = self._key(leaf.quantity)
-            if key in keys and not isinstance(leaf, At):
-                for place, column in enumerate(store[keys.index(key)], start=first):
+        for key, rows in zip(keys, store, strict=True):
+            free = self._free_of(key, rows, first)
+            self.lost |= (np.isnan(rows) if free is None else np.isnan(rows) & ~free).any(axis=0)
+            for leaf in [each for each in self._leaves if not isinstance(each, At) and self._key(each.quantity) == key]:
+                if free is not None and isinstance(leaf, (Least, Most)):
+                    self._unlimited[leaf] = self._unlimited.get(leaf, 0) + free.sum(axis=0)
+                    rows = np.where(free, fold_start(leaf), rows)
+                for place, column in enumerate(rows, start=first):
                     self._leaves[leaf] = fold(leaf, self._leaves[leaf], column, self.poses.weight(leaf, place))
         columns = [column for row in store for column in row]
-        for column in columns:
-            self.lost |= np.isnan(column)
         moments = np.array(self._on_threads(self._moments, columns)).reshape(*store.shape[:2], -1)
         for key, each in zip(keys, moments, strict=True):
             found[key].append(each.T)
+
+    def _free_of(self, key: Hashable, rows: FloatArray, first: int) -> Mask | None:
+        """Return where nothing limits a quantity among its rows (poses, designs) from a pose on; None where each has a value."""
+        if not np.isnan(rows).any():
+            return None
+        every = np.zeros((self.poses.count, self.count))
+        every[first : first + len(rows)] = rows
+        free = self._free(self.poses, self._asked[key], every)
+        return None if free is None else free[first : first + len(rows)]
 
     def _moments(self, column: FloatArray) -> list[float]:
         """Return the share of designs that have a value, then their mean, sigma and percentiles; the column is used up."""

@@ -36,7 +36,7 @@ class Crane(CraneSkeleton):
     """
 
     reading = "<="
-    phi = Stroke(15 * deg, 99.92 * deg)
+    phi = Stroke(15 * deg, 99.9262455066517 * deg)        # phi_0 to phi_k
     t = Stroke(0.0, 2.532)
     l_c, l_p = Dimension(4.454601406907623, unit="m"), Dimension(3.165204914008807, unit="m")
     l_t = Dimension(2.532163931207046, unit="m")

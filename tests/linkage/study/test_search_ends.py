@@ -38,7 +38,7 @@ from linkage.files.criterion import condition_said, measure_said
 from linkage.files.survey_measures import TextMeasures
 from linkage.motion.measures import conditions_of
 from linkage.program import Kernel
-from linkage.study import InfeasibleError, Target, settings_for
+from linkage.study import InfeasibleError, Target, monte_carlo, settings_for
 from linkage.study.kinds import measure_unit
 from linkage.study.problem import Problem
 from linkage.study.space import Space
@@ -255,6 +255,22 @@ def test_infinity_on_the_good_side_is_kept_and_so_is_what_nothing_limits():
     assert np.isnan(Pulled().sweep(5)[reserve("lift")]).all()
     limits = [least(reserve("lift")) >= 2.0]
     assert optimise(Pulled(), minimise=at("OB"), vary={"OB": (0.25, 0.35)}, subject_to=limits, starts=1).value == pytest.approx(0.25)
+
+
+@pytest.mark.parametrize(("up", "limited"), [(0.0, [False] * 4), (0.3, [True, True, False, False])])
+def test_nor_does_it_count_as_a_loss_among_machines_with_tolerances(up, limited):
+    """A load upwards drives the cylinder, so that nothing limits it: everywhere, or where its point has come above a height."""
+
+    class Pulled(Boom):
+        load = Force("G", (0.0, 4000.0 if not up else 4000.0 * (ref("lifted") - up)))
+        lifted = y("G")
+
+    place = [0.0, 0.01, 0.2, 0.25]
+    assert np.isfinite(Pulled().at(S=place)[reserve("lift")]).tolist() == limited
+    limits = [least(reserve("lift")) >= 1e-6, at(reserve("lift"), S=0.25) >= 2.0]
+    found = monte_carlo(Pulled(), [reserve("lift"), "tilt"], {"OB": 1.0 * mm}, subject_to=limits, count=64, S=place)
+    assert (found.assembled, found.yield_rate, *found.kept.values()) == (1.0, 1.0, 1.0, 1.0)
+    assert found[reserve("lift")].share.tolist() == [float(each) for each in limited]
 
 
 # -- infeasible: one here or another there ------------------------------------------------------------------

@@ -18,11 +18,11 @@ from ..files.read import load
 from ..files.search_file import SearchFile, read_search
 from ..mechanism import Mechanism
 from ..study import Front, Optimum
-from ..study.batching import Progress as ProgressLike
 from ..study.checks import unit_of
 from ..study.optimum import Rounded
+from ..study.result_tables import heading_with_unit, tried_names
 from ..study.space import Space
-from ..study.tried import heading_with_unit, tried_names
+from ..study.survey import Progress as ProgressLike
 from ..units import factor, shown_in
 from .command import Command, progress_bar
 from .listing import OWN, registered

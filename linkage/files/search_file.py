@@ -20,12 +20,12 @@ from typing import Any, final
 from ..errors import DefinitionError
 from ..mechanism import Mechanism
 from ..study import Optimum
-from ..study.batching import Progress
 from ..study.optimise import METHODS as SEARCH_METHODS
 from ..study.optimise import SOLVERS, optimise
 from ..study.optimum import COARSEST
 from ..study.pareto import Front
 from ..study.space import size_of_machine
+from ..study.survey import Progress
 from .criterion import condition_said, measure_said
 from .names import shortened
 from .study_file import (

@@ -32,7 +32,6 @@ from ..motion.measures import At, Constraint, Given, Measure
 from ..program import FloatArray
 from ..quantities import is_number
 from ..study import Target, monte_carlo, settings_for, survey, tornado, zone
-from ..study.batching import Progress
 from ..study.box import METHODS as SAMPLE_METHODS
 from ..study.box import Box
 from ..study.checks import unit_of
@@ -40,6 +39,7 @@ from ..study.measured import measure_of, measured_title
 from ..study.monte_carlo import limits_listed
 from ..study.optimise import constraint_in_case, in_case
 from ..study.space import Around, coordinates
+from ..study.survey import Progress
 from ..units import display_unit, show
 from .criterion import CriterionParser, checked_text, condition_said, measure_said, quantity_said
 from .names import shortened

@@ -8,8 +8,7 @@ from .pareto import Front
 from .sensitivity import Effect, SobolIndices, Tornado, sobol, tornado
 from .settings import Settings, settings_for
 from .space import around
-from .spread import sigma, spread
 from .survey import Survey, survey
 from .targets import Solutions, Target
-from .tolerances import Tolerance
+from .tolerances import Tolerance, sigma, spread
 from .zone import Zone, zone

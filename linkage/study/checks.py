@@ -10,20 +10,13 @@ import numpy as np
 from ..errors import AssemblyError, DefinitionError, UntracedError, cited, told, unwarned
 from ..mechanism import Mechanism
 from ..motion import Motion, Request, each_at_its_stroke
+from ..motion.measures import words_of
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
 
 QuantityLike: TypeAlias = str | Quantity | Request | Callable[[Motion], FloatArray]
 """A named output, a quantity, a request, or a function of a motion that returns a number for each pose, NaN where it has none."""
-
-
-def title_of(quantity: QuantityLike) -> str:
-    """Return a quantity in words."""
-    if callable(quantity):
-        name = str(getattr(quantity, "__name__", ""))
-        return name.replace("_", " ") if name.isidentifier() else "the quantity"
-    return str(quantity.name or quantity) if isinstance(quantity, Quantity) else str(quantity)
 
 
 def unit_of(plan: Plan, name: str) -> str:
@@ -92,14 +85,6 @@ def function_value(quantity: Callable[[Motion], Any], motion: Motion) -> Any:
         return quantity(motion)
 
 
-def request_values(motion: Motion, request: Request) -> FloatArray:
-    """Return a request at every pose of a motion, by its program where it has one."""
-    try:
-        return motion._requested(request)
-    except UntracedError:
-        return motion[request]
-
-
 def real_numbers(found: Any) -> FloatArray:
     """Return what a function gives as an array of floats; TypeError for complex numbers, of which a part would be lost."""
     if np.iscomplexobj(found):
@@ -118,13 +103,18 @@ def quantity_values(motion: Motion, quantity: QuantityLike, *, endless: bool = F
     with unwarned(), np.errstate(all="ignore"):
         if callable(quantity):
             found = function_value(quantity, motion)
+        elif isinstance(quantity, Request):
+            try:  # by its program where it has one
+                found = motion._requested(quantity)
+            except UntracedError:
+                found = motion[quantity]
         else:
-            found = request_values(motion, quantity) if isinstance(quantity, Request) else motion[quantity]
+            found = motion[quantity]
     try:
         result = real_numbers(found)
     except (TypeError, ValueError):
-        raise DefinitionError(f"{title}: {title_of(quantity)} gives {cited(found)}; a number for each pose is expected.") from None
+        raise DefinitionError(f"{title}: {words_of(quantity)} gives {cited(found)}; a number for each pose is expected.") from None
     if result.shape != motion.shape:
-        what = f"{title_of(quantity)} has the shape {result.shape} where {motion.shape} is expected"
+        what = f"{words_of(quantity)} has the shape {result.shape} where {motion.shape} is expected"
         raise DefinitionError(f"{motion.plan.title}: {what}; ask for a number such as an output, or lambda motion: motion.y('G').")
     return np.where((~np.isnan(result) if endless else np.isfinite(result)) & motion.reached, result, np.nan)

@@ -16,7 +16,7 @@ from ..program import FloatArray
 from ..units import show
 from .optimum import in_units, multipliers, no_value, true_values, unit_of_constraint
 from .problem import COARSE, Problem, is_still
-from .solver import Found, Local, scales_of
+from .solver import Local, SearchEnd, scales_of
 
 NOTHING: Mapping[tuple[int, ...], FloatArray] = MappingProxyType({})
 MISSED = 1e-6
@@ -60,7 +60,7 @@ class InfeasibleError(StudyError):
 
 
 def infeasible_error(
-    problem: Problem, ended: Sequence[tuple[tuple[int, ...], Found]], looked: Mapping[tuple[int, ...], FloatArray] = NOTHING
+    problem: Problem, ended: Sequence[tuple[tuple[int, ...], SearchEnd]], looked: Mapping[tuple[int, ...], FloatArray] = NOTHING
 ) -> StudyError:
     """Return the error of a search that found no design which keeps everything.
 
@@ -72,7 +72,8 @@ def infeasible_error(
         return StudyError(f"{title}: no search came to a design that can be assembled over the whole stroke; widen vary=.")
     nowhere = [each for each in problem.constraints if all(is_lost(problem, each, one) for one in reached)]
     if nowhere:
-        what = f"{shown(problem, nowhere[0])} is kept by no design that was found, for {why_no_value(problem, nowhere[0])}"
+        why = " and ".join(no_value(problem, leaf) for leaf in nowhere[0].margin.leaves)
+        what = f"{shown(problem, nowhere[0])} is kept by no design that was found, for {why}"
         return StudyError(f"{title}: {what}. Ask for what has a value there, or widen vary=.")
     tried = [each for combination, found in reached[:TRIED] if (each := given_way(problem, combination, found, problem.constraints))]
     if not tried:
@@ -98,15 +99,10 @@ def shown(problem: Problem, constraint: Constraint) -> str:
     return in_units(constraint, unit_of_constraint(problem.plan, constraint))
 
 
-def is_lost(problem: Problem, constraint: Constraint, end: tuple[tuple[int, ...], Found]) -> bool:
+def is_lost(problem: Problem, constraint: Constraint, end: tuple[tuple[int, ...], SearchEnd]) -> bool:
     """Return whether a condition's numbers have no value of the design that a local search came to."""
     look = problem.look(problem.designs(end[1].unit, end[0]))
     return any(bool(look.rows[leaf].lost[0]) for leaf in constraint.margin.leaves)
-
-
-def why_no_value(problem: Problem, constraint: Constraint) -> str:
-    """Return in words why a condition has no value."""
-    return " and ".join(no_value(problem, leaf) for leaf in constraint.margin.leaves)
 
 
 @final
@@ -115,7 +111,7 @@ class GivenWay:
     """A design of which some conditions give way as little as they can: by how much in parts of their sizes, and what they are then."""
 
     combination: tuple[int, ...]
-    found: Found
+    found: SearchEnd
     machine: Mechanism
     total: float
     relaxations: tuple[Relaxation, ...]
@@ -123,7 +119,7 @@ class GivenWay:
 
 
 def given_way(
-    problem: Problem, combination: Sequence[int], start: Found, elastic: Sequence[Constraint], rounds: int = ROUNDS
+    problem: Problem, combination: Sequence[int], start: SearchEnd, elastic: Sequence[Constraint], rounds: int = ROUNDS
 ) -> GivenWay | None:
     """Return the design near a start of which the conditions that are `elastic` give way least; None where there is none.
 
@@ -178,7 +174,7 @@ def alternatives_to(problem: Problem, best: GivenWay, looked: FloatArray | None)
         if missing is not None and looked is not None:
             others = np.delete(missing, row, axis=0).max(axis=0)
             near = int(np.lexsort((missing[row], others))[0])
-            starts.insert(0, Found(looked[near], np.nan, float(missing[:, near].max()), bool(np.isfinite(others[near]))))
+            starts.insert(0, SearchEnd(looked[near], np.nan, float(missing[:, near].max()), bool(np.isfinite(others[near]))))
         ends = [given_way(problem, best.combination, start, [each]) for start in starts if start.whole]
         alone = [end for end in ends if end is not None and [one.condition for one in end.relaxations] == [each]]
         if alone:

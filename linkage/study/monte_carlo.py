@@ -235,7 +235,7 @@ class MonteCarloRun:
         self._leaves = {leaf: fold_start(leaf) for leaf in leaves if not isinstance(leaf, At)}
         every = [each for each in asked.values() if not isinstance(each, Measure)] + [leaf.quantity for leaf in self._leaves]
         quantities = self._asked = {self._key(each): each for each in every}
-        bound = [key for key, each in quantities.items() if self._is_traced(each)]
+        bound = [key for key, each in quantities.items() if number_bound(self.poses.base.plan, each) is not None]
         found: Stored = {key: [] for key in quantities}
         if bound:
             width = min(max(1, MEMORY // (8 * len(bound) * self.count)), self.poses.count)
@@ -256,9 +256,6 @@ class MonteCarloRun:
                 self.moments[title] = np.array([self._moments(column)]).T
             else:
                 self.moments[title] = np.concatenate(found[self._key(each)], axis=1)
-
-    def _is_traced(self, quantity: Any) -> bool:
-        return number_bound(self.poses.base.plan, quantity) is not None
 
     def _key(self, quantity: Any) -> Hashable:
         """Return what tells a quantity from others."""

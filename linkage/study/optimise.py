@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from hashlib import blake2b
@@ -35,17 +35,17 @@ from ..quantities import Quantity, is_number, is_whole, ref
 from ..statics import Case
 from ..statics.acting import case_of
 from ..units import show
-from .batching import Progress, check_progress, progress_told
 from .box import unit_points
 from .checkpoint import measure_text
 from .checks import check_one_design
 from .infeasible import infeasible_error
 from .optimum import Optimum, in_units, polished, unit_of_constraint
 from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of, reduced
-from .solver import Found, Local, grows
+from .result_tables import EvaluatedDesigns
+from .solver import Local, SearchEnd, grows
 from .space import Space
-from .spread import sigma
-from .tried import Tried
+from .survey import Progress, check_progress, progress_told
+from .tolerances import sigma
 
 if TYPE_CHECKING:
     from .pareto import Front
@@ -269,14 +269,12 @@ def with_spread(problem: Problem, robust: Any, sigmas: Any) -> Problem:
         return found
 
     objectives = [spread(each, problem.sense) for each in problem.objectives]
-    constraints = [each if each.symbol == "==" else spread_constraint(each, spread) for each in problem.constraints]
+    constraints = list(problem.constraints)
+    for place, each in enumerate(constraints):
+        if each.symbol != "==":  # its sides are spread against it
+            sense = -1.0 if each.symbol == ">=" else 1.0
+            constraints[place] = Constraint(spread(each.left, sense), each.symbol, spread(each.right, -sense))
     return Problem(problem.machine, objectives, constraints, problem.space, problem.sense, problem.over)
-
-
-def spread_constraint(constraint: Constraint, spread: Callable[[Measure, float], Measure]) -> Constraint:
-    """Return an inequality whose sides are spread against it."""
-    sense = -1.0 if constraint.symbol == ">=" else 1.0
-    return Constraint(spread(constraint.left, sense), constraint.symbol, spread(constraint.right, -sense))
 
 
 def with_leaf(measure: Measure, leaf: Leaf, other: Leaf) -> Measure:
@@ -336,12 +334,12 @@ class Journal:
             return f"{said} and lost with this call; a folder= would have kept them."
         return f"{said} and kept in {self.path}; the same call goes on from there."
 
-    def result(self, task: str, problem: Problem) -> Found | None:
+    def result(self, task: str, problem: Problem) -> SearchEnd | None:
         """Return what a local search came to, as it is kept, with the designs that it looked at."""
         try:
             entry = self.known[task]
             unit = np.array(entry["unit"], float)
-            found = Found(unit, float(entry["value"]), float(entry["missing"]), bool(entry["whole"]))
+            found = SearchEnd(unit, float(entry["value"]), float(entry["missing"]), bool(entry["whole"]))
             looked_at = int(entry["looked_at"])
             if unit.shape != (len(problem.space.variables),):
                 return None
@@ -350,7 +348,7 @@ class Journal:
         problem.count.designs += looked_at
         return found
 
-    def keep(self, task: str, found: Found, looked_at: int) -> None:
+    def keep(self, task: str, found: SearchEnd, looked_at: int) -> None:
         """Write down what a local search came to, and how many designs it looked at."""
         if self.path is None:
             return
@@ -425,7 +423,7 @@ class Ended:
     """A local search that is done: its combination and what it came to."""
 
     combination: tuple[int, ...]
-    found: Found
+    found: SearchEnd
 
 
 @final
@@ -491,7 +489,7 @@ class DesignSearch:
                             found.append(Ended(each.combination, Local(problem, each.combination, unit).judged(unit)))
         return found
 
-    def hopeless(self, screened: Sequence[Screened]) -> list[tuple[tuple[int, ...], Found]]:
+    def hopeless(self, screened: Sequence[Screened]) -> list[tuple[tuple[int, ...], SearchEnd]]:
         """Return designs that miss conditions least, by few poses, where nothing nearby keeps all; none where there is hope.
 
         That is looked for where none of the designs spread over the box keeps all: from some of them, letting conditions give way. At few
@@ -614,7 +612,7 @@ class DesignSearch:
 
     # -- local searches -------------------------------------------------------------------------------------
 
-    def ended(self, combination: tuple[int, ...], unit: FloatArray, number: int) -> Found:
+    def ended(self, combination: tuple[int, ...], unit: FloatArray, number: int) -> SearchEnd:
         """Return what the local search from a start comes to, or came to before."""
         task = f"{list(combination)} {number}{self.spread_words}"
         known = self.journal.result(task, self.problem)
@@ -627,7 +625,7 @@ class DesignSearch:
             self.journal.keep(task, found, count.designs - before)
         return found
 
-    def locally(self, combination: tuple[int, ...], unit: FloatArray) -> Found:
+    def locally(self, combination: tuple[int, ...], unit: FloatArray) -> SearchEnd:
         """Return what a local search comes to; where the samples are kept but what lies between them fails, what stands there."""
         problem = self.problem.with_counts(SAMPLES)  # its samples are its own: no search depends on those before it
         try:
@@ -635,7 +633,7 @@ class DesignSearch:
         except LimitReachedError:
             raise
         except LinkageError:
-            return Found(unit, np.nan, np.inf, False)
+            return SearchEnd(unit, np.nan, np.inf, False)
         if problem.space.variables:
             found = local.run(self.plan.solver)
             if self.plan.solver == "slsqp" and found.whole and not found.feasible and found.missing < NEARLY:
@@ -664,14 +662,14 @@ class DesignSearch:
         with self.problem.count.unlimited():
             raise infeasible_error(self.problem, [(each.combination, each.found) for each in ended], self.spread())
 
-    def tried(self, ended: Sequence[Ended]) -> tuple[Tried, ...]:
+    def tried(self, ended: Sequence[Ended]) -> tuple[EvaluatedDesigns, ...]:
         """Return the designs that were looked at, then what the local searches came to."""
         sense = self.problem.sense
-        looked = [Tried("looked at", each.combination, each.unit, sense * each.value, each.missing) for each in self.looked]
+        looked = [EvaluatedDesigns("looked at", each.combination, each.unit, sense * each.value, each.missing) for each in self.looked]
         ends = [(each.combination, each.found) for each in ended]
         return (
             *looked,
-            *(Tried("searched", at, one.unit[None], np.array([one.value]), np.array([one.missing])) for at, one in ends),
+            *(EvaluatedDesigns("searched", at, one.unit[None], np.array([one.value]), np.array([one.missing])) for at, one in ends),
         )
 
     def without_value(self, screened: Sequence[Screened]) -> StudyError:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, product
 from math import prod
+from types import MappingProxyType
 from typing import Any, final
 
 import numpy as np
@@ -26,11 +27,10 @@ from .checks import unit_of
 from .kinds import measure_unit
 from .measured import measure_of
 from .problem import LimitReachedError, Numbers, Problem, size_of_rows, terms_size
-from .result_rows import ResultRow, result_text, write_result
+from .result_tables import EvaluatedDesigns, ResultRow, result_text, tried_header, tried_names, tried_rows, write_result
 from .sampling import divisors_of
-from .solver import MET, Found, Local, divisors, missing_of, scale_of, scales_of, true_worth
+from .solver import MET, Local, SearchEnd, divisors, missing_of, scale_of, scales_of, true_worth
 from .space import Space, Varied, size_of_machine
-from .tried import Tried, tried_header, tried_names, tried_rows
 
 ACTIVE = 1e-6
 """A condition with no more than this part of its size to spare is active."""
@@ -47,6 +47,8 @@ STILL = 1e-12
 MARGINS = "reach"
 EDGE, STEPS_BEYOND = 0.01, (1e-7, 1e-6, 1e-5, 1e-4, 1e-3)
 """Of a range: a gain on so much is worth naming what stands against it; steps beyond a design on which that is looked for."""
+SAID_STEPS: Mapping[str, float] = MappingProxyType({"mm": 10.0 * mm, "deg": 1.0 * deg})
+"""By how much a variable is said to change, by its unit; others by a hundredth of their range."""
 NOISE = 1e-9
 """A number [SI] that is smaller is shown as zero."""
 MOST_ROUNDINGS = 4096
@@ -79,7 +81,7 @@ class Kept:
         return self.gain > 0.0
 
     def __str__(self) -> str:
-        value, limit = (show(without_noise(each), self.units) for each in (self.left, self.right))
+        value, limit = (show(0.0 if abs(each) < NOISE else each, self.units) for each in (self.left, self.right))
         said = f"{in_units(self.constraint, self.units)}: {value}"
         if not isinstance(self.constraint.right, Given):
             said += f" against {limit}"
@@ -135,7 +137,7 @@ class Optimum(Shown):
     problem: Problem
     unit: FloatArray
     combination: tuple[int, ...]
-    tried: tuple[Tried, ...] = ()
+    tried: tuple[EvaluatedDesigns, ...] = ()
     limit: int | None = None
     edges: tuple[str, ...] = ()
 
@@ -226,8 +228,8 @@ class Optimum(Shown):
 def polished(
     problem: Problem,
     combination: Sequence[int],
-    found: Found,
-    ended: Sequence[Found],
+    found: SearchEnd,
+    ended: Sequence[SearchEnd],
     searched: int,
     solver: str,
     cut: Sequence[str],
@@ -243,8 +245,8 @@ def polished(
 def described(
     problem: Problem,
     combination: Sequence[int],
-    found: Found,
-    ended: Sequence[Found],
+    found: SearchEnd,
+    ended: Sequence[SearchEnd],
     searched: int,
     cut: Sequence[str],
     limit: int | None,
@@ -270,7 +272,7 @@ def described(
     values = problem.space.values(found.unit)
     bounds = []
     for variable, at, price in zip(problem.space.variables, values, prices.bounds, strict=True):
-        by = step_of(variable)
+        by = SAID_STEPS.get(variable.unit, 0.01 * variable.span)
         if part * price * by / variable.span > SHOWN:
             upper = bool(at - variable.low > 0.5 * variable.span)
             bounds.append(AtBound(variable, float(at), upper, by, part * price * by / variable.span))
@@ -330,7 +332,7 @@ def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
     return true_worth(problem, values), missing_of(problem.constraints, scales, values)
 
 
-def worth_in_order(problem: Problem, found: Found) -> tuple[bool, float]:
+def worth_in_order(problem: Problem, found: SearchEnd) -> tuple[bool, float]:
     """Return by what the ends of local searches are put in order, the best first: those that keep all, by the objective."""
     return not found.feasible, problem.sense * found.value if found.feasible else found.missing
 
@@ -338,11 +340,6 @@ def worth_in_order(problem: Problem, found: Found) -> tuple[bool, float]:
 def order_of_worth(problem: Problem, value: float, missing: float) -> tuple[float, float]:
     """Return by what designs are put in order, the best first: what is missing, then the objective."""
     return (missing if missing > MET else 0.0), problem.sense * value
-
-
-def step_of(variable: Varied) -> float:
-    """Return by how much a variable is said to change: 10 mm, 1 deg, or a hundredth of its range."""
-    return {"mm": 10.0 * mm, "deg": 1.0 * deg}.get(variable.unit, 0.01 * variable.span)
 
 
 @final
@@ -454,7 +451,7 @@ def what_of(message: str) -> str:
     return text.partition(": " if " cannot be assembled" in text else "; ")[0].rstrip(".")
 
 
-def on_steps(problem: Problem, combination: Sequence[int], found: Found, solver: str) -> tuple[Problem, tuple[int, ...], Found]:
+def on_steps(problem: Problem, combination: Sequence[int], found: SearchEnd, solver: str) -> tuple[Problem, tuple[int, ...], SearchEnd]:
     """Return the problem with its stepped variables held on steps, and the best design there; AssemblyError where none is assembled.
 
     Where everything goes in steps and there are not too many, the best of all of them, by few poses; else the steps about each value and
@@ -482,12 +479,12 @@ def on_steps(problem: Problem, combination: Sequence[int], found: Found, solver:
 class StepSearch:
     """Designs on steps, by the numbers of their steps: `seen`, and the `best` of them."""
 
-    def __init__(self, problem: Problem, combination: Sequence[int], found: Found, solver: str) -> None:
+    def __init__(self, problem: Problem, combination: Sequence[int], found: SearchEnd, solver: str) -> None:
         self.problem, self.combination, self.found, self.solver = problem, tuple(combination), found, solver
         self.stepped = tuple(each for each in problem.space.variables if each.step is not None)
         self.rest = tuple(each for each in problem.space.variables if each.step is None)
         self.counts = tuple(each.steps for each in self.stepped)
-        self.seen: dict[tuple[int, ...], tuple[Problem, tuple[int, ...], Found] | None] = {}
+        self.seen: dict[tuple[int, ...], tuple[Problem, tuple[int, ...], SearchEnd] | None] = {}
         self.best: tuple[int, ...] | None = None
         self._starts: dict[tuple[int, ...], FloatArray] = {}
 
@@ -562,7 +559,7 @@ class StepSearch:
         found = result[2]
         return worth_in_order(self.problem, found)
 
-    def _searched(self, steps: tuple[int, ...]) -> tuple[Problem, tuple[int, ...], Found] | None:
+    def _searched(self, steps: tuple[int, ...]) -> tuple[Problem, tuple[int, ...], SearchEnd] | None:
         """Return the problem with its stepped variables held at some steps, and the best design there; None where it is not assembled."""
         space = self.problem.space
         values = [each.low + (each.step or 0.0) * step for each, step in zip(self.stepped, steps, strict=True)]
@@ -573,7 +570,7 @@ class StepSearch:
         found = [each for unit in (near, self._starts.get(steps)) if unit is not None and (each := self._from(inner, whole, unit))]
         return (inner, whole, min(found, key=lambda each: worth_in_order(inner, each))) if found else None
 
-    def _from(self, inner: Problem, whole: tuple[int, ...], unit: FloatArray) -> Found | None:
+    def _from(self, inner: Problem, whole: tuple[int, ...], unit: FloatArray) -> SearchEnd | None:
         """Return what a search of the variables that are left comes to; where it misses conditions, what misses them least."""
         try:
             with inner.count.unlimited():
@@ -711,11 +708,6 @@ def is_assembled(problem: Problem, machine: Mechanism) -> bool:
     except AssemblyError:
         return False
     return True
-
-
-def without_noise(value: float) -> float:
-    """Return a value to show: zero for what is rounding."""
-    return 0.0 if abs(value) < NOISE else value
 
 
 # Units of measures, for sentences.

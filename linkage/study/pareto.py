@@ -19,11 +19,11 @@ from ..motion.measures import CombinedMeasure, Constraint, Given, Measure
 from ..program import FloatArray
 from ..shown import Shown
 from ..units import show
-from .batching import Progress
 from .infeasible import infeasible_error
 from .optimum import true_values, unit_of_measure
 from .problem import COARSE, Problem
-from .solver import MET, Found, Local, missing_of, scales_of
+from .solver import MET, Local, SearchEnd, missing_of, scales_of
+from .survey import Progress
 
 POPULATION, GENERATIONS = 64, 60
 POINTS = 15
@@ -83,7 +83,7 @@ def front(problem: Problem, seed: int, solver: str, tell: Progress) -> Front:
     if not found:
         present = problem.space.unit(problem.space.present(problem.machine))
         with problem.count.unlimited():
-            raise infeasible_error(problem, [(each, Found(present, np.nan, np.inf, True)) for each in combinations])
+            raise infeasible_error(problem, [(each, SearchEnd(present, np.nan, np.inf, True)) for each in combinations])
     best = not_dominated(np.array([values for values, _ in found]))
     shown = [own_sign(each) for each in problem.objectives]
     points = [

@@ -279,17 +279,6 @@ class WatchedValues:
         return found
 
 
-def is_free(motion: Motion, quantity: Any) -> bool:
-    """Return whether nothing limits a quantity at the poses of a motion."""
-    free = unlimited(motion, quantity)
-    return free is not None and bool(free.all())
-
-
-def joined_rows(parts: Sequence[Rows]) -> Rows:
-    """Return the rows of several designs as one, without derivatives."""
-    return Rows(np.concatenate([each.values for each in parts]), None, np.concatenate([each.lost for each in parts]))
-
-
 @final
 class Problem:
     """What is to be least, under which constraints, of designs in a space."""
@@ -446,8 +435,10 @@ class Problem:
         self.count.designs -= m
         with self.count.unlimited():
             parts = [self.look({name: float(value[k]) if np.ndim(value) else value for name, value in designs.items()}) for k in range(m)]
+        rows = {leaf: [each.rows[leaf] for each in parts] for leaf in self.leaves}
         return Evaluated(
-            {leaf: joined_rows([each.rows[leaf] for each in parts]) for leaf in self.leaves},
+            {leaf: Rows(np.concatenate([each.values for each in own]), None, np.concatenate([each.lost for each in own]))
+             for leaf, own in rows.items()},
             np.concatenate([each.margins for each in parts]), None,
             np.concatenate([each.whole for each in parts]), np.concatenate([each.reached for each in parts]),
         )  # fmt: skip
@@ -747,22 +738,22 @@ class Problem:
                 alone = PoseSet({}, [poses.singles[single]])
                 here = motion_of(self._grid(alone, design, self._ends(design, slopes=False)))
                 value = float(np.ravel(eager(here, leaf.quantity))[0])
-                found[leaf] = Truth(value, {}, bool(np.isnan(value)) and not is_free(here, leaf.quantity))
+                free = unlimited(here, leaf.quantity) if np.isnan(value) else None
+                found[leaf] = Truth(value, {}, bool(np.isnan(value)) and (free is None or not free.all()))
             else:
                 sampled.append(leaf)
         if sampled:
             self.count.add(len(sampled) - 1)  # as many looks as there are numbers
             rows = self.look(design).rows
             for leaf in sampled:
-                value = self._whole_integral(leaf, design) if isinstance(leaf, Integral) else float(reduced(leaf, rows[leaf].values)[0])
+                if isinstance(leaf, Integral):
+                    value = self.panels(leaf, design)[0] * self.span_of(leaf, design)
+                else:
+                    value = float(reduced(leaf, rows[leaf].values)[0])
                 found[leaf] = Truth(value, {}, bool(rows[leaf].lost[0]))
         for names, leaves in between.items():
             found |= self._extremes(leaves, design, names, quick=quick)
         return found
-
-    def _whole_integral(self, leaf: Integral, design: Mapping[str, Any]) -> float:
-        """Return an integral of one design in panels that are fine enough for it."""
-        return self.panels(leaf, design)[0] * self.span_of(leaf, design)
 
     def _extremes(self, leaves: Sequence[Leaf], design: Mapping[str, Any], names: Sequence[str], *, quick: bool) -> dict[Leaf, Truth]:
         """Return the extremes of one design over some strokes, all looked for together."""
@@ -783,8 +774,8 @@ class Problem:
             leaf: Truth(float(value), own, bool(lost)) for leaf, value, own, lost in zip(leaves, values, parts, watched.lost, strict=True)
         }
 
-    def tops(self, leaf: Leaf, design: Mapping[str, Any]) -> list[float]:
-        """Return where between its samples a leaf of one design has tops that come near its worst value, as parts of its stroke's range."""
+    def tops(self, leaf: Leaf, design: Mapping[str, Any]) -> list[dict[str, float]]:
+        """Return where between its samples a leaf of one design has tops that come near its worst value: the part of its stroke's range."""
         poses, place, _ = self._of_leaf[leaf]
         if len(poses.axes) != 1 or poses.inner:
             return []
@@ -806,7 +797,7 @@ class Problem:
                 at = np.linspace(low, high, 17)
                 best = int(np.argmax(values(at)))
                 low, high = float(at[max(best - 1, 0)]), float(at[min(best + 1, 16)])
-            found.append(0.5 * (low + high))
+            found.append({name: 0.5 * (low + high)})
         return found
 
     def panels(self, leaf: Leaf, design: Mapping[str, Any]) -> tuple[float, FloatArray]:
@@ -858,11 +849,6 @@ class Problem:
         (name,) = [each for each in poses.axes if each != poses.inner]
         low, high = self.ends(design)[name]
         return high - low
-
-    def axis_of(self, leaf: Leaf) -> str:
-        """Return the only stroke that a leaf is looked at over."""
-        ((name, _),) = self._of_leaf[leaf][0].axes.items()
-        return name
 
     def refined(self, leaf: Leaf, parts: Mapping[str, float]) -> bool:
         """Add a pose between the samples to those of a leaf; return whether it is new."""

@@ -12,16 +12,17 @@ from ..errors import DefinitionError, cited, known_name
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import highest, last_holding
+from ..motion.measures import words_of
 from ..program import FloatArray
 from ..units import show, unit_or_none
 from .box import range_of
-from .checks import QuantityLike, check_one_design, is_one, poses_of, quantity_values, title_of, unit_of, why_not_assembled
+from .checks import QuantityLike, check_one_design, is_one, poses_of, quantity_values, unit_of, why_not_assembled
 from .targets import Solutions, Target, solutions_for
 
 SAMPLES = 1025
 TOUCH = 1e-9  # of the values' span: what comes as near as this to the target touches it
 
-Curve: TypeAlias = Callable[[FloatArray], FloatArray]
+OffTarget: TypeAlias = Callable[[FloatArray], FloatArray]
 
 
 @final
@@ -102,13 +103,13 @@ def settings_for(
     unique = [root for place, root in enumerate(sorted(found)) if not place or root - sorted(found)[place - 1] > 1e-9 * (high - low)]
     lost = {root: why for root in unique if (why := why_not_assembled(machine.replaced(**{name: root})))}
     kept = [root for root in unique if root not in lost]
-    words = SettingWords(name, unit_of(machine.plan, name), title_of(quantity), unit)
+    words = SettingWords(name, unit_of(machine.plan, name), words_of(quantity), unit)
     if unique and not kept:
         return Settings(name, (), words.lost(unique, target, lost[unique[0]]))
     return Settings(name, tuple(kept), words.roots(kept, target) if kept else words.none(at, off + target, target))
 
 
-def ends_of_reach(curve: Curve, at: FloatArray) -> FloatArray:
+def ends_of_reach(curve: OffTarget, at: FloatArray) -> FloatArray:
     """Return the samples with the ends of every reachable range added."""
     known = np.isfinite(curve(at))
     edges = np.flatnonzero(known[1:] != known[:-1])
@@ -117,14 +118,14 @@ def ends_of_reach(curve: Curve, at: FloatArray) -> FloatArray:
     return np.sort(np.concatenate([at, ends]))
 
 
-def sign_changes(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
+def sign_changes(curve: OffTarget, at: FloatArray, off: FloatArray) -> list[float]:
     """Return where the curve goes through zero."""
     with np.errstate(invalid="ignore"):
         places = np.flatnonzero((np.sign(off[1:]) * np.sign(off[:-1])) < 0.0)
     return [*at[off == 0.0].tolist(), *(zero_between(curve, float(at[place]), float(at[place + 1])) for place in places)]
 
 
-def zero_between(curve: Curve, low: float, high: float) -> float:
+def zero_between(curve: OffTarget, low: float, high: float) -> float:
     """Return the zero between two values of opposite sign; NaN where the curve has a gap before it."""
     sign = np.sign(curve(np.array([low]))[0])
     near = np.array(last_holding(lambda at: np.sign(curve(at)) == sign, low, high))
@@ -132,7 +133,7 @@ def zero_between(curve: Curve, low: float, high: float) -> float:
     return float(near[np.argmin(off)]) if np.isfinite(off).all() else float("nan")
 
 
-def touchings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
+def touchings(curve: OffTarget, at: FloatArray, off: FloatArray) -> list[float]:
     """Return where the curve comes nearest to zero without going through it, at least between its neighbours."""
     size = np.abs(off)
     with np.errstate(invalid="ignore"):
@@ -141,7 +142,7 @@ def touchings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
     return [nearest_between(curve, float(at[place]), float(at[place + 2])) for place in np.flatnonzero(dips)]
 
 
-def nearest_between(curve: Curve, low: float, high: float) -> float:
+def nearest_between(curve: OffTarget, low: float, high: float) -> float:
     """Return where the curve is nearest to zero between two values."""
 
     def look(_: Any, t: FloatArray) -> tuple[FloatArray, Any]:
@@ -151,7 +152,7 @@ def nearest_between(curve: Curve, low: float, high: float) -> float:
     return low + (high - low) * float(highest(look, [32]).t.item())
 
 
-def is_root(curve: Curve, root: float, off: FloatArray) -> bool:
+def is_root(curve: OffTarget, root: float, off: FloatArray) -> bool:
     """Return whether the curve is zero there, and does not jump over zero."""
     span = float(np.nanmax(off) - np.nanmin(off)) if np.isfinite(off).any() else 0.0
     return bool(np.abs(curve(np.array([root]))[0]) <= max(TOUCH * span, 1e-13))

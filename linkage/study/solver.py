@@ -95,7 +95,7 @@ class Row:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Found:
+class SearchEnd:
     """What a local search came to: unit coordinates, the objective, what is missing at most, and whether it is assembled throughout."""
 
     unit: FloatArray
@@ -463,11 +463,11 @@ class Local:
         """Return some lines' values and derivatives as functions of the solver's variables."""
         return (lambda at: self._stacked(at, equations)[0][lines]), (lambda at: self._stacked(at, equations)[1][lines])
 
-    def judged(self, unit: FloatArray) -> Found:
+    def judged(self, unit: FloatArray) -> SearchEnd:
         """Return the objective and what is missing at unit coordinates, between the samples too."""
         return self._truth(unit)[0]
 
-    def run(self, method: str = "slsqp", rounds: int = ROUNDS) -> Found:
+    def run(self, method: str = "slsqp", rounds: int = ROUNDS) -> SearchEnd:
         """Return what a search from the start comes to, with poses between the samples added until none is worse than these.
 
         Where the limit of designs is reached it is the best so far.
@@ -487,7 +487,7 @@ class Local:
                 best = self.start if self._watch is None else self._watch.best[: self.n]
                 return self.judged(self._nearest_good(np.clip(best, 0.0, 1.0)))
 
-    def least(self) -> Found | None:
+    def least(self) -> SearchEnd | None:
         """Return what an elastic search comes to by its samples alone; None where that is no design."""
         unit = np.clip(self.solve(self.start)[: self.n], 0.0, 1.0)
         with self.problem.count.unlimited():
@@ -495,7 +495,7 @@ class Local:
         if not bool(look.whole[0]) or not self._usable(look):
             return None
         values = self.numbers(unit)
-        return Found(unit, true_worth(self.problem, values), missing_of(self.problem.constraints, self.scales, values), True)
+        return SearchEnd(unit, true_worth(self.problem, values), missing_of(self.problem.constraints, self.scales, values), True)
 
     def numbers(self, unit: FloatArray) -> Numbers:
         """Return the leaves' numbers at the samples of unit coordinates."""
@@ -531,8 +531,8 @@ class Local:
         problem, design = self.problem, self.problem.designs(unit, self.combination)
         before, added = self.leaf_values(self.look(unit)), False
         for leaf in problem.leaves:
-            for part in problem.tops(leaf, design) if isinstance(leaf, (Least, Most)) else ():
-                added = problem.refined(leaf, {problem.axis_of(leaf): part}) or added
+            for parts in problem.tops(leaf, design) if isinstance(leaf, (Least, Most)) else ():
+                added = problem.refined(leaf, parts) or added
             if isinstance(leaf, Integral):
                 added = problem.refined_panels(leaf, design) or added
         if not added:
@@ -548,12 +548,12 @@ class Local:
         worse = (known - value) * (1.0 if isinstance(leaf, Least) else -1.0)
         return isinstance(leaf, (Least, Most)) and bool(worse > 0.1 * MET * max(self.leaf_scales[leaf], abs(value)))
 
-    def _truth(self, unit: FloatArray) -> tuple[Found, bool]:
+    def _truth(self, unit: FloatArray) -> tuple[SearchEnd, bool]:
         """Return the truth between the samples too, and whether it is worse than what was known; its poses are samples from then on."""
         problem, design = self.problem, self.problem.designs(unit, self.combination)
         look = self.look(unit)
         if not bool(look.whole[0]):
-            return Found(unit, np.nan, np.inf, False), False
+            return SearchEnd(unit, np.nan, np.inf, False), False
         known, truths, worse = self.leaf_values(look), problem.truths(design, quick=True), False
         for leaf, found in truths.items():
             if not isinstance(leaf, Integral) and self._is_worse(leaf, found.value, known[leaf]) and problem.refined(leaf, found.parts):
@@ -562,7 +562,7 @@ class Local:
             self._forget()
         values = Numbers(truths)
         value = true_worth(problem, values)
-        return Found(unit, value, missing_of(problem.constraints, self.scales, values), True), worse
+        return SearchEnd(unit, value, missing_of(problem.constraints, self.scales, values), True), worse
 
 
 def divisors(expressions: Sequence[Measure]) -> list[Measure]:

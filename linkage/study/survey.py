@@ -1,21 +1,302 @@
-"""A survey: many designs, each measured by itself, by one process or by the workers of any executor."""
+"""A survey: many designs, each measured by itself, by one process or by the workers of any executor.
+
+Batches are sent out, taken in as they come back, and sent again where they are lost.
+"""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from typing import Any, final
+from inspect import signature
+from math import ceil
+from pickle import PicklingError
+from queue import SimpleQueue
+from time import perf_counter
+from typing import Any, Protocol, TypeAlias, final
 
-from ..errors import DefinitionError, cited, known_name, one_word
+import numpy as np
+
+from ..errors import DefinitionError, LinkageError, StudyError, cited, known_name, one_word
 from ..frozen import FrozenDict, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..quantities import is_whole
 from ..shown import Shown
-from .batching import Executor, LocalExecutor, Progress, SurveyRun, check_progress, progress_told
 from .checkpoint import Checkpoint
 from .checks import check_one_design, check_vary
-from .designs import Array, Batch, Designs, Measure, Task
+from .designs import Array, Batch, Designs, Measure, Task, check_same_results, measure_batch
+
+TRIES = 3
+PICKLING_ERRORS = (PicklingError, AttributeError, TypeError, ImportError)
+"""What goes wrong where a function or a class cannot be sent to another process."""
+CANNOT_SEND = "measure or the mechanism's class cannot be sent to a worker: put both at the top of a module that workers can import"
+
+
+class Executor(Protocol):
+    """What runs functions elsewhere and returns futures: any executor of `concurrent.futures`, and what behaves like one."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any) -> Any:
+        """Return the future of a call."""
+
+
+@final
+class LocalExecutor:
+    """An executor that runs everything at once, in this thread."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
+        """Return the future of a call that is done."""
+        future: Future[Any] = Future()
+        try:
+            future.set_result(fn(*args))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+
+@final
+@dataclass(frozen=True)
+class Submission:
+    """A range of designs under way, which try it is, and when it left [s]."""
+
+    start: int
+    stop: int
+    attempt: int
+    at: float
+
+
+@final
+class SurveyRun:
+    """What is done of a study, what is under way, and what is left."""
+
+    def __init__(self, task: Task, designs: Designs, executor: Executor, checkpoint: Checkpoint | None, tell: Progress) -> None:
+        self.task, self.designs, self.executor, self.checkpoint, self.tell = task, designs, executor, checkpoint, tell
+        self.left = OpenRanges(designs.count, task.piece)
+        self.sizes = BatchSizes(max(1, MOST // (task.piece * designs.width)))
+        self.values: dict[str, Array] = {}
+        self.batches: list[Batch] = []
+        self._under_way: dict[Any, Submission] = {}
+        self._back: SimpleQueue[tuple[Any, float]] = SimpleQueue()
+        self._tries: dict[int, int] = {}
+
+    def go(self) -> None:
+        """Do all that is left; what is done is kept whatever happens."""
+        for batch in self.checkpoint.batches() if self.checkpoint else ():
+            if self.left.remove(batch.start, batch.stop):
+                self._enter(batch)
+        self.tell(self.done, self.designs.count)
+        try:
+            while self.left.ranges or self._under_way:
+                self._send()
+                if self._under_way:
+                    self._take(*self._back.get())
+        except KeyboardInterrupt as stopped:
+            self._stop()
+            stopped.add_note(self.state)
+            raise
+        finally:
+            self._stop()
+
+    @property
+    def done(self) -> int:
+        """How many designs are done."""
+        return sum(batch.stop - batch.start for batch in self.batches)
+
+    @property
+    def state(self) -> str:
+        """How far the study is, and what becomes of it."""
+        said = f"{self.done} of {self.designs.count} designs are done"
+        if self.checkpoint is None:
+            return f"{said} and lost with this call; a folder= would have kept them."
+        return f"{said} and kept in {self.checkpoint.folder}; the same call goes on from there."
+
+    def _send(self) -> None:
+        """Send batches until as many are under way as the executor has use for."""
+        while self.left.ranges and len(self._under_way) < self.sizes.ahead:
+            start, stop = self.left.take(self.sizes.pieces(self.left.pieces))
+            submission = Submission(start, stop, self._tries.get(start, 0), perf_counter())
+            try:
+                future = self.executor.submit(measure_batch, self.task, start, stop, self.designs.rows(start, stop), submission.attempt)
+            except PICKLING_ERRORS as error:
+                raise self._error(CANNOT_SEND, error) from error
+            except Exception as error:
+                raise self._error("The executor takes no more work and has to be made anew", error) from error
+            self._under_way[future] = submission
+            future.add_done_callback(lambda done: self._back.put((done, perf_counter())))
+            while not self._back.empty():
+                self._take(*self._back.get())
+
+    def _take(self, future: Any, at: float) -> None:
+        """Take a batch in; give it out again, a few times, where it was lost on the way."""
+        is_full = len(self._under_way) >= self.sizes.ahead
+        submission = self._under_way.pop(future)
+        try:
+            batch: Batch = future.result()
+        except LinkageError as error:
+            self._stop()
+            error.add_note(self.state)
+            raise
+        except PICKLING_ERRORS as error:
+            raise self._error(CANNOT_SEND, error) from error
+        except Exception as error:
+            self._lost(submission, error)
+        else:
+            waited = at - submission.at - batch.seconds if is_full else float("inf")
+            self.sizes.learn(-(-(submission.stop - submission.start) // self.task.piece), batch.seconds, waited)
+            self._keep(batch)
+            self.tell(self.done, self.designs.count)
+
+    def _lost(self, submission: Submission, error: Exception) -> None:
+        """Put a batch back whose worker was lost; StudyError where that happens again and again."""
+        self._tries[submission.start] = submission.attempt + 1
+        if self._tries[submission.start] >= TRIES:
+            lost = f"Designs {submission.start} to {submission.stop - 1} were lost {TRIES} times"
+            what = f"{lost}, by want of memory if not by measure itself"
+            raise self._error(what, error, (submission.start, submission.stop - 1)) from error
+        self.left.give_back(submission.start, submission.stop)
+
+    def _error(self, what: str, error: Exception, designs: tuple[int, int] | None = None) -> StudyError:
+        """Return the error for what stops the study on the way, after keeping what there is."""
+        self._stop()
+        said = f"{type(error).__name__}: {error}".rstrip(": .\n")
+        return StudyError(f"{self.task.machine.plan.title}: {self.state} {what} ({said}).", designs=designs)
+
+    def _keep(self, batch: Batch) -> None:
+        """Keep the results of a batch, in the folder too."""
+        self._enter(batch)
+        if self.checkpoint is not None:
+            self.checkpoint.keep(batch)
+
+    def _enter(self, batch: Batch) -> None:
+        """Write a batch into the results."""
+        values = batch.values or {}
+        if not self.batches:
+            self.values = {name: np.empty(self.designs.count, array.dtype) for name, array in values.items()}
+        check_same_results(self.task, self.values, values, f"designs {batch.start} to {batch.stop - 1}")
+        for name, array in values.items():
+            self.values[name][batch.start : batch.stop] = array
+        self.batches.append(batch.bare)
+
+    def _stop(self) -> None:
+        """Call back what has not begun yet, and keep what has come meanwhile."""
+        for future in [*self._under_way]:
+            future.cancel()
+        while not self._back.empty():
+            future, _ = self._back.get()
+            if self._under_way.pop(future, None) is not None:
+                with suppress(Exception):
+                    self._keep(future.result())
+
+
+# How the designs of a study are dealt out: which are left, how many in a batch, how many batches at a time.
+
+AIM, LEAST = 0.4, 0.2
+"""The time that a batch is to take, and the least of it, where enough designs are left [s]."""
+LATE = 0.5
+"""A batch that waited for less than this part of its own time found an idle worker."""
+MOST = 1 << 20
+"""The numbers that the inputs of a batch are at most: 8 MB."""
+
+
+@final
+class OpenRanges:
+    """The designs that are still to be given out: ranges from start to before stop, on the borders of pieces."""
+
+    def __init__(self, count: int, piece: int) -> None:
+        self.piece = piece
+        self.ranges = [(0, count)]
+
+    @property
+    def pieces(self) -> int:
+        """How many pieces are left."""
+        return sum(-(-(stop - start) // self.piece) for start, stop in self.ranges)
+
+    def take(self, pieces: int) -> tuple[int, int]:
+        """Return the next range of at most so many pieces."""
+        start, end = self.ranges[0]
+        stop = min(start + pieces * self.piece, end)
+        self.ranges[:1] = [(stop, end)] if stop < end else []
+        return start, stop
+
+    def give_back(self, start: int, stop: int) -> None:
+        """Put a range back, to be the next."""
+        self.ranges.insert(0, (start, stop))
+
+    def remove(self, start: int, stop: int) -> bool:
+        """Take a range out; return whether it was there, whole."""
+        for place, (first, last) in enumerate(self.ranges):
+            if first <= start < stop <= last:
+                self.ranges[place : place + 1] = [(a, b) for a, b in ((first, start), (stop, last)) if a < b]
+                return True
+        return False
+
+
+@final
+class BatchSizes:
+    """What is known of the executor: how long a piece takes it, and how many batches keep all of its workers busy."""
+
+    def __init__(self, most: int) -> None:
+        self.most = most
+        self.ahead = 1
+        self._each: deque[float] = deque(maxlen=8)
+
+    def pieces(self, left: int) -> int:
+        """Return how many pieces the next batch has when so many are left: one to begin with, then equal parts of what is left.
+
+        Towards the end they are smaller than usual, so that all workers finish together.
+        """
+        if not self._each:
+            return 1
+        each = min(self._each)
+        wanted = min(ceil(AIM / each), max(ceil(LEAST / each), left // self.ahead), self.most)
+        return ceil(left / max(left // wanted, ceil(left / self.most)))
+
+    def learn(self, pieces: int, seconds: float, waited: float) -> None:
+        """Learn from a batch: how long it was at work and how long under way besides [s]; a worker was idle that took it at once."""
+        self._each.append(max(seconds, 1e-9) / pieces)
+        if waited < LATE * seconds or self.ahead < 2:
+            self.ahead += 1
+
+
+# How far a study is, on stderr.
+
+Progress: TypeAlias = Callable[[int, int], object]
+"""Called with (done, total) designs, once at the start and after every batch."""
+
+
+def check_progress(progress: object) -> None:
+    """Raise DefinitionError for what says neither whether progress is shown nor what is told of it."""
+    if not isinstance(progress, bool) and (not callable(progress) or isinstance(progress, type)):
+        raise DefinitionError(f"progress={cited(progress)}: say True for a bar, or give a function of (done, total) designs.")
+    if callable(progress):
+        try:
+            signature(progress).bind(0, 1)
+        except TypeError:
+            what = f"progress={cited(progress)} takes other arguments"
+            raise DefinitionError(f"{what}; it is called with two numbers, def progress(done, total).") from None
+        except ValueError:  # one whose arguments Python does not know
+            return
+
+
+@contextmanager
+def progress_told(progress: bool | Progress, title: str) -> Iterator[Progress]:
+    """Yield what is told how far a study is: the function given, a bar where it is True, nothing where it is False."""
+    if callable(progress):
+        yield progress
+    elif not progress:
+        yield lambda done, total: None
+    else:
+        from rich.console import Console
+        from rich.progress import BarColumn, MofNCompleteColumn, TaskProgressColumn, TextColumn, TimeRemainingColumn
+        from rich.progress import Progress as Bar
+
+        columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+        with Bar(*columns, console=Console(stderr=True)) as bar:
+            task = bar.add_task(title, total=None)
+            yield lambda done, total: bar.update(task, completed=done, total=total)
+
 
 SMALLEST, LARGEST, PARTS = 64, 2048, 64
 

@@ -21,7 +21,7 @@ from ..units import deg, display_unit, mm, show, unit_or_none
 from .box import Box, setting_words, unit_points
 from .checks import check_one_design, is_one, why_not_assembled
 from .measured import measure_of
-from .spread import traced_number
+from .tolerances import traced_number
 
 
 @final

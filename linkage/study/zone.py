@@ -15,9 +15,10 @@ from ..errors import DefinitionError, SingularWarning
 from ..frozen import refuses_changes
 from ..mechanism import Mechanism
 from ..motion import Motion, at_values, out_of_reach
+from ..motion.measures import words_of
 from ..program import FloatArray
 from .box import Box, setting_words
-from .checks import QuantityLike, check_one_design, check_vary, function_value, poses_of, quantity_values, title_of
+from .checks import QuantityLike, check_one_design, check_vary, function_value, poses_of, quantity_values
 
 Mask: TypeAlias = npt.NDArray[np.bool_]
 Index: TypeAlias = npt.NDArray[np.intp]
@@ -81,7 +82,7 @@ def zone(
     ends = [{name: shaped(value, shape) for name, value in box.settings(found.unit[row], found.choice[row]).items()} for row in (0, 1)]
     share = np.mean(np.isfinite(found.seen), axis=1)
     return Zone(
-        title_of(quantity), poses, found.value[0].reshape(shape), found.value[1].reshape(shape), ends[0], ends[1],
+        words_of(quantity), poses, found.value[0].reshape(shape), found.value[1].reshape(shape), ends[0], ends[1],
         share.reshape(shape), found.seen.shape[1], tuple(remarks(machine, quantity, box, flat, found.seen)),
     )  # fmt: skip
 
@@ -103,7 +104,7 @@ def remarks(machine: Mechanism, quantity: QuantityLike, box: Box, strokes: Mappi
         said.append(f"{settings_counted(lost, motion, settings)} cannot be assembled and are left out of the zone. {out_of_reach(motion)}")
     empty = np.isnan(seen.T) & motion.reached
     if empty.any():
-        said.append(f"{settings_counted(empty, motion, settings)} have no value of {title_of(quantity)} and are left out of the zone.")
+        said.append(f"{settings_counted(empty, motion, settings)} have no value of {words_of(quantity)} and are left out of the zone.")
     return said + near_dead_points(motion, quantity)
 
 

@@ -85,6 +85,14 @@ class DrivenArm(Mechanism):
         """Return the motion from psi_0 to psi_k, at `count` poses."""
         return self.at(psi=np.linspace(self["psi_0"], self["psi_k"], count))
 
+    def featured(self) -> Featured:
+        """Return what the drive has over the moment asked for, which may not fall below zero, folding, and opening."""
+        return featured_drive("folding", "opening")
+
+    def rules(self, motion: Motion) -> list[str]:
+        """Return whether the drive carries the arm over a motion, and whether the cylinder is as long as that takes."""
+        return drive_verdicts(motion)
+
 
 class ArmDrive(DrivenArm):
     """Cylinder CL turns the lever OL (r_1), the coupler LN (r_2) the arm's lug PN (r_3): fig. 2.13 a.
@@ -134,14 +142,6 @@ class ArmDrive(DrivenArm):
     def columns(self, motion: Motion) -> list[Column]:
         """Return angle, length, lever, and the moments asked for and given: folding by the piston side, opening by the rod side."""
         return drive_columns(motion)
-
-    def featured(self) -> Featured:
-        """Return what the drive has over the moment asked for, which may not fall below zero, folding, and opening."""
-        return featured_drive("folding", "opening")
-
-    def rules(self, motion: Motion) -> list[str]:
-        """Return whether the drive carries the arm over a motion, and whether the cylinder is as long as that takes."""
-        return drive_verdicts(motion)
 
 
 class ArmDriveByCylinder(ArmDrive):
@@ -219,14 +219,6 @@ class DirectArmDrive(DrivenArm):
     def columns(self, motion: Motion) -> list[Column]:
         """Return angle, length, lever, and the moments asked for and given: opening by the piston side, folding by the rod side."""
         return drive_columns(motion)
-
-    def featured(self) -> Featured:
-        """Return what the drive has over the moment asked for, which may not fall below zero, folding, and opening."""
-        return featured_drive("folding", "opening")
-
-    def rules(self, motion: Motion) -> list[str]:
-        """Return whether the drive carries the arm over a motion, and whether the cylinder is as long as that takes."""
-        return drive_verdicts(motion)
 
 
 class DirectArmDriveAbove(DirectArmDrive):

@@ -264,7 +264,7 @@ def reaction_columns(motion: Motion) -> list[Column]:
 
 
 @dataclass(frozen=True)
-class Relief:
+class ReliefMargin:
     """Lifting by the pump to transport height: the greatest pressure [Pa gauge], the stroke where [m], the margin [Pa]."""
 
     pressure: float
@@ -272,12 +272,12 @@ class Relief:
     margin: float
 
 
-def relief(motion: Motion) -> Relief:
+def relief(motion: Motion) -> ReliefMargin:
     """Return how far the pressure stays below the relief valve from the horizon to the end of the stroke, one design."""
     lifted = motion.moved({"h": np.array([stroke_of(motion, 0.0), motion.plan.strokes["h"].end])})
     judge = Judge(motion.plan, motion.designs, [lifted])
     found = judge.answer(most(lambda at: HeaderState(at).required_while("extending")))
-    return Relief(float(found.value), float(found.strokes["h"]), float(motion.inputs["valve"]) - float(found.value))
+    return ReliefMargin(float(found.value), float(found.strokes["h"]), float(motion.inputs["valve"]) - float(found.value))
 
 
 def kgf_cm2_text(pressure: float, digits: int = 2) -> str:

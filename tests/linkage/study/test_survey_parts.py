@@ -10,8 +10,8 @@ from numpy.testing import assert_array_equal
 
 from linkage import DefinitionError
 from linkage.study import Box, survey
-from linkage.study.batching import BatchSizes, OpenRanges
 from linkage.study.checkpoint import measure_text
+from linkage.study.survey import BatchSizes, OpenRanges
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.study.survey_measures import far_points, travel
 

@@ -39,7 +39,8 @@ class Grid:
         self.plan, self.per_design = plan, per_design
         self.designs: FrozenDict[str, Any] = FrozenDict(designs)
         self.strokes: FrozenDict[str, FloatArray] = FrozenDict({name: read_only(value) for name, value in strokes.items()})
-        arrays = [np.shape(value) for value in self.designs.values() if varies(value)]
+        self._is_plain = set(map(type, self.designs.values())) <= {float}
+        arrays = [] if self._is_plain else [np.shape(value) for value in self.designs.values() if varies(value)]
         try:
             self.design_shape = np.broadcast_shapes(*arrays) if arrays else ()
         except ValueError:
@@ -67,7 +68,7 @@ class Grid:
     def flat_designs(self) -> dict[str, Any]:
         """The dimensions as a kernel takes them: floats, or arrays (m,)."""
         shape = self.design_shape
-        if not shape and set(map(type, self.designs.values())) == {float}:
+        if self._is_plain:
             return dict(self.designs)
         return {name: np.broadcast_to(value, shape).ravel() if varies(value) else float(value) for name, value in self.designs.items()}
 

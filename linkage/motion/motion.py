@@ -82,7 +82,7 @@ class Motion(Shown):
         self._kept: dict[Hashable, Any] = {}
         self._watched: dict[Hashable, bool] = {}
         self.reached: Mask = np.ones(self.shape, bool)
-        result = plan.kernel(plan.moving, guarded=True)(self._grid.flat)
+        result = plan.kernel(plan.moving, guarded=True)(self._grid.flat, size=self._grid.size)
         self._places = self._grid.full(result.values)
         self._is_near_singular = not np.all(result.guards > 0.0)
         if self._is_near_singular or plan.may_overflow:

@@ -55,7 +55,7 @@ class Table:
             raise DefinitionError(f'{error} Write "" where none of them fits; the number is then shown in SI as it is.')
         entry = DesignVariable(name, default, kind, where, unit)
         checked(entry, default)
-        self.entries[name], self.defaults[name] = entry, default
+        self.entries[name], self.defaults[name] = entry, float(default)
         self.spellings[name] = (name, 1)
 
     def check_free(self, name: str, where: str) -> None:

@@ -19,14 +19,14 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import refuses_changes
 from linkage.language import said
-from linkage.loads import AT_REST, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
+from linkage.loads import AT_REST, Acting, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Judge, Motion, least, most
 from linkage.plan import ArrayReading
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, quantity
-from linkage.statics import AnyMotion, Case, Loads, plan_of, stroke_followed
+from linkage.statics import AnyMotion, plan_of, stroke_followed
 from linkage.units import show
 from linkage.vectors import Scalar
 from linkage.verdict import Verdict
@@ -109,7 +109,7 @@ class FloatCircuit(Circuit):
             ("block", id(self.block)): f"{filled}. Give each circuit a block of its own, AccumulatorBlock([Accumulator(...)]).",
         }
 
-    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
+    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
         return self.pressure(motion)
 
     def verdicts(self, judge: Judge) -> list[Verdict]:

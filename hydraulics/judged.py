@@ -14,9 +14,9 @@ import numpy as np
 
 from linkage.errors import DefinitionError, known_name, unknown
 from linkage.language import said, said_of, with_and
-from linkage.loads import FRICTIONLESS, Acting
+from linkage.loads import FRICTIONLESS, Acting, Case, Loads, situation_of
 from linkage.motion import Answer, Condition, Judge, Motion, Question, Span, at, below_zero, least, most, reached, require_motion
-from linkage.statics import Case, Loads, elements_of, same
+from linkage.statics import elements_of, same
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
@@ -33,20 +33,22 @@ ENDLESS = 1e-4
 
 
 def lift_verdicts(
-    circuit: LiftLine | str, motion: Motion, loads: Loads = None, *, case: Case = None, resistance: float = 0.0, unit: str = "bar"
-) -> list[Verdict]:
+    circuit: LiftLine | str, motion: Motion, loads: Loads = None, *, case: Case = None, acting: Acting | None = None,
+    resistance: float = 0.0, unit: str = "bar",
+) -> list[Verdict]:  # fmt: skip
     """Return the verdicts on lifting (with the remedy), oil and time, holding, and going back against a `resistance` [Pa].
 
     `loads` are the machine's own unless others are given, in all load cases unless one is named; `unit` is that of the pressures in the
     sentences. Of several strokes, `at(S1=..., S2=...)` with arrays of one axis, it is judged along the path, of a grid over the box.
     """
+    given = situation_of("lift_verdicts", acting, loads=loads, case=case)
     circuit = the_circuit(circuit, motion)
     not_negative(one_number(resistance, "Return resistance"), "Return resistance")
     known_name("Unit", unit, UNITS, where="lift_verdicts(unit=...)")
     one_design(motion, "A lift")
     if not motion.reached.any():
         raise DefinitionError(f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge.")
-    judge = Judge(motion.plan, motion.designs, [motion], Acting(loads, case)).lost_allowed()
+    judge = Judge(motion.plan, motion.designs, [motion], given).lost_allowed()
     return line_verdicts(circuit, judge, resistance, unit)
 
 
@@ -320,7 +322,7 @@ class LiftingCylinder:
     @property
     def way_back(self) -> str:
         """The direction in which it goes back, told at the ends of the strokes."""
-        return self.ram.way_back(self.judge.motion, self.judge.acting.loads)
+        return self.ram.way_back(self.judge.motion, Acting(self.judge.acting.loads))
 
     def stuck(self, back: GoingBack) -> str:
         """Return where it does not go back, in words."""

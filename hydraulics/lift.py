@@ -11,7 +11,7 @@ Source: worksheet of the mower lift; Dyuzhev, Kotov, Chuprynin (2008), (28), (29
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
@@ -19,15 +19,15 @@ from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, known_name, one_word
+from linkage.errors import DefinitionError, one_word
 from linkage.frozen import refuses_changes
 from linkage.language import with_and
-from linkage.loads import DIRECTIONS, Force, ForceElement, Load, Parameter, Poses, require_poses
+from linkage.loads import Acting, Case, Force, ForceElement, Load, Loads, Parameter, Poses, require_poses, situation_of
 from linkage.loads.element import Formulas
 from linkage.motion import Condition, Judge, Motion, Question
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import AnyMotion, Case, Loads, elements_of, same
+from linkage.statics import AnyMotion, elements_of, member_thrust, same
 from linkage.verdict import Verdict
 
 from .inputs import (
@@ -207,24 +207,25 @@ class LiftCircuit(LiftLine):
 
     def work(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Work:
         """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
-        direction, case = choice.get("direction"), choice.get("case")
-        if direction is not None:
-            known_name("Direction", direction, DIRECTIONS)
-        ram = self.one(motion, choice.get("cylinder"))
-        size, k_m = ram.sized(motion), self.efficiency(motion, "mechanical")
-        if size.works == "both" and direction is None:
-            out, back = both_ways(ram, motion, loads, case)
+        cylinder = choice.pop("cylinder", None)
+        return self.work_of(self.one(motion, cylinder), motion, situation_of("work", loads=loads, **choice))
+
+    def work_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Work:
+        size, k_m = cylinder.sized(motion), self.efficiency(motion, "mechanical")
+        if size.works == "both" and acting.direction is None:
+            out, back = both_ways(cylinder, motion, acting)
             pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
             return Work(np.where(pushes, out, back), np.where(pushes, 1.0, -1.0), size, k_m)
-        way = direction or ("extending" if size.works == "piston" else "retracting")
-        thrust = ram.thrust(motion, loads, case=case, direction=way)
+        way = acting.direction or ("extending" if size.works == "piston" else "retracting")
+        thrust = member_thrust(motion, cylinder, replace(acting, direction=way))
         sense = np.sign(thrust) if way == "frictionless" else np.full(np.shape(thrust), 1.0 if way == "extending" else -1.0)
         return Work(thrust, sense, size, k_m)
 
-    def works(self, motion: AnyMotion, loads: Loads, choice: Choice) -> list[Work]:
-        """Return what the cylinder that is named has to do, or each of them."""
-        each_of: list[Choice] = [{**choice, "cylinder": ram} for ram in self.meant(motion, choice.get("cylinder"))]
-        return [self.work(motion, loads, **each) for each in each_of]
+    def works(self, what: str, motion: AnyMotion, loads: Loads, choice: Choice) -> list[Work]:
+        """Return what the cylinder that is named has to do, or each of them; `what` is the function that is asked."""
+        rams = self.meant(motion, choice.pop("cylinder", None))
+        acting = situation_of(what, loads=loads, **choice)
+        return [self.work_of(ram, motion, acting) for ram in rams]
 
     def rod_force(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the rod force in the working direction [N], shape (...): T / k_m against a load, T k_m under one that drives."""
@@ -236,18 +237,18 @@ class LiftCircuit(LiftLine):
         `choice`: `case=`, `direction=` of the cylinder where it is not its working direction, `cylinder=` of a line of several (else
         the one that needs most).
         """
-        return np.asarray(np.max([self._pressure(motion, work) for work in self.works(motion, loads, choice)], axis=0))
+        return np.asarray(np.max([self._pressure(motion, work) for work in self.works("pressure_for", motion, loads, choice)], axis=0))
 
     def _pressure(self, motion: AnyMotion, work: Work) -> Array:
         back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
         share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
         return np.asarray(np.maximum(work.force + back, 0.0) / (work.area * share))[()]
 
-    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
-        return self._pressure(motion, self.work(motion, loads, cylinder=cylinder, case=case, direction=direction))
+    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
+        return self._pressure(motion, self.work_of(self.one(motion, cylinder), motion, acting))
 
-    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, case: Case, direction: str | None) -> Array | None:
-        return self.reserve(motion, cylinder=cylinder, case=case, direction=direction)
+    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array | None:
+        return self.reserve(motion, cylinder=cylinder, acting=acting)
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return what is asked of each of its cylinders: whether it carries anything, lifts, holds."""
@@ -295,7 +296,7 @@ class LiftCircuit(LiftLine):
         Of a line of several cylinders the least, unless one is named.
         """
         with np.errstate(invalid="ignore"):
-            works = self.works(motion, loads, choice)
+            works = self.works("reserve", motion, loads, choice)
             return least_of([self.most(motion, work) / only_where(work.force > 0.0, work.force) for work in works])
 
     def capacity(
@@ -308,6 +309,7 @@ class LiftCircuit(LiftLine):
         share: float = 1.0,
         cylinder: Reference | None = None,
         case: Case = None,
+        acting: Acting | None = None,
     ) -> Array:
         """Return the largest load [N] at a point that the pump lifts beside the machine's own, shape (...), at a `share` of its pressure.
 
@@ -318,14 +320,13 @@ class LiftCircuit(LiftLine):
         require_poses(motion)
         proper_share(share)
         unit = direction_of(along)
-        own = [element for _, element in elements_of(motion.plan, loads)]
-        return least_of([self._capacity(motion, point, own, unit, share, ram, case) for ram in self.meant(motion, cylinder)])
+        given = situation_of("capacity", acting, loads=loads, case=case)
+        return least_of([self._capacity(motion, point, unit, share, ram, given) for ram in self.meant(motion, cylinder)])
 
-    def _capacity(
-        self, motion: AnyMotion, point: str, own: list[ForceElement], unit: Array, share: float, ram: Cylinder, case: Case
-    ) -> Array:
+    def _capacity(self, motion: AnyMotion, point: str, unit: Array, share: float, ram: Cylinder, acting: Acting) -> Array:
+        own = [element for _, element in elements_of(motion.plan, acting.loads)]
         size, k_m = ram.sized(motion), self.efficiency(motion, "mechanical")
-        lever = ram.thrust(motion, [Force(point, (-unit[0], -unit[1]))])  # what one newton there asks of it
+        lever = member_thrust(motion, ram, Acting([Force(point, (-unit[0], -unit[1]))]))  # what one newton there asks of it
         sense = np.sign(lever) if size.works == "both" else np.full(np.shape(lever), float(size.sense))
         lifts, lever = lever * sense > IDLE, lever * sense
         force = self._given(motion, Work(sense, sense, size, k_m), share)
@@ -333,7 +334,7 @@ class LiftCircuit(LiftLine):
         def carried(load: Array) -> Array:
             """Return the thrust that the machine and a load there need, in the direction in which it lifts."""
             loads = [*own, Force(point, (-unit[0] * load, -unit[1] * load))]
-            out, back = both_ways(ram, motion, loads, case)
+            out, back = both_ways(ram, motion, replace(acting, loads=loads))
             return np.where(sense > 0.0, out, -back)
 
         alone, safe = carried(np.zeros(motion.shape)), np.where(lifts, lever, 1.0)
@@ -362,31 +363,34 @@ class LiftCircuit(LiftLine):
 
     # -- holding and lowering ------------------------------------------------------------------------------
 
-    def holding(self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None) -> Holding:
+    def holding(
+        self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None
+    ) -> Holding:
         """Return the pressures that hold the thrust with the pump off; neither friction nor an efficiency is counted on.
 
         Of a line of several cylinders the greatest, unless one is named.
         """
+        given = situation_of("holding", acting, loads=loads, case=case)
         working, other = [], []
         for ram in self.meant(motion, cylinder):
-            size, thrust = ram.sized(motion), ram.thrust(motion, loads, case=case)
+            size, thrust = ram.sized(motion), member_thrust(motion, ram, Acting(given.loads, given.case))
             force = size.sense * thrust
             working.append(np.maximum(force, 0.0) / size.area)
             other.append(np.maximum(-force, 0.0) / size.back_area)
         return Holding(np.max(working, axis=0), np.max(other, axis=0))
 
     def lowering(
-        self, motion: Motion, loads: Loads = None, *, resistance: ArrayLike = 0.0, cylinder: Reference | None = None, case: Case = None
-    ) -> Lowering:
+        self, motion: Motion, loads: Loads = None, *, resistance: ArrayLike = 0.0, cylinder: Reference | None = None, case: Case = None,
+        acting: Acting | None = None,
+    ) -> Lowering:  # fmt: skip
         """Return how it goes back against its working direction, the oil flowing out against a `resistance` [Pa].
 
         Of a cylinder that works with both sides it is the way that the load drives it at most of the poses. Of a line of several cylinders
         it is the one that goes back hardest, unless one is named.
         """
+        given = situation_of("lowering", acting, loads=loads, case=case)
         against, k_m = fitted(motion, not_negative(resistance, "Return resistance")), self.efficiency(motion, "mechanical")
-        found = [
-            WayBack.of(ram, motion, loads, case, ram.way_back(motion, loads, case), against, k_m) for ram in self.meant(motion, cylinder)
-        ]
+        found = [WayBack.of(ram, motion, given, ram.way_back(motion, given), against, k_m) for ram in self.meant(motion, cylinder)]
         push = np.max([each.push for each in found], axis=0)
         return Lowering(np.min([each.working for each in found], axis=0), np.maximum(push, 0.0), np.asarray(push < 0.0))
 
@@ -413,9 +417,9 @@ def fitted(motion: Motion, value: Array) -> Array:
     return value
 
 
-def both_ways(ram: Cylinder, motion: AnyMotion, loads: Loads, case: Case) -> tuple[Array, Array]:
+def both_ways(ram: Cylinder, motion: AnyMotion, acting: Acting) -> tuple[Array, Array]:
     """Return what a cylinder carries while it grows and while it shrinks [N]."""
-    out, back = (ram.thrust(motion, loads, case=case, direction=way) for way in ("extending", "retracting"))
+    out, back = (member_thrust(motion, ram, replace(acting, direction=way, rates=None)) for way in ("extending", "retracting"))
     return out, back
 
 

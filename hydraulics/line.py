@@ -6,30 +6,28 @@ Pressures are gauge [Pa]. Forces count in the working direction: the side that w
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass
-from typing import TypedDict, Unpack, final
+from dataclasses import dataclass, replace
+from typing import Unpack, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.frozen import refuses_changes
-from linkage.loads import Parameter, Poses
+from linkage.loads import Acting, ActingKeywords, Case, Loads, Parameter, Poses
 from linkage.motion import Motion
 from linkage.plan import Mask
 from linkage.quantities import Reference
-from linkage.statics import AnyMotion, Case, Loads
+from linkage.statics import AnyMotion, member_thrust
 
 from .cylinder import CylinderSize
 from .inputs import Array
 from .member import Circuit, Cylinder
 
 
-class Choice(TypedDict, total=False):
-    """Which cylinder of a line is meant, in which load case, in which direction of its own."""
+class Choice(ActingKeywords, total=False):
+    """Which cylinder of a line is meant, in which situation; its direction is the cylinder's own."""
 
     cylinder: Reference | None
-    case: Case
-    direction: str | None
 
 
 @final
@@ -106,7 +104,7 @@ class Lowering:
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class WayBack:
-    """A cylinder on its way back, `way` "extending" or "retracting", against a resistance of the returning oil [Pa].
+    """A cylinder on its way back against a resistance of the returning oil [Pa].
 
     Friction acts against it: the load brings T k_m where it drives and takes T / k_m where it resists. `working` is the pressure that the
     load alone makes in the side that empties, `push` what the other side must give, below zero where the load does it by itself [Pa].
@@ -116,11 +114,9 @@ class WayBack:
     push: Array
 
     @classmethod
-    def of(
-        cls, ram: Cylinder, motion: AnyMotion, loads: Loads, case: Case, way: str, against: Array | float, k_m: Array
-    ) -> WayBack:
-        """Return how a cylinder goes back at a motion's poses."""
-        size, thrust = ram.sized(motion), ram.thrust(motion, loads, case=case, direction=way)
+    def of(cls, ram: Cylinder, motion: AnyMotion, acting: Acting, way: str, against: Array | float, k_m: Array) -> WayBack:
+        """Return how a cylinder goes back at a motion's poses: `way` is "extending" or "retracting", its own direction."""
+        size, thrust = ram.sized(motion), member_thrust(motion, ram, replace(acting, direction=way, rates=None))
         drives = thrust if way == "retracting" else -thrust
         empties, other = (size.push_area, size.pull_area) if way == "retracting" else (size.pull_area, size.push_area)
         brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
@@ -149,6 +145,10 @@ class LiftLine(Circuit):
         """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
 
     @abstractmethod
+    def work_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Work:
+        """Return the same of one of its cylinders in a situation."""
+
+    @abstractmethod
     def rod_force(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the rod force that is needed, shape (...)."""
 
@@ -171,18 +171,21 @@ class LiftLine(Circuit):
     @abstractmethod
     def capacity(
         self, motion: AnyMotion, point: str, loads: Loads = None, *, along: tuple[float, float] = (0.0, 1.0), share: float = 1.0,
-        cylinder: Reference | None = None, case: Case = None,
+        cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None,
     ) -> Array:  # fmt: skip
         """Return the largest load [N] at a point that the pump lifts beside the machine's own, shape (...)."""
 
     @abstractmethod
-    def holding(self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None) -> Holding:
+    def holding(
+        self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None
+    ) -> Holding:
         """Return the pressures that hold the thrust with the pump off."""
 
     @abstractmethod
     def lowering(
-        self, motion: Motion, loads: Loads = None, *, resistance: ArrayLike = 0.0, cylinder: Reference | None = None, case: Case = None
-    ) -> Lowering:
+        self, motion: Motion, loads: Loads = None, *, resistance: ArrayLike = 0.0, cylinder: Reference | None = None, case: Case = None,
+        acting: Acting | None = None,
+    ) -> Lowering:  # fmt: skip
         """Return how it goes back against its working direction, the oil flowing out against a `resistance`."""
 
     @abstractmethod

@@ -15,7 +15,7 @@ from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, Self, TypeAlias, cast, final
+from typing import Any, ClassVar, Literal, Self, TypeAlias, Unpack, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,15 +28,20 @@ from linkage.loads import (
     DIRECTIONS,
     FRICTIONLESS,
     Acting,
+    ActingKeywords,
+    Case,
     Declared,
     DrawnAs,
     ForceElement,
+    Loads,
     Parameter,
     Poses,
     Push,
     Rates,
     TwoPoint,
     require_poses,
+    situation_of,
+    takes_situation,
 )
 from linkage.loads.element import Formulas
 from linkage.motion import (
@@ -59,7 +64,7 @@ from linkage.motion import (
 )
 from linkage.plan import Plan
 from linkage.quantities import Member, Reference, distance, label, name_of
-from linkage.statics import AnyMotion, Case, LawRequest, Loads, case_words, elements_of, loads_identity, member_thrust, same
+from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, same, situation_identity
 from linkage.units import mm, show, shown_number, unit_sign
 from linkage.verdict import Verdict
 
@@ -198,15 +203,8 @@ class Cylinder(TwoPoint, Tabled, Judging):
 
     # -- what it carries -----------------------------------------------------------------------------------
 
-    def thrust(
-        self,
-        motion: AnyMotion,
-        loads: Loads = None,
-        *,
-        case: Case = None,
-        direction: str = "frictionless",
-        rates: Mapping[str, ArrayLike] | None = None,
-    ) -> Array:
+    @takes_situation
+    def thrust(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
         """Return what this cylinder carries, whatever drives the machine, shape (...) [N], positive where it pushes its ends apart.
 
         `loads` are the machine's own unless others are given. It is frictionless unless a `direction` is named: "extending" while this
@@ -214,28 +212,29 @@ class Cylinder(TwoPoint, Tabled, Judging):
         that a FloatCircuit feeds it is the gas's force. DefinitionError where it holds nothing here; SingularError where its length
         stands still against its drive, and where friction locks the mechanism.
         """
-        return member_thrust(motion, self, loads, case=case, direction=direction, rates=rates)
+        return member_thrust(motion, self, situation_of("thrust", loads=loads, **situation))
 
-    def pressure(self, motion: AnyMotion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
+    @takes_situation
+    def pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
         """Return the pressure on the side that works, shape (...) [Pa gauge]; 0 where the other side holds.
 
         While it moves in its working direction, or the one named, with what its one LiftCircuit says: efficiencies and back pressure.
         Of a cylinder that a FloatCircuit feeds it is the line's pressure. DefinitionError where several circuits have it: name one,
         `circuit.pressure_for(motion)`.
         """
-        return pressure_of(self, motion, loads, case, direction)
+        return pressure_of(self, motion, situation_of("pressure", loads=loads, **situation))
 
     @property
     def driven(self) -> tuple[str, ...]:
         """The directions in which the side that works drives it."""
         return {"piston": ("extending",), "rod": ("retracting",)}.get(self.works, ("extending", "retracting"))
 
-    def way_back(self, motion: AnyMotion, loads: Loads = None, case: Case = None) -> str:
+    def way_back(self, motion: AnyMotion, acting: Acting) -> str:
         """Return the direction in which it goes back: against its working one; of both the way the load drives it at most of the poses."""
         if self.works != "both":
             return "retracting" if self.works == "piston" else "extending"
         with unwarned():
-            drives = np.sign(self.thrust(motion, loads, case=case))
+            drives = np.sign(member_thrust(motion, self, Acting(acting.loads, acting.case)))
         return "retracting" if float(np.nan_to_num(drives).sum()) >= 0.0 else "extending"
 
     def pressure_on(
@@ -245,16 +244,13 @@ class Cylinder(TwoPoint, Tabled, Judging):
 
         At rest without friction and efficiencies; while it moves, on a side that works, as its circuit has it.
         """
-        thrust = self.thrust(motion, acting.loads, case=acting.case, direction=acting.movement, rates=acting.rates)
+        thrust = member_thrust(motion, self, acting)
         along, size = thrust if side == PISTON else -thrust, self.sized(motion)
         balance = along / (size.push_area if side == PISTON else size.pull_area)
         least = balance if below else 0.0
         if acting.movement == FRICTIONLESS or self.works not in (side, "both"):
             return np.asarray(np.maximum(balance, least))[()]
-        if circuit is None:
-            found = pressure_of(self, motion, acting.loads, acting.case, acting.direction)
-        else:
-            found = circuit.pressure_in(self, motion, acting.loads, acting.case, acting.direction)
+        found = pressure_of(self, motion, acting) if circuit is None else circuit.pressure_in(self, motion, acting)
         return np.where(along > 0.0, found, least) + 0.0 * thrust
 
     def columns(self, motion: Motion) -> list[Column]:
@@ -263,12 +259,13 @@ class Cylinder(TwoPoint, Tabled, Judging):
 
     def columns_in(self, motion: Motion, case: Case = None, direction: str | None = None) -> list[Column]:
         require_poses(motion)
-        found = [Column(noted("thrust"), self.thrust(motion, case=case, direction=direction or "frictionless"), "kN")]
+        acting = Acting(case=case, direction=direction)
+        found = [Column(noted("thrust"), member_thrust(motion, self, acting), "kN")]
         if len(circuits_of(self, motion.plan)) > 1:
             return found
-        found.append(Column(noted("pressure"), self.pressure(motion, case=case, direction=direction), "bar", 2))
+        found.append(Column(noted("pressure"), pressure_of(self, motion, acting), "bar", 2))
         circuit = circuit_having(self, motion.plan)
-        reserve = None if circuit is None else circuit.reserve_of(self, motion, case, direction)
+        reserve = None if circuit is None else circuit.reserve_of(self, motion, acting)
         return found if reserve is None else [*found, Column(noted("reserve"), reserve, "", 3)]
 
     def questions(self, judge: Judge) -> list[Question]:
@@ -337,10 +334,10 @@ class Cylinder(TwoPoint, Tabled, Judging):
 
     # -- checks --------------------------------------------------------------------------------------------
 
-    def checks(self, motion: Motion, loads: Loads = None, *, case: Case = None) -> list[Verdict]:
+    def checks(self, motion: Motion, loads: Loads = None, *, case: Case = None, acting: Acting | None = None) -> list[Verdict]:
         """Return what can be said of it over a motion of one design: length, standard size, and buckling where it carries something."""
         one_design(motion, str(self))
-        judge = judge_of(motion, Acting(loads, case))
+        judge = judge_of(motion, situation_of("checks", acting, loads=loads, case=case))
         return [*self.length_verdicts(judge), self.standard(motion), *self.buckling_verdicts(judge)]
 
     def fits(self, motion: Motion) -> list[Verdict]:
@@ -436,14 +433,14 @@ class Cylinder(TwoPoint, Tabled, Judging):
             return Verdict("standard size", True, said("{says} are a pair of ISO 3320.", says=says))
         return Verdict("standard size", False, f"{'; '.join([says, *faults])}.")
 
-    def buckling(self, motion: Motion, loads: Loads = None, *, case: Case = None) -> list[Verdict]:
+    def buckling(self, motion: Motion, loads: Loads = None, *, case: Case = None, acting: Acting | None = None) -> list[Verdict]:
         """Return whether a rod buckles at its largest utilisation: over every pose, load case and direction, one design.
 
         `case` names one load case; without it all that the machine declares are looked at, besides the plain one. Nothing where it
         carries nothing among these loads.
         """
         one_design(motion, str(self))
-        return self.buckling_verdicts(judge_of(motion, Acting(loads, case)))
+        return self.buckling_verdicts(judge_of(motion, situation_of("buckling", acting, loads=loads, case=case)))
 
     def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the same over all that a judge looks at."""
@@ -453,22 +450,25 @@ class Cylinder(TwoPoint, Tabled, Judging):
             return [never_pushed()]
         with unwarned():  # the verdict itself says what comes of it
             place, acting = judge.there(worst), judge.situation(worst)
-            push = float(self.thrust(place, acting.loads, case=acting.case, direction=acting.movement)) / self.count
+            push = float(member_thrust(place, self, acting)) / self.count
             length = float(place.distance(self.A, self.B))
         return [rod.judged(length, push, worst.place, unbounded=bool(worst.unbounded)).answered(worst)]
 
-    def buckling_use(self, motion: AnyMotion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
+    @takes_situation
+    def buckling_use(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
         """Return the utilisation of a rod, shape (...): a cylinder's push times the safety over the force at which it buckles; 0 in a pull.
 
         Without a direction it is the greatest of all in which something acts otherwise, as friction does; see `buckling` for the verdict.
         """
-        ways = DIRECTIONS if changes_in_motion(motion, loads) else DIRECTIONS[:1]
-        each_of = [self._use(motion, loads, case, way) for way in ([direction] if direction is not None else ways)]
-        return reduce(np.maximum, each_of)
+        acting = situation_of("buckling_use", loads=loads, **situation)
+        if acting.direction is not None:
+            return self._use(motion, acting)
+        ways = DIRECTIONS if changes_in_motion(motion, acting.loads) else DIRECTIONS[:1]
+        return reduce(np.maximum, [self._use(motion, replace(acting, direction=way)) for way in ways])
 
-    def _use(self, motion: AnyMotion, loads: Loads, case: Case, direction: str, *, below: bool = False) -> Array:
+    def _use(self, motion: AnyMotion, acting: Acting, *, below: bool = False) -> Array:
         """Return the utilisation in one direction, in a pull 0 or `below`."""
-        push = self.thrust(motion, loads, case=case, direction=direction) / self.count
+        push = member_thrust(motion, self, acting) / self.count
         bar = Buckling(1.0, self.mounting, self.safety)
         allowed = bar.critical_of(self.sized(motion).rod, motion.distance(self.A, self.B)) / self.safety
         return push / allowed if below else np.where(push > 0.0, push / allowed, 0.0) + 0.0 * push
@@ -503,8 +503,8 @@ class CylinderRequest(LawRequest):
     acting: Acting
 
     def identity(self, plan: Plan) -> Hashable:
-        loads = loads_identity(self.acting.loads, self.acting.case)
-        return None if loads is None or self.acting.rates is not None else (type(self).__name__, self.named, *self.options, loads)
+        loads = situation_identity(self.acting)
+        return None if loads is None else (type(self).__name__, self.named, *self.options, loads)
 
     @property
     def named(self) -> Any:
@@ -562,9 +562,7 @@ class Thrust(CylinderRequest):
         return (None if self.acting.movement == FRICTIONLESS else self.acting.movement,)
 
     def law(self, motion: AnyMotion) -> Array:
-        return self.ram(motion.plan).thrust(
-            motion, self.acting.loads, case=self.acting.case, direction=self.acting.movement, rates=self.acting.rates
-        )
+        return member_thrust(motion, self.ram(motion.plan), self.acting)
 
 
 @final
@@ -583,10 +581,8 @@ class BucklingUse(CylinderRequest):
         return (SmoothPiece(self, below=replace(self, below=True)),)
 
     def law(self, motion: AnyMotion) -> Array:
-        given = self.acting
-        if self.below:
-            return self.ram(motion.plan)._use(motion, given.loads, given.case, given.movement, below=True)
-        return self.ram(motion.plan).buckling_use(motion, given.loads, case=given.case, direction=given.direction)
+        ram = self.ram(motion.plan)
+        return ram._use(motion, self.acting, below=True) if self.below else ram.buckling_use(motion, acting=self.acting)
 
 
 Reading: TypeAlias = Callable[[AnyMotion], Array]
@@ -616,14 +612,13 @@ def thrust_along(cylinder: Cylinder, thrust: Array) -> Array:
     return np.abs(thrust) if cylinder.works == "both" else -thrust if cylinder.works == "rod" else thrust
 
 
-def pressure_of(cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
+def pressure_of(cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
     """Return a cylinder's pressure by the circuit that has it; without one, of a pump without losses."""
     require_poses(motion)
     circuit = circuit_having(cylinder, motion.plan)
     if circuit is not None:
-        return circuit.pressure_in(cylinder, motion, loads, case, direction)
-    thrust = cylinder.thrust(motion, loads, case=case, direction=direction or "frictionless")
-    return np.maximum(cylinder.sized(motion).pressure_for(thrust), 0.0)
+        return circuit.pressure_in(cylinder, motion, acting)
+    return np.maximum(cylinder.sized(motion).pressure_for(member_thrust(motion, cylinder, acting)), 0.0)
 
 
 def circuit_having(cylinder: Cylinder, plan: Declared) -> Circuit | None:
@@ -679,10 +674,10 @@ class Circuit(ForceElement, Judging):
         return {}
 
     @abstractmethod
-    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
+    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
         """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
 
-    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, case: Case, direction: str | None) -> Array | None:
+    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array | None:
         """Return the greatest rod force of one of its cylinders over the needed one, shape (...); None where no pump feeds it."""
         return None
 

@@ -12,13 +12,13 @@ from typing import cast, final
 import numpy as np
 
 from linkage.errors import DefinitionError, known_name, unknown
-from linkage.loads import DIRECTIONS, Acting
+from linkage.loads import DIRECTIONS, Acting, Case, situation_of
 from linkage.mechanism import Mechanism
 from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most, require_motion
 from linkage.motion.grid import MotionLike
 from linkage.plan import Mask, Plan
 from linkage.quantities import Quantity, Reference, distance, name_of, quantity
-from linkage.statics import AnyMotion, Case, same, situation_of
+from linkage.statics import AnyMotion, member_thrust, same
 
 from .cylinder import CylinderSize
 from .inputs import Array, direction_of, follows, only_where, proper_share
@@ -32,7 +32,7 @@ def thrust(cylinder: Reference, *, case: Case = None, direction: str | None = No
     `acting` says case and direction in one, with loads and rates too. With declared friction and a direction it has values and no
     derivatives.
     """
-    return Thrust(name_of(cylinder), situation_of(acting, "thrust", case=case, direction=direction))
+    return Thrust(name_of(cylinder), situation_of("thrust", acting, case=case, direction=direction))
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,8 +114,8 @@ class Pressure(CircuitRequest):
         circuit = self.circuit_of(motion.plan) if self.circuit else None
         if not self.side:
             if circuit is not None:
-                return circuit.pressure_in(ram, motion, given.loads, given.case, given.direction)
-            return ram.pressure(motion, given.loads, case=given.case, direction=given.direction)
+                return circuit.pressure_in(ram, motion, given)
+            return ram.pressure(motion, acting=given)
         return ram.pressure_on(self.side, motion, given, circuit, below=self.below)
 
 
@@ -135,7 +135,7 @@ def pressure(
     """
     if side:
         known_name("Side", side, SIDES)
-    return Pressure(name_of(cylinder), situation_of(acting, "pressure", case=case, direction=direction), circuit_name(circuit), side)
+    return Pressure(name_of(cylinder), situation_of("pressure", acting, case=case, direction=direction), circuit_name(circuit), side)
 
 
 def circuit_name(circuit: Reference | None) -> str:
@@ -172,7 +172,7 @@ class Reserve(CircuitRequest):
     def law(self, motion: AnyMotion) -> Array:
         circuit, given = self.circuit_of(motion.plan), self.acting
         if not (self.is_judged or self.bore):
-            return circuit.reserve(motion, given.loads, cylinder=self.ram(motion.plan), case=given.case, direction=given.direction)
+            return circuit.reserve(motion, cylinder=self.ram(motion.plan), acting=given)
         work = self.work(motion)
         with np.errstate(invalid="ignore"):
             return np.asarray(circuit.most(motion, work) / only_where(self.against(work) > 0.0, work.force))[()]
@@ -183,8 +183,7 @@ class Reserve(CircuitRequest):
 
     def work(self, motion: AnyMotion) -> Work:
         """Return what the cylinder has to do, with another bore where one is tried."""
-        circuit, given, ram = self.circuit_of(motion.plan), self.acting, self.ram(motion.plan)
-        found = circuit.work(motion, given.loads, cylinder=ram, case=given.case, direction=given.direction)
+        found = self.circuit_of(motion.plan).work(motion, cylinder=self.ram(motion.plan), acting=self.acting)
         return replace(found, size=CylinderSize(self.bore, found.size.rod, found.size.count, found.size.works)) if self.bore else found
 
     def unlimited(self, motion: MotionLike) -> Mask:
@@ -208,7 +207,7 @@ class Use(CircuitRequest):
         circuit, given, ram = self.circuit_of(motion.plan), self.acting, self.ram(motion.plan)
         size, k_m = ram.sized(motion), circuit.efficiency(motion, "mechanical")
         size = CylinderSize(self.bore, size.rod, size.count, size.works) if self.bore else size
-        thrust = ram.thrust(motion, given.loads, case=given.case, direction=given.movement)
+        thrust = member_thrust(motion, ram, given)
         sense = 1.0 if given.direction == "extending" else -1.0
         most = circuit.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m))
         return np.asarray(sense * thrust / (k_m * most))[()]
@@ -222,7 +221,7 @@ def reserve(
     NaN where the load drives, which is not limited by this cylinder and counts in no least value. Where it is judged, of a cylinder that
     works with both sides each counts while it moves against the load.
     """
-    return Reserve(name_of(cylinder), situation_of(acting, "reserve", case=case, direction=direction), circuit_name(circuit))
+    return Reserve(name_of(cylinder), situation_of("reserve", acting, case=case, direction=direction), circuit_name(circuit))
 
 
 def driving_side(direction: str | None) -> str:
@@ -250,7 +249,7 @@ class GoingBack(CircuitRequest):
 
     def law(self, motion: AnyMotion) -> Array:
         ram, given, k_m = self.ram(motion.plan), self.acting, self.circuit_of(motion.plan).efficiency(motion, "mechanical")
-        found = WayBack.of(ram, motion, given.loads, given.case, self.way, self.resistance, k_m)
+        found = WayBack.of(ram, motion, given, self.way, self.resistance, k_m)
         return found.working if self.tells == "load" else found.push
 
 
@@ -278,11 +277,11 @@ class Capacity(CircuitRequest):
         known_name("Point", self.point, plan.points, where=plan.title)
 
     def law(self, motion: AnyMotion) -> Array:
-        circuit, ram, given = self.circuit_of(motion.plan), self.ram(motion.plan), self.acting
-        return circuit.capacity(motion, self.point, given.loads, along=self.along, share=self.share, cylinder=ram, case=given.case)
+        circuit, ram = self.circuit_of(motion.plan), self.ram(motion.plan)
+        return circuit.capacity(motion, self.point, along=self.along, share=self.share, cylinder=ram, acting=self.acting)
 
     def unlimited(self, motion: MotionLike) -> Mask:
-        thrust = self.ram(motion.plan).thrust(require_motion(motion), self.acting.loads, case=self.acting.case)
+        thrust = member_thrust(require_motion(motion), self.ram(motion.plan), Acting(self.acting.loads, self.acting.case))
         return np.asarray(np.isfinite(thrust) & np.isnan(self.of(motion)))
 
 
@@ -302,7 +301,7 @@ def capacity(
     """
     proper_share(share)
     x, y = direction_of(along)
-    given, unit = situation_of(acting, "capacity", case=case), (float(x) + 0.0, float(y) + 0.0)
+    given, unit = situation_of("capacity", acting, case=case), (float(x) + 0.0, float(y) + 0.0)
     return Capacity(name_of(cylinder), given, circuit_name(circuit), name_of(point), unit, float(share))
 
 
@@ -310,7 +309,7 @@ def buckling(
     cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None
 ) -> BucklingUse:
     """Return the request for the utilisation of a rod: `lift.buckling_use(motion, case=..., direction=...)`, at most 1 where it holds."""
-    return BucklingUse(name_of(cylinder), situation_of(acting, "buckling", case=case, direction=direction))
+    return BucklingUse(name_of(cylinder), situation_of("buckling", acting, case=case, direction=direction))
 
 
 # A condition of a search.

@@ -23,12 +23,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .formulas import Equations
-    from .loads import Acting
+    from .loads import Acting, Case, Loads
     from .motion.measures import Measure
     from .pictures import Drawing
     from .pictures.film import Progress
     from .quantities import Quantity
-    from .statics.acting import Case, Loads
     from .study import Front, Optimum
 
 

@@ -14,14 +14,13 @@ from ..disk import check_name, check_place
 from ..errors import DefinitionError, LinkageError, cited, unknown, unwarned
 from ..language import current_language, heading_of, said, said_of
 from ..language import language as spoken
-from ..loads import PLAIN_CASE, Acting
+from ..loads import PLAIN_CASE, Acting, situation_of
 from ..mechanism import Mechanism
 from ..motion import Answer, Constraint, Leaf, least, most, places_text, stroke_display_unit
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
 from ..pictures.strokes import column_among
 from ..reports import NOTHING, At, ColumnOf
-from ..statics import situation_of
 from ..units import current_system, show, shown_number, unit_system
 from ..verdict import Verdict
 from .calculation import calculated, calculation_section, has_loads
@@ -68,7 +67,7 @@ def report_document(
     start: int = 1,
 ) -> Document:
     """Return what a report says, before it is written as a file."""
-    looked = Looked.at(machine, at, count, over, situation_of(acting, "report", case=case))
+    looked = Looked.at(machine, at, count, over, situation_of("report", acting, case=case))
     if not isinstance(title_block, Mapping) or not all(isinstance(each, str) for pair in title_block.items() for each in pair):
         raise DefinitionError(f'title_block={cited(title_block)}: rows of text are expected, title_block={{"Checked by": "N. N."}}.')
     with speaking(language, units):

@@ -16,13 +16,13 @@ import numpy as np
 import sympy
 
 from ..errors import DefinitionError
-from ..loads import ForceElement, Rates, TwoPinned, TwoPoint
+from ..loads import AT_REST, Acting, ForceElement, Rates, TwoPinned, TwoPoint
 from ..mechanism import Mechanism
 from ..motion import Motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..program import FloatArray
 from ..quantities import Angle, Distance, Quantity, Reference, name_of
-from ..statics.acting import AT_REST, acting_loads
+from ..statics import applied_loads
 from ..statics.holding import Holders, PressureLine, holders_of
 from .listing import Listing, Written
 from .rates import LineDerivatives
@@ -138,7 +138,7 @@ class ForceLines:
 
     def _numbers(self, name: str) -> Iterator[Pulled]:
         """Keep what an element without a formula does as given numbers, told by the engine; yield its loads."""
-        acting = acting_loads(self._somewhere(), [name], None, AT_REST)
+        acting = applied_loads(self._somewhere(), Acting([name]), AT_REST)
         for place, thrust in enumerate(acting.thrusts):
             value = given_thrust(name, place)
             self._thrusts[thrust.name] = cast(Term, self.given(f"T_{thrust.name}", value, "N"))
@@ -294,12 +294,12 @@ def next_block(lines: Sequence[PressureLine], strokes: Sequence[str], levers: Ma
 
 def given_thrust(name: str, place: int) -> Callable[[Motion], FloatArray]:
     """Return what tells the thrust of an element over a motion [N]."""
-    return lambda motion: acting_loads(motion, [name], None, AT_REST).thrusts[place].thrust
+    return lambda motion: applied_loads(motion, Acting([name]), AT_REST).thrusts[place].thrust
 
 
 def given_load(name: str, place: int) -> Callable[[Motion], FloatArray]:
     """Return what tells a load of an element over a motion, shape (2, ...) [N]."""
-    return lambda motion: acting_loads(motion, [name], None, AT_REST).loads[place].force
+    return lambda motion: applied_loads(motion, Acting([name]), AT_REST).loads[place].force
 
 
 def whole_numbers(expr: Any) -> Any:

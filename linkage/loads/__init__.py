@@ -5,10 +5,13 @@
     a moment turns its link counter-clockwise; a support pushes its point along its direction
 """
 
-from .acting import DIRECTIONS, FRICTIONLESS, PLAIN, Acting
+from .acting import PLAIN, Acting, ActingKeywords, Case, HasLoads, Loads, situation_of, takes_situation
 from .case import PLAIN_CASE, LoadCase
 from .element import (
     AT_REST,
+    DIRECTIONS,
+    FRICTIONLESS,
+    SENSES,
     Declared,
     ForceElement,
     Friction,

@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import Any, Self, final
+from inspect import Parameter, signature
+from typing import Protocol, Self, TypeAlias, TypedDict, TypeVar, final
+
+from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, cited, known_name
 from ..frozen import keep_own, refuses_changes
 from ..quantities import name_of
+from .case import LoadCase
+from .element import DIRECTIONS, FRICTIONLESS, ForceElement, Load, Poses
 
-FRICTIONLESS = "frictionless"
-DIRECTIONS = (FRICTIONLESS, "extending", "retracting")
-"""At rest, or without friction; while the stroke, or the cylinder that is asked for, grows; while it shrinks."""
+
+class HasLoads(Protocol):
+    """Anything with loads: what a force element is at the least."""
+
+    def loads(self, motion: Poses) -> list[Load]:
+        """Return the forces over the motion's poses [N]."""
+
+
+Loads: TypeAlias = Sequence[ForceElement | HasLoads | str] | ForceElement | HasLoads | str | None
+"""Elements, their names, or what has loads; None for the machine's own."""
+Case: TypeAlias = LoadCase | str | None
+"""A load case, or its name; None for none."""
 
 
 @final
@@ -26,10 +40,10 @@ class Acting:
     None of case or direction means all that occur.
     """
 
-    loads: Any = None
-    case: Any = None
+    loads: Loads = None
+    case: Case = None
     direction: str | None = None
-    rates: Mapping[str, Any] | None = None
+    rates: Mapping[str, ArrayLike] | None = None
     drive: str | None = None
 
     def __post_init__(self) -> None:
@@ -68,3 +82,46 @@ def named_or_cited(value: object) -> str:
 
 PLAIN = Acting()
 """The machine's own loads, at rest."""
+
+
+# The public functions of forces take it whole, or its parts as keywords.
+
+
+class ActingKeywords(TypedDict, total=False):
+    """The keywords of a public function that say what acts, as `Acting` does, or that one in the place of them."""
+
+    case: Case
+    direction: str | None
+    rates: Mapping[str, ArrayLike] | None
+    acting: Acting | None
+
+
+Function = TypeVar("Function", bound=Callable[..., object])
+
+
+def takes_situation(function: Function) -> Function:
+    """Return a function that takes the keywords of `ActingKeywords`, so that `help` names each of them."""
+    given = signature(function)
+    plain = [each for each in given.parameters.values() if each.kind is not Parameter.VAR_KEYWORD]
+    kinds = ActingKeywords.__annotations__
+    known = [Parameter(name, Parameter.KEYWORD_ONLY, default=None, annotation=kind) for name, kind in kinds.items()]
+    function.__dict__["__signature__"] = given.replace(parameters=[*plain, *known])
+    return function
+
+
+def situation_of(what: str, acting: Acting | None = None, **keywords: object) -> Acting:
+    """Return the situation that a public function is given, whole or by its keywords; DefinitionError for both.
+
+    `what` is the function's name, `keywords` are those of `Acting` as they were given, None for none.
+    """
+    given = {name: value for name, value in keywords.items() if value is not None}
+    unknown = next((name for name in keywords if name not in Acting.__dataclass_fields__), None)
+    if unknown is not None:
+        raise TypeError(f"{what}() got an unexpected keyword argument {unknown!r}")
+    if acting is None:
+        return Acting(**given)  # type: ignore[arg-type]
+    if not isinstance(acting, Acting):
+        raise DefinitionError(f'{what}(acting={cited(acting)}): a situation is expected, such as acting=Acting(case="full").')
+    if given:
+        raise DefinitionError(f"{what}: {next(iter(given))}= and acting= both say it; give acting= alone, Acting({next(iter(given))}=...).")
+    return acting

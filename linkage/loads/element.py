@@ -206,17 +206,33 @@ class Formulas(Poses, Protocol):
         """Write what a two-point member carries by the law of an element [N]."""
 
 
+FRICTIONLESS = "frictionless"
+SENSES: Mapping[str, int] = MappingProxyType({FRICTIONLESS: 0, "extending": 1, "retracting": -1})
+"""At rest, or without friction; while the stroke, or the cylinder that is asked for, grows; while it shrinks. Of a path: on, back."""
+DIRECTIONS = tuple(SENSES)
+
+
 @final
 class Rates(dict[str, Rate]):
     """How strokes move, by name [1/s], a number or an array over the poses each; empty at rest.
 
     `is_timed`: whether these are speeds that were given; where only a direction is known, their senses alone mean something.
-    `has_friction`: whether friction acts, against their senses.
+    `direction`: one of DIRECTIONS, the word for it; in any but the first friction acts, against the senses of the rates.
     """
 
-    def __init__(self, rates: Mapping[str, Rate] = MappingProxyType({}), is_timed: bool = False, has_friction: bool = True) -> None:
+    def __init__(self, rates: Mapping[str, Rate] = MappingProxyType({}), is_timed: bool = False, direction: str = FRICTIONLESS) -> None:
         super().__init__(rates)
-        self.is_timed, self.has_friction = is_timed, has_friction
+        self.is_timed, self.direction = is_timed, direction
+
+    @property
+    def sense(self) -> int:
+        """1 or -1 for a direction of motion, 0 where none is named."""
+        return SENSES[self.direction]
+
+    @property
+    def has_friction(self) -> bool:
+        """Whether friction acts."""
+        return self.sense != 0
 
 
 AT_REST = Rates()

@@ -285,8 +285,8 @@ class Domain:
 
 def rubs(plan: Plan, motion: Motion, acting: Acting) -> bool:
     """Return whether there is friction among the loads, or what acts otherwise while it moves."""
-    given = plan.of_kind(ForceElement).values() if acting.loads is None else acting.loads
-    listed = given if isinstance(given, (list, tuple)) or acting.loads is None else [given]
+    given = acting.loads if isinstance(acting.loads, (list, tuple)) else [acting.loads]
+    listed = plan.of_kind(ForceElement).values() if acting.loads is None else given
     elements = [plan.members.get(each) if isinstance(each, str) else each for each in listed]
     own = [each for each in elements if isinstance(each, ForceElement)]
     with unwarned():

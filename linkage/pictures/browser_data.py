@@ -12,15 +12,14 @@ import numpy as np
 
 from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, unwarned
 from ..language import heading_of, language, translated
-from ..loads import TwoPoint
+from ..loads import AT_REST, PLAIN, TwoPoint
 from ..mechanism import Mechanism
 from ..motion import Column, LiveText, Motion, Request, RequestLike, Tabled, stroke_display_unit, transmission
 from ..plan import Plan, opening, plan_measure
 from ..program import FloatArray
 from ..quantities import is_number
 from ..reports import At, Run, column_requests, run_of
-from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, pin_force, pin_forces, traced_acting
-from ..statics.acting import AT_REST
+from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, pin_force, pin_forces, traced_loads
 from ..units import UNITS, deg, display_unit, factor, shown_in
 from ..verdict import Verdict
 from . import style
@@ -79,7 +78,7 @@ class ActingForce(LawRequest):
 
     def law(self, motion: AnyMotion) -> FloatArray:
         assert isinstance(motion, TracedMotion)  # it is asked for by a page alone
-        return cast(FloatArray, traced_acting(motion, None, None, AT_REST).loads[self.place].force[self.axis])
+        return cast(FloatArray, traced_loads(motion, PLAIN, AT_REST).loads[self.place].force[self.axis])
 
     def examine(self, plan: Plan) -> None:
         """Look at nothing: the load is of the plan."""
@@ -215,7 +214,7 @@ def acting_points(plan: Plan) -> list[tuple[int, str]]:
     """Return the places of a machine's own loads among all that act, with their points; none where they have no program."""
     try:
         kept = plan.made(("traced loads",), lambda twin: twin)
-        acting = traced_acting(TracedMotion(kept, kept.trace.view()), None, None, AT_REST)
+        acting = traced_loads(TracedMotion(kept, kept.trace.view()), PLAIN, AT_REST)
     except LinkageError:
         return []
     return [(k, each.load.point) for k, each in enumerate(acting.loads)]

@@ -9,10 +9,10 @@ from dataclasses import replace
 from ..errors import DefinitionError, cited
 from ..files.callables import REQUESTS, brought, request_function
 from ..language import noted
-from ..loads import ForceElement
+from ..loads import Case, ForceElement
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, Tabled, require_motion, stroke_unit
-from ..statics import Case, drive_force, driving_force
+from ..statics import drive_force, driving_force
 
 
 def results(machine: Mechanism, motion: Motion) -> list[Column]:

@@ -1,15 +1,14 @@
 """Forces: the drive's by virtual work, the joints' by equilibrium of every body, supports, friction. N and Nm."""
 
-from .acting import Case, Loads, elements_of
+from .applied import applied_loads, elements_of
 from .force_requests import (
     DriveForce,
     MemberThrust,
     case_words,
     drive_force,
-    loads_identity,
     pin_force,
     pin_forces_under,
-    situation_of,
+    situation_identity,
 )
 from .holding import same, stroke_followed
 from .joint_forces import JointForce, PinForces, pin_forces
@@ -17,5 +16,5 @@ from .law_requests import LawRequest, TracedLaw
 from .poses import AnyMotion, plan_of
 from .supports import reaction
 from .table import PinLoad, judged_table, max_table, table_text
-from .traced_loads import TracedMotion, traced_acting
+from .traced_loads import TracedMotion, traced_loads
 from .work import driving_force, member_thrust

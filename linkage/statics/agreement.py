@@ -14,12 +14,12 @@ from typing import cast, final
 import numpy as np
 
 from ..errors import DefinitionError
+from ..loads import Rates
 from ..motion import require_motion
 from ..motion.limits import where_words
 from ..motion.requests import examined, point_ratios
 from ..plan import NEAR, Mask
 from ..program import FloatArray, elementwise
-from .acting import Movement
 from .equilibrium import System
 from .friction import Speeds
 from .joints import Contact, Structure, acting_place, force_direction
@@ -61,7 +61,7 @@ def slips(structure: Structure, poses: FlatPoses) -> Iterator[Slip]:
     own = [each for each in structure.contacts if each.owner and is_foreign(structure, each)]
     system = System(structure, poses, (), length=1.0)
     for stroke in structure.plan.strokes if own else ():
-        speeds = Speeds(structure, poses, Movement(rates={stroke: 1.0}))
+        speeds = Speeds(structure, poses, Rates({stroke: 1.0}))
         for contact in own:
             yield from slips_in(contact, system, speeds, stroke)
 

@@ -15,7 +15,7 @@ from ..loads import ForceElement, PinFriction, TwoPoint
 from ..plan import Plan, arm_joint, arm_points, carrying_pairs, holds_an_arm, member_sides
 from ..quantities import Quantity, name_of
 from ..steps import Link
-from .acting import ActingThrust, member_title
+from .applied import AppliedThrust, member_title
 from .holding import Holders, PressureLine, sampled
 
 FRAME = -1
@@ -51,7 +51,7 @@ class Strut:
     far: frozenset[str] = frozenset()
     host: str = ""
     line: PressureLine | None = None
-    known: ActingThrust | None = None
+    known: AppliedThrust | None = None
 
     @property
     def ends(self) -> tuple[str, str]:
@@ -65,7 +65,7 @@ class Strut:
         return self.line is not None or (isinstance(member, TwoPoint) and member.holds)
 
 
-def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[ActingThrust]) -> tuple[tuple[FreeBody, ...], tuple[Strut, ...]]:
+def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[AppliedThrust]) -> tuple[tuple[FreeBody, ...], tuple[Strut, ...]]:
     """Return the bodies and the two-point members: sliders first, then links, then those members that are bodies of their own."""
     fixed = frame_points(plan)
     sides = [side for _, joint in plan.joints for side in (joint.on, joint.by) if side.role == "slider"]
@@ -119,7 +119,7 @@ def link_name(plan: Plan, points: tuple[str, ...]) -> str:
 
 
 def two_point_members(
-    plan: Plan, holders: Holders, thrusts: Sequence[ActingThrust], links: Sequence[FreeBody]
+    plan: Plan, holders: Holders, thrusts: Sequence[AppliedThrust], links: Sequence[FreeBody]
 ) -> tuple[tuple[Strut, ...], dict[str, FreeBody]]:
     """Return the two-point members, and by their names the declared bodies that they are together with the points along them."""
     cylinders = [Strut(member_title(each), *each.ends, line=line) for line in holders.lines for each in line.cylinders]
@@ -203,7 +203,7 @@ def places_on(plan: Plan, strut: Strut, points: Iterable[str]) -> dict[tuple[str
     return found
 
 
-def known_struts(thrusts: Sequence[ActingThrust]) -> list[Strut]:
+def known_struts(thrusts: Sequence[AppliedThrust]) -> list[Strut]:
     """Return the members whose thrust is known; those without names of their own are counted."""
     unnamed = Counter(each.name for each in thrusts if not each.name.isidentifier())
     counts: Counter[str] = Counter()

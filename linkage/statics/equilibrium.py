@@ -15,7 +15,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..program import FloatArray
 from ..quantities import Distance, Quantity, name_of
-from .acting import ActingLoad
+from .applied import AppliedLoad
 from .bodies import FRAME, Strut
 from .holding import areas
 from .joints import Contact, Structure, Wrench, follows_points, force_direction, wrenches
@@ -59,7 +59,7 @@ class System:
 
     structure: Structure
     poses: FlatPoses
-    loads: tuple[ActingLoad, ...]
+    loads: tuple[AppliedLoad, ...]
     frictions: Sequence[UnitWrench] = ()
     length: float = 0.0
 
@@ -114,7 +114,7 @@ class System:
         return rows
 
     @cached_property
-    def borne(self) -> tuple[tuple[int, ActingLoad, Wrench], ...]:
+    def borne(self) -> tuple[tuple[int, AppliedLoad, Wrench], ...]:
         """The loads as wrenches, with the body each acts on."""
         poses, none = self.poses, np.zeros(self.poses.count)
         return tuple(

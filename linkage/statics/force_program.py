@@ -17,12 +17,13 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError
+from ..loads import Acting, Rates
 from ..motion import Motion
 from ..motion.evaluation import part_of_input, pieces
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
-from .acting import ActingLoads, Case, Loads, Movement
 from .agreement import assumed_joints
+from .applied import AppliedLoads
 from .equilibrium import System
 from .friction import CONTRACTS, JointFriction, PressingForces, PressingRows, consistent_frictions, iterated, joint_frictions, unit_friction
 from .joints import Contact, Structure
@@ -36,24 +37,24 @@ FEW = 200
 """Poses up to which solving the equations on arrays is quicker than finding the kernel."""
 
 
-def forces_at(poses: FlatPoses, acting: ActingLoads, loads: Loads, case: Case, split: str = "refuse") -> PoseForces:
+def forces_at(poses: FlatPoses, applied: AppliedLoads, split: str = "refuse") -> PoseForces:
     """Return all forces at some poses: by the program where there are many, else by the equations on arrays."""
-    found = by_program(poses, acting, loads, case) if split == "refuse" else None
-    return by_equations(poses, acting, split) if found is None else found
+    found = by_program(poses, applied) if split == "refuse" else None
+    return by_equations(poses, applied, split) if found is None else found
 
 
-def by_program(poses: FlatPoses, acting: ActingLoads, loads: Loads, case: Case) -> PoseForces | None:
+def by_program(poses: FlatPoses, applied: AppliedLoads) -> PoseForces | None:
     """Return the forces of a motion's poses by the program; None where it cannot say them, or is not worth its making."""
     motion = poses.motion
     if not isinstance(motion, Motion) or motion.reached.size <= FEW:
         return None
-    structure = Structure(poses.plan, acting.elements, acting.thrusts)
+    structure = Structure(poses.plan, applied.elements, applied.thrusts)
     if any(line.changes_shares for line in structure.holders.lines):
         return None
-    frictions = joint_frictions(structure, poses, acting.frictions, acting.movement) if acting.frictions else []
+    frictions = joint_frictions(structure, poses, applied.frictions, applied.rates) if applied.frictions else []
     places = [structure.contacts.index(each.contact) for each in frictions]
-    program = program_of(poses.plan, structure, loads, case, acting.movement, places)
-    return None if program is None else run_at(motion, program, structure, poses, acting, frictions)
+    program = program_of(poses.plan, structure, applied, places)
+    return None if program is None else run_at(motion, program, structure, poses, applied, frictions)
 
 
 @final
@@ -103,27 +104,27 @@ class AssumptionError(Exception):
 
 
 def program_of(
-    plan: Plan, structure: Structure, loads: Loads, case: Case, movement: Movement, places: Sequence[int]
+    plan: Plan, structure: Structure, applied: AppliedLoads, places: Sequence[int]
 ) -> ForceProgram | None:
     """Return the program of a plan's joint forces under some loads, made once; None where it cannot be traced or eliminated."""
     spans = tuple((strut.name, strut.P, strut.Q) for strut in structure.struts)
     blocks = tuple(body.name for body in structure.blocks)
     try:
-        key = ("joint forces", TracedLoads.apart(plan, loads, case, movement).key, spans, blocks, tuple(places))
-        return plan.made(key, lambda twin: traced_program(twin, loads, case, movement, tuple(places)))
+        key = ("joint forces", TracedLoads.apart(plan, applied.acting, applied.rates).key, spans, blocks, tuple(places))
+        return plan.made(key, lambda twin: traced_program(twin, applied.acting, applied.rates, tuple(places)))
     except DefinitionError:
         return None
 
 
-def traced_program(plan: Plan, loads: Loads, case: Case, movement: Movement, places: tuple[int, ...]) -> ForceProgram:
+def traced_program(plan: Plan, acting: Acting, rates: Rates, places: tuple[int, ...]) -> ForceProgram:
     """Return the program traced on a plan of its own."""
-    traced = TracedLoads.on(plan, loads, case, movement)
+    traced = TracedLoads.on(plan, acting, rates)
     structure, motion = traced.structure, traced.motion
     inputs = [motion._reading.graph.input(friction_name(place), Level.POSE) for place in range(len(places))]
-    length = checked_length(plan, traced.acting)
+    length = checked_length(plan, traced.applied)
     contacts = [structure.contacts[index] for index in places]
     units = tuple(unit_friction(contact, traced.poses) for contact in contacts)
-    system = System(structure, traced.poses, traced.acting.loads, units, length)
+    system = System(structure, traced.poses, traced.applied.loads, units, length)
     q = motion._array([inputs])
     u = eliminated_forces(system, motion, inputs)
     frictions = [JointFriction(unit, np.zeros(1), np.zeros(1), np.zeros(1)) for unit in units]
@@ -181,11 +182,11 @@ def friction_kernels(
 
 
 def run_at(
-    motion: Motion, program: ForceProgram, structure: Structure, poses: FlatPoses, acting: ActingLoads, frictions: list[JointFriction]
+    motion: Motion, program: ForceProgram, structure: Structure, poses: FlatPoses, applied: AppliedLoads, frictions: list[JointFriction]
 ) -> PoseForces | None:
     """Return the forces by the kernels; None where an assumption of a law fails or a pose that should has no value."""
     size, q, locked = motion._grid.size, np.zeros((0, poses.count)), np.zeros(poses.count, bool)
-    rates = {name: np.broadcast_to(np.asarray(rate, float), motion.shape) for name, rate in acting.movement.rates.items()}
+    rates = {name: np.broadcast_to(np.asarray(rate, float), motion.shape) for name, rate in applied.rates.items()}
     inputs = motion._grid.flat | {rate_name(name): rate.reshape(size) for name, rate in rates.items()}
     if program.friction is not None:
         try:
@@ -204,7 +205,7 @@ def run_at(
         values = np.where(good, values, np.nan)
     drives, struts = len(program.drives), len(program.struts)
     return PoseForces(
-        structure, poses, acting, frictions, q, locked,
+        structure, poses, applied, frictions, q, locked,
         [rows.of(values, motion.shape) for rows in program.rows],
         dict(zip(program.drives, values[len(values) - drives - struts :], strict=False)),
         dict(zip(program.struts, values[len(values) - struts :], strict=True)),

@@ -5,39 +5,41 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import Any, Self, TypeVar, cast, final
+from typing import Self, TypeVar, cast, final
 from weakref import ref
 
 import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited, known_name
-from ..loads import DIRECTIONS, FRICTIONLESS, Acting, ForceElement, LoadCase
+from ..loads import DIRECTIONS, FRICTIONLESS, Acting, Case, ForceElement, LoadCase, Loads, situation_of
 from ..motion import BoundRequest, Motion, Request, require_motion
 from ..motion.grid import MotionLike
 from ..motion.requests import identity_of, stroke_of
 from ..plan import Plan
 from ..program import FloatArray, Node, Notes
 from ..vectors import Scalar
-from .acting import Case, Loads
 from .agreement import assumed_joints
 from .equilibrium import System
-from .joint_forces import JointForce, PinForces, joint_on, joints_of, pin_forces
+from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
 from .solution import Solution
 from .traced_loads import TracedLoads, checked_length, eliminated_forces
-from .work import by_work, driving_force
+from .work import by_work, stroke_force
 
 Bound = TypeVar("Bound", bound=BoundRequest)
 
 
-def loads_identity(loads: Loads, case: Case) -> Hashable:
+def situation_identity(acting: Acting) -> Hashable:
     """Return what tells loads in a load case from others, which it does not keep alive; None where one of them may change.
 
-    Members that were declared do not, nor do frozen dataclasses. What their laws compute with is taken not to change either.
+    The direction and the drive are not in it. Members that were declared do not change, nor do frozen dataclasses. What their laws
+    compute with is taken not to change either.
     """
+    loads = acting.loads
     listed = () if loads is None else loads if isinstance(loads, (list, tuple)) else (loads,)
-    parts = [each if each is None or isinstance(each, str) else ref(each) if is_unchanging(each) else ... for each in (case, *listed)]
-    return None if ... in parts else (loads is None, *parts)
+    given = (acting.case, *listed)
+    parts = [each if each is None or isinstance(each, str) else ref(each) if is_unchanging(each) else ... for each in given]
+    return None if acting.rates is not None or ... in parts else (loads is None, *parts)
 
 
 def case_words(case: Case) -> list[str]:
@@ -78,8 +80,8 @@ class ForceRequest(Request):
 
     def identified(self, *what: Hashable) -> Hashable:
         """Return what tells it from others: what it is of, and in which situation; None where that may change."""
-        loads = loads_identity(self.acting.loads, self.acting.case)
-        return None if loads is None or self.acting.rates is not None else (*what, loads, self.acting.movement, self.acting.drive)
+        loads = situation_identity(self.acting)
+        return None if loads is None else (*what, loads, self.acting.movement, self.acting.drive)
 
     @property
     def acting_words(self) -> list[str]:
@@ -105,9 +107,7 @@ class DriveForce(ForceRequest):
         return self.identified("drive force", self.drive)
 
     def of(self, motion: MotionLike) -> FloatArray:
-        given = self.acting
-        movement: dict[str, Any] = {"direction": given.movement, "rates": given.rates}
-        return driving_force(require_motion(motion), given.loads, self.drive, case=given.case, **movement)
+        return stroke_force(require_motion(motion), self.acting, self.drive)
 
     def __str__(self) -> str:
         return f"drive_force({', '.join([*([self.drive] if self.drive else []), *self.acting_words])})"
@@ -117,9 +117,8 @@ class DriveForce(ForceRequest):
 
     def _bound(self, plan: Plan) -> DriveForceOf:
         drive = stroke_of(plan, self.drive, "drive")
-        loads, case = self.acting.loads, self.acting.case
-        traced = TracedLoads.apart(plan, loads, case)
-        return DriveForceOf(loads, case, drive, traced.key, frozenset(traced.names), frozenset(traced.carriers))
+        traced = TracedLoads.apart(plan, self.acting)
+        return DriveForceOf(self.acting, drive, traced.key, frozenset(traced.names), frozenset(traced.carriers))
 
 
 def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None, *, acting: Acting | None = None) -> DriveForce:
@@ -129,27 +128,14 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
     `acting` says loads and case in one, with a direction or rates too; then it has values and no derivatives.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
-    return DriveForce(situation_of(acting, "drive_force", loads=loads, case=case), drive)
-
-
-def situation_of(acting: Acting | None, what: str, **keywords: Any) -> Acting:
-    """Return the situation that a door is given, whole or by its keywords; DefinitionError for both."""
-    given = {name: value for name, value in keywords.items() if value is not None}
-    if acting is None:
-        return Acting(**given)
-    if not isinstance(acting, Acting):
-        raise DefinitionError(f'{what}(acting={cited(acting)}): a situation is expected, such as acting=Acting(case="full").')
-    if given:
-        raise DefinitionError(f"{what}: {next(iter(given))}= and acting= both say it; give acting= alone, Acting({next(iter(given))}=...).")
-    return acting
+    return DriveForce(situation_of("drive_force", acting, loads=loads, case=case), drive)
 
 
 @dataclass(frozen=True, eq=False)
 class ForceOf(BoundRequest):
     """A force bound to a plan: it goes through ratios and angles, and is true while the loads keep to the laws that were traced."""
 
-    loads: Loads
-    case: Case
+    acting: Acting
 
     @property
     def order(self) -> int:
@@ -168,7 +154,7 @@ class ForceOf(BoundRequest):
 
     def traced(self, plan: Plan) -> TracedLoads:
         """Return the loads traced on a plan's program."""
-        return TracedLoads.on(plan, self.loads, self.case)
+        return TracedLoads.on(plan, self.acting)
 
 
 @final
@@ -187,7 +173,7 @@ class DriveForceOf(ForceOf):
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
         traced = self.traced(plan)
-        (force,) = by_work(traced.poses, traced.acting, self.drive)
+        (force,) = by_work(traced.poses, traced.applied, self.drive)
         return (traced.motion.node(force),)
 
     def names(self, plan: Plan) -> set[str]:
@@ -197,7 +183,7 @@ class DriveForceOf(ForceOf):
         return set(self.carriers)
 
     def refuse(self, motion: MotionLike) -> None:
-        driving_force(require_motion(motion), self.loads, self.drive, case=self.case)
+        stroke_force(require_motion(motion), self.acting, self.drive)
 
     def __str__(self) -> str:
         return f"the driving force of {self.drive}"
@@ -238,14 +224,13 @@ class PinForce(ForceRequest):
 
     def _bound(self, plan: Plan) -> PinForceOf:
         known_name("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
-        loads, case = self.acting.loads, self.acting.case
-        traced = TracedLoads.apart(plan, loads, case)
-        structure = Structure(plan, traced.acting.elements, traced.acting.thrusts)
+        traced = TracedLoads.apart(plan, self.acting)
+        structure = Structure(plan, traced.applied.elements, traced.applied.thrusts)
         request = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))
         _, joint, _ = contact_of(structure, request)
         spans = tuple((strut.name, strut.P, strut.Q) for strut in structure.struts)
-        length = plan.made(("checked length", spans), lambda _: checked_length(plan, traced.acting))
-        return PinForceOf(loads, case, request, (*traced.key, spans), length, str(joint))
+        length = plan.made(("checked length", spans), lambda _: checked_length(plan, traced.applied))
+        return PinForceOf(self.acting, request, (*traced.key, spans), length, str(joint))
 
 
 @final
@@ -272,15 +257,10 @@ class MemberThrust(ForceRequest):
 def pin_forces_under(motion: Motion, acting: Acting) -> PinForces:
     """Return all joint forces of a motion in a situation, worked out once for all that ask for one of them."""
 
-    def found() -> PinForces:
-        return pin_forces(
-            motion, acting.loads, case=acting.case, direction=acting.movement, drive=acting.drive, rates=acting.rates
-        )
-
-    loads = loads_identity(acting.loads, acting.case)
-    if loads is None or acting.rates is not None:
-        return found()
-    return motion._once(("pin forces", loads, acting.movement, acting.drive), found)
+    identity = situation_identity(acting)
+    if identity is None:
+        return joint_forces(motion, acting)
+    return motion._once(("pin forces", identity, acting.movement, acting.drive), lambda: joint_forces(motion, acting))
 
 
 def pin_force(
@@ -298,7 +278,7 @@ def pin_force(
     if not all(isinstance(each, str) for each in names):
         said = "the names of a point and of a body are expected"
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
-    return PinForce(situation_of(acting, "pin_force", loads=loads, case=case), point, on, component, by)
+    return PinForce(situation_of("pin_force", acting, loads=loads, case=case), point, on, component, by)
 
 
 @final
@@ -327,7 +307,7 @@ class PinForceOf(ForceOf):
         kept = plan.trace.kept
         if self.traced_with not in kept:
             traced = super().traced(plan)
-            system = System(traced.structure, traced.poses, traced.acting.loads, length=self.length)
+            system = System(traced.structure, traced.poses, traced.applied.loads, length=self.length)
             u = eliminated_forces(system, traced.motion)
             kept[self.traced_with] = traced, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), [])
         return cast(tuple[TracedLoads, Solution], kept[self.traced_with])
@@ -348,7 +328,7 @@ class PinForceOf(ForceOf):
         return set(plan.members)
 
     def refuse(self, motion: MotionLike) -> None:
-        pin_forces_under(require_motion(motion), Acting(self.loads, self.case))
+        pin_forces_under(require_motion(motion), self.acting)
 
     def __str__(self) -> str:
         what = "the size" if self.request.component == "size" else f"the {self.request.component} component"

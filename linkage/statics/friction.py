@@ -16,10 +16,9 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..loads import Friction
+from ..loads import Friction, Rates
 from ..plan import Mask
 from ..program import FloatArray
-from .acting import Movement
 from .bodies import FRAME
 from .equilibrium import UnitWrench
 from .joints import Contact, Structure, Wrench, force_direction
@@ -174,9 +173,9 @@ class JointFriction:
         return self.unit.contact
 
 
-def joint_frictions(structure: Structure, poses: FlatPoses, frictions: tuple[Friction, ...], movement: Movement) -> list[JointFriction]:
+def joint_frictions(structure: Structure, poses: FlatPoses, frictions: tuple[Friction, ...], rates: Rates) -> list[JointFriction]:
     """Return the joints with friction while strokes move; DefinitionError for friction where nothing turns or slides."""
-    speeds = Speeds(structure, poses, movement)
+    speeds = Speeds(structure, poses, rates)
     found: list[JointFriction] = []
     for friction in frictions:
         at_point = [each for each in structure.contacts if each.point == friction.point]
@@ -226,9 +225,9 @@ def unit_friction(contact: Contact, poses: FlatPoses) -> UnitWrench:
 class Speeds:
     """How bodies turn and points slide while strokes move."""
 
-    def __init__(self, structure: Structure, poses: FlatPoses, movement: Movement) -> None:
+    def __init__(self, structure: Structure, poses: FlatPoses, rates: Rates) -> None:
         self.structure, self.poses = structure, poses
-        self.rates = {name: poses.flat(rate) for name, rate in movement.rates.items()}
+        self.rates = {name: poses.flat(rate) for name, rate in rates.items()}
         self._points: dict[str, FloatArray] = {}
         self._spins: dict[int, FloatArray] = {}
 

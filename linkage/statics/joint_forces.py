@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
-from typing import final
+from functools import cached_property
+from typing import Unpack, final
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, SingularError, known_name, unknown
+from ..loads import Acting, ActingKeywords, Loads, situation_of, takes_situation
 from ..motion import Motion, require_motion, stroke_unit
 from ..motion.limits import where_words
 from ..motion.requests import stroke_of
@@ -18,8 +18,8 @@ from ..plan import Mask
 from ..program import FloatArray
 from ..shown import Shown
 from ..units import kN
-from .acting import ActingLoad, ActingLoads, Case, Loads, acting_loads, movement_of
 from .agreement import check_joints
+from .applied import AppliedLoad, AppliedLoads, applied_loads, rates_in
 from .bodies import FRAME_NAME
 from .force_program import forces_at
 from .joints import Contact, Structure, acting_place, force_direction
@@ -28,40 +28,36 @@ from .solution import PoseForces, locked_words
 from .work import by_work, poses_held, without_work, work_gap
 
 
+@takes_situation
 def pin_forces(
-    motion: Motion,
-    loads: Loads = None,
-    *,
-    case: Case = None,
-    direction: str = "frictionless",
-    drive: str | None = None,
-    rates: Mapping[str, ArrayLike] | None = None,
-    split: str = "refuse",
+    motion: Motion, loads: Loads = None, *, drive: str | None = None, split: str = "refuse", **situation: Unpack[ActingKeywords]
 ) -> PinForces:
     """Return every joint force at every pose, by equilibrium of every body, in one solve over designs and strokes.
 
     `loads` are the machine's own unless others are given; `case` a LoadCase or its name. `direction` is "extending" (the stroke
     grows), "retracting" or "frictionless"; with friction and several strokes `drive` says which one moves, along a path of several
-    they move as it goes. `rates`, such as `dict(S=0.05)` [1/s], are what dampers ask for. Raises DefinitionError where a body hangs
-    loose or a link is redundant (unless `split="least squares"`), SingularError at a singular pose and where friction leaves no
-    bounded forces (unless the motion has `unreachable="nan"`).
+    they move as it goes. `rates`, such as `dict(S=0.05)` [1/s], are what dampers ask for; `acting` says all of these in one. Raises
+    DefinitionError where a body hangs loose or a link is redundant (unless `split="least squares"`), SingularError at a singular pose
+    and where friction leaves no bounded forces (unless the motion has `unreachable="nan"`).
     """
-    movement = movement_of(motion, direction, rates, drive)
-    if drive is not None:
-        stroke_of(motion.plan, drive, "drive")
-    acting = acting_loads(motion, loads, case, movement)
-    found = agreeing(forces_at(poses_held(motion, acting, "The joint forces"), acting, loads, case, split), loads, case, split)
-    structure = found.structure
-    remarks = [*locked_words(found, direction), *lift_off_words(found), *self_locking_words(found), *at_rest_words(acting)]
-    borne = tuple((structure.name(structure.bearer(each.load)), each) for each in acting.loads)
-    again = partial(pin_forces, loads=loads, case=case, direction=direction, drive=drive, rates=rates, split=split)
+    return joint_forces(motion, situation_of("pin_forces", loads=loads, drive=drive, **situation), split)
+
+
+def joint_forces(motion: Motion, acting: Acting, split: str = "refuse") -> PinForces:
+    """Return every joint force at every pose in a situation: `split` as `pin_forces` has it."""
+    rates = rates_in(motion, acting)
+    if acting.drive is not None:
+        stroke_of(motion.plan, acting.drive, "drive")
+    applied = applied_loads(motion, acting, rates)
+    found = agreeing(forces_at(poses_held(motion, applied, "The joint forces"), applied, split), split)
+    remarks = [*locked_words(found, acting.movement), *lift_off_words(found), *self_locking_words(found), *at_rest_words(applied)]
     return PinForces(
-        motion, joints_of(structure, found.contacts, found.poses), found.drives, found.thrusts, acting.case, direction,
-        found.poses.mask(found.locked), tuple(remarks), found.poses, acting, borne, structure, again,
+        motion, joints_of(found.structure, found.contacts, found.poses), found.drives, found.thrusts, applied.case, acting.movement,
+        found.poses.mask(found.locked), tuple(remarks), found, split,
     )  # fmt: skip
 
 
-def agreeing(found: PoseForces, loads: Loads, case: Case, split: str) -> PoseForces:
+def agreeing(found: PoseForces, split: str) -> PoseForces:
     """Return forces where they agree with virtual work; SingularError for other poses unless NaN was asked for."""
     lost, words = without_work(found)
     if not lost.any():
@@ -74,7 +70,7 @@ def agreeing(found: PoseForces, loads: Loads, case: Case, split: str) -> PoseFor
         remedy = "Leave these poses out; if all are lost, look at what joints() of a step of one's own holds, and where"
         text = f"{motion.plan.title}: the joint forces are refused {where}: {words}. {remedy}."
         raise SingularError(text, mask=mask, motion=motion)
-    return forces_at(poses.without(lost), found.acting, loads, case, split)
+    return forces_at(poses.without(lost), found.applied, split)
 
 
 @final
@@ -95,16 +91,23 @@ class PinForces(Shown):
     direction: str
     locked: Mask
     remarks: tuple[str, ...]
-    _poses: FlatPoses
-    _acting: ActingLoads
-    _loads: tuple[tuple[str, ActingLoad], ...]
-    _structure: Structure
-    _again: Callable[[Motion], PinForces]
+    _found: PoseForces
+    _split: str
 
     def again(self, motion: Motion) -> PinForces:
         """Return the same of another motion of the machine: the same loads, case, direction and rates; NaN where they are refused."""
-        require_motion(motion)
-        return self._again(motion)
+        return joint_forces(require_motion(motion), self._found.applied.acting, self._split)
+
+    @property
+    def _structure(self) -> Structure:
+        """The bodies and joints of the machine."""
+        return self._found.structure
+
+    @cached_property
+    def _loads(self) -> tuple[tuple[str, AppliedLoad], ...]:
+        """The loads with the names of the bodies that they act on."""
+        name, bearer = self._structure.name, self._structure.bearer
+        return tuple((name(bearer(each.load)), each) for each in self._found.applied.loads)
 
     def at(self, point: str) -> tuple[JointForce, ...]:
         """Return the joints at a point."""
@@ -153,7 +156,7 @@ class PinForces(Shown):
     @cached_property
     def gap(self) -> float:
         """The largest difference of the drives' forces to those by virtual work, over the works of the loads; NaN with friction."""
-        return work_gap(self._poses, self._acting, self.drives)
+        return work_gap(self._found.poses, self._found.applied, self.drives)
 
     def __str__(self) -> str:
         head = f"{self.motion.plan.title}, {self.case}, {self.direction}"
@@ -289,23 +292,23 @@ def lift_off_words(found: PoseForces) -> list[str]:
 
 def self_locking_words(found: PoseForces) -> list[str]:
     """Return the words for poses where friction alone holds the load: it drives, and must still be pushed."""
-    acting, motion = found.acting, found.poses.motion
-    if not acting.frictions or len(acting.movement.rates) != 1:
+    applied, motion = found.applied, found.poses.motion
+    if not applied.frictions or len(applied.rates) != 1:
         return []
-    ((stroke, rate),) = acting.movement.rates.items()
-    free = found.poses.full(by_work(found.poses, acting, stroke))
+    ((stroke, rate),) = applied.rates.items()
+    free = found.poses.full(by_work(found.poses, applied, stroke))
     with np.errstate(invalid="ignore"):
         mask = (free * rate < 0.0) & (found.drives[stroke] * rate > 0.0)
     if not mask.any():
         return []
     why = f"friction holds the load, which would move {stroke} without it; the drive must help"
-    return [f"Self-locking while {acting.movement.direction} {where_words(motion.plan, mask, motion.strokes)}: {why}."]
+    return [f"Self-locking while {applied.rates.direction} {where_words(motion.plan, mask, motion.strokes)}: {why}."]
 
 
-def at_rest_words(acting: ActingLoads) -> list[str]:
+def at_rest_words(applied: AppliedLoads) -> list[str]:
     """Return the words for what gives nothing: no loads at all, dampers without rates."""
-    if not acting.loads and not acting.thrusts:
+    if not applied.loads and not applied.thrusts:
         return ["no load acts, so that all forces are zero; declare one in the class, such as load = Weight(G, mass=1200)."]
-    if not acting.at_rest:
+    if not applied.at_rest:
         return []
-    return [f"{', '.join(acting.at_rest)}: at rest a damper gives nothing; give the speeds, rates=dict(S=0.05)."]
+    return [f"{', '.join(applied.at_rest)}: at rest a damper gives nothing; give the speeds, rates=dict(S=0.05)."]

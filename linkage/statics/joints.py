@@ -18,7 +18,7 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import FRAME_SIDE, Angle, Joint, JointSide, Negative, Quantity, Ref, Sum, name_of
 from ..steps import Guide, Link, Point
-from .acting import ActingThrust
+from .applied import AppliedThrust
 from .bodies import FRAME, FRAME_NAME, Strut, frame_points, free_bodies, refuse_driven, sliding_blocks
 from .holding import Holders, holders_of
 from .poses import FlatPoses, left
@@ -86,7 +86,7 @@ ORDER = {kind: place for place, kind in enumerate(("guide", "slider", "slot", "d
 class Structure:
     """Bodies, lone pins and contacts of a plan. An index -1 is the frame; lone pins come after the bodies."""
 
-    def __init__(self, plan: Plan, elements: Iterable[ForceElement] = (), thrusts: Sequence[ActingThrust] = ()) -> None:
+    def __init__(self, plan: Plan, elements: Iterable[ForceElement] = (), thrusts: Sequence[AppliedThrust] = ()) -> None:
         self.plan, elements = plan, tuple(elements)
         self.fixed = frame_points(plan)
         self.holders: Holders = holders_of(plan, elements)

@@ -13,8 +13,8 @@ from ..errors import DefinitionError, SingularError
 from ..motion.limits import where_words
 from ..plan import Mask
 from ..program import FloatArray
-from .acting import ActingLoads
 from .agreement import check_joints
+from .applied import AppliedLoads
 from .equilibrium import LinearForm, System
 from .friction import JointFriction, PressingForces, PressingRows, consistent_frictions, joint_frictions
 from .joints import Contact, Structure
@@ -36,7 +36,7 @@ class PoseForces:
 
     structure: Structure
     poses: FlatPoses
-    acting: ActingLoads
+    applied: AppliedLoads
     frictions: list[JointFriction]
     q: FloatArray
     locked: Mask
@@ -45,9 +45,9 @@ class PoseForces:
     thrusts: Mapping[str, FloatArray]
 
 
-def by_equations(poses: FlatPoses, acting: ActingLoads, split: str) -> PoseForces:
+def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseForces:
     """Return the forces by the equations solved on arrays."""
-    system, frictions = system_with_friction(poses, acting)
+    system, frictions = system_with_friction(poses, applied)
     found = Equilibrium(system, frictions, split, tuple(system.known())).solution()
     pulls = np.zeros(poses.count, bool)
     for line in system.structure.holders.lines:
@@ -61,7 +61,7 @@ def by_equations(poses: FlatPoses, acting: ActingLoads, split: str) -> PoseForce
     full = poses.full
     joints = [found.transmitted(contact) for contact in system.structure.contacts]
     result = PoseForces(
-        system.structure, poses, acting, frictions, found.q.T, found.locked,
+        system.structure, poses, applied, frictions, found.q.T, found.locked,
         [(full(force), full(couple)) for force, couple in joints],
         {name: full(found.value(system.drive(name))) for name in poses.motion.strokes},
         {each.name: full(found.value(system.thrust(each))) for each in system.structure.struts},
@@ -70,11 +70,11 @@ def by_equations(poses: FlatPoses, acting: ActingLoads, split: str) -> PoseForce
     return result
 
 
-def system_with_friction(poses: FlatPoses, acting: ActingLoads) -> tuple[System, list[JointFriction]]:
+def system_with_friction(poses: FlatPoses, applied: AppliedLoads) -> tuple[System, list[JointFriction]]:
     """Return the equations' system and its joints with friction."""
-    structure = Structure(poses.plan, acting.elements, acting.thrusts)
-    frictions = joint_frictions(structure, poses, acting.frictions, acting.movement) if acting.frictions else []
-    return System(structure, poses, acting.loads, tuple(each.unit for each in frictions)), frictions
+    structure = Structure(poses.plan, applied.elements, applied.thrusts)
+    frictions = joint_frictions(structure, poses, applied.frictions, applied.rates) if applied.frictions else []
+    return System(structure, poses, applied.loads, tuple(each.unit for each in frictions)), frictions
 
 
 @final

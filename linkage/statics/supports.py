@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, known_name
-from ..loads import Support
+from ..loads import ActingKeywords, Loads, Support, situation_of, takes_situation
 from ..motion import Motion, require_motion
 from ..motion.conditions import condition_of_sine
 from ..motion.requests import stroke_of
 from ..program import FloatArray
 from ..quantities import name_of, real
-from .acting import Case, Loads, acting_loads, movement_of
 from .agreement import check_joints
+from .applied import applied_loads, rates_in
 from .holding import refused_where
 from .joints import Wrench
 from .poses import FlatPoses
@@ -23,6 +23,7 @@ from .solution import Equilibrium, locked_words, system_with_friction
 from .work import by_work
 
 
+@takes_situation
 def reaction(
     motion: Motion,
     loads: Loads = None,
@@ -30,9 +31,7 @@ def reaction(
     *,
     drive_force: ArrayLike = 0.0,
     drive: str | None = None,
-    case: Case = None,
-    direction: str = "frictionless",
-    rates: Mapping[str, ArrayLike] | None = None,
+    **situation: Unpack[ActingKeywords],
 ) -> FloatArray:
     """Return the force of a support along its direction, shape (...) [N], when the drive's force is known.
 
@@ -41,24 +40,25 @@ def reaction(
     not count. With several strokes `drive` names the one that the support balances; the others stand still. Raises SingularError
     where the support's point does not move along its direction with the drive.
     """
+    acting = situation_of("reaction", loads=loads, **situation)
     require_motion(motion)
     name, element = support_of(motion, support)
     stroke = stroke_of(motion.plan, drive, "drive")
-    acting = acting_loads(motion, loads, case, movement_of(motion, direction, rates, stroke), without=name)
+    applied = applied_loads(motion, acting, rates_in(motion, acting, stroke), without=name)
     poses = FlatPoses(motion, f"The reaction of {name}")
     known = poses.flat(known_force(motion, drive_force))
     lever = way_along(poses, element, stroke, name)
-    if not acting.frictions:
-        return poses.full((by_work(poses, acting, stroke) - known) / lever)
+    if not applied.frictions:
+        return poses.full((by_work(poses, applied, stroke) - known) / lever)
     # with friction: the reaction at which it, the joint forces and the known drive force agree
-    system, frictions = system_with_friction(poses, acting)
+    system, frictions = system_with_friction(poses, applied)
     column, point = np.zeros((poses.count, system.height, 1)), name_of(element.point)
     push = Wrench(poses.at(point), np.zeros((2, poses.count)) + element.unit[:, None], np.zeros(poses.count))
     system.put(column[:, :, 0], system.structure.holder(point), push)
     bound = (*system.known(), (system.drive(stroke), known))
     found = Equilibrium(system, frictions, bound=bound, supports=column).solution()
     check_joints(system.structure, poses)
-    locked_words(found, direction)
+    locked_words(found, acting.movement)
     return poses.full(found.u[:, -1])
 
 

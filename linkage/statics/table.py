@@ -17,7 +17,7 @@ from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
 from ..motion.limits import place_text
 from ..units import shown_number, unit_sign
 from .force_requests import pin_force
-from .joint_forces import JointForce, PinForces, pin_forces
+from .joint_forces import JointForce, PinForces, joint_forces
 
 Place: TypeAlias = tuple[np.intp | int, ...]
 """A pose among those of a motion, or a design among its designs, by its indices."""
@@ -126,7 +126,8 @@ def judged_table(judge: Judge) -> tuple[PinLoad, ...]:
         pose = judge.pose
         if pose is None:
             raise DefinitionError("There are no joint forces to tabulate: no pose is reached.")
-        joints = {joint_key(each): each for each in pin_forces(pose, judge.acting.loads, case=judge.acting.case).joints if each.has_force}
+        there = joint_forces(pose, Acting(judge.acting.loads, judge.acting.case))
+        joints = {joint_key(each): each for each in there.joints if each.has_force}
         answers = judge.answers([most(pin_force(point, on, by=by)) for point, on, by, _ in joints])
         rows = [judged_row(judge, key, answer) for key, answer in zip(joints, answers, strict=True)]
     return tuple(row for row in rows if row is not None)
@@ -140,9 +141,7 @@ def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer) -> 
     number = int(np.argmax(np.where(np.isnan(value), -np.inf, value)))
     of_design, one = (judge.of_design(number), answer.of_design(number)) if value.ndim else (judge, answer)
     acting = of_design.situation(one)
-    movement: dict[str, Any] = {"direction": acting.movement, "rates": acting.rates}
-    movement["drive"] = acting.drive if acting.movement != FRICTIONLESS else None
-    there = pin_forces(of_design.there(one), acting.loads, case=acting.case, **movement)
+    there = joint_forces(of_design.there(one), replace(acting, drive=acting.drive if acting.movement != FRICTIONLESS else None))
     joint = next(each for each in there.joints if joint_key(each) == key)
     design = np.unravel_index(number, value.shape)
     row = pin_load(there, joint, float(one.value), (), design, dict(one.strokes))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import cached_property
 from threading import RLock
 from typing import cast, final
 
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, LawError, UntracedError, unwarned
+from ..loads import AT_REST, Acting, Rates
 from ..motion import BoundRequest, Motion, OnePose
 from ..motion.requests import stroke_of
 from ..motion.strokes import checked_name, order_of
@@ -20,7 +21,7 @@ from ..program import FloatArray, Level, Node, Notes, Traced, eliminated, node_o
 from ..quantities import Angle, Distance, Member, Quantity, Reference
 from ..steps import Arrow, Point
 from ..vectors import Scalar
-from .acting import AT_REST, ActingElement, ActingLoads, Case, Loads, Movement, Parts, acting_elements, all_acting, case_of, element_parts
+from .applied import AppliedElement, AppliedLoads, Parts, applied_loads, element_parts
 from .equilibrium import System
 from .joints import Structure
 from .poses import AnyMotion, FlatPoses
@@ -34,36 +35,35 @@ TRACING = RLock()
 class TracedLoads:
     """The loads of a mechanism, traced on a plan's program: what acts, as nodes, and the pose that stands for all of them."""
 
-    def __init__(self, motion: TracedMotion, loads: Loads, case: Case, movement: Movement) -> None:
+    def __init__(self, motion: TracedMotion, acting: Acting, rates: Rates) -> None:
         self.motion = motion
-        movement = replace(movement, rates={name: motion.input(rate_name(name)) for name in movement.rates})
-        elements, label = acting_elements(motion.plan, loads, case), case_of(motion.plan, case).label
-        self.acting: ActingLoads = all_acting(motion.plan, elements, label, movement, partial(traced_parts, motion, movement))
+        speeds = Rates({name: motion.input(rate_name(name)) for name in rates}, rates.is_timed, rates.direction)
+        self.applied = traced_loads(motion, acting, speeds)
         self.poses = FlatPoses(motion, "")
 
     @classmethod
-    def apart(cls, plan: Plan, loads: Loads, case: Case, movement: Movement = AT_REST) -> TracedLoads:
+    def apart(cls, plan: Plan, acting: Acting, rates: Rates = AT_REST) -> TracedLoads:
         """Return the loads traced on a program that is kept for this: equal loads have equal nodes there."""
         with TRACING:
             kept = plan.made(("traced loads",), lambda twin: twin)
-            return cls(TracedMotion(kept, kept.trace.view()), loads, case, movement)
+            return cls(TracedMotion(kept, kept.trace.view()), acting, rates)
 
     @classmethod
-    def on(cls, plan: Plan, loads: Loads, case: Case, movement: Movement = AT_REST) -> TracedLoads:
+    def on(cls, plan: Plan, acting: Acting, rates: Rates = AT_REST) -> TracedLoads:
         """Return the loads traced on a plan's own program."""
-        return cls(TracedMotion(plan, plan.trace), loads, case, movement)
+        return cls(TracedMotion(plan, plan.trace), acting, rates)
 
     @property
     def structure(self) -> Structure:
         """The bodies and joints that the loads act on."""
-        return Structure(self.motion.plan, self.acting.elements, self.acting.thrusts)
+        return Structure(self.motion.plan, self.applied.elements, self.applied.thrusts)
 
     @property
     def key(self) -> tuple[Hashable, ...]:
         """What tells these loads from others: the program, and where which nodes act."""
         node = self.motion.node
-        loads = ((each.load.point, each.load.on, *(node(part).number for part in each.force)) for each in self.acting.loads)
-        thrusts = ((each.name, each.ends, node(each.thrust).number) for each in self.acting.thrusts)
+        loads = ((each.load.point, each.load.on, *(node(part).number for part in each.force)) for each in self.applied.loads)
+        thrusts = ((each.name, each.ends, node(each.thrust).number) for each in self.applied.thrusts)
         return self.motion._reading.graph, *loads, *thrusts, *self.notes.assumed, None, *self.notes.switches
 
     @property
@@ -74,7 +74,7 @@ class TracedLoads:
     @property
     def carriers(self) -> set[str]:
         """The members that the loaded points are built from."""
-        return self.motion.plan.reaches(*self.acting.points)
+        return self.motion.plan.reaches(*self.applied.points)
 
     @property
     def names(self) -> set[str]:
@@ -87,11 +87,17 @@ def rate_name(stroke: str) -> str:
     return f"|rate {stroke}"
 
 
-def traced_parts(motion: TracedMotion, movement: Movement, each: ActingElement) -> Parts:
+def traced_loads(motion: TracedMotion, acting: Acting, rates: Rates) -> AppliedLoads:
+    """Return what acts in a situation, as nodes; LawError, with the element's name, for a law that cannot be traced."""
+    return applied_loads(motion, acting, rates, parts_of=traced_parts)
+
+
+def traced_parts(each: AppliedElement, motion: AnyMotion, rates: Rates) -> Parts:
     """Return the loads and the thrusts of one element, as nodes; LawError, with its name, for a law that cannot be traced."""
+    assert isinstance(motion, TracedMotion)
     motion.notes.owner, motion.notes.tests = each.name, 0
     try:
-        return element_parts(each, motion, movement, motion.fit)
+        return element_parts(each, motion, rates, motion.fit)
     except Exception as error:
         raise LawError(
             f"{motion.plan.title}: the law of {each.name} cannot be traced: {str(error).rstrip('.')}. "
@@ -99,18 +105,10 @@ def traced_parts(motion: TracedMotion, movement: Movement, each: ActingElement) 
         ) from error
 
 
-def traced_acting(motion: TracedMotion, loads: Loads, case: Case, movement: Movement) -> ActingLoads:
-    """Return what acts, as nodes, with the dry friction as it is declared."""
-    elements, label = acting_elements(motion.plan, loads, case), case_of(motion.plan, case).label
-    found = all_acting(motion.plan, elements, label, movement, partial(traced_parts, motion, movement))
-    frictions = tuple(friction for each in elements if movement.has_friction for friction in each.element.frictions(motion))
-    return replace(found, frictions=frictions)
-
-
-def refuse_friction(motion: AnyMotion, acting: ActingLoads) -> None:
+def refuse_friction(motion: AnyMotion, applied: AppliedLoads) -> None:
     """Raise UntracedError where a program is asked for what dry friction has a part in: it follows from the forces that it changes."""
-    if isinstance(motion, TracedMotion) and acting.frictions:
-        rubbing = [each.name or str(each) for each in acting.elements if each.frictions(motion)]
+    if isinstance(motion, TracedMotion) and applied.frictions:
+        rubbing = [each.name or str(each) for each in applied.elements if each.frictions(motion)]
         raise UntracedError(
             f"{motion.plan.title}: the friction of {', '.join(rubbing)} follows from the forces that it changes and has no program: there "
             f"are values, and no derivatives. Ask while nothing rubs, direction=\"frictionless\", or leave {rubbing[0]} out by a LoadCase."
@@ -255,15 +253,15 @@ def eliminated_forces(system: System, motion: TracedMotion, friction: Sequence[N
     return motion._array([eliminated([[motion.node(each) for each in row] for row in A], sides)])
 
 
-def checked_length(plan: Plan, acting: ActingLoads) -> float:
+def checked_length(plan: Plan, applied: AppliedLoads) -> float:
     """Return a length of the mechanism [m]; DefinitionError where a body hangs loose or a link is redundant."""
     along = np.linspace(0.0, 1.0, POSES)
     ranges = {name: each.start + along * (each.end - each.start) for name, each in plan.strokes.items()}
     strokes = {name: np.append(plan.sketch_strokes[name], values) for name, values in ranges.items()}
     with unwarned():
         poses = FlatPoses(Motion(plan, plan.defaults, strokes, "nan"), "The joint forces")
-    without = tuple(replace(each, thrust=np.zeros(poses.motion.shape)) for each in acting.thrusts)
-    system = System(Structure(plan, acting.elements, without), poses, ())
+    without = tuple(replace(each, thrust=np.zeros(poses.motion.shape)) for each in applied.thrusts)
+    system = System(Structure(plan, applied.elements, without), poses, ())
     if not poses.count:
         raise DefinitionError(f"{plan.title}: the declared design cannot be assembled at any of {POSES} poses; declare one that can.")
     Equilibrium(system, bound=tuple(system.known())).check()

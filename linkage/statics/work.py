@@ -3,47 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Unpack
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, UntracedError
-from ..loads import Rate, TwoPoint
+from ..loads import AT_REST, SENSES, Acting, ActingKeywords, Loads, Rate, Rates, TwoPoint, situation_of, takes_situation
 from ..motion import Motion, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Mask
 from ..program import FloatArray, is_traced
 from ..quantities import is_number
-from .acting import (
-    AT_REST,
-    ActingLoads,
-    Case,
-    Loads,
-    Movement,
-    acting_elements,
-    acting_loads,
-    member_title,
-    movement_of,
-    path_tangent,
-    sense_of,
-)
 from .agreement import AGREES, disagreeing
+from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
 from .holding import Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
 from .poses import AnyMotion, FlatPoses, plan_of
 from .solution import LEAST, PoseForces, locked_words
-from .traced_loads import TracedMotion, refuse_friction, traced_acting
+from .traced_loads import TracedMotion, refuse_friction, traced_loads
 
 
+@takes_situation
 def driving_force(
-    motion: Motion,
-    loads: Loads = None,
-    drive: str | None = None,
-    *,
-    case: Case = None,
-    direction: str = "frictionless",
-    rates: Mapping[str, ArrayLike] | None = None,
-    efficiency: float = 1.0,
+    motion: Motion, loads: Loads = None, drive: str | None = None, *, efficiency: float = 1.0, **situation: Unpack[ActingKeywords]
 ) -> FloatArray:
     """Return the generalised force of a stroke by virtual work, shape (...): [N], for a crank's angle the torque [Nm].
 
@@ -51,25 +34,31 @@ def driving_force(
     it is twice the thrust, which `pin_forces(...).thrusts` and a cylinder's own `thrust(motion)` tell.
     `loads` are the machine's own unless others are given; `case` a LoadCase or its name. While "extending" (the stroke grows) or
     "retracting" friction adds its work; along a path of several strokes its senses are those of the path. `rates`, such as
-    `dict(S=0.05)` [1/s], are what dampers ask for. Given as an `efficiency` k, the force is F / k where the load resists and F k where
-    it drives. Raises SingularError at a dead point and where friction locks the mechanism.
+    `dict(S=0.05)` [1/s], are what dampers ask for; `acting` says all of these in one. Given as an `efficiency` k, the force is F / k
+    where the load resists and F k where it drives. Raises SingularError at a dead point and where friction locks the mechanism.
     """
+    acting = situation_of("driving_force", loads=loads, **situation)
+    return stroke_force(motion, acting, acting.drive if drive is None else drive, efficiency)
+
+
+def stroke_force(motion: Motion, acting: Acting, drive: str | None, efficiency: float = 1.0) -> FloatArray:
+    """Return the generalised force of a stroke in a situation, shape (...): of `drive`, the only one where that is None."""
     require_motion(motion)
     stroke = stroke_of(motion.plan, drive, "drive")
-    movement = movement_of(motion, direction, rates, stroke)
-    acting = acting_loads(motion, loads, case, movement)
-    names = {name for point in acting.points for name in motion.plan.reaches(point)}
-    poses = FlatPoses(motion, f"The driving force of {stroke}", None if acting.frictions else names)
-    force = by_work(poses, acting, stroke)
-    if acting.frictions:
-        found = forces_at(poses, acting, loads, case)
-        locked_words(found, direction)
-        if tuple(movement.rates) == (stroke,) and not movement.is_timed:
+    rates = rates_in(motion, acting, stroke)
+    applied = applied_loads(motion, acting, rates)
+    names = {name for point in applied.points for name in motion.plan.reaches(point)}
+    poses = FlatPoses(motion, f"The driving force of {stroke}", None if applied.frictions else names)
+    force = by_work(poses, applied, stroke)
+    if applied.frictions:
+        found = forces_at(poses, applied)
+        locked_words(found, rates.direction)
+        if tuple(rates) == (stroke,) and not rates.is_timed:
             lost = (each * joint.rate for each, joint in zip(found.q, found.frictions, strict=True))  # never negative
-            force = force + movement.sense * sum(lost, np.zeros(poses.count))
+            force = force + rates.sense * sum(lost, np.zeros(poses.count))
         else:
             force = poses.flat(found.drives[stroke])
-    return poses.full(with_losses(force, efficiency, movement.sense))
+    return poses.full(with_losses(force, efficiency, rates.sense))
 
 
 def with_losses(force: FloatArray, efficiency: float, sense: int) -> FloatArray:
@@ -84,41 +73,41 @@ def with_losses(force: FloatArray, efficiency: float, sense: int) -> FloatArray:
 # The work of the loads.
 
 
-def by_work(poses: FlatPoses, acting: ActingLoads, drive: str) -> FloatArray:
+def by_work(poses: FlatPoses, applied: AppliedLoads, drive: str) -> FloatArray:
     """Return the force of a drive that balances the loads [N or Nm], shape (n,): minus their work on a unit of its stroke."""
     moving, work = poses.plan.moving, np.zeros(poses.count)
-    for load in acting.loads:
+    for load in applied.loads:
         if load.load.point in moving:
             work = work + (poses.flat(load.force) * poses.rate(load.load.point, drive)).sum(axis=0)
-    for push in acting.thrusts:
+    for push in applied.thrusts:
         P, Q = push.ends
         if {P, Q} & set(moving):
             work = work + poses.flat(push.thrust) * poses.growth(P, Q, drive)
     return np.asarray(0.0 - work)
 
 
-def work_gap(poses: FlatPoses, acting: ActingLoads, drives: Mapping[str, FloatArray]) -> float:
+def work_gap(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, FloatArray]) -> float:
     """Return the largest difference between the drives' forces by equilibrium and by work, over the loads' powers; NaN with friction."""
-    if acting.frictions:
+    if applied.frictions:
         return float("nan")
     worst = 0.0
-    for _, missed, power in work_misses(poses, acting, drives):
+    for _, missed, power in work_misses(poses, applied, drives):
         most = float(np.nanmax(missed, initial=0.0))
         worst = max(worst, most / power if power > 0.0 else most)
     return worst
 
 
-def work_misses(poses: FlatPoses, acting: ActingLoads, drives: Mapping[str, FloatArray]) -> Iterator[tuple[str, FloatArray, float]]:
+def work_misses(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, FloatArray]) -> Iterator[tuple[str, FloatArray, float]]:
     """Yield each drive with the difference of its forces by equilibrium and by work (n,), and the largest power of the loads.
 
     A load's power counts as force times way, whatever the angle between them: where loads balance each other, as counterweights do, or
     do no work, the drive's own force is nearly nothing.
     """
-    sizes = [(each.load.point, np.hypot(*poses.flat(each.force))) for each in acting.loads]
-    sizes += [(end, np.abs(poses.flat(push.thrust))) for push in acting.thrusts for end in push.ends]
+    sizes = [(each.load.point, np.hypot(*poses.flat(each.force))) for each in applied.loads]
+    sizes += [(end, np.abs(poses.flat(push.thrust))) for push in applied.thrusts for end in push.ends]
     for name, force in drives.items():
         powers = sum((size * np.hypot(*poses.rate(point, name)) for point, size in sizes), np.zeros(poses.count))
-        yield name, np.abs(poses.flat(force) - by_work(poses, acting, name)), float(np.max(powers, initial=0.0))
+        yield name, np.abs(poses.flat(force) - by_work(poses, applied, name)), float(np.max(powers, initial=0.0))
 
 
 def without_work(found: PoseForces) -> tuple[Mask, str]:
@@ -126,15 +115,15 @@ def without_work(found: PoseForces) -> tuple[Mask, str]:
 
     Poses near singular ones lose as much as they are said to. With friction nothing is told.
     """
-    poses, acting, lost, words = found.poses, found.acting, np.zeros(found.poses.count, bool), ""
-    if acting.frictions:
+    poses, applied, lost, words = found.poses, found.applied, np.zeros(found.poses.count, bool), ""
+    if applied.frictions:
         return lost, words
-    for name, missed, power in work_misses(poses, acting, found.drives):
-        size = power or max((float(np.max(np.abs(each.force), initial=0.0)) for each in acting.loads), default=0.0)
+    for name, missed, power in work_misses(poses, applied, found.drives):
+        size = power or max((float(np.max(np.abs(each.force), initial=0.0)) for each in applied.loads), default=0.0)
         bad = disagreeing(poses, missed, AGREES * size + LEAST, size)
         if bad.any() and not words:
             worst = int(np.argmax(np.where(bad, missed, -1.0)))
-            ours, theirs = poses.flat(found.drives[name])[worst], by_work(poses, acting, name)[worst]
+            ours, theirs = poses.flat(found.drives[name])[worst], by_work(poses, applied, name)[worst]
             words = f"the force of {name} is {ours:.6g} by the equilibrium of the joints and {theirs:.6g} by virtual work"
         lost |= bad
     return lost, words
@@ -143,69 +132,60 @@ def without_work(found: PoseForces) -> tuple[Mask, str]:
 # What one straight two-point member carries: a cylinder that holds, a cylinder on a charged line, a spring.
 
 
-def member_thrust(
-    motion: AnyMotion,
-    member: TwoPoint,
-    loads: Loads = None,
-    *,
-    case: Case = None,
-    direction: str = "frictionless",
-    rates: Mapping[str, ArrayLike] | None = None,
-) -> FloatArray:
+def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatArray:
     """Return what a two-point member carries, shape (...) [N], positive where it pushes its ends apart.
 
     Of one that holds, by virtual work on the strokes that the cylinders have taken over; with friction by equilibrium. Of one with a
     law of its own, that. One that is not of the class stands in the place of the class's cylinder between the same points.
-    `direction` is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises DefinitionError for one
+    The direction is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises DefinitionError for one
     that neither holds nor has a law here, SingularError where its length stands still against its drive.
     """
     plan = plan_of(motion)
     member = standing_for(motion, member)
-    holders = holders_of(plan, [*(each.element for each in acting_elements(plan, loads, None)), member])
+    holders = holders_of(plan, [*(each.element for each in applied_elements(plan, replace(acting, case=None))), member])
     line = holders.line_of(member)
-    movement = member_movement(motion, member, direction, rates, line)
-    acting = acting_on(motion, loads, case, movement)
+    applied = applied_on(motion, acting, member_rates(motion, member, acting, line))
     if line is None:
-        own = [each.thrust for each in acting.thrusts if same(each.member, member)]
+        own = [each.thrust for each in applied.thrusts if same(each.member, member)]
         if not own:
             why = "it does not hold, and no element among these loads gives its force"
             raise DefinitionError(f"{plan.title}: {member.name or member} carries nothing here: {why}.")
         return np.where(motion.reached, sum(own, np.zeros(motion.shape)), np.nan)
     what = f"The thrust of {member.name or member}"
-    refuse_friction(motion, acting)
-    if acting.frictions:
-        found = forces_at(poses_held(require_motion(motion), acting, what), acting, loads, case)
-        locked_words(found, direction)
+    refuse_friction(motion, applied)
+    if applied.frictions:
+        found = forces_at(poses_held(require_motion(motion), applied, what), applied)
+        locked_words(found, acting.movement)
         return found.thrusts[member_title(member)]
-    names = {name for point in (*acting.points, *(end for each in line.cylinders for end in each.ends)) for name in plan.reaches(point)}
+    names = {name for point in (*applied.points, *(end for each in line.cylinders for end in each.ends)) for name in plan.reaches(point)}
     poses, levers = with_levers(FlatPoses(motion, what, names), holders.lines, what)
-    return poses.full(thrust_by_work(poses, acting, holders.lines, levers, member))[()]
+    return poses.full(thrust_by_work(poses, applied, holders.lines, levers, member))[()]
 
 
-def acting_on(motion: AnyMotion, loads: Loads, case: Case, movement: Movement) -> ActingLoads:
+def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:
     """Return the loads that act, at a motion's poses or as nodes; UntracedError where a program cannot follow what they follow."""
     if not isinstance(motion, TracedMotion):
-        return acting_loads(require_motion(motion), loads, case, movement)
-    acting = traced_acting(motion, loads, case, movement)
-    if movement.rates and len(motion.plan.strokes) > 1:
-        still = traced_acting(motion, loads, case, AT_REST)
-        if [motion.node(each) for each in numbers(acting)] != [motion.node(each) for each in numbers(still)]:
+        return applied_loads(motion, acting, rates)
+    applied = traced_loads(motion, acting, rates)
+    if rates and len(motion.plan.strokes) > 1:
+        still = traced_loads(motion, acting, AT_REST)
+        if [motion.node(each) for each in numbers(applied)] != [motion.node(each) for each in numbers(still)]:
             raise UntracedError(
                 f"{motion.plan.title}: what rubs acts along the path of several strokes, so that no program gives it pose by pose; ask a "
                 "motion, or while nothing rubs."
             )
-    return acting
+    return applied
 
 
-def numbers(acting: ActingLoads) -> list[FloatArray]:
+def numbers(applied: AppliedLoads) -> list[FloatArray]:
     """Return all numbers of what acts."""
-    return [*(part for each in acting.loads for part in each.force), *(each.thrust for each in acting.thrusts)]
+    return [*(part for each in applied.loads for part in each.force), *(each.thrust for each in applied.thrusts)]
 
 
-def poses_held(motion: Motion, acting: ActingLoads, what: str) -> FlatPoses:
+def poses_held(motion: Motion, applied: AppliedLoads, what: str) -> FlatPoses:
     """Return the poses at which a motion's forces can be worked out: not singular, and held by the cylinders that hold."""
     poses = FlatPoses(motion, what)
-    lines = holders_of(motion.plan, acting.elements).lines
+    lines = holders_of(motion.plan, applied.elements).lines
     return poses if not lines else with_levers(poses, lines, what)[0]
 
 
@@ -217,32 +197,28 @@ def standing_for(motion: AnyMotion, member: TwoPoint) -> TwoPoint:
     return next((each for each in own if each.holds and set(each.ends) == set(member.ends)), member)
 
 
-def member_movement(
-    motion: AnyMotion, member: TwoPoint, direction: str, rates: Mapping[str, ArrayLike] | None, line: PressureLine | None
-) -> Movement:
+def member_rates(motion: AnyMotion, member: TwoPoint, acting: Acting, line: PressureLine | None) -> Rates:
     """Return how strokes move while a member grows or shrinks: along the path, else by the stroke it holds or follows most."""
-    sense = sense_of(direction)
-    if not sense and rates is None:
-        return AT_REST
+    direction, sense, still = acting.movement, SENSES[acting.movement], replace(acting, direction=None, drive=None)
     if not sense:
-        return movement_of(require_motion(motion), direction, rates, None)
-    if rates is not None:
-        moves = movement_of(require_motion(motion), "frictionless", rates, None).rates
+        return AT_REST if acting.rates is None else rates_in(require_motion(motion), still)
+    if acting.rates is not None:
+        moves = rates_in(require_motion(motion), still)
         if np.any(sense * np.nan_to_num(member.growth(motion, moves)) < 0.0):
             what = f"{member.name or member}: direction={direction!r} is its own, and at these rates it goes the other way at some poses"
             raise DefinitionError(f"{motion.plan.title}: {what}; drop one of them.")
-        return Movement(direction, moves, True, True)
+        return Rates(moves, True, direction)
     tangent: Mapping[str, Rate] = path_tangent(motion) or {line.stroke if line is not None else stroke_followed(motion.plan, member): 1.0}
     growth = member.growth(motion, tangent)
     way = sense * np.sign(growth if is_traced(growth) else np.nan_to_num(growth))
-    return Movement(direction, {name: way * rate for name, rate in tangent.items()}, True)
+    return Rates({name: way * rate for name, rate in tangent.items()}, direction=direction)
 
 
 def thrust_by_work(
-    poses: FlatPoses, acting: ActingLoads, lines: Sequence[PressureLine], levers: Sequence[Levers], member: TwoPoint
+    poses: FlatPoses, applied: AppliedLoads, lines: Sequence[PressureLine], levers: Sequence[Levers], member: TwoPoint
 ) -> FloatArray:
     """Return a holding cylinder's thrust by virtual work on the strokes taken over, shape (n,), frictionless."""
-    need = np.stack([by_work(poses, acting, line.stroke) for line in lines], axis=-1)
+    need = np.stack([by_work(poses, applied, line.stroke) for line in lines], axis=-1)
     place = next(k for k, line in enumerate(lines) if any(same(each, member) for each in line.cylinders))
     shares = [each.share(lines[place], member, place) for each in levers]
     firsts = [each.thrusts(need)[:, place] for each in levers]

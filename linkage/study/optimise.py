@@ -15,7 +15,7 @@ import numpy as np
 
 from ..disk import check_name, in_words, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited, known_name, one_word
-from ..loads import PLAIN_CASE, Acting, LoadCase
+from ..loads import PLAIN_CASE, Acting, Case, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Judge, Over, Request
 from ..motion.measures import (
@@ -32,8 +32,7 @@ from ..motion.measures import (
 )
 from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, is_number, is_whole, ref
-from ..statics import Case
-from ..statics.acting import case_of
+from ..statics.applied import case_of
 from ..units import show
 from .box import unit_points
 from .checkpoint import measure_text

@@ -12,13 +12,12 @@ from hydraulics import Cylinder, FloatCircuit, pressure
 from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, drive_force, most, ratio, ref
 from linkage.errors import cited
 from linkage.language import noted
-from linkage.loads import PinFriction, Support
+from linkage.loads import SENSES, PinFriction, Support
 from linkage.loads.element import Formulas
 from linkage.motion import Judge, Request, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import Coordinate, Distance, Quantity, is_number, is_whole
 from linkage.statics import driving_force, reaction
-from linkage.statics.acting import SENSES
 from linkage.units import mm, show
 
 AB = Distance("A", "B")  # one for all, so that its ratio is worked out once

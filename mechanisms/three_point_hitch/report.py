@@ -6,10 +6,10 @@ import numpy as np
 
 from linkage import Column, ForceElement, Mechanism, Motion, least, most, pin_forces
 from linkage.language import noted, said
+from linkage.loads import Case
 from linkage.motion import Judge
 from linkage.program import FloatArray
 from linkage.reports import ranges_below_zero, spans_in_words
-from linkage.statics.acting import Case
 from linkage.units import g0, show, shown_number
 from linkage.verdict import Verdict
 

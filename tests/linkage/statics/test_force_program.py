@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit
 from linkage import (
     RIGHT,
+    Acting,
     Between,
     Crank,
     Damper,
@@ -31,7 +32,7 @@ from linkage import (
     pin_forces,
 )
 from linkage.statics import max_table
-from linkage.statics.acting import acting_loads, movement_of
+from linkage.statics.applied import applied_loads, rates_in
 from linkage.statics.joint_forces import joints_of
 from linkage.statics.solution import by_equations
 from linkage.statics.work import poses_held
@@ -88,10 +89,9 @@ class Crane(Mechanism):
 
 def both(motion, loads=None, **choice):
     """Return the forces by the kernel, and by the equations on arrays."""
-    drive, rates = choice.get("drive"), choice.get("rates")
-    movement = movement_of(motion, choice.get("direction", "frictionless"), rates, drive)
-    acting = acting_loads(motion, loads, choice.get("case"), movement)
-    return pin_forces(motion, loads, **choice), by_equations(poses_held(motion, acting, "The joint forces"), acting, "refuse")
+    acting = Acting(loads, **choice)
+    applied = applied_loads(motion, acting, rates_in(motion, acting))
+    return pin_forces(motion, loads, **choice), by_equations(poses_held(motion, applied, "The joint forces"), applied, "refuse")
 
 
 def check(motion, loads=None, **choice):

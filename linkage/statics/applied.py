@@ -1,40 +1,46 @@
-"""Which loads act: the machine's own or given ones, as a load case has them, in a direction of motion."""
+"""What acts on a motion in a situation: the machine's own loads or given ones, as a load case has them, at the rates of a movement."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
-from types import MappingProxyType
 from typing import Protocol, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
-from ..loads import PLAIN_CASE, Damper, ForceElement, Friction, Load, LoadCase, Poses, Rate, Rates, TwoPinned, check_together
+from ..loads import (
+    AT_REST,
+    PLAIN_CASE,
+    SENSES,
+    Acting,
+    Case,
+    Damper,
+    ForceElement,
+    Friction,
+    Load,
+    LoadCase,
+    Loads,
+    Poses,
+    Rate,
+    Rates,
+    TwoPinned,
+    check_together,
+)  # fmt: skip
 from ..loads.case import check_factor
 from ..motion import Motion, rates_of, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import name_of
-
-
-class HasLoads(Protocol):
-    """Anything with loads: what a force element is at the least."""
-
-    def loads(self, motion: Poses) -> list[Load]:
-        """Return the forces over the motion's poses [N]."""
-
-
-Loads: TypeAlias = Sequence[ForceElement | HasLoads | str] | ForceElement | HasLoads | str | None
-Case: TypeAlias = LoadCase | str | None
+from .poses import AnyMotion
 
 
 @final
 @dataclass(frozen=True)
-class ActingLoad:
+class AppliedLoad:
     """A load at the poses, as it acts: point, force (2, ...) [N] in the motion's shape, the body it is on, its element."""
 
     load: Load
@@ -44,7 +50,7 @@ class ActingLoad:
 
 @final
 @dataclass(frozen=True)
-class ActingThrust:
+class AppliedThrust:
     """What a two-point member carries by a law: its name, the member, its thrust at the poses [N] in the motion's shape."""
 
     name: str
@@ -59,18 +65,20 @@ class ActingThrust:
 
 @final
 @dataclass(frozen=True)
-class ActingLoads:
-    """All that acts on a motion in one load case and one movement: loads, members with a thrust of their own, friction.
+class AppliedLoads:
+    """All that acts on a motion in a situation: loads, members with a thrust of their own, friction.
 
-    `elements` are those that act, `at_rest` the names of the dampers that give nothing because no speed is known.
+    `rates` are those at which strokes move, `elements` those that act, `case` what the load case is called, `at_rest` the names of the
+    dampers that give nothing because no speed is known.
     """
 
-    loads: tuple[ActingLoad, ...]
-    thrusts: tuple[ActingThrust, ...]
-    frictions: tuple[Friction, ...]
-    elements: tuple[ForceElement, ...]
+    acting: Acting
+    rates: Rates
     case: str
-    movement: Movement
+    elements: tuple[ForceElement, ...]
+    loads: tuple[AppliedLoad, ...]
+    thrusts: tuple[AppliedThrust, ...]
+    frictions: tuple[Friction, ...]
     at_rest: tuple[str, ...] = ()
 
     @property
@@ -79,21 +87,9 @@ class ActingLoads:
         return {each.load.point for each in self.loads} | {end for each in self.thrusts for end in each.ends}
 
 
-def acting_loads(motion: Motion, loads: Loads, case: Case, movement: Movement, without: str = "") -> ActingLoads:
-    """Return the loads that act; DefinitionError for what is no force element or gives no proper force."""
-    elements = acting_elements(motion.plan, loads, case, without)
-    label = "given loads" if case is None and loads is not None else case_of(motion.plan, case).label
-    fit = partial(over_poses, motion)
-    found = all_acting(motion.plan, elements, label, movement, lambda each: element_parts(each, motion, movement, fit))
-    frictions = [(each.factor, friction) for each in elements if movement.has_friction for friction in each.element.frictions(motion)]
-    scaled = tuple(replace(friction, coefficient=friction.coefficient * factor) for factor, friction in frictions)
-    at_rest = tuple(each.name for each in elements if isinstance(each.element, Damper) and not movement.is_timed)
-    return replace(found, frictions=scaled, at_rest=at_rest)
-
-
 @final
 @dataclass(frozen=True)
-class ActingElement:
+class AppliedElement:
     """A force element that counts: as it is, in the gravity of a load case, and what its loads are multiplied by."""
 
     name: str
@@ -102,27 +98,42 @@ class ActingElement:
     factor: float
 
 
-Parts: TypeAlias = tuple[list[ActingLoad], list[ActingThrust]]
+Parts: TypeAlias = tuple[list[AppliedLoad], list[AppliedThrust]]
+PartsOf: TypeAlias = Callable[[AppliedElement, AnyMotion, Rates], Parts]
 
 
-def all_acting(
-    plan: Plan, elements: Sequence[ActingElement], label: str, movement: Movement, parts: Callable[[ActingElement], Parts]
-) -> ActingLoads:
-    """Return what some elements do as all that acts, without friction; DefinitionError for a load at a point that there is not."""
-    each_of = [parts(each) for each in elements]
+def applied_loads(motion: AnyMotion, acting: Acting, rates: Rates, without: str = "", parts_of: PartsOf | None = None) -> AppliedLoads:
+    """Return what acts on a motion in a situation; DefinitionError for what is no force element or gives no proper force.
+
+    `rates` are those of the situation at the motion's poses. An element named `without` is left out. `parts_of` reads the law of an
+    element, where that is not read on arrays.
+    """
+    plan, read = motion.plan, parts_of or array_parts
+    elements = applied_elements(plan, acting, without)
+    each_of = [read(each, motion, rates) for each in elements]
     loads = tuple(load for found, _ in each_of for load in found)
     for each in loads:
         check_points(each.load, plan, each.element)
-    thrusts = tuple(thrust for _, found in each_of for thrust in found)
-    return ActingLoads(loads, thrusts, (), tuple(each.element for each in elements), label, movement)
+    frictions = [(each.factor, friction) for each in elements if rates.has_friction for friction in each.element.frictions(motion)]
+    return AppliedLoads(
+        acting, rates, "given loads" if acting.case is None and acting.loads is not None else case_of(plan, acting.case).label,
+        tuple(each.element for each in elements), loads, tuple(thrust for _, found in each_of for thrust in found),
+        tuple(replace(each, coefficient=each.coefficient * factor) for factor, each in frictions),
+        tuple(each.name for each in elements if isinstance(each.element, Damper) and not rates.is_timed),
+    )  # fmt: skip
 
 
-def element_parts(each: ActingElement, motion: Poses, movement: Movement, fit: Callable[[ArrayLike, int, str, str], FloatArray]) -> Parts:
+def array_parts(each: AppliedElement, motion: AnyMotion, rates: Rates) -> Parts:
+    """Return the loads and the thrusts of one element over the poses of a motion."""
+    return element_parts(each, motion, rates, partial(over_poses, require_motion(motion)))
+
+
+def element_parts(each: AppliedElement, motion: Poses, rates: Rates, fit: Callable[[ArrayLike, int, str, str], FloatArray]) -> Parts:
     """Return the loads and the thrusts of one element as they act; `fit` brings forces into the motion's shape."""
-    element, rates, name = each.in_case, movement.known, each.name
+    element, name = each.in_case, each.name
     pushes = element.pushes(motion, rates)
     thrusts = [
-        ActingThrust(thrust_name(push.member, name), push.member, fit(push.thrust, 0, name, "thrust") * each.factor) for push in pushes
+        AppliedThrust(thrust_name(push.member, name), push.member, fit(push.thrust, 0, name, "thrust") * each.factor) for push in pushes
     ]
     if pushes:
         return [], thrusts
@@ -130,7 +141,7 @@ def element_parts(each: ActingElement, motion: Poses, movement: Movement, fit: C
         found = element.moving(motion, rates) if rates else element.loads(motion)
     if not isinstance(found, (list, tuple)) or not all(isinstance(load, Load) for load in found):
         raise DefinitionError(f"{motion.plan.title}: {name}: loads(motion) gives {found!r}; a list of Load(point, force) is expected.")
-    return [ActingLoad(load, fit(load.force, 1, name, f"force at {load.point}") * each.factor, name) for load in found], thrusts
+    return [AppliedLoad(load, fit(load.force, 1, name, f"force at {load.point}") * each.factor, name) for load in found], thrusts
 
 
 def over_poses(motion: Motion, values: ArrayLike, vector: int, name: str, what: str) -> FloatArray:
@@ -180,9 +191,9 @@ def member_title(member: TwoPinned) -> str:
 # Which elements are meant, by name, case and kind.
 
 
-def acting_elements(plan: Plan, loads: Loads, case: Case, without: str = "") -> list[ActingElement]:
+def applied_elements(plan: Plan, acting: Acting, without: str = "") -> list[AppliedElement]:
     """Return the force elements that count in a load case; DefinitionError for what is none, and for names that no load has."""
-    load_case, present = case_of(plan, case), elements_of(plan, loads)
+    load_case, present = case_of(plan, acting.case), elements_of(plan, acting.loads)
     known = dict.fromkeys(name for name, _ in [*present, *elements_of(plan, None)])
     for name in load_case.mentioned:
         if name not in known:
@@ -193,7 +204,7 @@ def acting_elements(plan: Plan, loads: Loads, case: Case, without: str = "") -> 
     for name, element in present:  # one without a name, which is given to count, is not left out by `only`
         factor = load_case.factor(name) if element.name else float(load_case.scale.get(name, 1.0))
         if name != without and factor != 0.0:
-            found.append(ActingElement(name, element, load_case.on(element), factor))
+            found.append(AppliedElement(name, element, load_case.on(element), factor))
     return found
 
 
@@ -256,57 +267,26 @@ class LoadsAlone(ForceElement):
 
 # How strokes move at the poses: which way friction acts, and at what rates dampers work.
 
-SENSES: Mapping[str, int] = MappingProxyType({"frictionless": 0, "extending": 1, "retracting": -1})
-"""Where it goes: the stroke grows, or the path is followed forwards; the other way."""
 
-
-@final
-@dataclass(frozen=True)
-class Movement:
-    """How fast strokes move [1/s], each a number or an array that fits the poses; empty at rest.
-
-    `has_friction`: whether friction acts, against these rates. `is_timed`: whether they are speeds that were given; else only their
-    sense counts. `direction` is the word for it.
-    """
-
-    direction: str = "frictionless"
-    rates: Mapping[str, Rate] = field(default_factory=dict)
-    has_friction: bool = False
-    is_timed: bool = False
-
-    @property
-    def sense(self) -> int:
-        """1 or -1 for a direction of motion, 0 where none is named."""
-        return SENSES[self.direction]
-
-    @property
-    def known(self) -> Rates:
-        """The rates as force elements ask for them."""
-        return Rates(self.rates, self.is_timed, self.has_friction)
-
-
-AT_REST = Movement()
-
-
-def movement_of(motion: Motion, direction: str, rates: Mapping[str, ArrayLike] | None, drive: str | None) -> Movement:
-    """Return how the strokes move in a direction or at given rates; `drive` names the one that moves where several could.
+def rates_in(motion: Motion, acting: Acting, drive: str | None = None) -> Rates:
+    """Return how the strokes move in a situation; `drive` is the one that moves where several could and the situation names none.
 
     Along a path of several strokes they move as the path's tangent goes. DefinitionError where nobody says which one moves, and for
     rates that go against the direction.
     """
     require_motion(motion)
-    sense = sense_of(direction)
-    if rates is not None:
-        given = rates_of("rates", rates, motion.strokes, motion.shape, motion.plan.title)
+    direction, drive, sense = acting.movement, acting.drive if drive is None else drive, SENSES[acting.movement]
+    if acting.rates is not None:
+        given = rates_of("rates", acting.rates, motion.strokes, motion.shape, motion.plan.title)
         named = [drive] if drive is not None else [*given] if len(given) == 1 else []
         wrong = next((name for name in named if sense and np.any(sense * np.asarray(given.get(name, 0.0)) < 0.0)), None)
         if wrong is not None:
             raise DefinitionError(f"{motion.plan.title}: direction={direction!r} and the rate of {wrong} contradict each other; drop one.")
-        return Movement(direction, given, bool(sense), True)
+        return Rates(given, True, direction)
     if not sense:
         return AT_REST
     tangent: Mapping[str, Rate] = path_tangent(motion) or {stroke_of(motion.plan, drive, "drive"): 1.0}
-    return Movement(direction, {name: sense * rate for name, rate in tangent.items()}, True)
+    return Rates({name: sense * rate for name, rate in tangent.items()}, direction=direction)
 
 
 class OnPath(Protocol):
@@ -314,11 +294,6 @@ class OnPath(Protocol):
 
     @property
     def tangent(self) -> Mapping[str, FloatArray] | None: ...
-
-
-def sense_of(direction: str) -> int:
-    """Return 1, -1 or 0 for a direction of motion."""
-    return SENSES[known_name("Direction", direction, SENSES)]
 
 
 def path_tangent(motion: OnPath) -> dict[str, FloatArray]:

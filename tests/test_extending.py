@@ -282,7 +282,8 @@ def test_a_file_goes_there_and_back(machine, write):
     own, again = machine(OA=0.035).sweep(9), back().sweep(9)
     for name in own.plan.points:
         assert_array_equal(again[name], own[name])
-    assert_array_equal(pin_forces(again).drives["phi"], pin_forces(own).drives["phi"])
+    # of what a length is compared with a force in the equations the declared design decides, here another one
+    assert_allclose(pin_forces(again).drives["phi"], pin_forces(own).drives["phi"], rtol=1e-14)
     assert type(back.plan.members["O"]) is Ground
 
 

@@ -3,7 +3,7 @@
 from ..vectors import FloatArray, pick
 from .cache import compiled
 from .derivatives import Tangent, gradient, jacobian
-from .elimination import eliminated, expanded, is_zero
+from .elimination import SparseSystem, eliminated, expanded, is_zero
 from .foreign import c_text
 from .interpret import LAST, Iterated, disturbed, interpret, scatter
 from .intervals import Enclosure, enclosures

@@ -5,7 +5,10 @@ A larger system is one node whose value is all unknowns; `component` nodes take 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from heapq import heapify, heappop, heappush
+from itertools import count
+from typing import final
 
 import numpy as np
 
@@ -59,48 +62,96 @@ def expanded(outputs: Sequence[Node]) -> list[Node]:
 
 
 def eliminated(matrix: Sequence[Sequence[Node]], right: Sequence[Node]) -> list[Node]:
-    """Return the unknowns of `matrix @ u = right` as plain operations; NaN or infinity where it is singular.
+    """Return the unknowns of `matrix @ u = right` as plain operations; NaN or infinity where it is singular."""
+    return SparseSystem([{place: each for place, each in enumerate(row) if not is_zero(each)} for row in matrix], right).unknowns()
 
-    The unknown that stands in the fewest rows goes next; what is zero by its structure is neither compared nor subtracted.
+
+@final
+class SparseSystem:
+    """A linear system as plain operations, of which what is zero by its structure is neither compared nor subtracted.
+
+    `rows` are the entries of each equation by the unknown's place, as many as there are unknowns, `right` their right sides. The unknown
+    that stands in the fewest equations goes next; the largest of its entries, by choices, divides. Where the system is `scaled`, its
+    entries about 1 at the most, a constant of size 1 is as good and is not compared. `pivots` are what is divided by.
     """
-    rows = [[*row, b] for row, b in zip(matrix, right, strict=True)]
-    left = list(range(len(right)))
-    done: list[tuple[int, list[Node]]] = []
-    while left:
-        column = min(left, key=lambda each: sum(not is_zero(row[each]) for row in rows))
-        left.remove(column)
-        pivot, rows = cleared(rows, column)
-        done.append((column, pivot))
-    found: dict[int, Node] = {}
-    for column, pivot in reversed(done):
-        rest = [pivot[known] * value for known, value in found.items() if not is_zero(pivot[known])]
-        found[column] = (pivot[-1] - sum(rest[1:], rest[0]) if rest else pivot[-1]) / pivot[column]
-    return [found[column] for column in range(len(right))]
+
+    def __init__(self, rows: Sequence[Mapping[int, Node]], right: Sequence[Node], scaled: bool = False) -> None:
+        self.last, self.scaled = len(right), scaled
+        self.rows = {number: {**row, self.last: each} for number, (row, each) in enumerate(zip(rows, right, strict=True))}
+        self.places: list[set[int]] = [set() for _ in range(self.last + 1)]
+        for number, row in self.rows.items():
+            for column in row:
+                self.places[column].add(number)
+        self.numbers = count(self.last)
+        self.done: dict[int, dict[int, Node]] = {}
+        waiting = [(len(self.places[column]), column) for column in range(self.last)]
+        heapify(waiting)
+        while waiting:
+            size, column = heappop(waiting)
+            if column not in self.done and size == len(self.places[column]):
+                for each in self._cleared(column):
+                    heappush(waiting, (len(self.places[each]), each))
+
+    @property
+    def pivots(self) -> list[Node]:
+        """What is divided by; a system is singular where one of them is zero."""
+        return [row[column] for column, row in self.done.items()]
+
+    def unknowns(self) -> list[Node]:
+        """Return the unknowns, from the last equation back."""
+        found: dict[int, Node] = {}
+        order: dict[int, int] = {}
+        for column, row in reversed(self.done.items()):
+            rest = [row[known] * found[known] for known in sorted(row.keys() & order.keys(), key=order.__getitem__)]
+            found[column] = (row[self.last] - sum(rest[1:], rest[0]) if rest else row[self.last]) / row[column]
+            order[column] = len(order)
+        return [found[column] for column in range(self.last)]
+
+    def _cleared(self, column: int) -> list[int]:
+        """Clear a column: one of its equations is kept, the others go on without it. Return the unknowns whose counts have changed."""
+        used = [self._taken(number) for number in sorted(self.places[column])]
+        if not used:  # no unknown is there: the division by zero tells
+            used = [self._taken(min(self.rows))]
+            used[0][column] = used[0][self.last].graph.constant(0.0)
+        pivot, others = self._pivot(column, used)
+        self.done[column] = pivot
+        inverse = 1.0 / pivot[column]
+        for row in others:
+            factor = row.pop(column) * inverse
+            for place, value in pivot.items():
+                if place != column:
+                    row[place] = row[place] - factor * value if place in row else -(factor * value)
+            number = next(self.numbers)
+            self.rows[number] = {place: each for place, each in row.items() if place == self.last or not is_zero(each)}
+            for place in self.rows[number]:
+                self.places[place].add(number)
+        return [place for place in dict.fromkeys(place for row in (pivot, *others) for place in row) if place not in (column, self.last)]
+
+    def _taken(self, number: int) -> dict[int, Node]:
+        """Take an equation out."""
+        row = self.rows.pop(number)
+        for place in row:
+            self.places[place].discard(number)
+        return row
+
+    def _pivot(self, column: int, used: list[dict[int, Node]]) -> tuple[dict[int, Node], list[dict[int, Node]]]:
+        """Return the equation with the largest entry in a column, and the others."""
+        sure = [row for row in used if self.scaled and row[column].op == "constant" and abs(row[column].value) >= SURE]
+        if sure:
+            pivot = min(sure, key=len)
+            return pivot, [row for row in used if row is not pivot]
+        (pivot, *rest), others = used, []
+        for row in rest:  # the largest comes up, by exchange with each below
+            graph, a, b = row[column].graph, np.abs(row[column]), np.abs(pivot[column])
+            zero = graph.constant(0.0)
+            pairs = {place: (pivot.get(place, zero), row.get(place, zero)) for place in (pivot | row)}
+            pivot = {place: graph.pick(a, b, x, y) for place, (x, y) in pairs.items()}
+            others.append({place: graph.pick(a, b, y, x) for place, (x, y) in pairs.items()})
+        return pivot, others
 
 
-def cleared(rows: Sequence[list[Node]], column: int) -> tuple[list[Node], list[list[Node]]]:
-    """Return the row with the largest entry in a column, and the others without that column."""
-    (pivot, *used), others = split_rows(rows, column)
-    below: list[list[Node]] = []
-    for row in used:  # the largest comes up, by exchange with each below
-        graph, a, b = row[column].graph, np.abs(row[column]), np.abs(pivot[column])
-        pairs = list(zip(pivot, row, strict=True))
-        pivot = [graph.pick(a, b, x, y) for x, y in pairs]
-        below.append([graph.pick(a, b, y, x) for x, y in pairs])
-    inverse = 1.0 / pivot[column]
-    for row in below:
-        factor = row[column] * inverse
-        row[column] = inverse.graph.constant(0.0)
-        others.append([x if is_zero(y) or each == column else x - factor * y for each, (x, y) in enumerate(zip(row, pivot, strict=True))])
-    return pivot, others
-
-
-def split_rows(rows: Sequence[list[Node]], column: int) -> tuple[list[list[Node]], list[list[Node]]]:
-    """Return the rows with an entry in a column, at least one, and the others."""
-    used = [row for row in rows if not is_zero(row[column])]
-    if not used:  # no unknown is there: the division by zero tells
-        return [rows[0]], list(rows[1:])
-    return used, [row for row in rows if is_zero(row[column])]
+SURE = 0.5
+"""A constant of this size divides without being compared."""
 
 
 def is_zero(node: Node) -> bool:

@@ -133,16 +133,18 @@ class Kernel:
     @cached_property
     def arrays(self) -> NumpyBlocks:
         """The program in NumPy blocks."""
-        return NumpyBlocks(self._planned(with_half_angles))
+        return NumpyBlocks(self._planned(with_half_angles, "cos", "sin"))
 
     @cached_property
     def fused(self) -> NumbaLoop:
         """The program in one compiled loop."""
-        plan = self._planned(expanded)
+        plan = self._planned(expanded, "solve")
         return NumbaLoop(plan, NumpyBlocks(plan))
 
-    def _planned(self, change: Callable[[Sequence[Node]], list[Node]]) -> Schedule:
-        """Return the schedule after a change that leaves the values as they are."""
+    def _planned(self, change: Callable[[Sequence[Node]], list[Node]], *operations: str) -> Schedule:
+        """Return the schedule after a change of some operations that leaves the values as they are."""
+        if not any(node.op in operations for node in (*self.plan.design, *self.plan.pose)):
+            return self.plan
         before, count = (*self.outputs, *self.guards), len(self.outputs)
         nodes = change(before)
         return self.plan if nodes == [each.origin for each in before] else schedule(nodes[:count], nodes[count:])

@@ -110,7 +110,8 @@ class System:
         """The rows of the loads, shape (n, rows)."""
         rows = self.poses.zeros(self.height)
         for body, _, wrench in self.borne:
-            self.put(rows, body, wrench)
+            for row, value in self.parts(body, wrench):
+                rows[:, row] += value
         return rows
 
     @cached_property
@@ -125,20 +126,25 @@ class System:
         """Return the rows of some unit wrenches, shape (n, rows, columns)."""
         found = self.poses.zeros(self.height, len(columns))
         for index, column in enumerate(columns):
-            self.put(found[:, :, index], column.contact.on, column.wrench)
-            self.put(found[:, :, index], column.contact.by, column.wrench, -1.0)
+            for row, value in self.entries(column):
+                found[:, row, index] += value
         return found
 
-    def put(self, rows: FloatArray, body: int, wrench: Wrench, sign: float = 1.0) -> None:
-        """Add a wrench on a body to its rows, shape (n, rows)."""
+    def entries(self, column: UnitWrench) -> Iterator[tuple[int, FloatArray]]:
+        """Yield the equations in which a unit wrench stands, with what it adds there, shape (n,)."""
+        yield from self.parts(column.contact.on, column.wrench)
+        yield from self.parts(column.contact.by, column.wrench, -1.0)
+
+    def parts(self, body: int, wrench: Wrench, sign: float = 1.0) -> Iterator[tuple[int, FloatArray]]:
+        """Yield the equations of a body with what a wrench on it adds there, shape (n,): forces along x and y, moment over the scale."""
         if body == FRAME:
             return
         start = self.starts[body]
-        rows[:, start] += sign * wrench.force[0]
-        rows[:, start + 1] += sign * wrench.force[1]
+        yield start, sign * wrench.force[0]
+        yield start + 1, sign * wrench.force[1]
         if body < len(self.structure.bodies):
             arm = wrench.at - self.poses.at(self.structure.bodies[body].points[0])
-            rows[:, start + 2] += sign * (cross(arm, wrench.force) + wrench.couple) / self.scale
+            yield start + 2, sign * (cross(arm, wrench.force) + wrench.couple) / self.scale
 
     # -- what is read off ----------------------------------------------------------------------------------
 

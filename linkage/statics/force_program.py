@@ -1,23 +1,22 @@
 """The equilibrium as a program: all joint forces of many poses from one kernel, friction included.
 
-The equations of equilibrium are written on the nodes of a program and eliminated once, as for a single pin force. Friction enters as
-one input a joint: its couple or its force along the guide. The joint forces are linear in these. A kernel of a few outputs adds
-up how much the frictions make each other grow: where that is a contraction, a second one, of the forces that press the joints,
-is asked until they stay; elsewhere a third gives their derivatives, and the frictions are found on arrays. A last one gives everything.
-What the program cannot say (a law that asks for a number, arrays over the poses) is None: the equations are then
-solved on arrays.
+The equations of equilibrium are written on the nodes of a program and eliminated once, as for a single pin force; what acts comes in
+as inputs, so that every load case and direction asks the same kernel. Friction enters as one input a joint: its couple or its force
+along the guide. The joint forces are linear in these. A kernel of a few outputs adds up how much the frictions make each other grow:
+where that is a contraction, a second one, of the forces that press the joints, is asked until they stay; elsewhere a third gives their
+derivatives, and the frictions are found on arrays. A last one gives everything. Where a pose has no value by the program, or what it
+takes for granted does not hold, the same equations are read on arrays, which tell in words why.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
 
 from ..errors import DefinitionError
-from ..loads import Acting, Rates
 from ..motion import Motion
 from ..motion.evaluation import part_of_input, pieces
 from ..plan import Mask, Plan
@@ -29,31 +28,29 @@ from .friction import CONTRACTS, JointFriction, PressingForces, PressingRows, co
 from .joints import Contact, Structure
 from .poses import FlatPoses
 from .solution import PoseForces, Solution, by_equations
-from .traced_loads import TracedLoads, checked_length, eliminated_forces, rate_name
+from .traced_loads import TracedMotion, eliminated_forces
 
 PIECE = 1 << 13
 """Poses whose frictions are found at a time."""
-FEW = 200
-"""Poses up to which solving the equations on arrays is quicker than finding the kernel."""
 
 
 def forces_at(poses: FlatPoses, applied: AppliedLoads, split: str = "refuse") -> PoseForces:
-    """Return all forces at some poses: by the program where there are many, else by the equations on arrays."""
+    """Return all forces at some poses: by the program, or where that does not say them by the equations read on arrays."""
     found = by_program(poses, applied) if split == "refuse" else None
     return by_equations(poses, applied, split) if found is None else found
 
 
 def by_program(poses: FlatPoses, applied: AppliedLoads) -> PoseForces | None:
-    """Return the forces of a motion's poses by the program; None where it cannot say them, or is not worth its making."""
+    """Return the forces of a motion's poses by the program; None where it cannot say them."""
     motion = poses.motion
-    if not isinstance(motion, Motion) or motion.reached.size <= FEW:
+    if not isinstance(motion, Motion):
         return None
     structure = Structure(poses.plan, applied.elements, applied.thrusts)
     if any(line.changes_shares for line in structure.holders.lines):
         return None
     frictions = joint_frictions(structure, poses, applied.frictions, applied.rates) if applied.frictions else []
     places = [structure.contacts.index(each.contact) for each in frictions]
-    program = program_of(poses.plan, structure, applied, places)
+    program = program_of(structure, applied, places)
     return None if program is None else run_at(motion, program, structure, poses, applied, frictions)
 
 
@@ -103,32 +100,38 @@ class AssumptionError(Exception):
 # Made once: traced, eliminated, as kernels.
 
 
-def program_of(
-    plan: Plan, structure: Structure, applied: AppliedLoads, places: Sequence[int]
-) -> ForceProgram | None:
-    """Return the program of a plan's joint forces under some loads, made once; None where it cannot be traced or eliminated."""
-    spans = tuple((strut.name, strut.P, strut.Q) for strut in structure.struts)
+def program_of(structure: Structure, applied: AppliedLoads, places: Sequence[int]) -> ForceProgram | None:
+    """Return the program of the joint forces of a structure, made once; None where it cannot be traced or eliminated.
+
+    What acts is its input: it is the same for all load cases, directions and rates in which the same points are loaded.
+    """
+    loads = tuple((each.load.point, *each.load.on) for each in applied.loads)
+    struts = tuple((each.name, each.P, each.Q, each.known is None) for each in structure.struts)
+    lines = tuple((line.stroke, line.cylinders) for line in structure.holders.lines)
     blocks = tuple(body.name for body in structure.blocks)
+    key = ("joint forces", loads, struts, lines, blocks, tuple(places))
     try:
-        key = ("joint forces", TracedLoads.apart(plan, applied.acting, applied.rates).key, spans, blocks, tuple(places))
-        return plan.made(key, lambda twin: traced_program(twin, applied.acting, applied.rates, tuple(places)))
+        return structure.plan.made(key, lambda twin: traced_program(twin, applied, tuple(places)))
     except DefinitionError:
         return None
 
 
-def traced_program(plan: Plan, acting: Acting, rates: Rates, places: tuple[int, ...]) -> ForceProgram:
+def traced_program(plan: Plan, applied: AppliedLoads, places: tuple[int, ...]) -> ForceProgram:
     """Return the program traced on a plan of its own."""
-    traced = TracedLoads.on(plan, acting, rates)
-    structure, motion = traced.structure, traced.motion
-    inputs = [motion._reading.graph.input(friction_name(place), Level.POSE) for place in range(len(places))]
-    length = checked_length(plan, traced.applied)
+    motion = TracedMotion(plan, plan.trace)
+    loads = tuple(
+        replace(each, force=motion._array([motion.node(motion.input(load_input(place, axis))) for axis in "xy"]))
+        for place, each in enumerate(applied.loads)
+    )
+    thrusts = tuple(replace(each, thrust=motion.input(thrust_input(place))) for place, each in enumerate(applied.thrusts))
+    acts = replace(applied, loads=loads, thrusts=thrusts)
+    structure, poses = Structure(plan, acts.elements, acts.thrusts), FlatPoses(motion, "")
+    inputs = [motion.node(motion.input(friction_input(place))) for place in range(len(places))]
     contacts = [structure.contacts[index] for index in places]
-    units = tuple(unit_friction(contact, traced.poses) for contact in contacts)
-    system = System(structure, traced.poses, traced.applied.loads, units, length)
-    q = motion._array([inputs])
-    u = eliminated_forces(system, motion, inputs)
+    units = tuple(unit_friction(contact, poses) for contact in contacts)
+    system, u = eliminated_forces(structure, motion, acts, units, inputs)
     frictions = [JointFriction(unit, np.zeros(1), np.zeros(1), np.zeros(1)) for unit in units]
-    solution = Solution(system, u, q, np.zeros(1, bool), frictions)
+    solution = Solution(system, u, motion._array([inputs]), np.zeros(1, bool), frictions)
     nodes: list[Node] = []
     rows = []
     for contact in structure.contacts:
@@ -140,35 +143,45 @@ def traced_program(plan: Plan, acting: Acting, rates: Rates, places: tuple[int, 
         nodes += [motion.node(couple[0])] if turns else []
     nodes += [motion.node(solution.value(system.drive(name))[0]) for name in plan.strokes]
     nodes += [motion.node(solution.value(system.thrust(strut))[0]) for strut in structure.struts]
-    guards = [*motion.notes.assumed, *(motion.node(each[0]) for each in assumed_joints(structure, traced.poses))]
-    kernels = friction_kernels(system, u, contacts, inputs, traced, guards) if places else None
+    guards = [*motion.notes.assumed, *(motion.node(each[0]) for each in assumed_joints(structure, poses))]
+    kernels = friction_kernels(system, u, contacts, inputs, motion, guards) if places else None
     names = tuple(strut.name for strut in structure.struts)
     return ForceProgram(places, kernels, Kernel(nodes, guards), tuple(rows), tuple(plan.strokes), names)
 
 
-def friction_name(place: int) -> str:
+def load_input(place: int, axis: str) -> str:
+    """Return the name of a load's part along x or y as an input; no dimension can be called so."""
+    return f"|load {place} {axis}"
+
+
+def thrust_input(place: int) -> str:
+    """Return the name of a known thrust as an input."""
+    return f"|thrust {place}"
+
+
+def friction_input(place: int) -> str:
     """Return the name of a friction's input; no dimension can be called so."""
     return f"|friction {place}"
 
 
-def lever_name(place: int) -> str:
+def lever_input(place: int) -> str:
     """Return the name of the size of a friction's lever as an input."""
     return f"|lever {place}"
 
 
 def friction_kernels(
-    system: System, u: FloatArray, contacts: Sequence[Contact], inputs: Sequence[Node], traced: TracedLoads, guards: list[Node]
+    system: System, u: FloatArray, contacts: Sequence[Contact], inputs: Sequence[Node], motion: TracedMotion, guards: list[Node]
 ) -> FrictionKernels:
     """Return the kernels of the forces that press the joints with friction."""
-    graph = traced.motion._reading.graph
+    graph = motion._reading.graph
     tangents = [Tangent(graph, {each: 1.0}) for each in inputs]
-    levers = [graph.input(lever_name(place), Level.POSE) for place in range(len(inputs))]
+    levers = [graph.input(lever_input(place), Level.POSE) for place in range(len(inputs))]
     forces: list[Node] = []
     by_each: list[Node] = []
     growth: list[Node] = []
     for contact in contacts:
         start = system.first[contact]
-        own = [traced.motion.node(u[0, start + k]) for k in range(contact.presses)]
+        own = [motion.node(u[0, start + k]) for k in range(contact.presses)]
         slopes = [[tangent.of(force) for tangent in tangents] for force in own]
         forces += own
         by_each += [each for row in slopes for each in row]
@@ -186,15 +199,16 @@ def run_at(
 ) -> PoseForces | None:
     """Return the forces by the kernels; None where an assumption of a law fails or a pose that should has no value."""
     size, q, locked = motion._grid.size, np.zeros((0, poses.count)), np.zeros(poses.count, bool)
-    rates = {name: np.broadcast_to(np.asarray(rate, float), motion.shape) for name, rate in applied.rates.items()}
-    inputs = motion._grid.flat | {rate_name(name): rate.reshape(size) for name, rate in rates.items()}
+    loads = {load_input(place, axis): each.force[k] for place, each in enumerate(applied.loads) for k, axis in enumerate("xy")}
+    thrusts = {thrust_input(place): each.thrust for place, each in enumerate(applied.thrusts)}
+    inputs = motion._grid.flat | {name: np.broadcast_to(each, motion.shape).reshape(size) for name, each in (loads | thrusts).items()}
     if program.friction is not None:
         try:
             q, locked = frictions_at(motion, program, program.friction, structure, poses, frictions, inputs)
         except AssumptionError:
             return None
         couples = poses.full(np.where(locked, 0.0, q) * np.stack([each.lever for each in frictions])).reshape(len(frictions), *size)
-        inputs |= {friction_name(place): np.nan_to_num(each) for place, each in enumerate(couples)}
+        inputs |= {friction_input(place): np.nan_to_num(each) for place, each in enumerate(couples)}
     result = program.whole(inputs, size=size)
     values = result.values.reshape(len(result.values), *motion.shape)
     good = poses.good & ~poses.mask(locked)
@@ -252,11 +266,11 @@ class FrictionPiece:
 
     def frictions(self, kernels: FrictionKernels) -> tuple[FloatArray, Mask]:
         """Return the frictions (frictions, n) and the locked poses (n,); AssumptionError where an assumption fails."""
-        growth = self.values(kernels.growth, lever_name, np.abs(self.lever))
+        growth = self.values(kernels.growth, lever_input, np.abs(self.lever))
         if np.max(growth * self.coefficient, initial=0.0) < CONTRACTS:
-            q = iterated(self.rows, self.coefficient, lambda q: self.values(kernels.forces, friction_name, q * self.lever))
+            q = iterated(self.rows, self.coefficient, lambda q: self.values(kernels.forces, friction_input, q * self.lever))
             return q, np.zeros(q.shape[1], bool)
-        values = self.values(kernels.by_each, friction_name, np.zeros(self.lever.shape))
+        values = self.values(kernels.by_each, friction_input, np.zeros(self.lever.shape))
         forces = sum(self.rows.parts)
         by_unit = values[forces:].reshape(forces, len(self.lever), -1)
         return consistent_frictions(PressingForces(self.rows, values[:forces], by_unit, self.lever), self.coefficient)

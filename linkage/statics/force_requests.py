@@ -19,11 +19,10 @@ from ..plan import Plan
 from ..program import FloatArray, Node, Notes
 from ..vectors import Scalar
 from .agreement import assumed_joints
-from .equilibrium import System
 from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
 from .solution import Solution
-from .traced_loads import TracedLoads, checked_length, eliminated_forces
+from .traced_loads import TracedLoads, eliminated_forces
 from .work import by_work, stroke_force
 
 Bound = TypeVar("Bound", bound=BoundRequest)
@@ -229,8 +228,7 @@ class PinForce(ForceRequest):
         request = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))
         _, joint, _ = contact_of(structure, request)
         spans = tuple((strut.name, strut.P, strut.Q) for strut in structure.struts)
-        length = plan.made(("checked length", spans), lambda _: checked_length(plan, traced.applied))
-        return PinForceOf(self.acting, request, (*traced.key, spans), length, str(joint))
+        return PinForceOf(self.acting, request, (*traced.key, spans), str(joint))
 
 
 @final
@@ -284,11 +282,10 @@ def pin_force(
 @final
 @dataclass(frozen=True, eq=False)
 class PinForceOf(ForceOf):
-    """A pin force bound to a plan: the request, the key of its loads, a length of the mechanism [m], and the joint in words."""
+    """A pin force bound to a plan: the request, the key of its loads, and the joint in words."""
 
     request: PinForce
     loads_key: tuple[Hashable, ...]
-    length: float
     joint: str
 
     @property
@@ -297,7 +294,7 @@ class PinForceOf(ForceOf):
 
     @property
     def traced_with(self) -> Hashable:
-        return "pin forces", self.loads_key, self.length
+        return "pin forces", self.loads_key
 
     def traced(self, plan: Plan) -> TracedLoads:
         return self.equilibrium(plan)[0]
@@ -307,8 +304,7 @@ class PinForceOf(ForceOf):
         kept = plan.trace.kept
         if self.traced_with not in kept:
             traced = super().traced(plan)
-            system = System(traced.structure, traced.poses, traced.applied.loads, length=self.length)
-            u = eliminated_forces(system, traced.motion)
+            system, u = eliminated_forces(traced.structure, traced.motion, traced.applied)
             kept[self.traced_with] = traced, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), [])
         return cast(tuple[TracedLoads, Solution], kept[self.traced_with])
 

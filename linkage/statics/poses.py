@@ -80,7 +80,8 @@ class FlatPoses:
     def at(self, point: str) -> FloatArray:
         """Return a point's position, shape (2, n) [m]."""
         if point not in self._at:
-            self._at[point] = self.flat(self.motion[point])
+            place = self.reading.at(self.plan.points[point]) if point in self.plan.ground else None
+            self._at[point] = self.flat(self.motion[point]) if place is None else self.pair(place.x, place.y)
         return self._at[point]
 
     def ratio(self, target: Reference, drive: str) -> FloatArray:

@@ -54,7 +54,8 @@ def reaction(
     system, frictions = system_with_friction(poses, applied)
     column, point = np.zeros((poses.count, system.height, 1)), name_of(element.point)
     push = Wrench(poses.at(point), np.zeros((2, poses.count)) + element.unit[:, None], np.zeros(poses.count))
-    system.put(column[:, :, 0], system.structure.holder(point), push)
+    for row, value in system.parts(system.structure.holder(point), push):
+        column[:, row, 0] += value
     bound = (*system.known(), (system.drive(stroke), known))
     found = Equilibrium(system, frictions, bound=bound, supports=column).solution()
     check_joints(system.structure, poses)

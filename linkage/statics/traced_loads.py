@@ -17,12 +17,12 @@ from ..motion import BoundRequest, Motion, OnePose
 from ..motion.requests import stroke_of
 from ..motion.strokes import checked_name, order_of
 from ..plan import ArrayReading, Mask, Plan, Trace
-from ..program import FloatArray, Level, Node, Notes, Traced, eliminated, node_of
+from ..program import FloatArray, Level, Node, Notes, SparseSystem, Traced, interpret, is_zero, node_of
 from ..quantities import Angle, Distance, Member, Quantity, Reference
 from ..steps import Arrow, Point
 from ..vectors import Scalar
 from .applied import AppliedElement, AppliedLoads, Parts, applied_loads, element_parts
-from .equilibrium import System
+from .equilibrium import System, UnitWrench
 from .joints import Structure
 from .poses import AnyMotion, FlatPoses
 from .solution import Equilibrium
@@ -241,28 +241,88 @@ class TracedMotion(OnePose):
 
 POSES = 5
 """Poses over the strokes at which it is tried whether the joints can be solved for."""
+RANK = 1e-9
+"""A pivot below this, in equations whose entries are about 1, says that the joints cannot be solved for."""
 
 
-def eliminated_forces(system: System, motion: TracedMotion, friction: Sequence[Node] = ()) -> FloatArray:
-    """Return the joint forces of a traced system under its loads and frictions, eliminated symbolically, shape (1, columns)."""
-    equations = Equilibrium(system, bound=tuple(system.known()))
-    A, right = equations.A[0], equations.right[0]
-    sides = [motion.node(row[0]) for row in right]
-    for place, each in enumerate(friction):
-        sides = [side + motion.node(row[1 + place]) * each for side, row in zip(sides, right, strict=True)]
-    return motion._array([eliminated([[motion.node(each) for each in row] for row in A], sides)])
+def eliminated_forces(
+    structure: Structure, motion: TracedMotion, applied: AppliedLoads, units: Sequence[UnitWrench] = (), sizes: Sequence[Node] = ()
+) -> tuple[System, FloatArray]:
+    """Return the equations of a traced pose with the joint forces that solve them, shape (1, columns).
+
+    `units` are unit wrenches of friction, `sizes` how large each is. DefinitionError where a body hangs loose or a link is redundant.
+    """
+    plan = motion.plan
+    sampled = sampled_poses(plan)
+    inputs = sampled._grid.flat
+    places = [motion.node(part) for point in plan.points for part in motion._nodes(point)]
+    system = System(structure, FlatPoses(motion, ""), applied.loads, units, half_extent(interpret(places, inputs), sampled))
+    found = elimination(system, motion, sizes)
+    if found is None or not is_regular(interpret(found.pivots, inputs), sampled):
+        check_at(sampled, structure, applied)
+    if found is None:
+        raise DefinitionError(f"{plan.title}: the joints have more forces than equations, or less.")
+    return system, motion._array([found.unknowns()])
 
 
-def checked_length(plan: Plan, applied: AppliedLoads) -> float:
-    """Return a length of the mechanism [m]; DefinitionError where a body hangs loose or a link is redundant."""
+def elimination(system: System, motion: TracedMotion, sizes: Sequence[Node]) -> SparseSystem | None:
+    """Return the equations of a traced system under its loads and frictions, eliminated; None where they are more or less than unknowns."""
+    zero = motion._reading.graph.constant(0.0)
+    bound = system.known()
+    rows: list[dict[int, Node]] = [{} for _ in range(system.height + len(bound))]
+    if len(rows) != len(system.columns):
+        return None
+    for place, column in enumerate(system.columns):
+        for row, value in system.entries(column):
+            rows[row][place] = rows[row].get(place, zero) + motion.node(value[0])
+    right = [-motion.node(each) for each in system.load_rows[0]]
+    for unit, size in zip(system.frictions, sizes, strict=True):
+        for row, value in system.entries(unit):
+            right[row] = right[row] - motion.node(value[0]) * size
+    for number, (form, value) in enumerate(bound, system.height):
+        rows[number] = {place: motion.node(each) for place, each in enumerate(form.row[0])}
+        rest = [motion.node(each) * size for each, size in zip(form.friction[0], sizes, strict=True)]
+        right.append(sum((-each for each in rest), motion.node((value - form.rest)[0])))
+    return SparseSystem([{place: each for place, each in row.items() if not is_zero(each)} for row in rows], right, scaled=True)
+
+
+def sampled_poses(plan: Plan) -> Motion:
+    """Return the sketch and some poses over the strokes; DefinitionError where none of them can be assembled."""
     along = np.linspace(0.0, 1.0, POSES)
     ranges = {name: each.start + along * (each.end - each.start) for name, each in plan.strokes.items()}
-    strokes = {name: np.append(plan.sketch_strokes[name], values) for name, values in ranges.items()}
     with unwarned():
-        poses = FlatPoses(Motion(plan, plan.defaults, strokes, "nan"), "The joint forces")
-    without = tuple(replace(each, thrust=np.zeros(poses.motion.shape)) for each in applied.thrusts)
-    system = System(Structure(plan, applied.elements, without), poses, ())
-    if not poses.count:
+        found = Motion(plan, plan.defaults, {name: np.append(plan.sketch_strokes[name], values) for name, values in ranges.items()}, "nan")
+    if not found.reached.any():
         raise DefinitionError(f"{plan.title}: the declared design cannot be assembled at any of {POSES} poses; declare one that can.")
-    Equilibrium(system, bound=tuple(system.known())).check()
-    return system.scale
+    return found
+
+
+def over_sampled(values: Sequence[ArrayLike], sampled: Motion) -> FloatArray:
+    """Return numbers at the sampled poses that are reached, shape (numbers, poses)."""
+    return np.array([np.broadcast_to(each, sampled._grid.size).ravel() for each in values])[:, sampled.reached.ravel()]
+
+
+def half_extent(places: Sequence[ArrayLike], sampled: Motion) -> float:
+    """Return about half the extent of a mechanism at some poses [m], from the coordinates of its points: x and y of each in turn.
+
+    It is a power of two, which divides without rounding: two designs of a machine have the same forces to the last bit.
+    """
+    found = over_sampled(places, sampled)
+    size = max((float(np.ptp(rows)) for rows in (found[0::2], found[1::2]) if rows.size), default=0.0)
+    return float(2.0 ** np.round(np.log2(size / 2.0))) if size > 0.0 else 1.0
+
+
+def is_regular(pivots: Sequence[ArrayLike], sampled: Motion) -> bool:
+    """Return whether the equations have a solution at one of some poses."""
+    with np.errstate(invalid="ignore"):
+        return bool(np.any(np.min(np.abs(over_sampled(pivots, sampled)), axis=0, initial=np.inf) > RANK))
+
+
+def check_at(sampled: Motion, structure: Structure, applied: AppliedLoads) -> None:
+    """Raise DefinitionError, in words, where a body hangs loose or a link is redundant at all of some poses."""
+    with unwarned():
+        poses = FlatPoses(sampled, "The joint forces")
+    thrusts = tuple(replace(each, thrust=np.zeros(sampled.shape)) for each in applied.thrusts)
+    if poses.count:
+        system = System(Structure(sampled.plan, applied.elements, thrusts), poses, ())
+        Equilibrium(system, bound=tuple(system.known())).check()

@@ -8,16 +8,19 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit
 from linkage import (
+    LEFT,
     RIGHT,
     Acting,
     Between,
     Crank,
     Damper,
+    Dimension,
     Dyad,
     Force,
     Ground,
     GuideFriction,
     LinkMass,
+    LoadCase,
     Mechanism,
     OnGuide,
     OnLink,
@@ -30,9 +33,11 @@ from linkage import (
     Weight,
     deg,
     pin_forces,
+    ref,
 )
 from linkage.statics import max_table
 from linkage.statics.applied import applied_loads, rates_in
+from linkage.statics.force_program import ForceProgram
 from linkage.statics.joint_forces import joints_of
 from linkage.statics.solution import by_equations
 from linkage.statics.work import poses_held
@@ -209,3 +214,39 @@ def test_driven_points_and_lone_pins():
 
     for direction in ("frictionless", "extending"):
         check(Cart().sweep(301), direction=direction)
+
+
+def chain(count):
+    """Return a machine of so many dyads in a row, each on a ground point of its own."""
+    members = {"S": Stroke(0.0, 0.3), "L": Dimension(0.7), "O0": Ground(0.0, 0.0), "Q0": Ground(1.0, 0.0)}
+    members["P0"] = Dyad("O0", "Q0", O0P0=ref("L") + ref("S"), Q0P0=0.9, side=LEFT)
+    for k in range(1, count):
+        members[f"G{k}"] = Ground(1.0 + k, 0.0)
+        members[f"P{k}"] = Dyad(f"P{k - 1}", f"G{k}", side=LEFT, **{f"P{k - 1}P{k}": 1.0 + 0.01 * (k % 3), f"G{k}P{k}": 0.9})
+    members["load"] = Weight(f"P{count - 1}", mass=100.0)
+    return type(f"Chain{count}", (Mechanism,), members)
+
+
+def test_the_program_of_a_long_chain_grows_with_its_length():
+    sizes = []
+    for count in (6, 12, 24):
+        machine = chain(count)
+        check(machine().sweep(11))
+        kernels = [each for each in machine.plan._kernels.values() if isinstance(each, ForceProgram)]
+        assert len(kernels) == 1
+        sizes.append(len(kernels[0].whole.plan.pose))
+    assert sizes[2] - sizes[1] < 2.1 * (sizes[1] - sizes[0])
+
+
+def test_a_few_poses_ask_the_same_program_as_many_in_every_case_and_direction(monkeypatch):
+    hitch = Rubbing(OB=0.31)
+    whole = pin_forces(hitch.sweep(301), ["load", "own", *PINS], direction="extending").force("E", on="frame")
+    solved = []
+    monkeypatch.setattr(np.linalg, "solve", lambda *given: solved.append(given))
+    few = pin_forces(hitch.at(S=hitch.sweep(301).strokes["S"][::50]), ["load", "own", *PINS], direction="extending")
+    assert_allclose(few.force("E", on="frame"), whole[:, ::50], rtol=1e-13)
+    before = sum(isinstance(each, ForceProgram) for each in Rubbing.plan._kernels.values())
+    for case in (None, LoadCase("heavy", scale={"load": 2.0}), LoadCase("uphill", slope=10 * deg)):
+        pin_forces(hitch.sweep(5), ["load", "own", *PINS], case=case, direction="extending")
+    assert sum(isinstance(each, ForceProgram) for each in Rubbing.plan._kernels.values()) == before
+    assert not solved

@@ -29,7 +29,7 @@ from linkage.program import is_traced
 from linkage.units import MPa, show
 from linkage.verdict import Verdict
 
-from .cylinder import next_rod
+from .cylinder import next_rod, standard_rods
 from .inputs import LONGEST, Array, in_metres, one_number, pose_values, positive
 
 MOUNTINGS = MappingProxyType({noted("pin-pin"): 1.0, noted("fixed-pin"): 0.699156, noted("fixed-fixed"): 0.5, noted("fixed-free"): 2.0})
@@ -103,8 +103,11 @@ class Buckling:
         worst = int(np.nanargmax(use))
         return self.judged(float(long.flat[worst]), float(push.flat[worst]))
 
-    def judged(self, length: float, thrust: float, where: str = "", unbounded: bool = False) -> Verdict:
-        """Return the verdict at one length [m] and thrust of one cylinder [N], at a place in words; `unbounded`: it grows from there."""
+    def judged(self, length: float, thrust: float, where: str = "", unbounded: bool = False, bore: float | None = None) -> Verdict:
+        """Return the verdict at one length [m] and thrust of one cylinder [N], at a place in words; `unbounded`: it grows from there.
+
+        `bore` is that of the cylinder [m]: where it is known a rod that is named as the remedy suits it.
+        """
         if unbounded:
             text = said("the thrust grows without bounds {where}: no rod holds there; keep away from that pose.", where=where)
             return Verdict("buckling", False, text)
@@ -117,15 +120,17 @@ class Buckling:
             thrust=show(thrust, "kN", 4), rod=show(self.rod, "mm", 4), length=show(length, "mm", ".0f"), mounting=translated(self.mounting),
             where=f" {where}" if where else "", limit=show(limit, "kN", 4), safety=limit / thrust, least=self.safety,
         )  # fmt: skip
-        return Verdict("buckling", ok, f"{says}{'' if ok else self._remedy(length, thrust)}.")
+        return Verdict("buckling", ok, f"{says}{'' if ok else self._remedy(length, thrust, bore)}.")
 
-    def _remedy(self, length: float, thrust: float) -> str:
+    def _remedy(self, length: float, thrust: float, bore: float | None) -> str:
         thicker = self
         try:
             while thicker.allowed(length) < thrust:
                 thicker = replace(thicker, rod=next_rod(thicker.rod))
         except DefinitionError:
             return said("; no standard rod holds: shorten the cylinder or use more of them")
+        if bore is not None and thicker.rod > max(standard_rods(bore), default=0.0):
+            return said("; no rod that suits the bore holds: take a larger bore, shorten the cylinder or use more of them")
         return said("; a rod of {rod} holds", rod=show(thicker.rod, "mm", ".0f"))
 
 

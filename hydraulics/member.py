@@ -444,7 +444,8 @@ class Cylinder(TwoPoint, Tabled, Judging):
 
     def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the same over all that a judge looks at."""
-        rod = Buckling(one_size(self.sized(judge.motion)).rod, self.mounting, self.safety)
+        size = one_size(self.sized(judge.motion))
+        rod = Buckling(size.rod, self.mounting, self.safety)
         worst = judge.answer(most(BucklingUse(self, Acting())) <= 1.0)
         if np.isnan(worst.value) or not worst.value > 0.0:
             return [never_pushed()]
@@ -452,7 +453,7 @@ class Cylinder(TwoPoint, Tabled, Judging):
             place, acting = judge.there(worst), judge.situation(worst)
             push = float(member_thrust(place, self, acting)) / self.count
             length = float(place.distance(self.A, self.B))
-        return [rod.judged(length, push, worst.place, unbounded=bool(worst.unbounded)).answered(worst)]
+        return [rod.judged(length, push, worst.place, bool(worst.unbounded), size.bore).answered(worst)]
 
     @takes_situation
     def buckling_use(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:

@@ -20,7 +20,18 @@ from .conditions import Judged
 from .grid import Angles, Grid, angles_of, to_rounding, varies
 from .live import live_source, true_nodes
 from .motion import Motion
-from .requests import Request, RequestLike, all_bound, examined, identities_of, keeps_digits, known_bound, nearness_of, other_law_error
+from .requests import (
+    Request,
+    RequestLike,
+    all_bound,
+    examined,
+    holds_given,
+    identities_of,
+    keeps_digits,
+    known_bound,
+    nearness_of,
+    other_law_error,
+)
 from .strokes import at_values, float_array, known_strokes
 
 PIECE = 1 << 18
@@ -97,7 +108,7 @@ def at_one_pose(
             return None
         values.append(float(value))  # NumPy's own would not raise where it is divided by zero
     identities = identities_of(plan, requests)
-    if identities is None:
+    if identities is None or holds_given(identities):
         return None
     program = plan.made(("one pose", identities), lambda _: PoseProgram(plan, all_bound(plan, requests)))
     pose = program.of_design(designs)

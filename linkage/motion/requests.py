@@ -12,6 +12,7 @@ from functools import reduce
 from itertools import product
 from types import MappingProxyType
 from typing import Any, TypeAlias, cast, final
+from weakref import ref
 
 import numpy as np
 
@@ -250,7 +251,14 @@ def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
 def known_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[BoundRequest, ...]:
     """Return a list of requests bound to a plan, as they were bound before where they are the same; the errors of `all_bound`."""
     identities = identities_of(plan, requests)
-    return all_bound(plan, requests) if identities is None else plan.made(("bound", identities), lambda _: all_bound(plan, requests))
+    if identities is None or holds_given(identities):
+        return all_bound(plan, requests)
+    return plan.made(("bound", identities), lambda _: all_bound(plan, requests))
+
+
+def holds_given(identity: Hashable) -> bool:
+    """Return whether an identity tells loads that were given: what is bound holds them, and must not keep them alive."""
+    return isinstance(identity, ref) or (type(identity) is tuple and any(type(each) is not str and holds_given(each) for each in identity))
 
 
 def stroke_of(plan: Plan, name: str | None, keyword: str = "wrt") -> str:

@@ -5,27 +5,26 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import Self, TypeVar, cast, final
+from typing import Self, cast, final
 from weakref import ref
 
 import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited, known_name
-from ..loads import DIRECTIONS, FRICTIONLESS, Acting, Case, ForceElement, LoadCase, Loads, situation_of
-from ..motion import BoundRequest, Motion, Request, require_motion
-from ..motion.grid import MotionLike
-from ..motion.requests import identity_of, stroke_of
+from ..loads import AT_REST, DIRECTIONS, FRICTIONLESS, Acting, Case, ForceElement, LoadCase, Loads, situation_of
+from ..motion import Motion, require_motion
+from ..motion.requests import stroke_of
 from ..plan import Plan
-from ..program import FloatArray, Node, Notes
+from ..program import FloatArray
 from ..vectors import Scalar
 from .agreement import assumed_joints
 from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
+from .law_requests import LawInPlan, LawRequest, TracedLaw
+from .poses import AnyMotion, FlatPoses
 from .solution import Solution
-from .traced_loads import TracedLoads, eliminated_forces
+from .traced_loads import TracedMotion, eliminated_forces, traced_apart, traced_loads
 from .work import by_work, stroke_force
-
-Bound = TypeVar("Bound", bound=BoundRequest)
 
 
 def situation_identity(acting: Acting) -> Hashable:
@@ -46,12 +45,6 @@ def case_words(case: Case) -> list[str]:
     return [] if case is None else [f"case={case if isinstance(case, str) else case.name or case.label}"]
 
 
-def bound_once(plan: Plan, request: Request, bound: Callable[[Plan], Bound]) -> Bound:
-    """Return a request of the machine's own loads as `bound` binds it, kept with the plan."""
-    identity = identity_of(plan, request)
-    return bound(plan) if identity is None else plan.made(("bound", identity), lambda _: bound(plan))
-
-
 def is_unchanging(thing: object) -> bool:
     """Return whether loads or a load case cannot change: members of a class, and frozen dataclasses."""
     if not isinstance(thing, (ForceElement, LoadCase)):
@@ -61,7 +54,7 @@ def is_unchanging(thing: object) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
-class ForceRequest(Request):
+class ForceRequest(LawRequest):
     """The base of requests of forces: under which loads, in which load case and movement."""
 
     acting: Acting
@@ -88,11 +81,20 @@ class ForceRequest(Request):
         direction = [] if self.acting.direction is None else [f"direction={self.acting.direction}"]
         return [*case_words(self.acting.case), *direction, *([f"drive={self.acting.drive}"] if self.acting.drive else [])]
 
-    def bound_to(self, plan: Plan, bound: Callable[[Plan], Bound]) -> Bound:
-        """Return it as `bound` binds it; UntracedError while it moves, for friction follows from the forces that it changes."""
+    def bound(self, plan: Plan) -> Self:
+        return super().bound(plan) if self.acting.loads is None else self._bound(plan)
+
+    def examine(self, plan: Plan) -> None:
+        """Raise UntracedError while it moves, for friction follows from the forces that it changes."""
         if self.acting.movement != FRICTIONLESS or self.acting.rates is not None:
             raise UntracedError(f"{plan.title}: {self}: while it moves it has values, and no program that gives derivatives. Ask at rest.")
-        return bound_once(plan, self, bound) if self.acting.loads is None else bound(plan)
+
+    def traced(self, motion: TracedMotion) -> TracedLaw:
+        return TracedLaw(motion, motion.node(self.law(motion)))
+
+    @property
+    def sentence(self) -> str:
+        return str(self) if self._in_plan is None else self._in_plan.words
 
 
 @final
@@ -105,19 +107,19 @@ class DriveForce(ForceRequest):
     def identity(self, plan: Plan) -> Hashable:
         return self.identified("drive force", self.drive)
 
-    def of(self, motion: MotionLike) -> FloatArray:
-        return stroke_force(require_motion(motion), self.acting, self.drive)
+    def law(self, motion: AnyMotion) -> FloatArray:
+        if not isinstance(motion, TracedMotion):
+            return stroke_force(require_motion(motion), self.acting, self.drive)
+        drive = stroke_of(motion.plan, self.drive, "drive")
+        (force,) = by_work(FlatPoses(motion, ""), traced_loads(motion, self.acting, AT_REST), drive)
+        return cast(FloatArray, force)
+
+    def looked_up(self, motion: TracedMotion) -> LawInPlan:
+        found = super().looked_up(motion)
+        return replace(found, words=f"the driving force of {stroke_of(motion.plan, self.drive, 'drive')}")
 
     def __str__(self) -> str:
         return f"drive_force({', '.join([*([self.drive] if self.drive else []), *self.acting_words])})"
-
-    def bound(self, plan: Plan) -> DriveForceOf:
-        return self.bound_to(plan, self._bound)
-
-    def _bound(self, plan: Plan) -> DriveForceOf:
-        drive = stroke_of(plan, self.drive, "drive")
-        traced = TracedLoads.apart(plan, self.acting)
-        return DriveForceOf(self.acting, drive, traced.key, frozenset(traced.names), frozenset(traced.carriers))
 
 
 def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None, *, acting: Acting | None = None) -> DriveForce:
@@ -128,64 +130,6 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
     return DriveForce(situation_of("drive_force", acting, loads=loads, case=case), drive)
-
-
-@dataclass(frozen=True, eq=False)
-class ForceOf(BoundRequest):
-    """A force bound to a plan: it goes through ratios and angles, and is true while the loads keep to the laws that were traced."""
-
-    acting: Acting
-
-    @property
-    def order(self) -> int:
-        return 1
-
-    @property
-    def may_fail(self) -> bool:
-        return True
-
-    @property
-    def follows_angles(self) -> bool:
-        return True
-
-    def notes(self, plan: Plan) -> Notes:
-        return self.traced(plan).notes
-
-    def traced(self, plan: Plan) -> TracedLoads:
-        """Return the loads traced on a plan's program."""
-        return TracedLoads.on(plan, self.acting)
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class DriveForceOf(ForceOf):
-    """A drive's force bound to a plan: its drive, the key of its loads, the members it reads, and those it is differentiated through."""
-
-    drive: str
-    loads_key: tuple[Hashable, ...]
-    read: frozenset[str]
-    carriers: frozenset[str]
-
-    @property
-    def key(self) -> Hashable:
-        return "drive force", self.drive, self.loads_key
-
-    def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        traced = self.traced(plan)
-        (force,) = by_work(traced.poses, traced.applied, self.drive)
-        return (traced.motion.node(force),)
-
-    def names(self, plan: Plan) -> set[str]:
-        return set(self.read)
-
-    def differentiated(self, plan: Plan) -> set[str]:
-        return set(self.carriers)
-
-    def refuse(self, motion: MotionLike) -> None:
-        stroke_force(require_motion(motion), self.acting, self.drive)
-
-    def __str__(self) -> str:
-        return f"the driving force of {self.drive}"
 
 
 COMPONENTS: Mapping[str, Callable[[Scalar, Scalar], Scalar]] = MappingProxyType(
@@ -208,7 +152,7 @@ class PinForce(ForceRequest):
     def identity(self, plan: Plan) -> Hashable:
         return self.identified("pin force", self.point, self.on, self.component, self.by)
 
-    def of(self, motion: MotionLike) -> FloatArray:
+    def law(self, motion: AnyMotion) -> FloatArray:
         known_name("Component", self.component, COMPONENTS, where=f"{motion.plan.title}: the force at {self.point}")
         force = pin_forces_under(require_motion(motion), self.acting).force(self.point, self.on, self.by)
         return np.asarray(COMPONENTS[self.component](force[0], force[1]))
@@ -218,17 +162,46 @@ class PinForce(ForceRequest):
         bodies = [*([self.on] if self.on else []), *([f"by={self.by}"] if self.by else [])]
         return f"pin_force({', '.join([self.point, *bodies, *component, *self.acting_words])})"
 
-    def bound(self, plan: Plan) -> PinForceOf:
-        return self.bound_to(plan, self._bound)
+    # -- bound to a plan ---------------------------------------------------------------------------------
 
-    def _bound(self, plan: Plan) -> PinForceOf:
+    def _bound(self, plan: Plan) -> PinForce:
+        self.examine(plan)
         known_name("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
-        traced = TracedLoads.apart(plan, self.acting)
-        structure = Structure(plan, traced.applied.elements, traced.applied.thrusts)
-        request = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))
-        _, joint, _ = contact_of(structure, request)
-        spans = tuple((strut.name, strut.P, strut.Q) for strut in structure.struts)
-        return PinForceOf(self.acting, request, (*traced.key, spans), str(joint))
+        return traced_apart(plan, self.at_its_joint)
+
+    def at_its_joint(self, motion: TracedMotion) -> PinForce:
+        """Return the same by the full names of its bodies, with what it is in the plan of a traced motion."""
+        applied, plan = traced_loads(motion, self.acting, AT_REST), motion.plan
+        structure = Structure(plan, applied.elements, applied.thrusts)
+        found = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))
+        _, joint, _ = contact_of(structure, found)
+        loads = ((each.load.point, each.load.on, *(motion.node(part).number for part in each.force)) for each in applied.loads)
+        thrusts = ((each.name, each.ends, motion.node(each.thrust).number) for each in applied.thrusts)
+        struts = ((strut.name, strut.P, strut.Q) for strut in structure.struts)
+        acts = motion._reading.graph, *loads, *thrusts, *motion.notes.assumed, None, *motion.notes.switches, *struts
+        key = "pin force", found.point, found.on, found.by, found.component, acts
+        what = "the size" if self.component == "size" else f"the {self.component} component"
+        every = frozenset(plan.members)
+        return found.told(LawInPlan(key, every, every, ("pin forces", acts), f"{what} of the force at {joint}"))
+
+    def _traced(self, plan: Plan) -> TracedLaw:
+        """Return the force on a plan's program, on which all joint forces are traced once for all that are asked for."""
+        kept = plan.trace.kept
+        if self.traced_with not in kept:
+            kept[self.traced_with] = traced_equilibrium(TracedMotion(plan, plan.trace), self.acting)
+        motion, solution = cast(tuple[TracedMotion, Solution], kept[self.traced_with])
+        contact, _, sign = contact_of(solution.system.structure, self)
+        force, _ = solution.transmitted(contact)
+        return TracedLaw(motion, motion.node(COMPONENTS[self.component](*(sign * force[:, 0]))))
+
+
+def traced_equilibrium(motion: TracedMotion, acting: Acting) -> tuple[TracedMotion, Solution]:
+    """Return a traced motion with all joint forces at rest; its notes say that the joints hold what they are said to."""
+    applied = traced_loads(motion, acting, AT_REST)
+    system, u = eliminated_forces(Structure(motion.plan, applied.elements, applied.thrusts), motion, applied)
+    for each in assumed_joints(system.structure, system.poses):
+        motion.notes.assumed.setdefault(motion.node(each[0]), "its joints")
+    return motion, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), [])
 
 
 @final
@@ -242,13 +215,13 @@ class MemberThrust(ForceRequest):
     def identity(self, plan: Plan) -> Hashable:
         return self.identified("member thrust", self.member)
 
-    def of(self, motion: MotionLike) -> FloatArray:
+    def law(self, motion: AnyMotion) -> FloatArray:
         return np.asarray(pin_forces_under(require_motion(motion), self.acting).thrusts[self.member])
 
     def __str__(self) -> str:
         return f"thrust({', '.join([self.member, *self.acting_words])})"
 
-    def bound(self, plan: Plan) -> BoundRequest:
+    def examine(self, plan: Plan) -> None:
         raise UntracedError(f"{plan.title}: {self}: it has values, and no program that gives derivatives.")
 
 
@@ -277,58 +250,6 @@ def pin_force(
         said = "the names of a point and of a body are expected"
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
     return PinForce(situation_of("pin_force", acting, loads=loads, case=case), point, on, component, by)
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class PinForceOf(ForceOf):
-    """A pin force bound to a plan: the request, the key of its loads, and the joint in words."""
-
-    request: PinForce
-    loads_key: tuple[Hashable, ...]
-    joint: str
-
-    @property
-    def key(self) -> Hashable:
-        return "pin force", self.request.point, self.request.on, self.request.by, self.request.component, self.loads_key
-
-    @property
-    def traced_with(self) -> Hashable:
-        return "pin forces", self.loads_key
-
-    def traced(self, plan: Plan) -> TracedLoads:
-        return self.equilibrium(plan)[0]
-
-    def equilibrium(self, plan: Plan) -> tuple[TracedLoads, Solution]:
-        """Return the loads and all joint forces on a plan's program, traced there once for all joints that are asked for."""
-        kept = plan.trace.kept
-        if self.traced_with not in kept:
-            traced = super().traced(plan)
-            system, u = eliminated_forces(traced.structure, traced.motion, traced.applied)
-            kept[self.traced_with] = traced, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), [])
-        return cast(tuple[TracedLoads, Solution], kept[self.traced_with])
-
-    def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        traced, solution = self.equilibrium(plan)
-        contact, _, sign = contact_of(solution.system.structure, self.request)
-        force, _ = solution.transmitted(contact)
-        return (traced.motion.node(COMPONENTS[self.request.component](*(sign * force[:, 0]))),)
-
-    def notes(self, plan: Plan) -> Notes:
-        traced = self.traced(plan)
-        for each in assumed_joints(traced.structure, traced.poses):
-            traced.notes.assumed.setdefault(traced.motion.node(each[0]), "its joints")
-        return traced.notes
-
-    def names(self, plan: Plan) -> set[str]:
-        return set(plan.members)
-
-    def refuse(self, motion: MotionLike) -> None:
-        pin_forces_under(require_motion(motion), self.acting)
-
-    def __str__(self) -> str:
-        what = "the size" if self.request.component == "size" else f"the {self.request.component} component"
-        return f"{what} of the force at {self.joint}"
 
 
 def contact_of(structure: Structure, request: PinForce) -> tuple[Contact, JointForce, float]:

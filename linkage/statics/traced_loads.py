@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from threading import RLock
-from typing import cast, final
+from typing import TypeVar, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, LawError, UntracedError, unwarned
-from ..loads import AT_REST, Acting, Rates
+from ..loads import Acting, Rates
 from ..motion import BoundRequest, Motion, OnePose
 from ..motion.requests import stroke_of
 from ..motion.strokes import checked_name, order_of
@@ -28,63 +28,15 @@ from .poses import AnyMotion, FlatPoses
 from .solution import Equilibrium
 
 TRACING = RLock()
-"""Held while loads are traced on a program that is kept: threads in one graph would number its nodes twice."""
+"""Held while something is traced on a program that is kept: threads in one graph would number its nodes twice."""
+Read = TypeVar("Read")
 
 
-@final
-class TracedLoads:
-    """The loads of a mechanism, traced on a plan's program: what acts, as nodes, and the pose that stands for all of them."""
-
-    def __init__(self, motion: TracedMotion, acting: Acting, rates: Rates) -> None:
-        self.motion = motion
-        speeds = Rates({name: motion.input(rate_name(name)) for name in rates}, rates.is_timed, rates.direction)
-        self.applied = traced_loads(motion, acting, speeds)
-        self.poses = FlatPoses(motion, "")
-
-    @classmethod
-    def apart(cls, plan: Plan, acting: Acting, rates: Rates = AT_REST) -> TracedLoads:
-        """Return the loads traced on a program that is kept for this: equal loads have equal nodes there."""
-        with TRACING:
-            kept = plan.made(("traced loads",), lambda twin: twin)
-            return cls(TracedMotion(kept, kept.trace.view()), acting, rates)
-
-    @classmethod
-    def on(cls, plan: Plan, acting: Acting, rates: Rates = AT_REST) -> TracedLoads:
-        """Return the loads traced on a plan's own program."""
-        return cls(TracedMotion(plan, plan.trace), acting, rates)
-
-    @property
-    def structure(self) -> Structure:
-        """The bodies and joints that the loads act on."""
-        return Structure(self.motion.plan, self.applied.elements, self.applied.thrusts)
-
-    @property
-    def key(self) -> tuple[Hashable, ...]:
-        """What tells these loads from others: the program, and where which nodes act."""
-        node = self.motion.node
-        loads = ((each.load.point, each.load.on, *(node(part).number for part in each.force)) for each in self.applied.loads)
-        thrusts = ((each.name, each.ends, node(each.thrust).number) for each in self.applied.thrusts)
-        return self.motion._reading.graph, *loads, *thrusts, *self.notes.assumed, None, *self.notes.switches
-
-    @property
-    def notes(self) -> Notes:
-        """What the laws are true under."""
-        return self.motion.notes
-
-    @property
-    def carriers(self) -> set[str]:
-        """The members that the loaded points are built from."""
-        return self.motion.plan.reaches(*self.applied.points)
-
-    @property
-    def names(self) -> set[str]:
-        """The members that the laws read and the loads act on."""
-        return self.motion.read | self.carriers
-
-
-def rate_name(stroke: str) -> str:
-    """Return the name of a stroke's rate as an input of the program; no dimension can be called so."""
-    return f"|rate {stroke}"
+def traced_apart(plan: Plan, read: Callable[[TracedMotion], Read]) -> Read:
+    """Return what is read of a pose on a program that is kept for this: what is equal has equal nodes there."""
+    with TRACING:
+        kept = plan.made(("traced loads",), lambda twin: twin)
+        return read(TracedMotion(kept, kept.trace.view()))
 
 
 def traced_loads(motion: TracedMotion, acting: Acting, rates: Rates) -> AppliedLoads:

@@ -15,7 +15,7 @@ from ..motion import Motion
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke, distance
 from .content import Cell, Mark, Section, TableBlock
-from .run import Looked
+from .run import ReportSubject
 
 EXACT = 1e-9
 """The bound of what rounding alone may leave, relative."""
@@ -39,9 +39,9 @@ class Check:
         return None if np.isnan(self.measured) else self.measured <= self.bound
 
 
-def checks_section(looked: Looked, values: Mapping[str, Any]) -> Section:
+def checks_section(subject: ReportSubject, values: Mapping[str, Any]) -> Section:
     """Return the section of checks."""
-    found = checks(looked, values)
+    found = checks(subject, values)
     rows: list[tuple[Cell, ...]] = [
         (each.name, each.what, figure_text(each.measured), figure_text(each.bound), kept_mark(each.ok)) for each in found
     ]
@@ -62,11 +62,11 @@ def kept_mark(ok: bool | None) -> Mark:
     return Mark(ok, said("not made") if ok is None else said("kept") if ok else said("not kept"))
 
 
-def checks(looked: Looked, values: Mapping[str, Any]) -> list[Check]:
+def checks(subject: ReportSubject, values: Mapping[str, Any]) -> list[Check]:
     """Return all checks of a design along its run; `values` are those of its equations, by name."""
     with unwarned():
-        found = [lengths_kept(looked.table), *loops_closed(looked.table), equations_against(looked, values), derivatives(looked)]
-        return [*found, *forces_balanced(looked)]
+        found = [lengths_kept(subject.table), *loops_closed(subject.table), equations_against(subject, values), derivatives(subject)]
+        return [*found, *forces_balanced(subject)]
 
 
 # -- positions ---------------------------------------------------------------------------------------------
@@ -123,9 +123,9 @@ def link_vector(motion: Motion, length: Quantity, P: str, Q: str) -> FloatArray:
     return np.asarray(motion.value(length) * np.array([np.cos(angle), np.sin(angle)]))
 
 
-def equations_against(looked: Looked, values: Mapping[str, Any]) -> Check:
+def equations_against(subject: ReportSubject, values: Mapping[str, Any]) -> Check:
     """Return how far the equations, evaluated with 30 digits, are from the machine's own numbers at the pose of the calculation."""
-    pose = looked.machine.at(unreachable="nan", **looked.pose)
+    pose = subject.machine.at(unreachable="nan", **subject.pose)
     worst, size = 0.0, max((float(np.abs(pose[name]).max()) for name in pose.plan.points), default=1.0) or 1.0
     points = [name for name in pose.plan.moving if name in values and name in pose.plan.points]
     for name in points:
@@ -141,9 +141,9 @@ def equations_against(looked: Looked, values: Mapping[str, Any]) -> Check:
 # -- derivatives and forces --------------------------------------------------------------------------------
 
 
-def derivatives(looked: Looked) -> Check:
+def derivatives(subject: ReportSubject) -> Check:
     """Return how far exact transfer ratios are from central differences, over their largest value."""
-    motion, stroke = looked.table, looked.stroke
+    motion, stroke = subject.table, subject.stroke
     outputs = [name for name, each in motion.plan.of_kind(Quantity).items() if not isinstance(each, (Stroke, Dimension))]
     found: list[tuple[float, float]] = []
     for name in (*motion.plan.moving, *outputs):
@@ -160,10 +160,10 @@ def derivatives(looked: Looked) -> Check:
     return Check(said("transfer ratios"), what, worst if targets else np.nan, NUMERIC)
 
 
-def forces_balanced(looked: Looked) -> Iterator[Check]:
+def forces_balanced(subject: ReportSubject) -> Iterator[Check]:
     """Yield how well every body balances, and how far its drives are from virtual work; nothing where there are no forces."""
     try:
-        found = looked.forces
+        found = subject.forces
     except LinkageError:
         return
     if not any(one.joints for one in found):

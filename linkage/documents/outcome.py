@@ -32,7 +32,7 @@ from ..units import factor, show, shown_number, unit_sign
 from .calculation import has_loads
 from .content import Block, Cell, Illustration, Paragraph, Section, TableBlock
 from .inputs import length_unit
-from .run import Looked
+from .run import ReportSubject
 
 WIDE = 6.6
 """The width of a picture across the page [inch]."""
@@ -48,24 +48,24 @@ DIRECTIONS = (noted("frictionless"), noted("extending"), noted("retracting"), no
 # -- drawings ----------------------------------------------------------------------------------------------
 
 
-def drawing_section(looked: Looked, path: Sequence[str]) -> Section:
+def drawing_section(subject: ReportSubject, path: Sequence[str]) -> Section:
     """Return the section of the drawings: with dimensions, and at both ends of the stroke with the paths of points."""
-    pose = looked.machine.at(unreachable="nan", **{name: [value] for name, value in looked.pose.items()})
+    pose = subject.machine.at(unreachable="nan", **{name: [value] for name, value in subject.pose.items()})
     first = Illustration(
         "dimensions",
         said(
             "Dimensions in {unit} at {pose}; what has no room stands in the table of dimensions.",
-            unit=length_unit(), pose=looked.words(looked.pose),
+            unit=length_unit(), pose=subject.words(subject.pose),
         ),
         (WIDE, height_of(Scene(pose), 0.16)), ROOM, lambda ax: dimensioned(ax, pose),
     )  # fmt: skip
-    reached = np.flatnonzero(looked.curve.reached)
-    ends = [looked.moving_words(looked.strokes_at(looked.curve, int(place))) for place in (reached[0], reached[-1])]
+    reached = np.flatnonzero(subject.curve.reached)
+    ends = [subject.moving_words(subject.strokes_at(subject.curve, int(place))) for place in (reached[0], reached[-1])]
     paths = said(" Broken line: path of {points}.", points=", ".join(path)) if path else ""
     second = Illustration(
         "positions",
         said("Positions at {start} (faint) and at {end}.", start=ends[0], end=ends[1]) + paths,
-        (WIDE, height_of(Scene(looked.curve))), ROOM, partial(positions, motion=looked.curve, path=path),
+        (WIDE, height_of(Scene(subject.curve))), ROOM, partial(positions, motion=subject.curve, path=path),
     )  # fmt: skip
     return Section(said("Drawing"), (first, second))
 
@@ -93,38 +93,38 @@ def positions(ax: Axes, motion: Motion, path: Sequence[str]) -> None:
 # -- tables and curves -------------------------------------------------------------------------------------
 
 
-def reported_columns(looked: Looked, names: Sequence[str] | None) -> list[Column]:
+def reported_columns(subject: ReportSubject, names: Sequence[str] | None) -> list[Column]:
     """Return the columns of results at the poses of the tables: those named, else all; DefinitionError for an unknown name."""
     with unwarned():
-        found = results(looked.machine, looked.table)
+        found = results(subject.machine, subject.table)
     if names is None:
         return found
     known = {column.name: column for column in found}
     for name in names:
         if name not in known:
-            raise unknown("Column", name, known, where=f"the table of {looked.machine.plan.title}")
-    return [known[name] for name in dict.fromkeys([*(each for each in looked.machine.strokes if each in known), *names])]
+            raise unknown("Column", name, known, where=f"the table of {subject.machine.plan.title}")
+    return [known[name] for name in dict.fromkeys([*(each for each in subject.machine.strokes if each in known), *names])]
 
 
-def results_section(looked: Looked, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[Any]]) -> Section:
+def results_section(subject: ReportSubject, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[Any]]) -> Section:
     """Return the section of the table over the stroke and the curves, the one the machine is about first."""
-    columns = reported_columns(looked, names)
+    columns = reported_columns(subject, names)
     blocks: list[Block] = []
-    shown = [column for column in columns if column.name not in looked.run.held]
-    held = looked.words(dict(looked.run.held))
+    shown = [column for column in columns if column.name not in subject.run.held]
+    held = subject.words(dict(subject.run.held))
     if held:
-        blocks.append(Paragraph(said("Along {stroke}, with {held} held.", stroke=", ".join(looked.run.ways), held=held)))
-    missing = int(np.count_nonzero(~looked.table.reached))
+        blocks.append(Paragraph(said("Along {stroke}, with {held} held.", stroke=", ".join(subject.run.ways), held=held)))
+    missing = int(np.count_nonzero(~subject.table.reached))
     if missing:
         blocks.append(
-            Paragraph(said("{n} of {count} poses of the table cannot be assembled; they have no values.", n=missing, count=looked.count))
+            Paragraph(said("{n} of {count} poses of the table cannot be assembled; they have no values.", n=missing, count=subject.count))
         )
     blocks += column_grids(said("Results over the stroke"), shown)
-    whole = curve_columns(looked)
-    coordinates = {f"{point}_{axis}" for point in looked.machine.plan.points for axis in "xy"}
+    whole = curve_columns(subject)
+    coordinates = {f"{point}_{axis}" for point in subject.machine.plan.points for axis in "xy"}
     drawn = [name for name in whole if name != first and (name in names if names is not None else name not in coordinates)]
-    beyond = wider_answers(looked, {name: whole[name] for name in [first, *drawn]}, limits)
-    along, over = ", ".join(looked.run.ways), looked.words(dict(looked.run.held))
+    beyond = wider_answers(subject, {name: whole[name] for name in [first, *drawn]}, limits)
+    along, over = ", ".join(subject.run.ways), subject.words(dict(subject.run.held))
     for name in [first, *drawn]:
         bound, further = limits.get(name), beyond.get(name, [])
         caption = said("{column} along {stroke}; {held} held.", column=whole[name].heading, stroke=along, held=over) if over else said(
@@ -133,17 +133,17 @@ def results_section(looked: Looked, names: Sequence[str] | None, first: str, lim
         caption += said(" Shaded: what its limit excludes.") if bound is not None else ""
         caption += beyond_words(further, whole[name]) if further else ""
         size = (WIDE, 2.6) if name == first else (HALF, 2.15)
-        paint = partial(curve, motion=looked.curve, column=whole[name], bound=bound, beyond=further)
+        paint = partial(curve, motion=subject.curve, column=whole[name], bound=bound, beyond=further)
         blocks.append(Illustration(f"curve_{safe(name)}", caption, size, (0.62, 0.12, 0.46, 0.32 if bound is None else 0.48), paint))
     return Section(said("Results"), tuple(blocks))
 
 
-def curve_columns(looked: Looked) -> dict[str, Column]:
+def curve_columns(subject: ReportSubject) -> dict[str, Column]:
     """Return the columns of results and of members at the poses of the curves, by name."""
-    found = {column.name: column for column in looked.columns}
-    for name, column in looked.member_columns:
+    found = {column.name: column for column in subject.columns}
+    for name, column in subject.member_columns:
         found.setdefault(f"{column.name} {name}", replace(column, name=f"{column.name} {name}"))
-    return {name: column for name, column in found.items() if name not in looked.machine.strokes}
+    return {name: column for name, column in found.items() if name not in subject.machine.strokes}
 
 
 # Beside each curve, what the judge finds over all that the machine runs: a line where that lies beyond the curve.
@@ -152,21 +152,21 @@ BEYOND = 1e-6
 """Of a curve's range: what lies no further beyond it is not marked."""
 
 
-def wider_answers(looked: Looked, columns: Mapping[str, Column], limits: Mapping[str, Sequence[Any]]) -> dict[str, list[Answer]]:
+def wider_answers(subject: ReportSubject, columns: Mapping[str, Column], limits: Mapping[str, Sequence[Any]]) -> dict[str, list[Answer]]:
     """Return, by column, the least and the greatest over all that the machine runs, those beyond the curve; of a limit its side.
 
     They are asked for of what has a limit, of forces and what hangs on them, and of the first column.
     """
     asked: list[tuple[str, Measure]] = []
     for name in columns:
-        quantity = looked.quantities.get(name)
+        quantity = subject.quantities.get(name)
         of_forces = isinstance(quantity, Request) and quantity.under(Acting(case=PLAIN_CASE), keep=True) is not quantity
         if quantity is not None and (of_forces or name in limits or name == next(iter(columns))):
             fails = {"below": (least,), "above": (most,)}.get(limit_of(limits[name]).fails, ()) if name in limits else sides_asked(quantity)
             asked += [(name, side(quantity)) for side in fails]
     try:
         with unwarned():
-            answers = looked.judge.answers([question for _, question in asked])
+            answers = subject.judge.answers([question for _, question in asked])
     except LinkageError:
         return {}
     found: dict[str, list[Answer]] = {}
@@ -235,17 +235,17 @@ def column_grids(caption: str, columns: Sequence[Column]) -> Iterator[TableBlock
 # -- cylinders and springs ---------------------------------------------------------------------------------
 
 
-def members_section(looked: Looked) -> Section | None:
+def members_section(subject: ReportSubject) -> Section | None:
     """Return the section of what members show of themselves, such as cylinders their thrust and pressure; None where none does."""
-    members = looked.machine.plan.of_kind(Tabled)
+    members = subject.machine.plan.of_kind(Tabled)
     if not members:
         return None
     with unwarned():
-        columns = looked.member_columns
-        asked = [column.request if column.request is not None else values_in_rows(looked, name, column) for name, column in columns]
+        columns = subject.member_columns
+        asked = [column.request if column.request is not None else values_in_rows(subject, name, column) for name, column in columns]
         questions = [[side(quantity) for side in sides_asked(quantity)] for quantity in asked]
         try:
-            answers = iter(looked.judge.answers([question for each in questions for question in each]))
+            answers = iter(subject.judge.answers([question for each in questions for question in each]))
         except LinkageError as error:
             return Section(said("Hydraulics"), (Paragraph(str(error)),))
     found = [[next(answers) for _ in each] for each in questions]
@@ -254,7 +254,7 @@ def members_section(looked: Looked) -> Section | None:
         for (name, column), each in zip(columns, found, strict=True)
     )
     shown = dict.fromkeys(name for name, _ in columns)
-    refused = [Paragraph(why) for name in members if name not in shown and (why := refusal_words(looked, name))]
+    refused = [Paragraph(why) for name in members if name not in shown and (why := refusal_words(subject, name))]
     heads = (said("member"), said("quantity"), said("least"), said("situation and place"), said("greatest"), said("situation and place"))
     table = [TableBlock(said("Cylinders, over all that the machine runs"), heads, rows, "llrmrm")] if rows else []
     return Section(said("Hydraulics"), (*table, *refused))
@@ -274,21 +274,21 @@ def sides_asked(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
     return (least,) if is_open else (most,) if getattr(quantity, "measures", "") == "pressure" else (least, most)
 
 
-def values_in_rows(looked: Looked, member: str, column: Column) -> Callable[[Motion], FloatArray]:
+def values_in_rows(subject: ReportSubject, member: str, column: Column) -> Callable[[Motion], FloatArray]:
     """Return a member's column as a function of a motion, for one that nothing else asks for."""
 
     def values(motion: Motion) -> FloatArray:
-        found = looked.machine.plan.of_kind(Tabled)[member].columns(motion)
+        found = subject.machine.plan.of_kind(Tabled)[member].columns(motion)
         return np.asarray(next(each.values for each in found if each.name == column.name), float)
 
     return values
 
 
-def refusal_words(looked: Looked, member: str) -> str:
+def refusal_words(subject: ReportSubject, member: str) -> str:
     """Return why a member shows nothing of itself; "" where it has nothing to show."""
     try:
         with unwarned():
-            looked.machine.plan.of_kind(Tabled)[member].columns(looked.curve)
+            subject.machine.plan.of_kind(Tabled)[member].columns(subject.curve)
     except LinkageError as error:
         return str(error)
     return ""
@@ -306,15 +306,15 @@ def amount_text(answer: Answer, column: Column) -> str:
 # -- forces of joints --------------------------------------------------------------------------------------
 
 
-def forces_section(looked: Looked) -> Section | None:
+def forces_section(subject: ReportSubject) -> Section | None:
     """Return the section of driving forces and of the largest force of every joint, over cases and directions; None without loads."""
     title = said("Forces in drives and pins")
-    if not has_loads(looked.machine):
+    if not has_loads(subject.machine):
         return None
     try:
-        found = looked.forces
+        found = subject.forces
         with unwarned():
-            rows, ranges = judged_table(looked.judge), tuple(drive_rows(looked))
+            rows, ranges = judged_table(subject.judge), tuple(drive_rows(subject))
     except LinkageError as error:
         return Section(title, (Paragraph(said("The joint forces are not calculated: {why}", why=str(error))),))
     looks = Paragraph(
@@ -322,7 +322,7 @@ def forces_section(looked: Looked) -> Section | None:
             "The largest force of each joint over {domain}, between the poses of the tables too, over load cases and directions of "
             "motion. Fx and Fy act on the body, in its own axes: x from the first of the named points to the second, y to its left; on "
             "the frame in the axes of the drawing.",
-            domain=looked.domain,
+            domain=subject.domain,
         )
     )
     unit = unit_sign("kN")
@@ -352,16 +352,16 @@ def frame(name: str) -> str:
     return said("frame") if name.startswith("frame") else name
 
 
-def drive_rows(looked: Looked) -> Iterator[tuple[str, ...]]:
+def drive_rows(subject: ReportSubject) -> Iterator[tuple[str, ...]]:
     """Yield the least and the greatest force of every drive and thrust of every member, in which situation and where."""
-    one, plan = looked.forces[0], looked.machine.plan
+    one, plan = subject.forces[0], subject.machine.plan
     asked: list[tuple[str, Request, str]] = [(name, drive_force(name), drive_unit(plan, name)) for name in one.drives]
-    known = {name: column.request for name, column in looked.member_columns if column.name == "thrust"}  # these have a program
+    known = {name: column.request for name, column in subject.member_columns if column.name == "thrust"}  # these have a program
     for name in one.thrusts:
         own = known.get(name)
         request = own if isinstance(own, Request) else MemberThrust(Acting(), name)
         asked.append((said("thrust of {name}", name=name), request, "kN"))
-    answers = looked.judge.answers([each(request) for _, request, _ in asked for each in (least, most)])
+    answers = subject.judge.answers([each(request) for _, request, _ in asked for each in (least, most)])
     for (name, _, unit), low, high in zip(asked, answers[::2], answers[1::2], strict=True):
         column = Column(name, np.zeros(1), unit, 3)
         if not np.isnan(low.value):
@@ -376,29 +376,29 @@ def drive_unit(plan: Plan, stroke: str) -> str:
 # -- limits ------------------------------------------------------------------------------------------------
 
 
-def limits_section(looked: Looked) -> Section:
+def limits_section(subject: ReportSubject) -> Section:
     """Return the section of how far every stroke reaches, what stops it, and the least transmission angles."""
     title = said("Limits of motion")
     try:
         with unwarned():
-            found = looked.machine.at(unreachable="nan", **looked.pose).limits()
+            found = subject.machine.at(unreachable="nan", **subject.pose).limits()
     except LinkageError as error:
         return Section(title, (Paragraph(str(error)),))
     heads = (said("stroke"), said("limit"), said("at stroke"))
-    rows = [row for each in found.values() for row in limit_rows(looked, each)]
-    held = said("Each stroke by itself, the others held at {pose}.", pose=looked.words(looked.pose))
+    rows = [row for each in found.values() for row in limit_rows(subject, each)]
+    held = said("Each stroke by itself, the others held at {pose}.", pose=subject.words(subject.pose))
     return Section(
         title,
         (*([Paragraph(held)] if len(found) > 1 else []), TableBlock(said("Reach, dead points, transmission"), heads, tuple(rows), "lmm")),
     )
 
 
-def limit_rows(looked: Looked, limits: StrokeLimits) -> Iterator[tuple[Cell, ...]]:
+def limit_rows(subject: ReportSubject, limits: StrokeLimits) -> Iterator[tuple[Cell, ...]]:
     """Yield what limits a stroke."""
     name = limits.stroke
 
     def place(value: float) -> str:
-        return looked.words({name: value})
+        return subject.words({name: value})
 
     for part in limits.intervals:
         yield name, said("reachable"), said("from {start} to {end}", start=place(part.low), end=place(part.high))

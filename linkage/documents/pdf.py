@@ -23,7 +23,7 @@ from ..language import said
 from .content import Block, Cell, Document, Equality, Formula, Illustration, Mark, Paragraph, Section, TableBlock
 from .html import captions_of
 from .pictures import painted
-from .setting import Ink, InkLine, Laid, Letters, face, filled_lines, laid, width
+from .setting import GlyphRun, Ink, InkLine, SetFormula, face, filled_lines, set_formula, width
 
 WIDE, HIGH = 595.276, 841.89
 LEFT, RIGHT, TOP, BOTTOM = 57.0, 42.0, 48.0, 52.0
@@ -77,7 +77,7 @@ class Page:
         line = InkLine(((LEFT, foot - 11.0), (WIDE - RIGHT, foot - 11.0)), 0.4, RULE)
         words = [filled_lines(f"{document.footer}", ROOM - 90.0, SMALL)[0], of]
         places = [LEFT, WIDE - RIGHT - width(of, SMALL)]
-        feet = [Letters(x, foot, text, SMALL, "regular", MUTED) for text, x in zip(words, places, strict=True)]
+        feet = [GlyphRun(x, foot, text, SMALL, "regular", MUTED) for text, x in zip(words, places, strict=True)]
         figure.add_artist(InkArtist([*self.ink, line, *feet]))
         return figure
 
@@ -93,7 +93,7 @@ class InkArtist(Artist):
     def draw(self, renderer: Any) -> None:
         context = renderer.new_gc()
         for each in self.ink:
-            if isinstance(each, Letters):
+            if isinstance(each, GlyphRun):
                 context.set_foreground(each.colour)
                 properties = face(each.face).copy()
                 properties.set_size(each.size)
@@ -139,11 +139,11 @@ class Flow:
         """Draw on the page."""
         self.pages[-1].ink += ink
 
-    def set(self, each: Laid, x: float, line: float, colour: str = "#000000") -> None:
+    def set(self, each: SetFormula, x: float, line: float, colour: str = "#000000") -> None:
         """Draw a formula with its line at a height."""
         for ink in each.ink:
-            if isinstance(ink, Letters):
-                self.put(Letters(x + ink.x, line - ink.y, ink.text, ink.size, ink.face, colour))
+            if isinstance(ink, GlyphRun):
+                self.put(GlyphRun(x + ink.x, line - ink.y, ink.text, ink.size, ink.face, colour))
             else:
                 self.put(InkLine(tuple((x + px, line - py) for px, py in ink.points), ink.width, colour, ink.fill))
 
@@ -151,7 +151,7 @@ class Flow:
         """Draw a paragraph."""
         for line in filled_lines(text, ROOM, size, name):
             y = self.take(1.38 * size)
-            self.put(Letters(LEFT, y + size, line, size, name, colour))
+            self.put(GlyphRun(LEFT, y + size, line, size, name, colour))
         self.y += after
 
     # -- blocks ----------------------------------------------------------------------------------------
@@ -171,7 +171,7 @@ class Flow:
         self.take(room)
         self.y -= room
         y = self.take(22.0)
-        self.put(Letters(LEFT, y + 12.0, f"{number}. {section.title}", 11.5, "bold", INK))
+        self.put(GlyphRun(LEFT, y + 12.0, f"{number}. {section.title}", 11.5, "bold", INK))
         self.put(InkLine(((LEFT, y + 16.5), (WIDE - RIGHT, y + 16.5)), 0.9, INK))
         waiting: list[Illustration] = []
         for block in section.blocks:
@@ -208,12 +208,12 @@ class Flow:
             x = LEFT + place * room
             self.pages[-1].pictures.append((each, x, y))
             for line, text in enumerate(lines):
-                self.put(Letters(x, y + high + (1.2 + 1.35 * line) * SMALL, text, SMALL, "regular", MUTED))
+                self.put(GlyphRun(x, y + high + (1.2 + 1.35 * line) * SMALL, text, SMALL, "regular", MUTED))
 
     def equality(self, block: Equality) -> None:
         """Draw an equation with its number, broken where it is too long."""
         indent, room = 30.0, ROOM - 30.0
-        lines: list[list[Laid]] = [[]]
+        lines: list[list[SetFormula]] = [[]]
         used = 0.0
         for each in equality_pieces(block):
             if lines[-1] and used + each.width > room:
@@ -225,7 +225,7 @@ class Flow:
             up, down = max(each.height for each in parts), max(each.depth for each in parts)
             y = self.take(up + down + 3.6)
             if not number and block.number:
-                self.put(Letters(LEFT, y + up, f"({block.number})", TEXT, "regular", MUTED))
+                self.put(GlyphRun(LEFT, y + up, f"({block.number})", TEXT, "regular", MUTED))
             x = LEFT + indent + (14.0 if number else 0.0)
             for each in parts:
                 self.set(each, x, y + up)
@@ -243,7 +243,7 @@ class Flow:
         if caption:
             y = self.take(1.4 * SMALL + head_high + 30.0)
             self.y = y + 1.5 * SMALL
-            self.put(Letters(LEFT, y + SMALL, caption, SMALL, "regular", MUTED))
+            self.put(GlyphRun(LEFT, y + SMALL, caption, SMALL, "regular", MUTED))
         if headed:
             self.table_head(head, widths, grid.columns, head_high)
         for row, cells in zip(grid.rows, body, strict=True):
@@ -264,7 +264,7 @@ class Flow:
         for lines, wide, kind in zip(head, widths, columns, strict=True):
             for place, text in enumerate(lines):
                 at = x + wide - 2.5 - width(text, CELL, "bold") if kind == "r" else x + 2.5
-                self.put(Letters(at, y + high - 2.6 - 1.32 * CELL * (len(lines) - 1 - place), text, CELL, "bold", INK))
+                self.put(GlyphRun(at, y + high - 2.6 - 1.32 * CELL * (len(lines) - 1 - place), text, CELL, "bold", INK))
             x += wide
         for level in (y, y + high):
             self.put(InkLine(((LEFT, level), (end, level)), 0.6, INK))
@@ -273,30 +273,30 @@ class Flow:
         """Draw a row of a table."""
         x = LEFT
         for value, lines, wide, kind in zip(row, cells, widths, columns, strict=True):
-            if isinstance(lines, Laid):
+            if isinstance(lines, SetFormula):
                 self.set(lines, x + 2.5, y + 1.7 + max(lines.height, CELL), INK)
             else:
                 colour = INK if not isinstance(value, Mark) or value.ok is None else GOOD if value.ok else BAD
                 name = "bold" if isinstance(value, Mark) else "regular"
                 for place, text in enumerate(lines):
                     at = x + wide - 2.5 - width(text, CELL, name) if kind == "r" else x + 2.5
-                    self.put(Letters(at, y + 1.5 + CELL * (1.0 + 1.32 * place), text, CELL, name, colour))
+                    self.put(GlyphRun(at, y + 1.5 + CELL * (1.0 + 1.32 * place), text, CELL, name, colour))
             x += wide
         self.put(InkLine(((LEFT, y + high), (x, y + high)), 0.35, RULE))
 
 
-def equality_pieces(block: Equality) -> Iterator[Laid]:
+def equality_pieces(block: Equality) -> Iterator[SetFormula]:
     """Yield the pieces of an equation, set; all but the first of a step's that follow another begin with its sign of equality."""
-    equals = laid(boxes("= "), MATH)
+    equals = set_formula(boxes("= "), MATH)
     for place, step in enumerate(block.steps):
         for first, piece in enumerate(breakable(boxes(step))):
-            each = laid(BoxRow((BoxRow(()), piece)) if first else piece, MATH)  # so that a sign in front has room on both sides
+            each = set_formula(BoxRow((BoxRow(()), piece)) if first else piece, MATH)  # so that a sign in front has room on both sides
             if not place or first:
                 yield each
             else:
                 lead = 0.35 * MATH + equals.width + 0.35 * MATH
                 ink = (*equals.at(0.35 * MATH, 0.0), *each.at(lead, 0.0))
-                yield Laid(lead + each.width, max(each.height, equals.height), max(each.depth, equals.depth), ink)
+                yield SetFormula(lead + each.width, max(each.height, equals.height), max(each.depth, equals.depth), ink)
 
 
 def column_widths(grid: TableBlock) -> list[float]:
@@ -333,7 +333,7 @@ def longest_word(value: Cell) -> float:
 def cell_width(value: Cell) -> float:
     """Return how wide a cell would be in one line."""
     if isinstance(value, Formula):
-        return laid(boxes(value.latex), CELL).width
+        return set_formula(boxes(value.latex), CELL).width
     return width(value.word, CELL, "bold") if isinstance(value, Mark) else width(value, CELL)
 
 
@@ -342,7 +342,7 @@ def row_lines(row: Sequence[Cell], widths: Sequence[float], columns: str) -> lis
     found: list[Any] = []
     for value, wide in zip(row, widths, strict=True):
         if isinstance(value, Formula):
-            found.append(laid(boxes(value.latex), CELL))
+            found.append(set_formula(boxes(value.latex), CELL))
         else:
             name = "bold" if isinstance(value, Mark) else "regular"
             found.append(filled_lines(value.word if isinstance(value, Mark) else value, wide - 4.9, CELL, name))
@@ -351,4 +351,4 @@ def row_lines(row: Sequence[Cell], widths: Sequence[float], columns: str) -> lis
 
 def row_height(cells: Sequence[Any]) -> float:
     """Return the height of a row's highest cell."""
-    return max(each.height + each.depth if isinstance(each, Laid) else 1.32 * CELL * len(each) for each in cells)
+    return max(each.height + each.depth if isinstance(each, SetFormula) else 1.32 * CELL * len(each) for each in cells)

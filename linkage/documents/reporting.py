@@ -32,7 +32,7 @@ from .inputs import definition_section, inputs_section
 from .markdown import write_markdown
 from .outcome import curve_columns, drawing_section, forces_section, limits_section, members_section, results_section
 from .pdf import write_pdf
-from .run import Looked
+from .run import ReportSubject
 
 WRITERS: Mapping[str, Callable[[Document, Path], None]] = {".html": write_html, ".pdf": write_pdf, ".md": write_markdown}
 
@@ -67,11 +67,11 @@ def report_document(
     start: int = 1,
 ) -> Document:
     """Return what a report says, before it is written as a file."""
-    looked = Looked.at(machine, at, count, over, situation_of("report", acting, case=case))
+    subject = ReportSubject.at(machine, at, count, over, situation_of("report", acting, case=case))
     if not isinstance(title_block, Mapping) or not all(isinstance(each, str) for pair in title_block.items() for each in pair):
         raise DefinitionError(f'title_block={cited(title_block)}: rows of text are expected, title_block={{"Checked by": "N. N."}}.')
     with speaking(language, units):
-        return composed(looked, columns, trace, limits, title_block, start)
+        return composed(subject, columns, trace, limits, title_block, start)
 
 
 @contextmanager
@@ -82,7 +82,7 @@ def speaking(name: str | None, units: str | None) -> Iterator[None]:
 
 
 def composed(
-    looked: Looked,
+    subject: ReportSubject,
     columns: Sequence[str] | None,
     trace: Sequence[str] | None,
     limits: Mapping[str, Sequence[Any]] | None,
@@ -90,42 +90,42 @@ def composed(
     start: int,
 ) -> Document:
     """Return the document, in the language and the units that hold."""
-    machine, featured = looked.machine, looked.machine.featured()
-    first = column_among(machine, looked.columns, None).name
-    names = list(curve_columns(looked))
+    machine, featured = subject.machine, subject.machine.featured()
+    first = column_among(machine, subject.columns, None).name
+    names = list(curve_columns(subject))
     own = {name: given for name, given in featured.limits.items() if name in names}
     bounds = checked_limits(own if limits is None else limits, names, machine.plan.title)
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
-    found = calculated(machine, looked.pose, start)
-    verdicts, mark = verdict_section(looked, bounds)
+    found = calculated(machine, subject.pose, start)
+    verdicts, mark = verdict_section(subject, bounds)
     sections = (
-        inputs_section(machine, found.listing, looked.run.held),
-        drawing_section(looked, path),
-        calculation_section(found, looked.words(looked.pose)),
-        results_section(looked, columns, first, bounds),
-        members_section(looked),
-        forces_section(looked),
-        limits_section(looked),
-        checks_section(looked, found.values),
+        inputs_section(machine, found.listing, subject.run.held),
+        drawing_section(subject, path),
+        calculation_section(found, subject.words(subject.pose)),
+        results_section(subject, columns, first, bounds),
+        members_section(subject),
+        forces_section(subject),
+        limits_section(subject),
+        checks_section(subject, found.values),
         verdicts,
         definition_section(machine),
     )
     whole = tuple(each for each in sections if each is not None)
     words = inspect.cleandoc(type(machine).__doc__ or "").partition("\n")[0]
-    return Document(machine.plan.heading, words, facts(looked, title_block, mark), mark, whole, current_language())
+    return Document(machine.plan.heading, words, facts(subject, title_block, mark), mark, whole, current_language())
 
 
-def facts(looked: Looked, title_block: Mapping[str, str], mark: Mark) -> tuple[tuple[str, str], ...]:
+def facts(subject: ReportSubject, title_block: Mapping[str, str], mark: Mark) -> tuple[tuple[str, str], ...]:
     """Return the rows of the title block: what was calculated, of what inputs, by which version; nothing that another run would change."""
-    machine, run, cls = looked.machine, looked.run, type(looked.machine)
+    machine, run, cls = subject.machine, subject.run, type(subject.machine)
     seen = {**run.ways, **{name: (value,) for name, value in run.held.items()}}
-    moves = said("{stroke}, {poses} poses in tables", stroke=span_words(looked), poses=looked.count)
-    held = looked.words(dict(run.held))
+    moves = said("{stroke}, {poses} poses in tables", stroke=span_words(subject), poses=subject.count)
+    held = subject.words(dict(run.held))
     return (
         (said("Machine"), f"{machine.plan.heading} ({cls.__module__}:{cls.__qualname__})"),
         (said("Run"), f"{moves}; {said('held: {held}', held=held)}" if held else moves),
-        (said("Judged over"), looked.domain),
-        (said("Load cases"), ", ".join(map(looked.case_words, looked.judge.cases)) if has_loads(machine) else said("no loads")),
+        (said("Judged over"), subject.domain),
+        (said("Load cases"), ", ".join(map(subject.case_words, subject.judge.cases)) if has_loads(machine) else said("no loads")),
         (said("Verdicts"), mark.word),
         *title_block.items(),
         (said("Inputs, SHA-256"), fingerprint(machine, seen)[:DIGITS]),
@@ -133,11 +133,11 @@ def facts(looked: Looked, title_block: Mapping[str, str], mark: Mark) -> tuple[t
     )
 
 
-def span_words(looked: Looked) -> str:
+def span_words(subject: ReportSubject) -> str:
     """Return the run of the strokes that move as text: `S = 0 to 250 mm`."""
     words = []
-    for name, way in looked.run.ways.items():
-        unit = stroke_display_unit(looked.machine.plan, name, "mm")
+    for name, way in subject.run.ways.items():
+        unit = stroke_display_unit(subject.machine.plan, name, "mm")
         low = ", ".join(shown_number(value, unit) for value in way[:-1])
         words.append(said("{name} = {low} to {high}", name=name, low=low, high=show(way[-1], unit)))
     return ", ".join(words)
@@ -157,20 +157,20 @@ def checked_limits(limits: Mapping[str, Sequence[Any]], columns: Sequence[str], 
 # What the machine itself judges.
 
 
-def verdict_section(looked: Looked, limits: Mapping[str, Sequence[Any]]) -> tuple[Section, Mark]:
+def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> tuple[Section, Mark]:
     """Return the section of a machine's verdicts over all that it runs, with its worst places, and how many rules are kept."""
     title = said("Verdicts")
     try:
         with unwarned():
-            found = looked.machine.verdicts(over=looked.over, acting=looked.judge.acting)
-            limited = limit_answers(looked, limits)
+            found = subject.machine.verdicts(over=subject.over, acting=subject.judge.acting)
+            limited = limit_answers(subject, limits)
     except LinkageError as error:
         why = Paragraph(said("The machine cannot be judged over all that it runs: {why}", why=str(error)))
         return Section(title, (why,)), Mark(False, said("not judged"))
     if not found:
         return Section(title, (Paragraph(said("This machine declares no rules of its own.")),)), Mark(None, said("no rules declared"))
     judged = [each for each in found if isinstance(each, Verdict)]
-    domain = Paragraph(said("Judged over {domain}, in all load cases and directions of motion that occur there.", domain=looked.domain))
+    domain = Paragraph(said("Judged over {domain}, in all load cases and directions of motion that occur there.", domain=subject.domain))
     heads = (said("rule"), said("result"), said("what was found"))
     table = TableBlock(said("Rules, over all that the machine runs"), heads, tuple(map(verdict_row, found)), "llm")
     places = [(each.heading, each.ok, each.answer) for each in judged if isinstance(each.answer, Answer)]
@@ -207,18 +207,18 @@ MOST_PLACES = 10
 """Rows of the table of the worst places."""
 
 
-def limit_answers(looked: Looked, limits: Mapping[str, Sequence[Any]]) -> list[tuple[str, Answer]]:
+def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> list[tuple[str, Answer]]:
     """Return what the judge says of the limits of columns, by their headings; of those that it can be asked of."""
     asked = {}
     for name, given in limits.items():
-        quantity, limit = looked.quantities.get(name), limit_of(given)
+        quantity, limit = subject.quantities.get(name), limit_of(given)
         if quantity is not None:
             asked[name] = least(quantity) >= limit.value if limit.fails == "below" else most(quantity) <= limit.value
-    own = [name for name in asked if isinstance(looked.quantities[name], ColumnOf)]
-    plain = [place.over for place in looked.judge.places if PLAIN_CASE in place.cases(looked.judge.acting)]
-    answers = dict(zip(asked, looked.judge.answers([*asked.values()]), strict=True))
-    if own and plain and len(plain) < len(looked.judge.places):  # a table's own column is under the machine's own loads
-        judge = looked.machine.judge(plain, looked.judge.acting).lost_allowed()
+    own = [name for name in asked if isinstance(subject.quantities[name], ColumnOf)]
+    plain = [place.over for place in subject.judge.places if PLAIN_CASE in place.cases(subject.judge.acting)]
+    answers = dict(zip(asked, subject.judge.answers([*asked.values()]), strict=True))
+    if own and plain and len(plain) < len(subject.judge.places):  # a table's own column is under the machine's own loads
+        judge = subject.machine.judge(plain, subject.judge.acting).lost_allowed()
         answers |= zip(own, judge.answers([asked[name] for name in own]), strict=True)
     return [(heading_of(name), each) for name, each in answers.items()]
 

@@ -31,7 +31,7 @@ MANY = 2001
 
 @final
 @dataclass(frozen=True, eq=False)
-class Looked:
+class ReportSubject:
     """A design, who answers questions over all that it runs, and one of its strokes along which it is shown, the others held."""
 
     machine: Mechanism
@@ -41,8 +41,8 @@ class Looked:
     judge: Judge
 
     @classmethod
-    def at(cls, machine: Mechanism, at: At, count: int, over: Any = None, acting: Acting | None = None) -> Looked:
-        """Return what is looked at; DefinitionError for a batch, a count that is none, an unknown case; AssemblyError out of reach."""
+    def at(cls, machine: Mechanism, at: At, count: int, over: Any = None, acting: Acting | None = None) -> ReportSubject:
+        """Return what is reported; DefinitionError for a batch, a count that is none, an unknown case; AssemblyError out of reach."""
         require_mechanism(machine)
         title = machine.plan.title
         batch = [name for name, value in machine.dimensions.items() if np.ndim(value)]

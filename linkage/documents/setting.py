@@ -62,7 +62,7 @@ def filled_lines(text: str, room: float, size: float, name: str = "regular") -> 
 
 @final
 @dataclass(frozen=True)
-class Letters:
+class GlyphRun:
     """A text at a place."""
 
     x: float
@@ -72,9 +72,9 @@ class Letters:
     face: str
     colour: str = "#000000"
 
-    def moved(self, x: float, y: float) -> Letters:
+    def moved(self, x: float, y: float) -> GlyphRun:
         """Return it at another place."""
-        return Letters(self.x + x, self.y + y, self.text, self.size, self.face, self.colour)
+        return GlyphRun(self.x + x, self.y + y, self.text, self.size, self.face, self.colour)
 
 
 @final
@@ -92,12 +92,12 @@ class InkLine:
         return InkLine(tuple((px + x, py + y) for px, py in self.points), self.width, self.colour, self.fill)
 
 
-Ink: TypeAlias = Letters | InkLine
+Ink: TypeAlias = GlyphRun | InkLine
 
 
 @final
 @dataclass(frozen=True)
-class Laid:
+class SetFormula:
     """What is set: how wide it is, how far above and below the line it goes, and its ink from the line's start, y up."""
 
     width: float
@@ -117,38 +117,38 @@ AXIS = 0.3
 """How high fractions have their line, in sizes."""
 
 
-def laid(box: Box, size: float) -> Laid:
+def set_formula(box: Box, size: float) -> SetFormula:
     """Return a box of a formula, set in a size."""
     if isinstance(box, Sign):
-        return sign_laid(box, size)
+        return set_sign(box, size)
     if isinstance(box, BoxRow):
         return row(box.parts, size)
     if isinstance(box, Fraction):
-        return fraction(laid(box.over, 0.92 * size), laid(box.under, 0.92 * size), size)
+        return fraction(set_formula(box.over, 0.92 * size), set_formula(box.under, 0.92 * size), size)
     if isinstance(box, Script):
-        return script_laid(box, size)
+        return set_script(box, size)
     if isinstance(box, Arrowed):
-        return arrowed(laid(box.base, size), size)
+        return arrowed(set_formula(box.base, size), size)
     if isinstance(box, Rooted):
-        return rooted(laid(box.base, size), size)
-    return fenced(box, size) if isinstance(box, Fenced) else lines_laid(box, size)
+        return rooted(set_formula(box.base, size), size)
+    return fenced(box, size) if isinstance(box, Fenced) else set_lines(box, size)
 
 
-def sign_laid(box: Sign, size: float) -> Laid:
+def set_sign(box: Sign, size: float) -> SetFormula:
     """Return one sign or word."""
     if box.kind == "space":
-        return Laid(float(box.text) * size, 0.0, 0.0, ())
+        return SetFormula(float(box.text) * size, 0.0, 0.0, ())
     name = "italic" if box.kind in ITALIC and box.text.isalpha() and box.text.isascii() else "regular"
-    return Laid(width(box.text, size, name), 0.76 * size, 0.2 * size, (Letters(0.0, 0.0, box.text, size, name),))
+    return SetFormula(width(box.text, size, name), 0.76 * size, 0.2 * size, (GlyphRun(0.0, 0.0, box.text, size, name),))
 
 
-def row(parts: Sequence[Box], size: float) -> Laid:
+def row(parts: Sequence[Box], size: float) -> SetFormula:
     """Return boxes beside each other, with space about the signs of operations and behind names of functions."""
     ink: list[Ink] = []
     x, height, depth = 0.0, 0.6 * size, 0.15 * size
     parts = [inner for each in parts for inner in (each.parts or (each,) if isinstance(each, BoxRow) else (each,))]
     for place, part in enumerate(parts):
-        each = laid(part, size)
+        each = set_formula(part, size)
         operates = isinstance(part, Sign) and part.kind == "operator" and part.text in SPACED
         binary = operates and place > 0
         x += 0.24 * size if binary else 0.0
@@ -159,7 +159,7 @@ def row(parts: Sequence[Box], size: float) -> Laid:
         elif is_spaced(part, parts[place + 1 : place + 2]):
             x += 0.17 * size
         height, depth = max(height, each.height), max(depth, each.depth)
-    return Laid(x, height, depth, tuple(ink))
+    return SetFormula(x, height, depth, tuple(ink))
 
 
 def run_together(ink: list[Ink]) -> list[Ink]:
@@ -167,12 +167,12 @@ def run_together(ink: list[Ink]) -> list[Ink]:
     if len(ink) < 2:
         return ink
     first, last = ink[-2:]
-    if not (isinstance(first, Letters) and isinstance(last, Letters)):
+    if not (isinstance(first, GlyphRun) and isinstance(last, GlyphRun)):
         return ink
     is_like = first.size == last.size and first.face == last.face and first.y == last.y
     if not is_like or abs(first.x + width(first.text, first.size, first.face) - last.x) > 1e-6 * first.size:
         return ink
-    return [*ink[:-2], Letters(first.x, first.y, first.text + last.text, first.size, first.face, first.colour)]
+    return [*ink[:-2], GlyphRun(first.x, first.y, first.text + last.text, first.size, first.face, first.colour)]
 
 
 def is_spaced(part: Box, following: Sequence[Box]) -> bool:
@@ -186,79 +186,79 @@ def is_spaced(part: Box, following: Sequence[Box]) -> bool:
     return not is_call
 
 
-def fraction(over: Laid, under: Laid, size: float) -> Laid:
+def fraction(over: SetFormula, under: SetFormula, size: float) -> SetFormula:
     """Return one over another."""
     wide, axis, gap = max(over.width, under.width) + 0.3 * size, AXIS * size, 0.14 * size
     up, down = axis + gap + over.depth, axis - gap - under.height
     line = InkLine(((0.06 * size, axis), (wide - 0.06 * size, axis)), 0.05 * size)
     ink = (*over.at(0.5 * (wide - over.width), up), *under.at(0.5 * (wide - under.width), down), line)
-    return Laid(wide + 0.1 * size, up + over.height, under.depth - down, ink)
+    return SetFormula(wide + 0.1 * size, up + over.height, under.depth - down, ink)
 
 
-def script_laid(box: Script, size: float) -> Laid:
+def set_script(box: Script, size: float) -> SetFormula:
     """Return a box with index and exponent."""
-    base = laid(box.base, size)
+    base = set_formula(box.base, size)
     small, x = 0.7 * size, base.width + 0.03 * size
     ink, wide, height, depth = list(base.ink), x, base.height, base.depth
     if box.low is not None:
-        low = laid(box.low, small)
+        low = set_formula(box.low, small)
         drop = max(0.16 * size, base.depth - 0.12 * size if base.depth > 0.3 * size else 0.0)
         ink += low.at(x, -drop)
         wide, depth = max(wide, x + low.width), max(depth, drop + low.depth)
     if box.high is not None:
-        high = laid(box.high, small)
+        high = set_formula(box.high, small)
         rise = max(0.36 * size, base.height - 0.4 * size)
         ink += high.at(x, rise)
         wide, height = max(wide, x + high.width), max(height, rise + high.height)
-    return Laid(wide, height, depth, tuple(ink))
+    return SetFormula(wide, height, depth, tuple(ink))
 
 
-def arrowed(base: Laid, size: float) -> Laid:
+def arrowed(base: SetFormula, size: float) -> SetFormula:
     """Return a box under an arrow."""
     y, tip = base.height + 0.06 * size, 0.16 * size
     end = max(base.width, 0.5 * size)
     line = InkLine(((0.04 * size, y), (end, y)), 0.045 * size)
     head = InkLine(((end - tip, y + 0.6 * tip), (end, y), (end - tip, y - 0.6 * tip)), 0.045 * size)
-    return Laid(max(base.width, end) + 0.04 * size, y + 0.14 * size, base.depth, (*base.ink, line, head))
+    return SetFormula(max(base.width, end) + 0.04 * size, y + 0.14 * size, base.depth, (*base.ink, line, head))
 
 
-def rooted(base: Laid, size: float) -> Laid:
+def rooted(base: SetFormula, size: float) -> SetFormula:
     """Return the square root of a box."""
     x, top, low = 0.55 * size, base.height + 0.14 * size, -base.depth
     hook = ((0.0, 0.3 * top), (0.15 * size, 0.36 * top), (0.32 * size, low), (0.5 * size, top), (x + base.width + 0.1 * size, top))
-    return Laid(x + base.width + 0.15 * size, top + 0.08 * size, base.depth, (InkLine(hook, 0.05 * size), *base.at(x, 0.0)))
+    return SetFormula(x + base.width + 0.15 * size, top + 0.08 * size, base.depth, (InkLine(hook, 0.05 * size), *base.at(x, 0.0)))
 
 
-def fenced(box: Fenced, size: float) -> Laid:
+def fenced(box: Fenced, size: float) -> SetFormula:
     """Return a box between signs as high as it is."""
-    body = laid(box.body, size)
+    body = set_formula(box.body, size)
     left, right = (fence(each, body, size) for each in (box.left, box.right))
     ink = (*left.ink, *body.at(left.width, 0.0), *right.at(left.width + body.width, 0.0))
-    return Laid(left.width + body.width + right.width, max(body.height, left.height), max(body.depth, left.depth), ink)
+    return SetFormula(left.width + body.width + right.width, max(body.height, left.height), max(body.depth, left.depth), ink)
 
 
-def fence(text: str, body: Laid, size: float) -> Laid:
+def fence(text: str, body: SetFormula, size: float) -> SetFormula:
     """Return a parenthesis or bar: a letter beside what is low, drawn beside what is high."""
     if not text:
-        return Laid(0.0, 0.0, 0.0, ())
+        return SetFormula(0.0, 0.0, 0.0, ())
     low = body.height <= 0.95 * size and body.depth <= 0.35 * size
     if low and text != "|":
-        return sign_laid(Sign("operator", text), size)
+        return set_sign(Sign("operator", text), size)
     top, bottom = body.height + 0.05 * size, -body.depth - 0.03 * size
     if text in "|‖":
-        return Laid(0.26 * size, top, -bottom, (InkLine(((0.13 * size, top), (0.13 * size, bottom)), 0.05 * size),))
+        return SetFormula(0.26 * size, top, -bottom, (InkLine(((0.13 * size, top), (0.13 * size, bottom)), 0.05 * size),))
     wide, middle, half = 0.2 * size, 0.5 * (top + bottom), 0.5 * (top - bottom)
     ways = np.linspace(-1.0, 1.0, 13)
     bend = wide * (1.0 - np.sqrt(np.maximum(0.0, 1.0 - 0.96 * ways**2)))
     bend = wide * np.abs(ways) ** 0.25 if text in "{}" else bend
     xs = 0.12 * size + (bend if text in "({[" else wide - bend)
     points = tuple((float(x), float(middle + half * way)) for x, way in zip(xs, ways, strict=True))
-    return Laid(wide + 0.2 * size, top, -bottom, (InkLine(points, 0.055 * size),))
+    return SetFormula(wide + 0.2 * size, top, -bottom, (InkLine(points, 0.055 * size),))
 
 
-def lines_laid(box: Lines, size: float) -> Laid:
+def set_lines(box: Lines, size: float) -> SetFormula:
     """Return rows below each other, their middle at the height of fractions."""
-    rows = [[laid(cell, size) for cell in each] for each in box.rows]
+    rows = [[set_formula(cell, size) for cell in each] for each in box.rows]
     columns = max(map(len, rows))
     wide = [max((each[k].width for each in rows if k < len(each)), default=0.0) + 0.8 * size for k in range(columns)]
     heights = [(max(each.height for each in cells), max(each.depth for each in cells)) for cells in rows]
@@ -269,4 +269,4 @@ def lines_laid(box: Lines, size: float) -> Laid:
         for k, each in enumerate(cells):
             ink += each.at(sum(wide[:k]), y)
         y -= down + 0.3 * size
-    return Laid(sum(wide) - 0.8 * size, AXIS * size + 0.5 * total, 0.5 * total - AXIS * size, tuple(ink))
+    return SetFormula(sum(wide) - 0.8 * size, AXIS * size + 0.5 * total, 0.5 * total - AXIS * size, tuple(ink))

@@ -24,7 +24,7 @@ from ..program import FloatArray
 from ..quantities import Angle, Distance, Quantity, Reference, name_of
 from ..statics import applied_loads
 from ..statics.holding import Holders, PressureLine, holders_of
-from .listing import Listing, Written
+from .listing import Listing, ListingLine
 from .rates import LineDerivatives
 from .symbolic import NUMBER, Term, Unit, term, unit_named
 from .words import Dot, explicit
@@ -72,7 +72,7 @@ class ForceLines:
     def __init__(self, design: Mechanism, listing: Listing) -> None:
         self.design, self.listing, self.plan = design, listing, design.plan
         self.inputs: Mapping[str, Any] = {name: listing.input(name) for name in listing.units}
-        self.lines: list[Written] = []
+        self.lines: list[ListingLine] = []
         self.givens: list[GivenNumber] = []
         self._thrusts: dict[str, Term] = {}
         self._weights: dict[str, Term] = {}
@@ -133,7 +133,7 @@ class ForceLines:
             self._weights[title] = found if down else -found
             return Pulled(point, found.expr, -1 if down else 1)
         symbol = self.listing.names.force_vector(f"F_{title}")
-        self.lines.append(Written(symbol, sympy.ImmutableMatrix([whole_numbers(x.expr), whole_numbers(y.expr)]), unit_named("N")))
+        self.lines.append(ListingLine(symbol, sympy.ImmutableMatrix([whole_numbers(x.expr), whole_numbers(y.expr)]), unit_named("N")))
         return Pulled(point, symbol, 0)
 
     def _numbers(self, name: str) -> Iterator[Pulled]:
@@ -212,7 +212,7 @@ class ForceLines:
     def _write(self, name: str, value: Term, unit: str) -> Term:
         symbol = self.listing.names.force(name)
         if symbol not in {each.lhs for each in self.lines}:
-            self.lines.append(Written(symbol, whole_numbers(value.expr), unit_named(unit)))
+            self.lines.append(ListingLine(symbol, whole_numbers(value.expr), unit_named(unit)))
         return Term(symbol)
 
     def given(self, name: str, value: Callable[[Any], Any], unit: str = "") -> Any:
@@ -333,7 +333,7 @@ class Chain:
         self.points |= {name: self._given_rate(forces, stroke, name) for name, symbol in points.items() if symbol not in free}
         is_only = len(forces.plan.strokes) == 1
         self._vertical = dict.fromkeys(each.point for each in pulled if is_only and each.way and each.point in self.points)
-        self.lines += [Written(names.ratio(name), self.points[name][1, 0], self._unit(name)) for name in self._vertical]
+        self.lines += [ListingLine(names.ratio(name), self.points[name][1, 0], self._unit(name)) for name in self._vertical]
 
     def _given_rate(self, forces: ForceLines, stroke: str, point: str) -> Any:
         """Return the derivative of a point that hangs on pins found together: a given number."""
@@ -372,12 +372,12 @@ class Chain:
         return Term(total)
 
 
-def symbols_behind(lines: Sequence[Written], target: Any) -> set[Any]:
+def symbols_behind(lines: Sequence[ListingLine], target: Any) -> set[Any]:
     """Return the symbols that an expression is built from, those of the lines behind it too."""
     return set(target.free_symbols).union(*(line.rhs.free_symbols for line in needed_by(lines, [target])))
 
 
-def needed_by(lines: Sequence[Written], targets: Sequence[Any]) -> list[Written]:
+def needed_by(lines: Sequence[ListingLine], targets: Sequence[Any]) -> list[ListingLine]:
     """Return the lines that some expressions are built from, in order."""
     wanted = set().union(*(each.free_symbols for each in targets)) if targets else set()
     found = []

@@ -83,7 +83,7 @@ def _(member: Point, reading: Any) -> Any:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Written:
+class ListingLine:
     """One line: a symbol, what it equals, and what it measures."""
 
     lhs: Any
@@ -102,7 +102,7 @@ class Listing:
 
     def __init__(self, plan: Plan) -> None:
         self.plan, self.names, self.units = plan, SymbolNames(plan), input_units(plan)
-        self.lines: list[Written] = []
+        self.lines: list[ListingLine] = []
         self.unknowns: list[str] = []
         self._vectors: dict[Any, Any] = {}
         self._terms: dict[Any, Term] = {}
@@ -155,14 +155,14 @@ class Listing:
         self._vectors |= {pin: self.names.vector(pin) for pin in group.pins}
         for rod in group.rods:
             length = self.value(rod.length)
-            self.lines.append(Written(Norm(self.between(rod.P, rod.Q)), length.expr, LENGTH))
+            self.lines.append(ListingLine(Norm(self.between(rod.P, rod.Q)), length.expr, LENGTH))
         for step in group.rigid:
             for each in step.expansion():
                 self._kept.append(each)
                 self.assign(each)
         for slide in group.slides:
             miss = slide.miss(self)  # type: ignore[arg-type]
-            self.lines.append(Written(miss.expr, sympy.S.Zero, LENGTH))
+            self.lines.append(ListingLine(miss.expr, sympy.S.Zero, LENGTH))
 
     def assign(self, each: Assignment) -> None:
         """Write one primitive of a step's expansion."""
@@ -178,7 +178,7 @@ class Listing:
         """Write a line; nothing is written for a fixed point of plain coordinates."""
         self._vectors[key] = symbol
         if rhs is not None:
-            self.lines.append(Written(symbol, rhs, unit))
+            self.lines.append(ListingLine(symbol, rhs, unit))
 
     def between(self, P: str, Q: str) -> Any:
         """Return the vector PQ, written as Q - P where it is not known yet."""
@@ -242,7 +242,7 @@ class Listing:
 
     def _line(self, key: Any, member: Quantity, found: Term) -> Term:
         symbol = self._symbol(key, found.unit)
-        self.lines.append(Written(symbol, found.expr, found.unit))
+        self.lines.append(ListingLine(symbol, found.expr, found.unit))
         return Term(symbol, found.unit)
 
     def _symbol(self, key: Any, unit: Unit) -> Any:

@@ -21,7 +21,7 @@ from ..motion.requests import stroke_of
 from ..quantities import is_whole
 from ..shown import Shown
 from .forces import WORDS, ForceLines, GivenNumber
-from .listing import X_AXIS, Listing, Written
+from .listing import X_AXIS, Listing, ListingLine
 from .printing import Latex, Text, number_latex, plain_number
 from .rates import lines_needed, ratio_lines
 from .symbolic import LENGTH, Unit
@@ -75,7 +75,7 @@ def check_pose(design: Mechanism, at: Any) -> None:
         raise DefinitionError(f"{design.plan.title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
 
 
-def differentiated(design: Mechanism, listing: Listing, target: str, wrt: str | None) -> list[Written]:
+def differentiated(design: Mechanism, listing: Listing, target: str, wrt: str | None) -> list[ListingLine]:
     """Return the lines that lead to a target's transfer ratio; DefinitionError for a name without one."""
     plan = design.plan
     known = members_with_lines(listing)
@@ -218,7 +218,7 @@ class Equations(Sequence[Equation], Shown):
     def __init__(
         self,
         machine: Mechanism,
-        lines: Sequence[Written],
+        lines: Sequence[ListingLine],
         listing: Listing,
         start: int,
         poses: Mapping[str, Any] | None,
@@ -390,7 +390,7 @@ class Equations(Sequence[Equation], Shown):
         return self.latex()
 
 
-def strokes_followed(line: Written, strokes: Sequence[Any]) -> tuple[Any, ...]:
+def strokes_followed(line: ListingLine, strokes: Sequence[Any]) -> tuple[Any, ...]:
     """Return the strokes that a scalar's own formula names: L_AB(S)."""
     if not line.lhs.is_Symbol or "/" in line.lhs.name:
         return ()
@@ -476,7 +476,7 @@ def latex_legend(equations: Any) -> list[str]:
 # Numbers for the equations: each line evaluated from those before it, on arrays or to any number of digits.
 
 
-def evaluated(lines: Sequence[Written], inputs: Mapping[Any, Any], digits: int | None = None) -> dict[Any, Any]:
+def evaluated(lines: Sequence[ListingLine], inputs: Mapping[Any, Any], digits: int | None = None) -> dict[Any, Any]:
     """Return every line's value [SI]: a scalar or a pair, by its symbol.
 
     `inputs` are the plain symbols' values. With `digits` mpmath works at that many digits and the values
@@ -503,7 +503,7 @@ def in_reals(value: Any) -> Any:
     return np.where(np.imag(value) == 0.0, np.real(value), np.nan)[()] if np.iscomplexobj(value) else value
 
 
-def _evaluated(lines: Sequence[Written], known: dict[Any, Any], arithmetic: str) -> dict[Any, Any]:
+def _evaluated(lines: Sequence[ListingLine], known: dict[Any, Any], arithmetic: str) -> dict[Any, Any]:
     known |= dict(zip(explicit(X_AXIS), (1.0, 0.0), strict=True))
     try:
         return in_one_call(lines, known, arithmetic)
@@ -519,7 +519,7 @@ def _evaluated(lines: Sequence[Written], known: dict[Any, Any], arithmetic: str)
         return found
 
 
-def in_one_call(lines: Sequence[Written], known: Mapping[Any, Any], arithmetic: str) -> dict[Any, Any]:
+def in_one_call(lines: Sequence[ListingLine], known: Mapping[Any, Any], arithmetic: str) -> dict[Any, Any]:
     """Return the lines' values, worked out by one function that is compiled once for all designs of a class."""
     function, needed = compiled_lines(tuple((line.lhs, line.rhs) for line in lines), arithmetic)
     values = iter(function(*(known[symbol] for symbol in needed)))

@@ -15,7 +15,7 @@ from sympy.matrices.expressions.matadd import MatAdd
 from sympy.matrices.expressions.matexpr import MatrixElement, MatrixSymbol
 from sympy.matrices.expressions.matmul import MatMul
 
-from .listing import Written
+from .listing import ListingLine
 from .names import SymbolNames
 from .symbolic import LENGTH, Unit
 from .words import Cross, Deg, Direction, Dot, Norm, Tcos, TurnV
@@ -30,10 +30,10 @@ class LineDerivatives:
     def __init__(self, stroke: Any, unit: Unit, names: SymbolNames) -> None:
         self.stroke, self.unit, self.names = stroke, unit, names
         self.known: dict[Any, Any] = {stroke: sympy.S.One}
-        self._line: Written | None = None
-        self._found: list[Written] = []
+        self._line: ListingLine | None = None
+        self._found: list[ListingLine] = []
 
-    def lines(self, written: Sequence[Written]) -> list[Written]:
+    def lines(self, written: Sequence[ListingLine]) -> list[ListingLine]:
         """Return the derivative of each line that follows the stroke."""
         for line in written:
             self._line = line
@@ -41,7 +41,7 @@ class LineDerivatives:
             if rate in (sympy.S.Zero, STILL) or getattr(rate, "is_zero_matrix", False):
                 continue
             self.known[line.lhs] = self.names.derivative(line.lhs, self.stroke)
-            self._found.append(Written(self.known[line.lhs], rate, line.unit * self.unit**-1))
+            self._found.append(ListingLine(self.known[line.lhs], rate, line.unit * self.unit**-1))
         return self._found
 
     # -- scalars ---------------------------------------------------------------------------------------
@@ -99,7 +99,7 @@ class LineDerivatives:
             return Dot(vector, rate) / Norm(vector)
         if Norm(vector) not in self.known:
             symbol = self.known[Norm(vector)] = self.names.stretching(vector, self.stroke)
-            self._found.append(Written(symbol, Dot(vector, rate) / Norm(vector), LENGTH * self.unit**-1))
+            self._found.append(ListingLine(symbol, Dot(vector, rate) / Norm(vector), LENGTH * self.unit**-1))
         return self.known[Norm(vector)]
 
     # -- vectors ---------------------------------------------------------------------------------------
@@ -139,7 +139,7 @@ def summed(vectors: Sequence[Any]) -> Any:
     return (MatAdd(*vectors) if len(vectors) > 1 else vectors[0]) if vectors else STILL
 
 
-def lines_needed(lines: Sequence[Written], target: Any) -> list[Written]:
+def lines_needed(lines: Sequence[ListingLine], target: Any) -> list[ListingLine]:
     """Return the lines that a symbol is built from, its own last."""
     wanted, found = {target}, []
     for line in reversed(lines):
@@ -149,10 +149,10 @@ def lines_needed(lines: Sequence[Written], target: Any) -> list[Written]:
     return found[::-1]
 
 
-def ratio_lines(lines: Sequence[Written], target: Any, stroke: Any, unit: Unit, names: SymbolNames) -> list[Written]:
+def ratio_lines(lines: Sequence[ListingLine], target: Any, stroke: Any, unit: Unit, names: SymbolNames) -> list[ListingLine]:
     """Return the chain of derivatives that ends in a target's transfer ratio; for a point, I_G = dG_y/dS comes last."""
     chain = LineDerivatives(stroke, unit, names).lines(lines_needed(lines, target))
     if not chain or chain[-1].lhs != names.derivative(target, stroke) or not target.is_Matrix:
         return chain
     last = chain[-1]
-    return [*chain, Written(names.ratio(target.name), last.lhs[1, 0], last.unit)]
+    return [*chain, ListingLine(names.ratio(target.name), last.lhs[1, 0], last.unit)]

@@ -10,48 +10,11 @@ import re
 from dataclasses import dataclass
 from typing import TypeAlias, final
 
-GREEK = dict(
-    zip(
-        [
-            "alpha",
-            "beta",
-            "gamma",
-            "delta",
-            "epsilon",
-            "zeta",
-            "eta",
-            "theta",
-            "iota",
-            "kappa",
-            "lambda",
-            "mu",
-            "nu",
-            "xi",
-            "pi",
-            "rho",
-            "sigma",
-            "tau",
-            "upsilon",
-            "varphi",
-            "chi",
-            "psi",
-            "omega",
-        ],
-        "αβγδεζηθικλμνξπρστυφχψω",
-        strict=True,
-    )
-) | {"phi": "φ", "varepsilon": "ε", "vartheta": "ϑ", "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π"}
-GREEK |= {
-    "Sigma": "Σ",
-    "Upsilon": "\u03a5",
-    "Phi": "Φ",
-    "Psi": "Ψ",
-    "Omega": "Ω",
-    "imath": "\u0131",
-    "infty": "∞",
-    "circ": "°",
-    "angle": "∠",
-}
+SMALL_LETTERS = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon varphi chi psi omega"
+GREEK = dict(zip(SMALL_LETTERS.split(), "αβγδεζηθικλμνξπρστυφχψω", strict=True)) | {
+    "phi": "φ", "varepsilon": "ε", "vartheta": "ϑ", "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π",
+    "Sigma": "Σ", "Upsilon": "\u03a5", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω", "imath": "\u0131", "infty": "∞", "circ": "°", "angle": "∠",
+}  # fmt: skip
 OPERATORS = {
     "cdot": "·", "times": "×", "leq": "≤", "le": "≤", "geq": "≥", "ge": "≥", "neq": "≠", "ne": "≠", "wedge": "∧", "vee": "\u2228",
     "neg": "¬", "pm": "±", "|": "‖",

@@ -80,7 +80,7 @@ class Tcos(sympy.Function):  # type: ignore[misc]
         return sympy.acos((a**2 + b**2 - c**2) / (2 * a * b))
 
 
-class Word(sympy.Expr):  # type: ignore[misc]
+class VectorNumber(sympy.Expr):  # type: ignore[misc]
     """A real number read off vectors, kept as a word until `doit`."""
 
     is_real = True
@@ -91,7 +91,7 @@ class Word(sympy.Expr):  # type: ignore[misc]
 
 
 @final
-class Norm(Word):
+class Norm(VectorNumber):
     """The length |V| [m]."""
 
     is_nonnegative = True
@@ -102,7 +102,7 @@ class Norm(Word):
 
 
 @final
-class Direction(Word):
+class Direction(VectorNumber):
     """The direction of V [rad], counter-clockwise from the x axis."""
 
     def doit(self, **options: Any) -> Any:
@@ -111,7 +111,7 @@ class Direction(Word):
 
 
 @final
-class Dot(Word):
+class Dot(VectorNumber):
     """The scalar product of two vectors [m2]."""
 
     def doit(self, **options: Any) -> Any:
@@ -120,7 +120,7 @@ class Dot(Word):
 
 
 @final
-class Cross(Word):
+class Cross(VectorNumber):
     """The z component of the vector product of two vectors [m2]."""
 
     def doit(self, **options: Any) -> Any:
@@ -129,7 +129,7 @@ class Cross(Word):
 
 
 @final
-class Deg(Word):
+class Deg(VectorNumber):
     """An angle written in degrees."""
 
     is_number = True

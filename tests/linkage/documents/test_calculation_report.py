@@ -39,7 +39,7 @@ from linkage.documents.fingerprint import fingerprint
 from linkage.documents.html import html_text
 from linkage.documents.markdown import markdown
 from linkage.documents.pdf import pdf
-from linkage.documents.run import Looked
+from linkage.documents.run import ReportSubject
 from linkage.formulas.mathml import mathml
 from linkage.formulas.typeset import BoxRow, Fraction, Script, boxes, breakable
 from linkage.language import language
@@ -484,7 +484,7 @@ def test_a_column_of_the_table_may_be_chosen():
     document = report_document(Lifter(), columns=["B_y"])
     (grid,) = grids(document, "S, m")
     assert grid.headings == ("S, m", "B_y, m")
-    looked = Looked.at(Lifter(), {}, 11, None)
+    looked = ReportSubject.at(Lifter(), {}, 11, None)
     assert [row[1] for row in grid.rows] == [f"{value:.4f}" for value in Column("B_y", looked.table.y("B"), "m").shown]
 
 

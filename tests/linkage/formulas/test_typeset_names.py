@@ -8,7 +8,7 @@ import pytest
 
 from linkage import LEFT, Dyad, Ground, Mechanism, OnLink, Stroke, Weight, angle, equations
 from linkage.documents.html import math
-from linkage.documents.setting import laid
+from linkage.documents.setting import set_formula
 from linkage.formulas.names import SymbolNames
 from linkage.formulas.typeset import boxes
 
@@ -48,7 +48,7 @@ def test_a_point_of_any_name_is_typeset(seed):
     name = ["M_", "_M", "M__"][seed] if seed < 3 else drawn_name(random.Random(seed))
     listed = equations(arm(name), forces=True, ratio=name)
     texts = [step for line in listed.sheet({"S": 0.05}) for step in line.steps] + listed.definitions
-    assert all(laid(boxes(text), 9.0).width > 0.0 for text in texts)
+    assert all(set_formula(boxes(text), 9.0).width > 0.0 for text in texts)
     for text in texts:
         ElementTree.fromstring(math(text))
         assert "_" not in re.sub(r"\\_|_\{|_[A-Za-z0-9]", "", text)

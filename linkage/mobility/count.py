@@ -6,7 +6,7 @@ from cmath import exp, phase
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from ..program import FloatArray, Level, Node, Tangent, ancestors, interpret
 from ..quantities import quantity
 from ..steps import Link, match
 from ..units import mm, show
-from ..vectors import Numbers, Vec
+from ..vectors import Numbers, Scalar, Vec
 
 # The constraints of a mechanism with all its points free: their Jacobian at a pose, from the rules of the steps.
 
@@ -54,7 +54,7 @@ def loose_trace(plan: Plan, points: tuple[str, ...]) -> Trace:
 def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Numbers]) -> ConstraintRows:
     """Return the rows of the steps' own constraints at a pose; points that no body holds are left out."""
     trace = loose_trace(plan, tuple(plan.points))
-    residuals: dict[str, tuple[Any, ...]] = {}
+    residuals: dict[str, tuple[Scalar, ...]] = {}
     found_with = {pin for group in plan.groups.values() for pin in group.pins[1:]}
     for name, member in plan.holding.items():
         if name not in found_with:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isnan, log
 from types import MappingProxyType
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -30,7 +30,7 @@ class Enclosure:
     high: float
 
     @classmethod
-    def of(cls, given: Any) -> Enclosure:
+    def of(cls, given: Enclosure | float) -> Enclosure:
         """Return a number as what lies between it and itself."""
         return given if isinstance(given, Enclosure) else cls(float(given), float(given))
 
@@ -42,7 +42,7 @@ class Enclosure:
         low, high = min(ends), max(ends)
         return cls(low - OUTWARDS * abs(low), high + OUTWARDS * abs(high))
 
-    def __add__(self, other: Any) -> Enclosure:
+    def __add__(self, other: Enclosure | float) -> Enclosure:
         other = Enclosure.of(other)
         return Enclosure.around([self.low + other.low, self.high + other.high])
 
@@ -51,28 +51,28 @@ class Enclosure:
     def __neg__(self) -> Enclosure:
         return Enclosure(-self.high, -self.low)
 
-    def __sub__(self, other: Any) -> Enclosure:
+    def __sub__(self, other: Enclosure | float) -> Enclosure:
         return self + -Enclosure.of(other)
 
-    def __rsub__(self, other: Any) -> Enclosure:
+    def __rsub__(self, other: Enclosure | float) -> Enclosure:
         return Enclosure.of(other) - self
 
-    def __mul__(self, other: Any) -> Enclosure:
+    def __mul__(self, other: Enclosure | float) -> Enclosure:
         other = Enclosure.of(other)
         return Enclosure.around([bounded_product(a, b) for a in (self.low, self.high) for b in (other.low, other.high)])
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Enclosure:
+    def __truediv__(self, other: Enclosure | float) -> Enclosure:
         other = Enclosure.of(other)
         if other.low <= 0.0 <= other.high:
             return ANYTHING
         return self * Enclosure.around([1.0 / other.low, 1.0 / other.high])
 
-    def __rtruediv__(self, other: Any) -> Enclosure:
+    def __rtruediv__(self, other: Enclosure | float) -> Enclosure:
         return Enclosure.of(other) / self
 
-    def __pow__(self, other: Any) -> Enclosure:
+    def __pow__(self, other: Enclosure | float) -> Enclosure:
         exponent = Enclosure.of(other)
         if exponent.low != exponent.high:
             return (

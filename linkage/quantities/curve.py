@@ -54,7 +54,7 @@ class Curve:
         if self.period is not None:
             self._check_period(self.period)
 
-    def _check_period(self, period: Any) -> None:
+    def _check_period(self, period: object) -> None:
         """Raise DefinitionError for a table that does not close after its period."""
         if not is_number(period) or period <= 0.0:
             raise DefinitionError(f"Curve: period={cited(period)}: a positive number is expected, such as 2 * pi.")
@@ -157,7 +157,7 @@ class Curve:
     __repr__ = __str__
 
 
-def column(what: str, given: Any) -> Floats:
+def column(what: str, given: npt.ArrayLike) -> Floats:
     """Return one column of a table, read-only; DefinitionError for anything but finite numbers."""
     try:
         found = read_only(real(given))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import Any
 
 from ..errors import DefinitionError, cited
 from ..quantities import Member, Quantity, Reference, Where, is_number, name_of, quantity
@@ -24,7 +23,7 @@ class Pin(Point):
     closes = True
     argument_kinds = MappingProxyType({"near": "place", "at": "place"})
 
-    def __init__(self, *place: Any, near: Position | None = None, at: Position | None = None) -> None:
+    def __init__(self, *place: object, near: Position | None = None, at: Position | None = None) -> None:
         if place:
             raise DefinitionError(f"Pin({', '.join(map(repr, place))}): say near=(x, y) for a place in a sketch or at=(x, y) in a drawing.")
         self.near, self.drawn_at = position(near, "Pin(near=...)"), position(at, "Pin(at=...)")

@@ -8,7 +8,7 @@ from copy import copy
 from dataclasses import dataclass
 from math import pi
 from types import MappingProxyType
-from typing import Any, ClassVar, Self, TypeAlias, final
+from typing import ClassVar, Self, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -283,7 +283,7 @@ def parent_text(parent: Reference) -> str:
     return parent if isinstance(parent, str) else parent.name or str(parent)
 
 
-def side_of(side: Any, what: str) -> Side:
+def side_of(side: object, what: str) -> Side:
     """Return the side; raise DefinitionError for anything but LEFT and RIGHT, or these words."""
     found = Side.said(side)
     if found is None:

@@ -34,9 +34,9 @@ class FourBar(Mechanism):
 
 def test_bound_they_are_named_in_sentences():
     plan = FourBar.plan
-    assert str(drive_force().bound(plan)) == "the driving force of phi"
-    assert str(pin_force("A", on="O A").bound(plan)).startswith("the size of the force at A (pin) on ")
-    assert str(pin_force("A", component="x").bound(plan)).startswith("the x component of the force at A")
+    assert drive_force().bound(plan).sentence == "the driving force of phi"
+    assert pin_force("A", on="O A").bound(plan).sentence.startswith("the size of the force at A (pin) on ")
+    assert pin_force("A", component="x").bound(plan).sentence.startswith("the x component of the force at A")
 
 
 def test_a_refusal_names_the_component_and_the_point():

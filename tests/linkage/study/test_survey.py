@@ -6,6 +6,7 @@ import sys
 import threading
 import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -14,16 +15,18 @@ from numpy.testing import assert_allclose, assert_array_equal
 from linkage import AssemblyError, DefinitionError, FileError, StudyError
 from linkage.program import fixed_backend
 from linkage.program.numba_backend import NumbaLoop
-from linkage.study import batching, survey
+from linkage.study import survey
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.study.survey_measures import failing, far_points, group_designs, hitch_designs, logged, travel
+
+BATCHES = import_module("linkage.study.survey")  # the module, whose function goes by its name
 
 
 @pytest.fixture
 def small(monkeypatch):
     """Batches of one piece: many of them from few designs."""
-    monkeypatch.setattr(batching, "AIM", 1e-9)
-    monkeypatch.setattr(batching, "LEAST", 1e-9)
+    monkeypatch.setattr(BATCHES, "AIM", 1e-9)
+    monkeypatch.setattr(BATCHES, "LEAST", 1e-9)
 
 
 def same(found, wanted):
@@ -64,8 +67,8 @@ def test_every_design_is_measured_once_and_in_its_place(small):
 def test_results_do_not_depend_on_the_batches(small, monkeypatch):
     machine, over = group_designs(400)
     many = survey(machine, over, far_points)
-    monkeypatch.setattr(batching, "AIM", 1e9)
-    monkeypatch.setattr(batching, "LEAST", 1e9)
+    monkeypatch.setattr(BATCHES, "AIM", 1e9)
+    monkeypatch.setattr(BATCHES, "LEAST", 1e9)
     few = survey(machine, over, far_points)
     assert len(many.batches) > len(few.batches) == 2
     same(many, few)
@@ -405,7 +408,7 @@ def beside_results(count):
 
 
 def test_memory_is_bounded_by_the_batch(monkeypatch):
-    monkeypatch.setattr(batching, "AIM", 1e-3)
-    monkeypatch.setattr(batching, "LEAST", 5e-4)
+    monkeypatch.setattr(BATCHES, "AIM", 1e-3)
+    monkeypatch.setattr(BATCHES, "LEAST", 5e-4)
     few, many = (min(beside_results(count) for _ in range(2)) for count in (200_000, 1_600_000))
     assert many < few + 1_000_000, "eight times as many designs: their inputs alone are 11 MB more"

@@ -7,6 +7,7 @@ import pickle
 import subprocess
 import sys
 from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -14,10 +15,12 @@ import pytest
 
 from linkage import LinkageError, StudyError
 from linkage.plan.plan import RECENT, REGISTRY
-from linkage.study import batching, survey
+from linkage.study import survey
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.study.survey_measures import deadly, failing, far_points, group_designs, hitch_designs, logged, travel
 from tests.linkage.study.test_survey import read, same
+
+BATCHES = import_module("linkage.study.survey")  # the module, whose function goes by its name
 
 ROOT = Path(__file__).parents[3]
 FORKING = pytest.mark.filterwarnings("ignore:.*use of fork.*:DeprecationWarning")  # Python 3.12 warns of threads beside a fork
@@ -26,8 +29,8 @@ FORKING = pytest.mark.filterwarnings("ignore:.*use of fork.*:DeprecationWarning"
 @pytest.fixture
 def small(monkeypatch):
     """Batches of one piece: many of them from few designs."""
-    monkeypatch.setattr(batching, "AIM", 1e-9)
-    monkeypatch.setattr(batching, "LEAST", 1e-9)
+    monkeypatch.setattr(BATCHES, "AIM", 1e-9)
+    monkeypatch.setattr(BATCHES, "LEAST", 1e-9)
 
 
 @pytest.fixture(scope="module")

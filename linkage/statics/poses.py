@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, cited, unwarned
 from ..loads import Poses, require_poses
-from ..motion import BoundRequest
+from ..motion import Request
 from ..motion.requests import point_ratios
 from ..plan import Mask, Plan, Reading
 from ..program import FloatArray
@@ -138,7 +138,7 @@ class AnyMotion(Poses, Protocol):
     def _reading(self) -> Reading:
         """Every rule of the plan read at the poses."""
 
-    def _refused(self, what: BoundRequest, words: str) -> Mask:
+    def _refused(self, what: Request, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked."""
 
     def _array(self, values: ArrayLike) -> FloatArray:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, LawError, UntracedError, unwarned
 from ..loads import Acting, Rates
-from ..motion import BoundRequest, Motion, OnePose
+from ..motion import Motion, OnePose, Request
 from ..motion.requests import stroke_of
 from ..motion.strokes import checked_name, order_of
 from ..plan import ArrayReading, Mask, Plan, Trace
@@ -85,7 +85,7 @@ class TracedMotion(OnePose):
         self.read: set[str] = set()
         self.through: set[str] = set()
 
-    def _refused(self, what: BoundRequest, words: str) -> Mask:
+    def _refused(self, what: Request, words: str) -> Mask:
         """Return that no pose is refused: what is made of the program here is looked at where it is asked for."""
         return np.zeros((), bool)
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from hashlib import blake2b
 from math import prod
-from typing import Any, Protocol, Self, TypeAlias, final
+from typing import Any, Protocol, Self, TypeAlias, TypeVar, cast, final
 
 import numpy as np
 
@@ -16,6 +17,8 @@ from ..frozen import FrozenDict, read_only
 from ..plan import ArrayReading, Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node, RunOptions, ancestors, interpret
 from ..quantities import Member, Quantity
+
+Made = TypeVar("Made")
 
 
 @final
@@ -319,3 +322,24 @@ def angles_of(plan: Plan, nodes: Sequence[Node]) -> Angles:
     behind = set(ancestors(nodes))
     angles = tuple(angle for angle in dict.fromkeys(plan.trace.angles) if angle in behind and angle.level is Level.POSE)
     return Angles(tuple(nodes), angles, Kernel(angles))
+
+
+RECENT = 256
+"""What was looked for of single designs of a plan, and is kept: the searches of the last ones that were asked for."""
+
+
+def recalled(motion: MotionLike, what: Hashable, make: Callable[[], Made]) -> Made:
+    """Return what follows from one design, the strokes and `what` alone, made once for equal ones; of a batch it is made each time.
+
+    It is taken for what `make` returns anew: nothing in it may change, and nothing in it hangs on what was asked before.
+    """
+    if motion._design_shape or any(map(varies, motion.designs.values())):
+        return make()
+    known: dict[Hashable, Any] = motion.plan.made("recent", lambda _: {})
+    strokes = tuple((name, value.shape, blake2b(value.tobytes(), digest_size=16).digest()) for name, value in motion.strokes.items())
+    key = what, tuple(motion.designs), tuple(map(float, motion.designs.values())), strokes, motion._grid.per_design
+    if key not in known:
+        known[key] = make()
+        for old in list(known)[:-RECENT]:
+            known.pop(old, None)
+    return cast(Made, known[key])

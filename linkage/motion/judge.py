@@ -7,7 +7,7 @@ machine cannot be assembled or a law gives no number, unlimited where a law has 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from typing import Any, TypeAlias, final
@@ -24,7 +24,7 @@ from ..vectors import Numbers
 from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
 from .box import values_a_stroke
 from .evaluation import Evaluation
-from .grid import Grid
+from .grid import Grid, recalled
 from .limits import stroke_unit
 from .line import SAMPLES
 from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
@@ -106,6 +106,11 @@ class Sought:
     def stays_at_zero(self) -> bool:
         """Whether what is looked for goes on below zero, where the request does not."""
         return self.piece.below is not None and isinstance(self.leaf, Most)
+
+    def identity(self, plan: Plan) -> Hashable:
+        """Return what tells what is looked for from anything else, whoever asks; None where that may change, as a function does."""
+        found = "nothing" if self.request is nothing else plain_identity(plan, self.request)
+        return None if found is None else (found, self.sense, self.is_reciprocal, self.stays_at_zero)
 
     @property
     def sought(self) -> float:
@@ -229,7 +234,15 @@ class Domain:
         return [name]
 
     def extremes(self, rows: Sequence[Sought]) -> tuple[list[WorstPiece], Coverage]:
-        """Return the worst of every row, and what was seen on the way."""
+        """Return the worst of every row, and what was seen on the way; of equal designs it is looked for once."""
+        identities = [row.identity(self.plan) for row in rows]
+        if self.over.only or None in identities:
+            return self.searched(rows)
+        found, seen = recalled(self.motion, ("extremes", self.over.shape, *identities), lambda: self.searched(rows))
+        return [replace(each, row=row) for each, row in zip(found, rows, strict=True)], replace(seen)
+
+    def searched(self, rows: Sequence[Sought]) -> tuple[list[WorstPiece], Coverage]:
+        """Return the same, looked for."""
         asked = Asked(self, rows)
         if self.over.shape == "poses" or not self.motion.strokes:
             with np.errstate(all="ignore"):
@@ -917,9 +930,14 @@ def leaf_key(plan: Plan, leaf: Leaf) -> Any:
     return type(leaf).__name__, inner, strokes, leaf.by if isinstance(leaf, Integral) else None
 
 
+def plain_identity(plan: Plan, quantity: Any) -> Hashable:
+    """Return what tells a quantity or a request from others; None of a function of a motion, and of what may change."""
+    return identity_of(plan, quantity) if isinstance(quantity, (str, Quantity, Request)) else None
+
+
 def key_of(plan: Plan, quantity: Any) -> Any:
-    """Return what tells a piece from others."""
-    identity = identity_of(plan, quantity) if isinstance(quantity, (str, Quantity, Request)) else None
+    """Return what tells a piece from others as long as it lives."""
+    identity = plain_identity(plan, quantity)
     return id(quantity) if identity is None else identity
 
 

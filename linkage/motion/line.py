@@ -92,12 +92,12 @@ def highest(look: Look, counts: Sequence[int]) -> Highest:
     leg, t = samples(counts)
     seen, _ = look(leg, t)
     values = missing_lowest(seen)
-    tops = zoomed(look, peaks(values, leg, t, counts))
+    tops = narrowed(look, peaks(values, leg, t, counts))
     edges = borders(look, np.isnan(seen), values, leg, t)
     tops = tops if edges is None else tops.joined(steps_to_borders(look, edges))
     rounds = 1
     while tops.half.max() > CLOSE:
-        tops = zoomed(look, tops.best(MANY if rounds < PATIENCE else LAST))
+        tops = narrowed(look, tops.best(MANY if rounds < PATIENCE else LAST))
         rounds += 1
     ends = tops if edges is None else tops.joined(edges)
     return best_of_rows(ends, grows_along_leg(look, ends), np.asarray(np.isnan(seen).all(axis=-1)))
@@ -154,7 +154,9 @@ def peaks(values: FloatArray, leg: Index, t: FloatArray, counts: Sequence[int], 
     count = int((rank > -np.inf).sum(axis=-1).max())
     place = np.argsort(-rank, axis=-1, kind="stable")[..., : min(count, MANY)]
     value = np.take_along_axis(values, place, axis=-1)
-    return Tops(leg[place], t[place], value, 1.0 / np.asarray(counts)[leg[place]], value + np.take_along_axis(rise, place, axis=-1))
+    is_filled = np.isneginf(np.take_along_axis(rank, place, axis=-1))  # of a row that has fewer of them than the fullest one
+    half = np.where(is_filled, 0.0, 1.0 / np.asarray(counts)[leg[place]])
+    return Tops(leg[place], t[place], value, half, value + np.take_along_axis(rise, place, axis=-1))
 
 
 def zoomed(look: Look, tops: Tops) -> Tops:
@@ -164,6 +166,26 @@ def zoomed(look: Look, tops: Tops) -> Tops:
     t = low + (high - low) * np.linspace(0.0, 1.0, places)
     seen, _ = at_own_legs(look, tops.leg, t)
     return best_seen(tops, t, seen, np.broadcast_to(tops.half[..., None] * 2.0 / (places - 1), t.shape))
+
+
+def narrowed(look: Look, tops: Tops) -> Tops:
+    """Return tops in narrower brackets: those at the ends of legs at once, by the places that halve the bracket again and again.
+
+    Whatever rises from an end is higher than the end at one of them; where none is, the end itself is the top.
+    """
+    tops = from_ends(look, tops)
+    at_end = (tops.t == 0.0) | (tops.t == 1.0)
+    return tops if (at_end & (tops.half <= CLOSE)).all() else zoomed(look, tops)
+
+
+def from_ends(look: Look, tops: Tops) -> Tops:
+    """Return tops, of which those at the ends of legs are narrowed."""
+    at_end = ((tops.t == 0.0) | (tops.t == 1.0)) & (tops.half > CLOSE)
+    if not at_end.any():
+        return tops
+    inwards = np.where(at_end, np.where(tops.t == 0.0, tops.half, -tops.half), 0.0)
+    found = steps_to_borders(look, Tops(tops.leg, tops.t, tops.value, inwards, tops.bound))
+    return Tops(*(np.where(at_end, getattr(found, name), getattr(tops, name)) for name in tops.__dataclass_fields__))
 
 
 def best_seen(tops: Tops, t: FloatArray, seen: FloatArray, half: FloatArray) -> Tops:
@@ -234,7 +256,7 @@ def last_holding(
 
 
 def steps_to_borders(look: Look, edges: Tops) -> Tops:
-    """Return the best of the places that halve the way towards each border, with the bracket about it."""
+    """Return the best of the places that halve the way towards each border, from `half` away on either side, with the bracket about it."""
     shares = np.append(0.5 ** np.arange(36), 0.0)
     t = edges.t[..., None] + edges.half[..., None] * shares
     half = np.abs(edges.half)[..., None] * np.append(shares[:-1], shares[-2])

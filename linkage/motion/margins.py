@@ -16,6 +16,7 @@ from ..errors import AssemblyError
 from ..plan import Loop, Mask, Plan
 from ..program import FloatArray
 from .course import ON_ARRAYS, ROUNDING, Clearances
+from .grid import recalled
 from .motion import Motion, out_of_reach
 from .search import places_text, searched
 
@@ -52,6 +53,13 @@ def least_margins(motion: Motion, kept: Callable[[Motion], Mask] | None = None) 
     known = motion.plan.made("clearances", Clearances.of)
     if not (known.loops and motion.strokes):
         return []
+    if kept is None:
+        return recalled(motion, "margins", lambda: margins_found(motion, known, None))
+    return margins_found(motion, known, kept)
+
+
+def margins_found(motion: Motion, known: Clearances, kept: Callable[[Motion], Mask] | None) -> list[LeastMargin]:
+    """Return the least margins of some loops, looked for."""
 
     def asked(each: Motion) -> FloatArray:
         found = margins(each, known)

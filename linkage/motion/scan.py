@@ -15,7 +15,7 @@ from ..quantities import Distance
 from ..steps import Point
 from ..units import deg
 from .course import Course, Interruption
-from .grid import MotionLike
+from .grid import MotionLike, recalled
 from .limits import (
     Extreme,
     Held,
@@ -46,7 +46,11 @@ def limits(motion: MotionLike) -> Limits:
         raise DefinitionError(f"{title}: limits are worked out for one design at a time; this motion has {shape}.")
     check_any(motion.strokes, motion.plan)
     held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
-    return Limits({name: stroke_limits(motion, name, held) for name in motion.strokes})
+
+    def along(name: str) -> StrokeLimits:
+        return recalled(motion, ("limits", name), lambda: stroke_limits(motion, name, held))
+
+    return Limits({name: along(name) for name in motion.strokes})
 
 
 def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> StrokeLimits:

@@ -13,6 +13,7 @@ from ..language import said
 from ..mechanism import Mechanism
 from ..motion import highest, last_holding
 from ..motion.measures import words_of
+from ..plan import Mask
 from ..program import FloatArray
 from ..units import show, unit_or_none
 from .box import range_of
@@ -20,6 +21,7 @@ from .checks import QuantityLike, check_one_design, is_one, poses_of, quantity_v
 from .targets import Solutions, Target, solutions_for
 
 SAMPLES = 1025
+PARTS = 128  # of what lies between two samples, where it is looked for the end of what is reached or for a zero
 TOUCH = 1e-9  # of the values' span: what comes as near as this to the target touches it
 
 OffTarget: TypeAlias = Callable[[FloatArray], FloatArray]
@@ -113,9 +115,14 @@ def ends_of_reach(curve: OffTarget, at: FloatArray) -> FloatArray:
     """Return the samples with the ends of every reachable range added."""
     known = np.isfinite(curve(at))
     edges = np.flatnonzero(known[1:] != known[:-1])
-    pairs = [at[[edge, edge + 1] if known[edge] else [edge + 1, edge]] for edge in edges]
-    ends = [float(last_holding(lambda x: np.isfinite(curve(x)), inside, outside)[0]) for inside, outside in pairs]
-    return np.sort(np.concatenate([at, ends]))
+    if not edges.size:
+        return at
+
+    def reached(places: FloatArray) -> Mask:
+        return np.asarray(np.isfinite(curve(places.ravel())).reshape(places.shape))
+
+    inside, outside = (at[np.where(known[edges] == is_inside, edges, edges + 1)] for is_inside in (True, False))
+    return np.sort(np.concatenate([at, last_holding(reached, inside, outside, parts=PARTS)[0]]))
 
 
 def sign_changes(curve: OffTarget, at: FloatArray, off: FloatArray) -> list[float]:
@@ -128,7 +135,7 @@ def sign_changes(curve: OffTarget, at: FloatArray, off: FloatArray) -> list[floa
 def zero_between(curve: OffTarget, low: float, high: float) -> float:
     """Return the zero between two values of opposite sign; NaN where the curve has a gap before it."""
     sign = np.sign(curve(np.array([low]))[0])
-    near = np.array(last_holding(lambda at: np.sign(curve(at)) == sign, low, high))
+    near = np.array(last_holding(lambda at: np.sign(curve(at)) == sign, low, high, parts=PARTS))
     off = np.abs(curve(near))
     return float(near[np.argmin(off)]) if np.isfinite(off).all() else float("nan")
 

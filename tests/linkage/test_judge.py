@@ -36,6 +36,7 @@ from linkage import (
     x,
     y,
 )
+from linkage.program import Kernel
 from linkage.units import bar, kN, mm
 
 
@@ -379,3 +380,40 @@ def test_a_machine_without_strokes_is_judged_as_it_stands():
     height, force, whole = Frame().answers([most(y("C")), most(pin_force("C")), reachable])
     assert_allclose([height.value, force.value], [Frame().at().y("C"), np.hypot(*pin_forces(Frame().at()).force("C"))])
     assert whole.ok and Frame().verdicts() == []
+
+
+# -- what is known again -------------------------------------------------------------------------------------
+
+
+def answered(machine, questions):
+    """Return values and places of the answers of a machine."""
+    return [(each.value, each.ok, dict(each.strokes), each.case, each.direction, each.side) for each in machine.answers(questions)]
+
+
+def test_an_equal_machine_is_not_searched_again(monkeypatch):
+    """Nor does an answer depend on what was asked before: another design, other questions beside it."""
+    questions = [least(reserve("lift")) >= 1.0, most(pressure("tilt")), reachable]
+    first = answered(Rubbing(OB=0.36), questions)
+    calls = []
+    run = Kernel.__call__
+    monkeypatch.setattr(Kernel, "__call__", lambda self, *given, **named: calls.append(self) or run(self, *given, **named))
+    assert answered(Rubbing(OB=0.36), questions) == first
+    assert len(calls) <= 2
+    other = answered(Rubbing(OB=0.37), questions)
+    assert len(calls) > 10 and other[0][0] != first[0][0]
+
+    class Afresh(Rubbing):
+        pass
+
+    alone = [answered(Rubbing(OB=0.36), [each])[0] for each in questions]
+    assert alone == [answered(Afresh(OB=0.36), [each])[0] for each in questions]
+
+
+def test_functions_of_a_motion_are_asked_again():
+    """Nobody knows what else they hang on."""
+    level = [1.0]
+    question = most(lambda motion: level[0] + 0.0 * motion["B"][0])
+    machine = Loader()
+    assert machine.answers([question])[0].value == 1.0
+    level[0] = 2.0
+    assert machine.answers([question])[0].value == 2.0

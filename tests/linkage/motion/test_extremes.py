@@ -572,3 +572,16 @@ def test_function_may_be_infinite():
             assert ask(Lift().sweep(5), lambda motion, sign=sign: np.full(motion.shape, sign * np.inf)).value == sign * np.inf
     partly = greatest(Lift().sweep(5), lambda motion: np.where(motion.strokes["S"] > 0.6, -np.inf, motion.strokes["S"]))
     assert partly.value == pytest.approx(0.6, abs=1e-6)
+
+
+@pytest.mark.parametrize("f", [lambda u: u, lambda u: -u, lambda u: np.sqrt(1.0 - u), lambda u: np.sin(9.0 * u) - 20.0 * u])
+def test_a_top_at_an_end_is_found_in_few_looks(f):
+    looks = []
+
+    def counted(u):
+        looks.append(u.size)
+        return f(u)
+
+    found = greatest(Lift().sweep(2), of_stroke(counted))
+    assert found.value == max(f(np.array(0.0)), f(np.array(1.0)))
+    assert len(looks) <= 4

@@ -22,6 +22,7 @@ import numpy as np
 from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
 from ..motion import Request
+from ..motion.kinds import KINDS, MeasureKind, common_kind, kind_of_quantity
 from ..motion.measures import (
     CombinedMeasure,
     Condition,
@@ -45,7 +46,6 @@ from ..motion.requests import Combined
 from ..plan import plan_measure
 from ..quantities import Number, Quantity, angle, distance, is_number, x, y
 from ..steps import Point
-from ..study.kinds import KINDS, MeasureKind, common_kind, kind_of_quantity
 from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
 from .callables import request_function

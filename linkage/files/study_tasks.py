@@ -28,6 +28,7 @@ from ..errors import DefinitionError, one_word, unknown
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Request, stroke_display_unit
+from ..motion.kinds import measure_of
 from ..motion.measures import At, Constraint, Given, Measure
 from ..program import FloatArray
 from ..quantities import is_number
@@ -35,7 +36,7 @@ from ..study import Target, monte_carlo, settings_for, survey, tornado, zone
 from ..study.box import METHODS as SAMPLE_METHODS
 from ..study.box import Box
 from ..study.checks import unit_of
-from ..study.measured import measure_of, measured_title
+from ..study.measured import measured_title
 from ..study.monte_carlo import limits_listed
 from ..study.optimise import constraint_in_case, in_case
 from ..study.space import Around, coordinates

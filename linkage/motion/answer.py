@@ -17,6 +17,10 @@ OF_VALUE, LOST, UNBOUNDED, NOTHING_LEFT = "value", "lost", "unbounded", "nothing
 """What an answer rests on: a value; places that are lost; a value that grows without bounds; nothing, as no place is asked or limited."""
 
 
+LOST_SHARE = "lost share"
+"""What the value of an answer about reach is: a part of the places looked at."""
+
+
 @final
 @dataclass(frozen=True, eq=False)
 class Lost:
@@ -130,10 +134,20 @@ class Answer:
             return f"{said('{low} to {high}', low=f'{finite.min():.6g}', high=f'{finite.max():.6g}')} {self.where}"
         if self.status == NOTHING_LEFT:
             return said("nothing is left to judge: every place is unlimited, left out or lost")
+        if self.measures == LOST_SHARE:
+            return self.reach_words
         if np.isnan(self.value):
             return f"{said('no value at any pose')}{f'; {self.lost.sentence}' if self.lost.sentence else ''}"
         found = f"{self.amount} {self.place}".strip()
         return f"{found}; {self.lost_words}" if self.lost else found
+
+    @property
+    def reach_words(self) -> str:
+        """What can be assembled, in words: every place, or how much of them is lost, and where and why."""
+        if not self.lost:
+            return said("every place is assembled")
+        share, _, why = self.lost_words.partition(": ")
+        return ": ".join(each for each in (f"{share} {self.place}".strip(), why) if each)
 
     @property
     def lost_words(self) -> str:

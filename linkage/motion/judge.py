@@ -21,10 +21,11 @@ from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
 from ..quantities import PoseCondition, Quantity, Ref
 from ..vectors import Numbers
-from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
+from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
 from .box import values_a_stroke
 from .evaluation import Evaluation
 from .grid import Grid, recalled
+from .kinds import check_kinds
 from .limits import stroke_unit
 from .line import SAMPLES
 from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
@@ -633,6 +634,8 @@ class Judge:
     def answers(self, questions: Sequence[Question]) -> list[Answer]:
         """Return the answers to some questions, the worst over all there is, in one pass for all; what was asked before is known."""
         held = [(question, self.constraints(question)) for question in questions_of(self.plan, questions)]
+        for _, each in held:
+            check_kinds(self.plan, [one for one in each if isinstance(one, Measure)], [one for one in each if isinstance(one, Constraint)])
         leaves = tuple(dict.fromkeys(leaf for _, each in held for one in each for leaf in leaves_of(one)))
         for number in range(len(self.places)):
             self.find(number, leaves)
@@ -844,7 +847,7 @@ class Judge:
             ok, status = None, NOTHING_LEFT
         return Answer(
             reachable, seen.lost_share, ok, status, lost.strokes, over=place.over.name, lost=lost,
-            outside=seen.outside, width=place.width, count=sum(each.count for each in self._seen), units=units,
+            outside=seen.outside, width=place.width, count=sum(each.count for each in self._seen), units=units, measures=LOST_SHARE,
             named=frozenset(["over"] if len(self.places) > 1 else []),
         )  # fmt: skip
 

@@ -134,6 +134,8 @@ class Over(Member):
         if self.shape != "box":
             known = [self.numbers(self.strokes[name], plan, number) for name in plan.strokes]
             values = dict(zip(plan.strokes, np.broadcast_arrays(*map(real, known)), strict=True))
+            for name, value in values.items():
+                check_magnitude(name, (float(np.min(value)), float(np.max(value))), plan)
             apart = self.shape == "poses" and len(values) > 1
             return {name: np.array(value.reshape(-1, 1) if apart else np.atleast_1d(value)) for name, value in values.items()}
         ends = {name: self.ends(name, plan, number) for name in plan.strokes}

@@ -54,6 +54,10 @@ class Request(Arithmetic):
         """What it measures where that is plain: `angle`, `length`, `force`, `pressure`, or "" for a plain number."""
         return ""
 
+    def measured(self, plan: Plan) -> str:
+        """Return what it measures in a plan, where that hangs on it: of a drive `force` or `moment`."""
+        return self.measures
+
     def of(self, motion: MotionLike) -> FloatArray:
         """Return its values over a motion's poses [SI], shape (...), of a point's (2, ...); by the program unless a subclass says."""
         return motion._requested(self)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited, known_name
 from ..loads import AT_REST, DIRECTIONS, FRICTIONLESS, Acting, Case, ForceElement, LoadCase, Loads, situation_of
-from ..motion import Motion, require_motion
+from ..motion import Motion, require_motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
@@ -106,6 +106,9 @@ class DriveForce(ForceRequest):
 
     def identity(self, plan: Plan) -> Hashable:
         return self.identified("drive force", self.drive)
+
+    def measured(self, plan: Plan) -> str:
+        return "force" if stroke_unit(plan, stroke_of(plan, self.drive, "drive")) == "m" else "moment"
 
     def law(self, motion: AnyMotion) -> FloatArray:
         if not isinstance(motion, TracedMotion):

@@ -12,14 +12,12 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
 from ..mechanism import Mechanism
-from ..motion import BoundRequest, Grid, Motion, Request, at_values, evaluate_grid, stroke_display_unit, stroke_unit
+from ..motion import BoundRequest, Grid, Motion, Request, at_values, evaluate_grid, stroke_display_unit
 from ..motion.grid import JoinedTo
 from ..motion.measures import At, Integral, Leaf, Least, Measure, Most, Worst, strokes_behind, traced, words_of
-from ..motion.requests import Combined, stroke_of
 from ..plan import Plan
 from ..program import FloatArray, RunOptions
-from ..quantities import Function, Negative, Number, Quantity, Ref, Sum
-from ..statics import DriveForce
+from ..quantities import Quantity
 from ..units import show
 from .checks import check_one_design, function_value, real_numbers
 from .sampling import eager
@@ -48,37 +46,6 @@ def measured_title(plan: Plan, quantity: Any) -> str:
     """Return a quantity in words; DefinitionError for what is none."""
     found = number_bound(plan, quantity)
     return str(quantity) if isinstance(quantity, Measure) else words_of(quantity) if found is None else found.sentence
-
-
-def measure_of(plan: Plan, quantity: Any) -> str:
-    """Return what a quantity measures: "length", "angle", "force", "pressure", or "" where that is not known."""
-    if isinstance(quantity, Leaf) and not isinstance(quantity, Integral):
-        return measure_of(plan, quantity.quantity)
-    known = plan.members.get(quantity) if isinstance(quantity, str) else quantity
-    if isinstance(known, Ref):
-        return measure_of(plan, known.target)
-    if isinstance(known, DriveForce):
-        return "force" if stroke_unit(plan, stroke_of(plan, known.drive, "drive")) == "m" else ""
-    if not isinstance(known, (Quantity, Request)) or known.measures:
-        return str(known.measures) if isinstance(known, (Quantity, Request)) else ""
-    parts = of_one_kind(known)
-    kinds = {measure_of(plan, part) for part in parts}
-    return kinds.pop() if len(kinds) == 1 else ""
-
-
-CHOOSING = ("absolute", "minimum", "maximum")
-
-
-def of_one_kind(quantity: Quantity | Request) -> tuple[Any, ...]:
-    """Return the parts of a quantity that measure what it measures itself: those of a sum, a size, a multiple."""
-    if isinstance(quantity, Combined):
-        same = quantity.function in ("add", "subtract", "negative", *CHOOSING)
-        scaled = quantity.function == "multiply" or (quantity.function == "divide" and isinstance(quantity.parts[1], float))
-        parts = tuple(each for each in quantity.parts if not isinstance(each, float))
-        return parts if same or (scaled and len(parts) == 1) else ()
-    if isinstance(quantity, (Sum, Negative)) or (isinstance(quantity, Function) and quantity.function in CHOOSING):
-        return tuple(each for each in quantity.parts() if not isinstance(each, Number))
-    return ()
 
 
 @final

@@ -13,12 +13,13 @@ from ..errors import DefinitionError, cited, one_word, unknown, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import Request
+from ..motion.kinds import measure_of
 from ..motion.measures import At, Condition, Constraint, Leaf, Least, Measure, Most, conditions_of
 from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import is_number
 from ..units import display_unit
-from .measured import Measured, StudyPoses, fold, fold_start, measure_of, measured_title, number_bound
+from .measured import Measured, StudyPoses, fold, fold_start, measured_title, number_bound
 from .sampling import unlimited
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, shifted_designs, tolerance_words, tolerances_of
 

@@ -16,6 +16,7 @@ import numpy as np
 from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited
 from ..mechanism import Mechanism
+from ..motion.kinds import measure_of, measure_unit
 from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, Worst, words_of
 from ..plan import Plan
 from ..program import FloatArray
@@ -24,8 +25,6 @@ from ..shown import Shown
 from ..units import deg, display_unit, mm, show
 from .box import unit_points
 from .checks import unit_of
-from .kinds import measure_unit
-from .measured import measure_of
 from .problem import LimitReachedError, Numbers, Problem, size_of_rows, terms_size
 from .result_tables import EvaluatedDesigns, ResultRow, result_text, tried_header, tried_names, tried_rows, write_result
 from .sampling import divisors_of

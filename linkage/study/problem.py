@@ -20,6 +20,7 @@ from ..errors import DefinitionError, StudyError, cited
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, greatest
 from ..motion.grid import JoinedTo, joined_in_order, varies
+from ..motion.kinds import check_kinds
 from ..motion.measures import (
     At,
     CombinedMeasure,
@@ -39,7 +40,6 @@ from ..motion.strokes import check_magnitude
 from ..plan import Mask, Plan
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
-from .kinds import check_kinds
 from .sampling import (
     Samples,
     Sampling,

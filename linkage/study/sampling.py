@@ -12,12 +12,12 @@ from ..errors import AssemblyError, UntracedError, unwarned
 from ..motion import BoundRequest, Grid, Motion, Request
 from ..motion.evaluation import Evaluation
 from ..motion.grid import Angles, JoinedTo, angles_of
+from ..motion.kinds import constant_part, operation
 from ..motion.measures import traced
-from ..motion.requests import Combined, slope
+from ..motion.requests import slope
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level
-from ..quantities import Function, Negative, Number, Quantity, Ref, Sum
-from ..quantities.quantity import Operation
+from ..quantities import Quantity, Ref
 from .checks import quantity_values
 
 DIFFERENCE = 6e-6
@@ -262,23 +262,6 @@ def zero_factors(plan: Plan, divisor: Any) -> list[Any]:
     if sign == "multiply":
         return [each for part in parts for each in zero_factors(plan, part)]
     return [divisor] if isinstance(divisor, (str, Quantity, Request)) and constant_part(divisor) is None else []
-
-
-def constant_part(part: Any) -> float | None:
-    """Return a number that stands in a quantity; None of anything else."""
-    return part.number if isinstance(part, Number) else part if isinstance(part, float) else None
-
-
-def operation(quantity: Any) -> tuple[str, tuple[Any, ...]]:
-    """Return by which of NumPy's functions a quantity is made, and of what; "" for one that is no such thing."""
-    if isinstance(quantity, Combined):
-        return quantity.function, quantity.parts
-    if isinstance(quantity, Operation):
-        return {"*": "multiply", "/": "divide", "**": "power"}[quantity.symbol], quantity.parts()
-    if isinstance(quantity, Function):
-        return quantity.function, quantity.parts()
-    named = {Sum: "add", Negative: "negative"}.get(type(quantity), "")
-    return named, quantity.parts() if named else ()
 
 
 # How far the links are from being too short or too long to meet.

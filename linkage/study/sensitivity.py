@@ -12,11 +12,12 @@ import numpy as np
 from ..errors import DefinitionError, cited, one_word, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
+from ..motion.kinds import measure_of
 from ..plan import Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import is_whole
 from ..units import display_unit, show, unit_or_none
-from .measured import Measured, StudyPoses, measure_of, measured_title, number_bound
+from .measured import Measured, StudyPoses, measured_title, number_bound
 from .tolerances import Tolerance, ToleranceLike, shifted_designs, tolerance_words, tolerances_of
 
 POSES = 21

@@ -13,6 +13,7 @@ from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import BoundRequest, Motion, RequestLike, evaluate_grid, stroke_display_unit
 from ..motion.grid import Grid, JoinedTo
+from ..motion.kinds import measure_of
 from ..motion.requests import dimensions_of, slopes_of
 from ..plan import Plan
 from ..program import FloatArray, RunOptions
@@ -20,7 +21,6 @@ from ..quantities import is_number
 from ..units import deg, display_unit, mm, show, unit_or_none
 from .box import Box, setting_words, unit_points
 from .checks import check_one_design, is_one, why_not_assembled
-from .measured import measure_of
 from .tolerances import traced_number
 
 

@@ -21,6 +21,7 @@ from linkage import (
     PinFriction,
     Stroke,
     Weight,
+    angle,
     at,
     distance,
     drive_force,
@@ -37,7 +38,7 @@ from linkage import (
     y,
 )
 from linkage.program import Kernel
-from linkage.units import bar, kN, mm
+from linkage.units import bar, deg, kN, mm
 
 
 class Loader(Mechanism):
@@ -417,3 +418,28 @@ def test_functions_of_a_motion_are_asked_again():
     assert machine.answers([question])[0].value == 1.0
     level[0] = 2.0
     assert machine.answers([question])[0].value == 2.0
+
+
+def test_what_is_reached_is_told_in_words():
+    assert str(Loader().answers([reachable], over=Over(S=(0.0, 0.2)))[0]) == "every place is assembled"
+    told = str(Loader(OB=0.05).answers([reachable])[0])
+    assert "of the places is lost at S = " in told and "cannot be assembled" in told
+
+
+@pytest.mark.parametrize(
+    "question", [least(y("C")) >= 3 * deg, most(reserve("lift")) * 0.0 + most(pin_force("O")) <= 1 * mm, least(angle("O", "C") + y("C"))]
+)
+def test_what_neither_adds_nor_compares_is_refused(question):
+    with pytest.raises(DefinitionError, match="neither add nor compare"):
+        Loader().answers([question])
+
+
+def test_places_of_a_path_in_another_unit_are_refused():
+    """As those of a box are, numbers and quantities alike."""
+
+    class Long(Loader):
+        far = Dimension(200.0, unit="m")
+
+    for over in (Over.path(S=[0.0, 200.0], T=0.0), Over.path(S=[0.0, "far"], T=0.0), Over(S=(0.0, "far")), Over.poses(S=[200.0], T=[0.0])):
+        with pytest.raises(DefinitionError, match="if these are millimetres"):
+            Long().answers([reachable], over=over)

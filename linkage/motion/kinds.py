@@ -12,15 +12,13 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias, final
 
 from ..errors import DefinitionError
-from ..motion import stroke_unit
-from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, Worst, words_of
-from ..motion.requests import Combined, Value, stroke_of
 from ..plan import Plan, plan_measure
 from ..quantities import Quantity, Ref
-from ..statics import DriveForce
+from ..quantities.quantity import Function, Negative, Number, Operation, Sum
 from ..steps import Point
-from .measured import CHOOSING, measure_of
-from .sampling import constant_part, operation
+from .limits import stroke_unit
+from .measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, Worst, words_of
+from .requests import Combined, Request, Value, stroke_of
 
 KINDS = {
     "length": (1.0, 0.0, 0.0), "force": (0.0, 1.0, 0.0), "angle": (0.0, 0.0, 1.0), "pressure": (-2.0, 1.0, 0.0),
@@ -59,6 +57,39 @@ class MeasureKind:
         length, force, turned = self.powers
         among = [(length, force, turned)] + ([(length, force, 0.0)] if (length, force) != (0.0, 0.0) else [])
         return next((name for each in among for name, powers in KINDS.items() if powers == each), "")
+
+
+# What a quantity measures, by its parts.
+
+
+def measure_of(plan: Plan, quantity: Any) -> str:
+    """Return what a quantity measures: "length", "angle", "force", "pressure", or "" where that is not known."""
+    if isinstance(quantity, Leaf) and not isinstance(quantity, Integral):
+        return measure_of(plan, quantity.quantity)
+    known = plan.members.get(quantity) if isinstance(quantity, str) else quantity
+    if isinstance(known, Ref):
+        return measure_of(plan, known.target)
+    found = known.measured(plan) if isinstance(known, Request) else known.measures if isinstance(known, Quantity) else ""
+    if found or not isinstance(known, (Quantity, Request)):
+        return "" if found == "moment" else str(found)
+    parts = of_one_kind(known)
+    kinds = {measure_of(plan, part) for part in parts}
+    return kinds.pop() if len(kinds) == 1 else ""
+
+
+CHOOSING = ("absolute", "minimum", "maximum")
+
+
+def of_one_kind(quantity: Quantity | Request) -> tuple[Any, ...]:
+    """Return the parts of a quantity that measure what it measures itself: those of a sum, a size, a multiple."""
+    if isinstance(quantity, Combined):
+        same = quantity.function in ("add", "subtract", "negative", *CHOOSING)
+        scaled = quantity.function == "multiply" or (quantity.function == "divide" and isinstance(quantity.parts[1], float))
+        parts = tuple(each for each in quantity.parts if not isinstance(each, float))
+        return parts if same or (scaled and len(parts) == 1) else ()
+    if isinstance(quantity, (Sum, Negative)) or (isinstance(quantity, Function) and quantity.function in CHOOSING):
+        return tuple(each for each in quantity.parts() if not isinstance(each, Number))
+    return ()
 
 
 def kind_of_measure(plan: Plan, measure: Measure) -> MeasureKind | None:
@@ -117,10 +148,9 @@ def kind_of_one(plan: Plan, known: Any) -> MeasureKind | None:
         inner = MeasureKind(KINDS["length"]) if isinstance(target, Point) else kind_of_quantity(plan, known.target)
         by = kind_of_stroke(plan, stroke_of(plan, known.along[0]))
         return None if inner is None else inner.times(by.to_the(float(known.order)), -1.0)
-    if isinstance(known, DriveForce):
-        is_length = stroke_unit(plan, stroke_of(plan, known.drive, "drive")) == "m"
-        return MeasureKind(KINDS["force" if is_length else "moment"])
-    found = measure_of(plan, known) if isinstance(known, (Quantity, Combined)) or hasattr(known, "measures") else ""
+    found = known.measured(plan) if isinstance(known, Request) else ""
+    if not found and isinstance(known, (Quantity, Request)):
+        found = measure_of(plan, known)
     return MeasureKind(KINDS[found]) if found in KINDS else None
 
 
@@ -132,6 +162,23 @@ def kind_of_stroke(plan: Plan, name: str) -> MeasureKind:
 def unitless_number(measure: Measure) -> float | None:
     """Return a number without a unit; None of any other measure."""
     return measure.value if isinstance(measure, Given) and not measure.measures else None
+
+
+def constant_part(part: Any) -> float | None:
+    """Return a number that stands in a quantity; None of anything else."""
+    return part.number if isinstance(part, Number) else part if isinstance(part, float) else None
+
+
+def operation(quantity: Any) -> tuple[str, tuple[Any, ...]]:
+    """Return by which of NumPy's functions a quantity is made, and of what; "" for one that is no such thing."""
+    if isinstance(quantity, Combined):
+        return quantity.function, quantity.parts
+    if isinstance(quantity, Operation):
+        return {"*": "multiply", "/": "divide", "**": "power"}[quantity.symbol], quantity.parts()
+    if isinstance(quantity, Function):
+        return quantity.function, quantity.parts()
+    named = {Sum: "add", Negative: "negative"}.get(type(quantity), "")
+    return named, quantity.parts() if named else ()
 
 
 Part: TypeAlias = "tuple[MeasureKind | None, float | None]"

@@ -625,6 +625,26 @@ def combined_size(function: str, values: Sequence[FloatArray], sizes: Sequence[F
     return np.full(sizes[0].shape, SMALL)
 
 
+@final
+@dataclass(frozen=True)
+class MotionFunction(Request):
+    """A function of a motion that hangs on the motion alone, as something to ask for: what it was asked of a design is known again."""
+
+    function: Callable[[Any], Any]
+
+    def identity(self, plan: Plan) -> Hashable:
+        return "function", self.function
+
+    def bound(self, plan: Plan) -> Request:
+        raise UntracedError(f"{plan.title}: {self} is a function of a motion: it has values, and no program.")
+
+    def of(self, motion: MotionLike) -> FloatArray:
+        return np.asarray(self.function(motion), float)
+
+    def __str__(self) -> str:
+        return str(self.function.__name__).replace("_", " ")
+
+
 # What functions of a plan say.
 
 

@@ -20,10 +20,11 @@ from ..plan import Mask
 from ..program import FloatArray
 from .answer import places_text
 from .box import highest_in, values_a_stroke, weights_of
-from .grid import JoinedTo, joined_in_order
+from .grid import JoinedTo, joined_in_order, recalled
 from .limits import place_text, stroke_unit
 from .line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, samples, zoomed
 from .motion import Motion, require_motion
+from .requests import Request, identity_of
 from .strokes import check_any
 
 
@@ -132,12 +133,19 @@ class Span:
         return said("from {start} to {end}", start=start, end=end) if moving else said("at {place}", place=start)
 
 
-def below_zero(motion: Motion, f: Function) -> tuple[Span, ...]:
-    """Return the parts of a motion's way on which f, a number for each pose, is below zero; of one design along strokes or a path.
+def below_zero(motion: Motion, f: Function | Request) -> tuple[Span, ...]:
+    """Return the parts of a motion's way on which f is below zero, of one design along strokes or a path.
+
+    f is a request, or a function that gives a number for each pose.
 
     The ends are right to 1e-12 of the way: roots, jumps, the last poses with a value. A part of 1/2000 of the range is found, and one that
     dips below zero between two of 4097 samples like an extreme is, see `peaks`.
     """
+    if isinstance(f, Request):
+        identity = identity_of(motion.plan, f)
+        if identity is None:
+            return below_zero(motion, f.of)
+        return recalled(motion, ("below zero", identity), lambda: below_zero(motion, f.of))
     require_function(motion, f)
     if motion._design_shape or len(motion._stroke_shape) > 1:
         raise DefinitionError(f"{motion.plan.title}: ranges are told for one design along one stroke or one path; this is {motion.shape}.")
@@ -156,7 +164,7 @@ def below_zero(motion: Motion, f: Function) -> tuple[Span, ...]:
 
 def reached(motion: Motion) -> tuple[Span, ...]:
     """Return the parts of a motion's way that are reached, one design along strokes or a path."""
-    return below_zero(motion, lambda each: -np.ones(each.shape))
+    return recalled(motion, "reached", lambda: below_zero(motion, lambda each: -np.ones(each.shape)))
 
 
 def with_dips(between: OnLegs) -> tuple[Index, FloatArray, FloatArray]:

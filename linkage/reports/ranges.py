@@ -13,13 +13,13 @@ from .. import motion as between
 from ..errors import DefinitionError, cited, unknown
 from ..language import said, with_and
 from ..mechanism import Mechanism
-from ..motion import Motion, out_of_reach, require_motion
+from ..motion import Motion, Request, out_of_reach, require_motion
 from ..program import FloatArray
 from ..quantities import is_number, real
 from ..units import show, shown_number
 
 Range: TypeAlias = tuple[float, float]
-Spare: TypeAlias = Callable[[Motion], FloatArray]
+Spare: TypeAlias = Callable[[Motion], FloatArray] | Request
 
 
 def one_stroke(motion: Motion) -> str:
@@ -35,7 +35,8 @@ def reached_span(motion: Motion) -> Range:
 
     Raises AssemblyError where none is.
     """
-    found = ranges_below_zero(motion, lambda each: -np.ones(each.shape))
+    name = one_stroke(motion)
+    found = [(each.start[name], each.end[name]) for each in between.reached(motion)]
     if not found:
         raise out_of_reach(motion)
     return found[0][0], found[-1][1]

@@ -12,7 +12,9 @@ from ..errors import DefinitionError, cited, known_name
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import highest, last_holding
+from ..motion.grid import recalled
 from ..motion.measures import words_of
+from ..motion.requests import identity_of
 from ..plan import Mask
 from ..program import FloatArray
 from ..units import show, unit_or_none
@@ -98,17 +100,23 @@ def settings_for(
     def curve(at: FloatArray) -> FloatArray:
         return quantity_values(poses_of(machine, {name: at}, base, np.zeros(at.shape, int)), quantity) - target
 
-    at = np.linspace(low, high, SAMPLES)
-    at = ends_of_reach(curve, at)
-    off = curve(at)
-    found = [root for root in (*sign_changes(curve, at, off), *touchings(curve, at, off)) if is_root(curve, root, off)]
-    unique = [root for place, root in enumerate(sorted(found)) if not place or root - sorted(found)[place - 1] > 1e-9 * (high - low)]
+    identity = None if callable(quantity) else identity_of(machine.plan, quantity)
+    known = ("settings", name, identity, target, low, high)
+    at, off, unique = roots_of(curve, low, high) if identity is None else recalled(base, known, lambda: roots_of(curve, low, high))
     lost = {root: why for root in unique if (why := why_not_assembled(machine.replaced(**{name: root})))}
     kept = [root for root in unique if root not in lost]
     words = SettingWords(name, unit_of(machine.plan, name), words_of(quantity), unit)
     if unique and not kept:
         return Settings(name, (), words.lost(unique, target, lost[unique[0]]))
     return Settings(name, tuple(kept), words.roots(kept, target) if kept else words.none(at, off + target, target))
+
+
+def roots_of(curve: OffTarget, low: float, high: float) -> tuple[FloatArray, FloatArray, list[float]]:
+    """Return the samples of a curve between two values, what it is there, and where it is zero."""
+    at = ends_of_reach(curve, np.linspace(low, high, SAMPLES))
+    off = curve(at)
+    found = sorted(root for root in (*sign_changes(curve, at, off), *touchings(curve, at, off)) if is_root(curve, root, off))
+    return at, off, [root for place, root in enumerate(found) if not place or root - found[place - 1] > 1e-9 * (high - low)]
 
 
 def ends_of_reach(curve: OffTarget, at: FloatArray) -> FloatArray:

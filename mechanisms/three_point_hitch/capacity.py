@@ -5,7 +5,7 @@ Pressures are gauge.
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -17,7 +17,8 @@ from linkage import DefinitionError, Force, ForceElement, Motion, angle, least, 
 from linkage.errors import cited, unwarned
 from linkage.language import noted, said, translated
 from linkage.loads.element import Formulas
-from linkage.motion import Judge, Over, require_motion
+from linkage.motion import Judge, MotionFunction, Over, require_motion
+from linkage.motion.grid import recalled
 from linkage.plan import Plan
 from linkage.program import FloatArray
 from linkage.quantities import Distance, is_number
@@ -120,6 +121,11 @@ def stroke_per_newton(motion: Motion) -> FloatArray:
         return np.asarray(lift.thrust(motion, [Force("G", (0.0, -1.0))]) / np.maximum(spare, 0.0))
 
 
+def stroke_per_newton_either_way(motion: Motion) -> FloatArray:
+    """Return the size of one over the capacity at G [1/N], shape (...)."""
+    return np.abs(stroke_per_newton(motion))
+
+
 def from_stroke_per_newton(value: FloatArray) -> FloatArray:
     """Return the capacity [N] that `stroke_per_newton` stands for; NaN where the cylinder does not limit."""
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -168,7 +174,7 @@ class Weakest:
 def weakest(motion: Motion) -> Weakest | None:
     """Return the weakest point over a motion of one design; None where the cylinder limits nothing."""
     judge = Judge(motion.plan, motion.designs, [motion])
-    worst, easiest = judge.answers([most(stroke_per_newton), least(lambda each: np.abs(stroke_per_newton(each)))])
+    worst, easiest = judge.answers([most(MotionFunction(stroke_per_newton)), least(MotionFunction(stroke_per_newton_either_way))])
     if not worst.value > 0.0:
         return None
     S = float(worst.strokes["S"])
@@ -213,13 +219,7 @@ def remedy(motion: Motion) -> str:
     steps = np.tile([CHANGE, -CHANGE], len(names) // 2)
     if not names:
         return ""
-    designs = {name: motion.designs[name] + np.where([each == name for each in names], steps, 0.0) for name in dict.fromkeys(names)}
-    fine = Over.poses(S=closely(motion).strokes["S"].tolist())
-    before, after = (Judge(motion.plan, motion.designs | each, [fine]) for each in ({}, designs))
-    found = after.answer(most(stroke_per_newton)).value
-    burden = np.where(after.motion.reached.all(axis=1) & np.isfinite(found), found, np.inf)
-    place = int(np.argmin(burden))
-    gain = float(before.answer(most(stroke_per_newton)).value) / burden[place] - 1.0
+    place, gain = recalled(motion, ("remedy", *names), lambda: best_change(motion, names, steps))
     if not 0.0 < gain < np.inf:
         return said("No single dimension of the tractor's side, changed by {change}, helps.", change=show(CHANGE, "mm", ".0f"))
     name, _, axis = names[place].partition(".")
@@ -227,3 +227,14 @@ def remedy(motion: Motion) -> str:
         "Of the tractor's dimensions {name} {change} {way} helps most: {gain:+.1f} %.",
         name=name, change=show(CHANGE, "mm", ".0f"), way=translated(CHANGES[axis][int(steps[place] < 0.0)]), gain=100.0 * gain,
     )  # fmt: skip
+
+
+def best_change(motion: Motion, names: Sequence[str], steps: FloatArray) -> tuple[int, float]:
+    """Return which of some dimensions, each changed by its step [m], raises the least capacity most, and by what share of it."""
+    designs = {name: motion.designs[name] + np.where([each == name for each in names], steps, 0.0) for name in dict.fromkeys(names)}
+    fine = Over.poses(S=closely(motion).strokes["S"].tolist())
+    before, after = (Judge(motion.plan, motion.designs | each, [fine]) for each in ({}, designs))
+    found = after.answer(most(stroke_per_newton)).value
+    burden = np.where(after.motion.reached.all(axis=1) & np.isfinite(found), found, np.inf)
+    place = int(np.argmin(burden))
+    return place, float(before.answer(most(stroke_per_newton)).value) / float(burden[place]) - 1.0

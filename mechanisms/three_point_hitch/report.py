@@ -7,7 +7,7 @@ import numpy as np
 from linkage import Column, ForceElement, Mechanism, Motion, least, most, pin_forces
 from linkage.language import noted, said
 from linkage.loads import Case
-from linkage.motion import Judge
+from linkage.motion import Judge, MotionFunction
 from linkage.program import FloatArray
 from linkage.reports import ranges_below_zero, spans_in_words
 from linkage.units import g0, show, shown_number
@@ -60,7 +60,8 @@ def weakest_verdict(motion: Motion) -> Verdict:
 
 def limit_verdict(judge: Judge) -> Verdict:
     """Return which limit comes first over the motion: pressure, the front axle's share, or tipping."""
-    lifted, steer, tip = (float(each.value) for each in judge.answers([least(Lifted()), least(largest_mass), least(tipping_mass)]))
+    asked = [least(each) for each in (Lifted(), MotionFunction(largest_mass), MotionFunction(tipping_mass))]
+    lifted, steer, tip = (float(each.value) for each in judge.answers(asked))
     limits = {said("the pressure"): lifted / g0, said("the front axle's least load"): steer, said("tipping"): tip}
     least_of = {name: value for name, value in limits.items() if np.isfinite(value)}
     if not least_of:
@@ -78,7 +79,7 @@ def limit_verdict(judge: Judge) -> Verdict:
 def test_verdict(judge: Judge) -> Verdict:
     """Return what can be lifted through the whole range at 90 % of the pressure, the way tractors are tested."""
     parts, places = [], (said("at the hitch points"), said("{distance} behind them", distance=show(BEHIND, "mm", ".0f")))
-    for where, lifted in zip(places, judge.answers([least(Lifted("F", SHARE)), least(behind)]), strict=True):
+    for where, lifted in zip(places, judge.answers([least(Lifted("F", SHARE)), least(MotionFunction(behind))]), strict=True):
         is_limited = bool(np.isfinite(lifted.value))
         parts.append(f"{where} {show(float(lifted.value), 'kN', '.2f') if is_limited else said('not limited by the cylinders')}")
     text = said(
@@ -89,7 +90,8 @@ def test_verdict(judge: Judge) -> Verdict:
 
 def upper_link_verdict(judge: Judge, motion: Motion) -> Verdict:
     """Return how large the force is over a motion of one design, and where it is tension or compression."""
-    low, high = (float(each.value) for each in judge.answers([least(upper_link_force), most(upper_link_force)]))
+    force = MotionFunction(upper_link_force)
+    low, high = (float(each.value) for each in judge.answers([least(force), most(force)]))
     if low >= 0.0 or high <= 0.0:
         small, large = sorted((abs(low), abs(high)))
         ends = {"low": shown_number(small, "kN", ".2f"), "high": show(large, "kN", ".2f")}
@@ -100,7 +102,7 @@ def upper_link_verdict(judge: Judge, motion: Motion) -> Verdict:
         "up to {tension} of tension and {compression} of compression, which acts {where}: the force changes its sense, "
         "so that play is felt.",
         tension=show(high, "kN", ".2f"), compression=show(-low, "kN", ".2f"),
-        where=spans_in_words(ranges_below_zero(motion, upper_link_force), "S"),
+        where=spans_in_words(ranges_below_zero(motion, force), "S"),
     )  # fmt: skip
     return Verdict("upper link", True, text)
 

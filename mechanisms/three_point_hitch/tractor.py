@@ -11,7 +11,7 @@ import numpy as np
 
 from linkage import ForceElement, Motion, least
 from linkage.language import said
-from linkage.motion import Judge
+from linkage.motion import Judge, MotionFunction
 from linkage.program import FloatArray
 from linkage.units import g0, show
 from linkage.verdict import Verdict
@@ -104,7 +104,8 @@ def tipping_slope(motion: Motion) -> FloatArray:
 
 def balance_verdict(judge: Judge) -> Verdict:
     """Return whether the front axle keeps its least share of the tractor's weight, with the tipping limits."""
-    worst, tips, largest, slope = judge.answers([least(front_axle), least(tipping_mass), least(largest_mass), least(tipping_slope)])
+    asked = [least(MotionFunction(each)) for each in (front_axle, tipping_mass, largest_mass, tipping_slope)]
+    worst, tips, largest, slope = judge.answers(asked)
     load, given = float(worst.value), judge.motion.inputs
     share, needed = load / (float(given["vehicle_mass"]) * g0), float(given["least_front"])
     height = show(float(judge.there(worst).y("F")), "mm", ".0f")

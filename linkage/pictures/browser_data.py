@@ -15,8 +15,9 @@ from ..language import heading_of, language, translated
 from ..loads import AT_REST, PLAIN, TwoPoint
 from ..mechanism import Mechanism
 from ..motion import Column, LiveText, Motion, Request, RequestLike, Tabled, stroke_display_unit, transmission
+from ..motion.requests import NodeRequest
 from ..plan import Plan, opening, plan_measure
-from ..program import FloatArray
+from ..program import FloatArray, Node
 from ..quantities import is_number
 from ..reports import At, Run, column_requests, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, pin_force, pin_forces, traced_loads
@@ -39,30 +40,17 @@ SHOWN = 6
 STEPS = ("length", "angle")
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class TrackNumber(LawRequest):
-    """A number of a track's line at every pose: the x or y of its origin [m] or of its direction."""
+def track_number(track: SlideTrack, part: str, axis: str) -> NodeRequest:
+    """Return what asks for a number of a track's line: the x or y of its origin [m] or of its direction."""
 
-    track: SlideTrack
-    part: str
-    axis: str
+    def nodes(plan: Plan) -> tuple[Node, ...]:
+        reading = plan.trace.view()
+        return (reading.graph.node(getattr(getattr(track.line(reading), part), axis)),)
 
-    def identity(self, plan: Plan) -> Hashable:
-        return "track", self.track.name, self.part, self.axis
+    def names(plan: Plan) -> set[str]:
+        return set[str]().union(*map(plan.reaches, track.riders))
 
-    def law(self, motion: AnyMotion) -> FloatArray:
-        vector = getattr(self.track.line(motion._reading), self.part)
-        value = getattr(vector, self.axis)
-        if isinstance(motion, TracedMotion):
-            return motion.number(value)
-        return np.array(np.broadcast_to(np.asarray(value, float), motion.shape))
-
-    def examine(self, plan: Plan) -> None:
-        """Look at nothing: the track is of the plan."""
-
-    def __str__(self) -> str:
-        return f"the {self.part} of {self.track.name}"
+    return NodeRequest(text=f"the {part} of {track.name}", key=("track", track.name, part, axis), nodes_of=nodes, names_of=names)
 
 
 @final
@@ -161,7 +149,7 @@ class PageRequests:
                 self.by_name[f"column {name}"] = request
         for track in self.scene.tracks:
             for k, (part, axis) in enumerate((part, axis) for part in ("origin", "direction") for axis in "xy"):
-                self.by_name[f"track {track.name} {k}"] = TrackNumber(track, part, axis)
+                self.by_name[f"track {track.name} {k}"] = track_number(track, part, axis)
         for name in self.motion._joints:
             self.by_name[f"joint {name}"] = transmission(name)
         for name, member in self.plan.of_kind(Tabled).items():

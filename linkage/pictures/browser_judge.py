@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
+from contextlib import suppress
 from functools import reduce
 from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, LinkageError, unwarned
+from ..errors import DefinitionError, LawError, LinkageError, UntracedError, unwarned
 from ..language import heading_of, language
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
-from ..motion import BoundRequest, Condition, Judging, LiveText, Motion, Request, RequestLike, least, most
+from ..motion import Condition, Judging, LiveText, Motion, Request, RequestLike, least, most
 from ..motion.judge import measures_of
 from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, conditions_of
 from ..motion.over import ALLOWED
-from ..motion.requests import bound
+from ..motion.requests import NodeRequest, bound
 from ..plan import Plan
 from ..program import Node
 from ..reports import ColumnOf
@@ -27,47 +27,20 @@ from .curves import limit_of, typeset
 
 MOST = 5000
 """Poses that a page looks at for all its questions together."""
-LIMITS = {"gaps": "where it has a bound", "assumed": "where it is true"}
+TRUTHS = {"gaps": "where it has a bound", "assumed": "where it is true"}
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class WhereOf(Request):
-    """The least of what is above zero where a request has a bound ("gaps"), or where its program is true ("assumed"); else one."""
+def where_true(request: Request, which: str) -> NodeRequest:
+    """Return the least of what is above zero where a bound request has a bound ("gaps"), or its program is true ("assumed"); else one."""
 
-    request: RequestLike
-    which: str
-
-    def bound(self, plan: Plan) -> BoundRequest:
-        return WhereOfBound(bound(plan, self.request), self.which)
-
-    def __str__(self) -> str:
-        return f"{LIMITS[self.which]} of {self.request}"
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class WhereOfBound(BoundRequest):
-    """The same bound to a plan."""
-
-    inner: BoundRequest
-    which: str
-
-    @property
-    def key(self) -> Hashable:
-        return "where", self.which, self.inner.key
-
-    def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        self.inner.nodes(plan)
-        found = list(self.inner.gaps(plan) if self.which == "gaps" else self.inner.notes(plan).assumed)
+    def nodes(plan: Plan) -> tuple[Node, ...]:
+        request.nodes(plan)
+        found = list(request.gaps(plan) if which == "gaps" else request.notes(plan).assumed)
         graph = plan.trace.graph
         return (reduce(lambda a, b: graph.apply("minimum", a, b), found) if found else graph.one,)
 
-    def names(self, plan: Plan) -> set[str]:
-        return self.inner.names(plan)
-
-    def __str__(self) -> str:
-        return f"{LIMITS[self.which]} of {self.inner.sentence}"
+    text = f"{TRUTHS[which]} of {request.sentence}"
+    return NodeRequest(text=text, key=("where", which, request.key), nodes_of=nodes, names_of=request.names)
 
 
 @final
@@ -124,7 +97,10 @@ class LiveQuestions:
     def row(self, request: Any) -> str:
         """Return the name of a request's row; those beside it tell where it has a bound, and where its program is true."""
         name = f"judge {len(self.by_name)}"
-        self.by_name |= {name: request, f"{name} gaps": WhereOf(request, "gaps"), f"{name} assumed": WhereOf(request, "assumed")}
+        self.by_name[name] = request
+        with suppress(LawError, UntracedError):  # it is left out of the program then, and its question with it
+            looked_up = bound(self.machine.plan, request)
+            self.by_name |= {f"{name} {which}": where_true(looked_up, which) for which in TRUTHS}
         return name
 
     def rows_of_conditions(self, only: Any) -> list[str]:

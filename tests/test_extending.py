@@ -256,7 +256,7 @@ def test_force_elements_of_ones_own():
     assert_allclose(forces.thrusts["strut"], 800.0 * (0.4 / (length - 0.1)) ** 1.2, rtol=1e-13)
     assert forces.gap < 1e-12
     assert np.any(motion.y("A") < 0.2)
-    assert [each.drawn_as for each in Scene(motion).hung] == ["damper"]
+    assert [each.drawn_as for each in Scene(motion).two_force] == ["damper"]
 
 
 @pytest.mark.parametrize("variable", ["strut.force", "strut.column", "soil.height", "soil.stiffness"])

@@ -19,7 +19,7 @@ from matplotlib.patheffects import withStroke
 
 from linkage.pictures import style
 from linkage.pictures.drawing import BodyPart, MarkPart, dot, pin
-from linkage.pictures.scene import DrawnMark, Plate, Ram
+from linkage.pictures.scene import DrawnCylinder, DrawnMark, Plate
 from linkage.pictures.shapes import BLOCK, LONG, tube
 from linkage.pictures.style import STRONG
 from linkage.pictures.symbols import ground
@@ -124,8 +124,8 @@ def cylinder(ax: Axes, A: Place, B: Place, out: float = 0.5) -> None:
     length = hypot(B[0] - A[0], B[1] - A[1])
     mouth = 0.62 * length
     piston = 2.4 * SIZE + out * (mouth - 3.6 * SIZE)
-    ram = Ram("A", "B", 0.0, 1.4 * SIZE, mouth, length - piston, 2.0 * SIZE, mouth - 0.9 * SIZE)
-    MarkPart(ax, ram.mark(SIZE), STRONG).update({"A": np.array(A), "B": np.array(B)})
+    drawn = DrawnCylinder("A", "B", 0.0, 1.4 * SIZE, mouth, length - piston, 2.0 * SIZE, mouth - 0.9 * SIZE)
+    MarkPart(ax, drawn.mark(SIZE), STRONG).update({"A": np.array(A), "B": np.array(B)})
 
 
 def along(A: Place, B: Place, steps: Sequence[tuple[float, float]]) -> list[Place]:

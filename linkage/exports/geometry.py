@@ -16,7 +16,7 @@ import numpy as np
 from ..errors import known_name
 from ..loads import PinFriction
 from ..motion import Motion
-from ..pictures.scene import Places, Ram, Scene
+from ..pictures.scene import DrawnCylinder, Places, Scene
 from ..program import FloatArray
 from ..units import mm
 
@@ -188,19 +188,19 @@ def bar_corners(start: FloatArray, end: FloatArray, half: float) -> FloatArray:
 
 def cylinder_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
     """Yield the barrel, the piston and the rod of each cylinder, and its line from pin to pin."""
-    for ram in scene.rams:
-        P, Q = at[ram.P], at[ram.Q]
+    for cylinder in scene.cylinders:
+        P, Q = at[cylinder.P], at[cylinder.Q]
         along = unit_vector(P, Q)
-        P, Q = (place + ram.aside / mm * np.array([-along[1], along[0]]) for place in (P, Q))
-        name = ram.P + ram.Q
-        for start, end, half in cylinder_pieces(ram, float(np.hypot(*(Q - P))), size):
+        P, Q = (place + cylinder.aside / mm * np.array([-along[1], along[0]]) for place in (P, Q))
+        name = cylinder.P + cylinder.Q
+        for start, end, half in cylinder_pieces(cylinder, float(np.hypot(*(Q - P))), size):
             yield Polyline("cylinders", name, bar_corners(P + start * along, P + end * along, half), closed=True)
         yield Polyline("centre_lines", name, np.array([P, Q]))
 
 
-def cylinder_pieces(ram: Ram, length: float, size: float) -> Iterator[tuple[float, float, float]]:
+def cylinder_pieces(cylinder: DrawnCylinder, length: float, size: float) -> Iterator[tuple[float, float, float]]:
     """Yield start, end and half the width [mm] of barrel, piston and rod, along a cylinder of some length [mm]."""
-    bottom, mouth, piston = ram.bottom / mm, ram.mouth / mm, ram.piston(length * mm) / mm
+    bottom, mouth, piston = cylinder.bottom / mm, cylinder.mouth / mm, cylinder.piston(length * mm) / mm
     yield bottom, mouth, 1.3 * size
     yield piston - 0.45 * size, piston + 0.45 * size, 1.12 * size
     yield piston + 0.45 * size, max(length, piston + 0.45 * size), 0.42 * size

@@ -26,8 +26,8 @@ from ..verdict import Verdict
 from . import style
 from .browser_judge import LiveQuestions
 from .curves import check_poses, limit_of, typeset
-from .free_space import label_free, props
 from .labels import offsets
+from .layout import label_free, props
 from .poses import named_points
 from .scene import DrawnMark, Plate, Scene, SlideTrack
 from .strokes import ends_where_begun, is_changing, is_turn
@@ -427,9 +427,9 @@ def cylinder_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]
     for name, element in plan.of_kind(TwoPoint).items():
         if element.drawn_as == "cylinder":
             elements[frozenset(element.ends)].append(name)
-    drawn = {(each.P, each.Q, each.aside) for each in scene.hung if not scene._is_telescope(each)}
+    drawn = {(each.P, each.Q, each.aside) for each in scene.two_force if not scene._is_telescope(each)}
     found = []
-    for each in scene.hung:
+    for each in scene.two_force:
         if each.drawn_as != "cylinder":
             continue
         pair = frozenset((each.P, each.Q))

@@ -21,14 +21,14 @@ from ..reports import Run, first_stroke, stroke_middles
 from ..units import display_unit, show
 from . import style
 from .drawing import Drawing
-from .free_space import cloud
+from .layout import cloud
 from .overlays import sheet_note
 from .paper import empty_page, legend_row, title
+from .pose_choice import telling_angles
 from .poses import motions, named_points, trace
 from .scene import Scene
 from .strokes import is_turn, stroke_words
 from .style import FAINT, STRONG, Look
-from .telling import telling_angles
 
 MOST_DESIGNS = 12
 MOST_NAMED = 3

@@ -18,7 +18,7 @@ from ..quantities import Quantity, Stroke, spelled
 from ..units import shown_number
 from . import style
 from .drawing import Drawing
-from .free_space import cloud
+from .layout import cloud
 from .scene import Bounds, Places, Scene
 from .shapes import segment
 from .sheet import points_a_metre, sheet

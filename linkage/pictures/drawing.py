@@ -21,8 +21,8 @@ from ..errors import DefinitionError, FileError, cited
 from ..motion import Motion
 from ..program import FloatArray
 from . import style
-from .free_space import label_free, props
 from .labels import LabelPart, offsets
+from .layout import label_free, props
 from .scene import DrawnMark, Places, Plate, Scene
 from .shapes import rounded
 from .sheet import MOST_PIXELS, pixels_text, points_a_metre, sheet

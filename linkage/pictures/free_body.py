@@ -140,10 +140,10 @@ class FreeBodyPicture:
     def parts(self, ax: Axes) -> list[MovingPart]:
         """Return the body's own parts: a plate or a bar, a cylinder, a spring, a block, and its pins."""
         own, parts = set(self.points), list[MovingPart]()
-        rams = [each for each in self.scene.rams if {each.P, each.Q} == own]
+        cylinders = [each for each in self.scene.cylinders if {each.P, each.Q} == own]
         straights = [each for each in self.scene.straights if set(each.on) == own]
-        if rams:
-            parts += [MarkPart(ax, each.mark(self.size), STRONG) for each in rams]
+        if cylinders:
+            parts += [MarkPart(ax, each.mark(self.size), STRONG) for each in cylinders]
         elif straights:
             parts += [MarkPart(ax, each, STRONG) for each in straights]
         elif len(self.points) == 1:

@@ -24,8 +24,8 @@ from ..units import factor, mm, shown_in
 from . import style
 from .curves import Limit, axis_range, locator, mark_limit, panel_grid, typeset
 from .drawing import Drawing
-from .free_space import label_free
 from .labels import offsets
+from .layout import label_free
 from .scene import Bounds, Places, Scene
 from .sheet import Picture, points_a_metre, quiet, sheet
 from .strokes import StrokeAxis, stroke_words

@@ -21,13 +21,13 @@ from . import style
 from .drawing import Drawing, mechanism
 from .force_arrows import force_question
 from .free_body import draw_free_body
-from .free_space import cloud, surrounding_points
+from .layout import cloud, surrounding_points
 from .overlays import NO_OVERLAYS, Overlays
 from .paper import empty_page, legend_row, remark, title
+from .pose_choice import telling_angles
 from .scene import Scene
 from .strokes import is_turn, stroke_words, unreached_words
 from .style import FAINT, STRONG
-from .telling import telling_angles
 
 MANY = 1_000_000
 """Poses of a path: more do not fit into a picture."""

@@ -129,7 +129,7 @@ Bounds: TypeAlias = tuple[float, float, float, float]
 
 @final
 @dataclass(frozen=True)
-class Hung:
+class TwoForceMember:
     """A two-force member from P to Q: what it is drawn as, and how far to the left of P -> Q, in sizes, where others share its points."""
 
     P: str
@@ -175,7 +175,7 @@ class DrawnMark:
     ink: str = "INK"
     hatched: FloatArray = field(default_factory=lambda: np.empty((0, 2, 2)))
     under: tuple[str, FloatArray, float] | None = None
-    cylinder: Ram | None = None
+    cylinder: DrawnCylinder | None = None
 
     def axes(self, at: Places) -> tuple[FloatArray, FloatArray, float]:
         """Return the origin (2,) and the directions (2, 2) of its axes at a pose, and the distance of the points that it stretches with."""
@@ -211,7 +211,7 @@ class DrawnMark:
 
 @final
 @dataclass(frozen=True)
-class Ram:
+class DrawnCylinder:
     """A cylinder from P to Q as it is drawn [m]: its barrel from bottom to mouth, its piston between least and most, moved aside."""
 
     P: str
@@ -323,12 +323,12 @@ class Scene:
         return tuple((element, glyph) for element in plan.of_kind(ForceElement).values() for glyph in element.glyphs(plan.members))
 
     @cached_property
-    def hung(self) -> tuple[Hung, ...]:
+    def two_force(self) -> tuple[TwoForceMember, ...]:
         """The driven lengths and the straight elements; those on the same two points stand side by side, those along a bar beside it.
 
         The cylinder that is declared on a driven length is that length.
         """
-        by_pair = {frozenset((bar.P, bar.Q)): [Hung(bar.P, bar.Q, "cylinder")] for bar in self.motion.plan.cylinders}
+        by_pair = {frozenset((bar.P, bar.Q)): [TwoForceMember(bar.P, bar.Q, "cylinder")] for bar in self.motion.plan.cylinders}
         driven = set(by_pair)
         for element, glyph in self.glyphs:
             pair = frozenset(glyph.points)
@@ -338,25 +338,25 @@ class Scene:
                 driven.discard(pair)
             else:
                 P, Q = glyph.points
-                by_pair.setdefault(pair, []).append(Hung(P, Q, glyph.drawn_as))
+                by_pair.setdefault(pair, []).append(TwoForceMember(P, Q, glyph.drawn_as))
         placed = [each for members in by_pair.values() for each in side_by_side(members)]
-        return tuple(Hung(each.P, each.Q, each.drawn_as, BESIDE) if self._covers(each) else each for each in placed)
+        return tuple(TwoForceMember(each.P, each.Q, each.drawn_as, BESIDE) if self._covers(each) else each for each in placed)
 
-    def _covers(self, hung: Hung) -> bool:
+    def _covers(self, member: TwoForceMember) -> bool:
         """Return whether a member on its points' line lies along a body, at all poses."""
-        if hung.aside or not self._whole.reached:
+        if member.aside or not self._whole.reached:
             return False
-        return any(self._lies_along(hung, points) for points in self.bodies if not {hung.P, hung.Q} <= set(points))
+        return any(self._lies_along(member, points) for points in self.bodies if not {member.P, member.Q} <= set(points))
 
     @cached_property
     def _whole(self) -> Scene:
         """The scene of the motion that goes furthest: what holds at its poses holds whatever poses are shown."""
         return self if self.over is None else Scene(self.over)
 
-    def _lies_along(self, hung: Hung, points: tuple[str, ...]) -> bool:
+    def _lies_along(self, member: TwoForceMember, points: tuple[str, ...]) -> bool:
         """Return whether two points of a body stand on a member's line, and a good part of it between them."""
         for at in self._whole.some(5):
-            P, along = at[hung.P], at[hung.Q] - at[hung.P]
+            P, along = at[member.P], at[member.Q] - at[member.P]
             length = float(np.hypot(*along))
             if not length > 0.0:
                 return False
@@ -367,37 +367,37 @@ class Scene:
         return True
 
     @cached_property
-    def rams(self) -> tuple[Ram, ...]:
+    def cylinders(self) -> tuple[DrawnCylinder, ...]:
         """The cylinders."""
-        return tuple(self._ram(each) for each in self.hung if each.drawn_as == "cylinder" and not self._is_telescope(each))
+        return tuple(self._cylinder(each) for each in self.two_force if each.drawn_as == "cylinder" and not self._is_telescope(each))
 
-    def _is_telescope(self, hung: Hung) -> bool:
+    def _is_telescope(self, member: TwoForceMember) -> bool:
         """Return whether a cylinder comes out farther than one stage can."""
-        short, long = self._lengths(hung.P, hung.Q)
-        return hung.drawn_as == "cylinder" and bool(long) and stages(short, long) > 1
+        short, long = self._lengths(member.P, member.Q)
+        return member.drawn_as == "cylinder" and bool(long) and stages(short, long) > 1
 
-    def _ram(self, hung: Hung) -> Ram:
+    def _cylinder(self, member: TwoForceMember) -> DrawnCylinder:
         """Return a cylinder whose piston stays in its barrel over the stroke, as far as its lengths allow."""
-        aside, (short, long) = hung.aside * self.size, self._lengths(hung.P, hung.Q)
+        aside, (short, long) = member.aside * self.size, self._lengths(member.P, member.Q)
         if not long:
-            return Ram(hung.P, hung.Q, aside)
+            return DrawnCylinder(member.P, member.Q, aside)
         size = min(self.size, 0.12 * short)
         bottom, least = 1.4 * size, 2.0 * size
         mouth = float(np.clip(least + long - short + 1.5 * size, 0.68 * short, max(0.68 * short, short - 1.2 * size)))
-        return Ram(hung.P, hung.Q, aside, bottom, mouth, short - least, least, mouth - 0.9 * size)
+        return DrawnCylinder(member.P, member.Q, aside, bottom, mouth, short - least, least, mouth - 0.9 * size)
 
     @cached_property
     def straights(self) -> tuple[DrawnMark, ...]:
         """Springs, dampers, struts and telescopes as lines, the yokes of all that stands beside its pins, and accumulators."""
         found = []
-        for hung in self.hung:
-            short, long = self._lengths(hung.P, hung.Q)
-            shape = nested_tubes if self._is_telescope(hung) else OUTLINES.get(hung.drawn_as)
-            aside = hung.aside * self.size
+        for member in self.two_force:
+            short, long = self._lengths(member.P, member.Q)
+            shape = nested_tubes if self._is_telescope(member) else OUTLINES.get(member.drawn_as)
+            aside = member.aside * self.size
             lines = [line.moved(aside) for line in shape(short, long, self.size)] if shape and long else []
             lines += yokes(aside, self.size) if aside else ()
             if lines:
-                found.append(DrawnMark(hung.P + hung.Q, (hung.P, hung.Q), tuple(lines)))
+                found.append(DrawnMark(member.P + member.Q, (member.P, member.Q), tuple(lines)))
         return (*found, *self.fed)
 
     @cached_property
@@ -405,22 +405,22 @@ class Scene:
         """The accumulators of gas-fed lines, each on its cylinder's barrel, on the side where there is room."""
         found = []
         for _, glyph in self.glyphs:
-            hung = next((each for each in self.hung if {each.P, each.Q} == set(glyph.points) and each.drawn_as == "cylinder"), None)
-            if glyph.drawn_as == "accumulator" and hung is not None:
-                start = min(2.6 * self.size, 0.3 * self._lengths(hung.P, hung.Q)[0])
-                side = self._free_side(hung)
-                across = (hung.aside + side * HALF["cylinder"] * 0.85) * self.size
+            member = next((each for each in self.two_force if {each.P, each.Q} == set(glyph.points) and each.drawn_as == "cylinder"), None)
+            if glyph.drawn_as == "accumulator" and member is not None:
+                start = min(2.6 * self.size, 0.3 * self._lengths(member.P, member.Q)[0])
+                side = self._free_side(member)
+                across = (member.aside + side * HALF["cylinder"] * 0.85) * self.size
                 lines = accumulators(min(max(glyph.count, 1), MOST_SHOWN), start, across, self.size)
-                found.append(DrawnMark(hung.P + hung.Q, (hung.P, hung.Q), lines))
+                found.append(DrawnMark(member.P + member.Q, (member.P, member.Q), lines))
         return tuple(found)
 
-    def _free_side(self, hung: Hung) -> float:
+    def _free_side(self, member: TwoForceMember) -> float:
         """Return 1 where the left of P -> Q is freer than its right, else -1."""
         left = right = 0
         for at in self.some(5):
-            along = at[hung.Q] - at[hung.P]
-            others = [place for name, place in at.items() if name not in (hung.P, hung.Q) and np.isfinite(place).all()]
-            sides = [float(along[0] * (place - at[hung.P])[1] - along[1] * (place - at[hung.P])[0]) for place in others]
+            along = at[member.Q] - at[member.P]
+            others = [place for name, place in at.items() if name not in (member.P, member.Q) and np.isfinite(place).all()]
+            sides = [float(along[0] * (place - at[member.P])[1] - along[1] * (place - at[member.P])[0]) for place in others]
             left += sum(each > 0.0 for each in sides)
             right += sum(each < 0.0 for each in sides)
         return 1.0 if left < right else -1.0
@@ -528,7 +528,7 @@ class Scene:
     @cached_property
     def marks(self) -> tuple[DrawnMark, ...]:
         """All that is drawn as lines on points: what stands around, contours, blocks, cylinders, elements, the signs of loads."""
-        cylinders = [ram.mark(self.size) for ram in self.rams]
+        cylinders = [cylinder.mark(self.size) for cylinder in self.cylinders]
         return (*self.surroundings, *self.contours, *self.sections, *self.blocks, *cylinders, *self.straights, *self.load_marks)
 
     @cached_property
@@ -545,7 +545,7 @@ class Scene:
     @cached_property
     def stays(self) -> tuple[tuple[str, str], ...]:
         """Pairs that a construction joins and no body does: drawn as thin lines."""
-        bodies = [set(body.points) for body in self.motion.plan.links] + [{each.P, each.Q} for each in self.hung]
+        bodies = [set(body.points) for body in self.motion.plan.links] + [{each.P, each.Q} for each in self.two_force]
         pairs = [(point.hangs_from, name) for name, point in self.motion.plan.points.items() if point.hangs_from]
         return tuple((P, X) for P, X in pairs if not any({P, X} <= body for body in bodies))
 
@@ -553,7 +553,7 @@ class Scene:
     def _uses(self) -> Counter[str]:
         """How many bodies, cylinders and straight elements each point belongs to."""
         uses = Counter(point for points in self.bodies for point in points)
-        uses.update(end for each in self.hung for end in (each.P, each.Q))
+        uses.update(end for each in self.two_force for end in (each.P, each.Q))
         uses.update(rider for track in self.tracks for rider in track.riders)
         return uses
 
@@ -695,11 +695,11 @@ def united(bodies: list[tuple[str, ...]]) -> Iterator[tuple[tuple[str, ...], ...
             yield one, other, third
 
 
-def side_by_side(members: list[Hung]) -> list[Hung]:
+def side_by_side(members: list[TwoForceMember]) -> list[TwoForceMember]:
     """Return members on the same two points side by side about the line between these; a single one stays on it."""
     middle = 0.5 * (len(members) - 1)
     placed = []
     for place, each in enumerate(members):
         sense = 1.0 if each.P == members[0].P else -1.0
-        placed.append(Hung(each.P, each.Q, each.drawn_as, sense * APART * (middle - place)))
+        placed.append(TwoForceMember(each.P, each.Q, each.drawn_as, sense * APART * (middle - place)))
     return placed

@@ -109,7 +109,7 @@ def test_joints_and_their_forces(which):
 def test_the_drawing_has_the_same_rods_and_pins(which):
     one, other = (Scene(motion(cls)) for cls in ALL[which])
     assert set(map(frozenset, one.bodies)) == set(map(frozenset, other.bodies))
-    assert {(each.P, each.Q) for each in one.hung} == {(each.P, each.Q) for each in other.hung}
+    assert {(each.P, each.Q) for each in one.two_force} == {(each.P, each.Q) for each in other.two_force}
     assert (set(one.pins), set(one.dots), set(one.grounds)) == (set(other.pins), set(other.dots), set(other.grounds))
     assert [each.on for each in one.sections] == [each.on for each in other.sections]
     assert one.stays == other.stays == ()

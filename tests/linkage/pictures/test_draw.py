@@ -192,7 +192,7 @@ def test_bodies_and_grounds_are_those_of_the_plan():
     assert set(straight) == {"E", "F"}
     assert set(scene.grounds) == set("AOEM")
     assert scene.dots == ("G",)
-    assert [(ram.P, ram.Q) for ram in scene.rams] == [("A", "B")]
+    assert [(ram.P, ram.Q) for ram in scene.cylinders] == [("A", "B")]
 
 
 def test_a_polygon_body_is_its_hull():
@@ -204,7 +204,7 @@ def test_a_polygon_body_is_its_hull():
 def test_primitives_show_their_rods_and_cylinders():
     bare, declared = (Scene(one_motion(cls)) for cls in (Construction, Constructed))
     assert bare.bodies == declared.bodies == (("O", "B"),)
-    assert [(ram.P, ram.Q) for ram in bare.rams] == [("A", "B")]
+    assert [(ram.P, ram.Q) for ram in bare.cylinders] == [("A", "B")]
     assert (bare.stays, bare.pins, bare.dots) == ((), ("A", "O", "B"), ())
 
 
@@ -220,7 +220,7 @@ def test_the_piston_stays_in_the_barrel_and_travels_the_stroke(cls, ram):
     machine = cls()
     corners = machine.at(**{name: [stroke.start, stroke.end] for name, stroke in machine.strokes.items()})
     scene = Scene(corners)
-    cylinder = scene.rams[ram]
+    cylinder = scene.cylinders[ram]
     short, long = corners.distance(cylinder.P, cylinder.Q)
     pistons = []
     for length in (short, long):

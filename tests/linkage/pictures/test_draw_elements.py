@@ -158,7 +158,7 @@ def test_every_element_reaches_from_pin_to_pin_at_every_pose(cls):
     motion, drawing = drawn(cls)
     scene = drawing.scene
     hung = {frozenset(each.ends) for each in motion.plan.of_kind(TwoPoint).values()}
-    assert hung <= {frozenset((each.P, each.Q)) for each in scene.hung}
+    assert hung <= {frozenset((each.P, each.Q)) for each in scene.two_force}
     for pose in range(5):
         drawing.update(pose)
         for part in elements(drawing):
@@ -209,12 +209,12 @@ def test_a_dampers_plate_stays_in_its_pot():
 def test_elements_on_the_same_pins_stand_side_by_side():
     motion, drawing = drawn(Shared)
     scene = drawing.scene
-    aside = {each.drawn_as: each.aside * (1.0 if each.P == "K" else -1.0) for each in scene.hung}
+    aside = {each.drawn_as: each.aside * (1.0 if each.P == "K" else -1.0) for each in scene.two_force}
     assert sorted(aside) == ["cylinder", "damper", "spring"]
     (low, one), (_, two), (high, three) = sorted((place, HALF[kind]) for kind, place in aside.items())
     assert_allclose(low + high, 0.0)
     assert high - low > one + 2.0 * two + three  # none covers another
-    (ram,) = scene.rams
+    (ram,) = scene.cylinders
     assert_allclose(ram.aside, aside["cylinder"] * scene.size)
     drawing.update(2)
     K, B = motion["K"][:, 2], motion["B"][:, 2]
@@ -230,21 +230,21 @@ def test_elements_on_the_same_pins_stand_side_by_side():
 
 def test_a_spring_beside_the_driven_cylinder_and_a_cylinder_of_its_own():
     scene = Scene(Helped().sweep(5))
-    assert [({ram.P, ram.Q}, ram.aside != 0.0) for ram in scene.rams] == [({"A", "B"}, True), ({"O", "D"}, False)]
-    assert [each.drawn_as for each in scene.hung if {each.P, each.Q} == {"A", "B"}] == ["cylinder", "spring"]
+    assert [({ram.P, ram.Q}, ram.aside != 0.0) for ram in scene.cylinders] == [({"A", "B"}, True), ({"O", "D"}, False)]
+    assert [each.drawn_as for each in scene.two_force if {each.P, each.Q} == {"A", "B"}] == ["cylinder", "spring"]
 
 
 @pytest.mark.parametrize("cls", [ThreePointHitch, HeaderBalancer])
 def test_the_cylinder_declared_on_a_driven_length_is_drawn_once(cls):
     scene = Scene(cls().sweep(5))
-    assert [(ram.P, ram.Q, ram.aside) for ram in scene.rams] == [("A", "B", 0.0)]
+    assert [(ram.P, ram.Q, ram.aside) for ram in scene.cylinders] == [("A", "B", 0.0)]
     assert scene.straights == scene.fed
     assert len(scene.fed) == (cls is HeaderBalancer)
 
 
 def test_a_gas_fed_cylinder_beside_a_crank_is_a_cylinder():
     scene = Scene(Floating().sweep(5))
-    assert [(ram.P, ram.Q) for ram in scene.rams] == [("K", "B")]
+    assert [(ram.P, ram.Q) for ram in scene.cylinders] == [("K", "B")]
 
 
 def test_the_ends_of_elements_are_pins_and_stand_on_the_ground():
@@ -260,7 +260,7 @@ def test_the_ends_of_elements_are_pins_and_stand_on_the_ground():
 def test_a_users_own_is_a_strut_unless_it_says_otherwise():
     own = type("Own", (Jib,), {"chain": Chain("K", "T"), "gas": GasStrut("P", "T"), "law": Between("P", "B", lambda length, rate: -length)})
     scene = Scene(own().sweep(3))
-    assert {each.P + each.Q: each.drawn_as for each in scene.hung} == {"KT": "strut", "PT": "cylinder", "PB": "strut"}
+    assert {each.P + each.Q: each.drawn_as for each in scene.two_force} == {"KT": "strut", "PT": "cylinder", "PB": "strut"}
     with pytest.raises(DefinitionError, match=r"Wrong: drawn_as='zigzag' is none of strut, spring, damper, cylinder"):
         type("Wrong", (Chain,), {"drawn_as": "zigzag"})
 

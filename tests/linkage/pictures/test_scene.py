@@ -154,7 +154,7 @@ class Ramp(Mechanism):
 def test_a_long_stroke_is_a_telescope_of_nested_tubes():
     motion, drawing = drawn(Ramp, 9)
     scene = drawing.scene
-    assert scene.rams == ()
+    assert scene.cylinders == ()
     (part,) = [part for part in parts(drawing, MarkPart) if part.mark in scene.straights]
     widths, tips = [], []
     for pose in range(9):
@@ -191,7 +191,7 @@ def test_sections_come_out_of_the_body_that_they_slide_in():
 
 def test_a_cylinder_along_a_bar_hangs_beside_it():
     scene = drawn(Crane)[1].scene
-    asides = {(ram.P, ram.Q): ram.aside for ram in scene.rams}
+    asides = {(ram.P, ram.Q): ram.aside for ram in scene.cylinders}
     assert asides.pop(("R", "T")) > 2.0 * scene.size
     assert set(asides.values()) == {0.0} and len(asides) == 2
 

@@ -116,7 +116,7 @@ def openness(scene: Scene) -> FloatArray:
 def angle_arms(scene: Scene) -> Iterator[tuple[FloatArray, FloatArray]]:
     """Yield the arms of every angle between two bodies at a pin that they share, or one of them and the frame or a track."""
     at = scene.places | scene.rims
-    bodies = [*scene.bodies, *({each.P, each.Q} for each in scene.hung), scene.grounds]
+    bodies = [*scene.bodies, *({each.P, each.Q} for each in scene.two_force), scene.grounds]
     bodies += [(rider, track.ends[1]) for track in scene.tracks for rider in track.riders]
     for one, other in combinations(bodies, 2):
         for pin in set(one) & set(other):

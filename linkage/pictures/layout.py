@@ -22,7 +22,7 @@ SYMBOL = [(u, v) for u in (1.2, 1.8, 2.4, 3.0, 3.6, 4.2) for v in ACROSS if u > 
 
 def cloud(scene: Scene, at: Places) -> FloatArray:
     """Return points that cover what is drawn at a pose, shape (m, 2) [m]: where no label should stand."""
-    pairs = [*((each.P, each.Q, each.half) for each in scene.hung), *((P, X, 0.0) for P, X in scene.stays)]
+    pairs = [*((each.P, each.Q, each.half) for each in scene.two_force), *((P, X, 0.0) for P, X in scene.stays)]
     pairs += [(*track.ends, 1.2) for track in scene.tracks]
     corners = [plate.at(at) for plate in scene.plates]
     edges = [(P, Q) for each in corners if np.isfinite(each).all() for P, Q in zip(each, np.roll(each, -1, axis=0), strict=True)]

@@ -28,7 +28,7 @@ from linkage.loads import Poses
 from linkage.loads.element import value_text
 from linkage.program import is_traced
 from linkage.quantities import Dimension, Quantity, spelled
-from linkage.units import UNITS, cm3, litre, show, unit_or_none
+from linkage.units import cm3, litre, show, unit_or_none, units_of
 from linkage.verdict import Verdict
 
 from .files import GasLaw
@@ -169,8 +169,6 @@ def effective(charges: Sequence[Array], vessels: Sequence[Array]) -> tuple[Array
     return tuple(found)
 
 
-PRESSURES = tuple(name for name, (_, measures) in UNITS.items() if measures == "pressure")
-
 ROUNDING = 1e-12
 """Relative; a line charged to the lowest gas charge is not below it for a last digit."""
 
@@ -211,7 +209,7 @@ class AccumulatorBlock:
                 raise DefinitionError(f"{cited(one)} is no Accumulator; write Accumulator(volume, charge).")
         if not isinstance(self.gas, Gas):
             raise DefinitionError(f"gas = {cited(self.gas)} is no gas law; take isothermal, adiabatic, polytropic(1.2) or real_nitrogen().")
-        unit_or_none(self.unit, "The accumulator block", PRESSURES)
+        unit_or_none(self.unit, "The accumulator block", units_of("pressure"))
         if not follows(self.atmosphere) and np.any(one_atmosphere(self.atmosphere) < 0.0):
             raise DefinitionError(f"Atmosphere = {self.atmosphere:.6g} Pa is below zero; give 101325, or 0 for the paper's way.")
         if not follows(self.atmosphere):
@@ -241,7 +239,7 @@ class AccumulatorBlock:
         charges = following(*(one.charge for one in self.accumulators))
         names = {name for charge in charges for name in motion.plan.reaches(charge.name or charge)}
         units = [member.unit for name, member in motion.plan.of_kind(Dimension).items() if name in names]
-        return next((unit for unit in units if unit in PRESSURES), "")
+        return next((unit for unit in units if unit in units_of("pressure")), "")
 
     def __str__(self) -> str:
         vessels = ", ".join(map(str, self.accumulators))
@@ -329,7 +327,7 @@ class AccumulatorBlock:
         the block's own.
         DefinitionError for `p_min` above `p_max`, an unknown unit.
         """
-        unit_or_none(unit, "checks(unit=...)", PRESSURES)
+        unit_or_none(unit, "checks(unit=...)", units_of("pressure"))
         given = (one_number(pressure, "Pressure") for pressure in (p_min, p_max, allowed))
         low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in given)
         line = WorkingRange(low, high, limit, self.atmosphere, unit or self._unit)

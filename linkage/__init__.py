@@ -10,7 +10,9 @@ from pathlib import Path
 from . import shown as _shown
 
 _LINES = Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
-_ROOMS = {name: room for room, name in re.findall(r"^from (\.\w+) import (\w+)", _LINES, re.MULTILINE)}
+_ROOMS = {name: room for room, name in re.findall(r"^from ([\w.]+) import (\w+)", _LINES, re.MULTILINE)}
+_HEAVY = ("pictures", "formulas", "documents", "exports")
+"""Rooms with Matplotlib or SymPy behind them, which are loaded when a function of theirs is first called."""
 __all__ = [*_ROOMS]
 
 _shown.load_writer = lambda: import_module(".notebook", __name__).html_of  # type: ignore[no-any-return]
@@ -20,7 +22,10 @@ def __getattr__(name: str) -> object:
     """Return a name of the door, from then on there; AttributeError for any other."""
     if name not in _ROOMS:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    globals()[name] = found = getattr(import_module(_ROOMS[name], __name__), name)
+    room = _ROOMS[name]
+    late = room.split(".")[1] in _HEAVY
+    found = import_module(".doors", __name__).late(room, name) if late else getattr(import_module(room, __name__), name)
+    globals()[name] = found
     return found
 
 

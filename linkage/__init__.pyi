@@ -1,13 +1,6 @@
 """The names of the front door, each with the room it comes from: what type checkers read, and `__init__.py` too."""
 
-from .doors import animate as animate
-from .doors import draw as draw
-from .doors import equations as equations
-from .doors import export as export
-from .doors import optimise as optimise
-from .doors import page as page
-from .doors import plot as plot
-from .doors import report as report
+from .documents.reporting import report as report
 from .errors import AssemblyError as AssemblyError
 from .errors import DefinitionError as DefinitionError
 from .errors import FileError as FileError
@@ -15,6 +8,8 @@ from .errors import LinkageError as LinkageError
 from .errors import SingularError as SingularError
 from .errors import SingularWarning as SingularWarning
 from .errors import StudyError as StudyError
+from .exports.export import export as export
+from .formulas.numbered import equations as equations
 from .loads import Acting as Acting
 from .loads import Actuator as Actuator
 from .loads import Between as Between
@@ -47,6 +42,10 @@ from .motion import ratio as ratio
 from .motion import reachable as reachable
 from .motion import transmission as transmission
 from .motion import worst as worst
+from .pictures.browser import page as page
+from .pictures.draw import draw as draw
+from .pictures.draw import plot as plot
+from .pictures.film import animate as animate
 from .quantities import Curve as Curve
 from .quantities import Dimension as Dimension
 from .quantities import Stroke as Stroke
@@ -82,6 +81,7 @@ from .steps import Vector as Vector
 from .steps import YokeDyad as YokeDyad
 from .steps import drawn as drawn
 from .study import around as around
+from .study.optimise import optimise as optimise
 from .surroundings import Outline as Outline
 from .units import MPa as MPa
 from .units import bar as bar

@@ -30,7 +30,7 @@ from .language import said
 from .mechanism import Mechanism
 from .motion import Column, Motion, columns_of
 from .motion.limits import Limits
-from .pictures import draw_modes, draw_optimum, page_html
+from .pictures import draw, page_html
 from .pictures.dimensioned import dimensioned
 from .pictures.sheet import Picture
 from .reports import NOTHING, design_rows, stroke_rows
@@ -202,13 +202,13 @@ def _(verdict: Verdict) -> str:
 @html_of.register
 def _(several: ShownList) -> str:  # type: ignore[type-arg]
     if several and all(isinstance(each, Assembly) for each in several):
-        return inline_svg(draw_modes(several)) + html_table(("code",), ([each.code] for each in several if each.code))
+        return inline_svg(draw(several)) + html_table(("code",), ([each.code] for each in several if each.code))
     return "".join(html_of(each) if isinstance(each, Shown) else f"<div>{escape(str(each))}</div>" for each in several)
 
 
 @html_of.register
 def _(mode: Assembly) -> str:
-    return inline_svg(draw_modes([mode])) if mode.plan is not None else html_text_block(str(mode))
+    return inline_svg(draw([mode])) if mode.plan is not None else html_text_block(str(mode))
 
 
 @html_of.register
@@ -226,7 +226,7 @@ def _(found: Survey) -> str:
 
 @html_of.register
 def _(best: Optimum) -> str:
-    return html_text_block(str(best)) + inline_svg(draw_optimum(best))
+    return html_text_block(str(best)) + inline_svg(draw(best))
 
 
 @html_of.register

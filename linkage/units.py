@@ -98,7 +98,7 @@ gal = 231 * inch**3  # the US liquid gallon
 cm3 = 1e-6
 cm2 = 1e-4
 
-#: name -> (factor to SI, what it measures)
+#: name -> (factor to SI, what it measures); `add_unit` adds to it
 UNITS: dict[str, tuple[float, str]] = {
     "m": (m, "length"), "mm": (mm, "length"), "cm": (cm, "length"), "inch": (inch, "length"),
     "in": (inch, "length"), "ft": (ft, "length"),
@@ -120,6 +120,47 @@ UNITS: dict[str, tuple[float, str]] = {
     "m/s": (1.0, "speed"), "mm/s": (mm, "speed"), "in/s": (inch, "speed"),
     "rad/m": (1.0, "angle per length"),
 }  # fmt: skip
+
+
+SI: dict[str, str] = {
+    "length": "m", "angle": "rad", "time": "s", "mass": "kg", "force": "N", "moment": "Nm", "pressure": "Pa", "volume": "m3", "area": "m2",
+    "flow": "m3/s", "stiffness": "N/m", "power": "W", "speed": "m/s", "angle per length": "rad/m",
+}  # fmt: skip
+"""What each measure has in SI."""
+
+
+def add_unit(name: str, factor: float, measures: str, systems: Iterable[str] = ()) -> UnitFactor:
+    """Add a unit to the table, from then on known to classes, files and commands alike: `Ns_m = add_unit("N s/m", 1.0, "damping")`.
+
+    `factor` is its value in SI, `measures` what it measures, in words of one's own too; the first unit of such a measure is that of SI,
+    with the factor 1. In `systems` ("us") all values of that measure are shown in it. What comes back is its factor, `250 * Ns_m`.
+    Adding the same again changes nothing. DefinitionError for a name that means something else, or that cannot be read behind a number.
+    """
+    where = f"add_unit({cited(name)}, {cited(factor)}, {cited(measures)})"
+    is_word = isinstance(name, str) and name.isprintable() and not {*name}.intersection(",;()\"'")
+    match = _QUANTITY.fullmatch(f"1 {name}") if is_word else None
+    if match is None or match[2] != name:
+        raise DefinitionError(f"{where}: a unit is one or two words without digits in front and without commas, such as 'N s/m'.")
+    if not isinstance(measures, str) or not measures.strip() or not measures.isprintable():
+        raise DefinitionError(f"{where}: what it measures is expected in a word, such as 'damping'.")
+    if not isinstance(factor, (int, float)) or isinstance(factor, bool) or not 0.0 < factor < math.inf:
+        raise DefinitionError(f"{where}: its value in SI is expected, a number above zero.")
+    if UNITS.get(name, (factor, measures)) != (factor, measures):
+        known = UNITS[name]
+        raise DefinitionError(f"{where}: {name} is known already, as {known[0]:.9g} of SI for {known[1]}; choose another name.")
+    if measures not in SI and factor != 1.0:
+        raise DefinitionError(f"{where}: the first unit of {measures} is that of SI, with the factor 1; add it before.")
+    chosen = [known_name("System of units", each, SYSTEMS, where=where) for each in systems]
+    SI.setdefault(measures, name)
+    UNITS[name] = UnitFactor(factor, measures), measures
+    for each in chosen:
+        SYSTEMS[each][measures] = name
+    return UnitFactor(factor, measures)
+
+
+def units_of(measures: str) -> list[str]:
+    """Return the units of what is measured, "pressure"."""
+    return [name for name, (_, what) in UNITS.items() if what == measures]
 
 
 def factor(unit: str) -> float:
@@ -156,7 +197,7 @@ def parse(text: str, kind: str = "") -> float:
         raise unknown("Unit", unit, UNITS, where=repr(text))
     factor, measured = UNITS[unit]
     if kind and measured != kind:
-        valid = ", ".join(name for name, (_, what) in UNITS.items() if what == kind)
+        valid = ", ".join(units_of(kind))
         article = "an" if measured[0] in "aeiou" else "a"
         raise DefinitionError(f"{text!r} is {article} {measured} where a value of kind {kind} is wanted; use one of: {valid}.")
     return finite_value(float(float(number) * factor), text)
@@ -176,7 +217,7 @@ def unit_or_none(unit: object, where: str, among: Iterable[str] = UNITS) -> str:
 
 # -- one system of units for all that is shown -------------------------------------------------------------
 
-SYSTEMS: Mapping[str, Mapping[str, str]] = MappingProxyType({
+SYSTEMS: Mapping[str, dict[str, str]] = MappingProxyType({
     "si": {
         "length": "mm", "angle": "deg", "mass": "kg", "force": "kN", "moment": "kNm", "pressure": "MPa", "volume": "l", "area": "cm2",
         "flow": "l/min", "stiffness": "N/mm", "power": "kW", "speed": "mm/s",

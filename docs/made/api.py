@@ -15,7 +15,10 @@ ROOMS = {
     ".mechanism": "The mechanism",
     ".steps": "Points, links and guides",
     ".quantities": "Strokes, dimensions and outputs",
-    ".doors": "Pictures, pages, equations and searches",
+    ".pictures": "Pictures and pages",
+    ".documents": "Reports",
+    ".exports": "Files for other programs",
+    ".formulas": "Equations",
     ".motion": "Motions and what is asked of them",
     ".loads": "Loads and force elements",
     ".statics": "Forces",
@@ -68,7 +71,7 @@ def front_door() -> dict[str, list[str]]:
     """Return the names of the front door by the room that they come from."""
     lines = Path(str(import_module("linkage").__file__)).with_suffix(".pyi").read_text(encoding="utf-8")
     found: dict[str, list[str]] = {}
-    for room, name in re.findall(r"^from (\.\w+) import (\w+)", lines, re.MULTILINE):
+    for room, name in re.findall(r"^from (\.\w+)[\w.]* import (\w+)", lines, re.MULTILINE):
         found.setdefault(room, []).append(name)
     return found
 

@@ -106,11 +106,16 @@ def picture(given: str | None, machine: type[Mechanism], text: str, suffixes: Se
 
     Raises DefinitionError for a suffix that is not among them, FileError for a place that cannot be written.
     """
-    path = Path(given if given is not None else (text if text.isidentifier() else machine.__name__) + suffixes[0])
+    path = Path(given) if given is not None else default_path(machine, text, suffixes[0])
     if path.suffix.lower() not in suffixes:
         raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(suffixes)}, which chooses the format.")
     check_place(path)
     return path
+
+
+def default_path(machine: type[Mechanism], text: str, suffix: str) -> Path:
+    """Return the path of a file that is not named: the machine's name, in this folder."""
+    return Path((text if text.isidentifier() else machine.__name__) + suffix)
 
 
 def figure_path(options: Namespace, machine: type[Mechanism], command: str) -> Path | None:

@@ -7,21 +7,17 @@ import re
 import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Mapping
-from importlib.metadata import Distribution, EntryPoint, PackageNotFoundError, distribution, entry_points, version
+from importlib.metadata import Distribution, EntryPoint, PackageNotFoundError, distribution, version
 from importlib.util import find_spec
 from pathlib import Path
 from types import MappingProxyType
 from typing import final
 
+from .. import plugins
 from ..errors import DefinitionError
-from ..files.callables import REQUESTS_GROUP
-from ..files.registry import GROUP as FILES_GROUP
 from ..program.cache import cache_folder
 from .command import Command, lined_up
-from .entry import GROUP as COMMANDS_GROUP
 from .entry import PROGRAM, installed_version
-from .listing import GROUP as MACHINES_GROUP
-from .listing import guarded
 
 EXTRAS: Mapping[str, str] = MappingProxyType(
     {
@@ -36,14 +32,6 @@ EXTRAS: Mapping[str, str] = MappingProxyType(
     }
 )
 """What each extra is for."""
-GROUPS: Mapping[str, str] = MappingProxyType(
-    {
-        "machines": MACHINES_GROUP,
-        "commands": COMMANDS_GROUP,
-        "requests in files": REQUESTS_GROUP,
-        "members in files": FILES_GROUP,
-    }
-)
 BROKEN = 1
 _NAME = re.compile(r"[A-Za-z0-9][\w.-]*")
 _EXTRA = re.compile(r"""extra\s*==\s*['"]([^'"]+)['"]""")
@@ -140,14 +128,14 @@ def packages() -> Iterator[tuple[str, str, str]]:
 
 
 def entry_rows() -> Iterator[tuple[str, str, str]]:
-    """Yield what packages bring, group by group: how many, from which distribution, from where."""
-    for what, group in GROUPS.items():
-        homes: dict[tuple[str, str], int] = {}
-        for entry in entry_points(group=group):
-            home = home_of(entry)
-            homes[home] = homes.get(home, 0) + 1
-        for (name, where), count in homes.items():
-            yield f"{count} {what}", f"of {name}", where
+    """Yield what packages bring, group by group: how many, names where calls say them, from which distribution, from where."""
+    for group, what in plugins.GROUPS.items():
+        homes: dict[tuple[str, str], list[str]] = {}
+        for entry in plugins.entry_points(group).values():
+            homes.setdefault(home_of(entry), []).append(entry.name)
+        for (name, where), names in homes.items():
+            named = f": {', '.join(names)}" if group in (plugins.EXPORTERS, plugins.LANGUAGES, plugins.BACKENDS) else ""
+            yield f"{len(names)} {what}{named}", f"of {name}", where
 
 
 def home_of(entry: EntryPoint) -> tuple[str, str]:
@@ -160,9 +148,9 @@ def home_of(entry: EntryPoint) -> tuple[str, str]:
 
 def broken() -> Iterator[str]:
     """Yield what cannot be loaded, with its reason."""
-    for what, group in GROUPS.items():
-        for entry in entry_points(group=group):
+    for group, what in plugins.GROUPS.items():
+        for entry in plugins.entry_points(group).values():
             try:
-                guarded(entry.load, f"{entry.name} of the {what} ({entry.value})")
+                plugins.guarded(entry.load, f"{entry.name} of the {what} ({entry.value})")
             except DefinitionError as error:
                 yield " ".join(str(error).split())

@@ -8,9 +8,10 @@ import warnings
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from importlib.metadata import EntryPoint, PackageNotFoundError, entry_points, version
+from importlib.metadata import EntryPoint, PackageNotFoundError, version
 from typing import Any, NoReturn, TextIO, cast, final
 
+from .. import plugins
 from ..errors import DefinitionError, FileError, LinkageError, SingularWarning, unknown
 from ..language import ENGLISH, language, languages
 from ..units import SYSTEMS, unit_system
@@ -18,7 +19,6 @@ from .command import Command
 
 # The commands there are: the built-in ones, and those of other packages by entry point.
 
-GROUP = "hydrolinkage.commands"
 HOMES = {
     "list": "listing:ListCommand",
     "show": "show:ShowCommand",
@@ -36,7 +36,7 @@ HOMES = {
     "new": "new:NewCommand",
     "doctor": "doctor:DoctorCommand",
 }
-BUILT_IN = {name: EntryPoint(name, f"{__package__}.{home}", GROUP) for name, home in HOMES.items()}
+BUILT_IN = {name: EntryPoint(name, f"{__package__}.{home}", plugins.COMMANDS) for name, home in HOMES.items()}
 
 
 def commands_for(arguments: Sequence[str]) -> list[Command]:
@@ -47,7 +47,7 @@ def commands_for(arguments: Sequence[str]) -> list[Command]:
     word = arguments[0] if arguments and not arguments[0].startswith("-") else ""
     if word in BUILT_IN:
         return [load_command(BUILT_IN[word])]
-    added = {entry.name: entry for entry in entry_points(group=GROUP)}
+    added = plugins.entry_points(plugins.COMMANDS)
     if word in added:
         return [load_command(added[word])]
     if word:
@@ -57,12 +57,10 @@ def commands_for(arguments: Sequence[str]) -> list[Command]:
 
 def load_command(entry: EntryPoint) -> Command:
     """Return another package's command; DefinitionError where it cannot be loaded or is none."""
-    try:
-        found = entry.load()
-    except Exception as error:
-        raise DefinitionError(f"The command {entry.name} ({entry.value}) cannot be loaded: {type(error).__name__}: {error}") from error
+    title = f"The command {entry.name} ({entry.value})"
+    found = plugins.guarded(entry.load, title)
     if not (isinstance(found, type) and issubclass(found, Command)):
-        raise DefinitionError(f"The command {entry.name} ({entry.value}) is no subclass of linkage.cli.Command.")
+        raise DefinitionError(f"{title} is no subclass of linkage.cli.Command.")
     return found()
 
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
+from pathlib import Path
 from typing import Any, final
 
 import numpy as np
 
-from .command import Command, machine_arguments, picture, pose_count
+from .. import plugins
+from ..disk import check_place
+from .command import Command, default_path, machine_arguments, pose_count
 from .machines import find
 from .settings import design, stroke_values, tell_gaps
 
-ENDINGS_OF_FILES = (".xlsx", ".csv", ".dxf", ".svg")
+OWN_FORMATS = ("xlsx", "csv", "dxf", "svg")
 
 
 @final
@@ -23,7 +26,9 @@ class ExportCommand(Command):
 
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
-        parser.add_argument("-o", "--output", metavar="FILE", help=f"{', '.join(ENDINGS_OF_FILES)} (default: NAME.xlsx)")
+        parser.add_argument("-o", "--output", metavar="FILE", help=f"{', '.join(f'.{name}' for name in OWN_FORMATS)} (default: NAME.xlsx)")
+        formats = ", ".join([*OWN_FORMATS, *plugins.entry_points(plugins.EXPORTERS)])
+        parser.add_argument("--format", metavar="NAME", help=f"{formats}: one of them, whatever the file's name ends in")
         parser.add_argument("--count", metavar="N", type=pose_count, default=101, help="poses over the stroke (default 101)")
         parser.add_argument(
             "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
@@ -35,15 +40,17 @@ class ExportCommand(Command):
 
     def run(self, options: Namespace) -> int:
         found = find(options.machine)
-        path = picture(options.output, found, options.machine, ENDINGS_OF_FILES)
+        from ..exports import ExportJob, export, exporter_of
+
+        exporter = exporter_of(Path(options.output or "x.xlsx"), options.format)
+        path = Path(options.output) if options.output is not None else default_path(found, options.machine, exporter.suffix)
+        check_place(path)
         machine = design(found, options.settings)
         at: dict[str, Any] = dict(stroke_values(machine.plan, text) for text in options.strokes)
         if options.poses is not None:
             first = next((name for name in machine.strokes if name not in at), None)
             if first is not None:
                 at[first] = np.linspace(machine.strokes[first].start, machine.strokes[first].end, options.poses)
-        from ..exports import export, exported_motion
-
-        tell_gaps(exported_motion(machine, path, at, options.count))
-        print(export(machine, path, at=at, count=options.count, trace=options.path))
+        tell_gaps(exporter.poses(ExportJob(machine, path.name, at, options.count, options.path, ())))
+        print(export(machine, path, format=options.format, at=at, count=options.count, trace=options.path))
         return 0

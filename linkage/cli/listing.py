@@ -5,32 +5,31 @@ from __future__ import annotations
 import ast
 import re
 import sys
-import traceback
 from argparse import ArgumentParser, Namespace
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from importlib.machinery import PathFinder
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint
 from importlib.util import find_spec, resolve_name
 from inspect import cleandoc
 from pathlib import Path
 from shutil import get_terminal_size
 from textwrap import wrap
-from typing import Any, final
+from typing import final
 
-from ..errors import DefinitionError, LinkageError
+from .. import plugins
+from ..errors import DefinitionError
+from ..plugins import guarded
 from .command import Command
 from .entry import BUILT_IN, PROGRAM
-from .entry import GROUP as COMMANDS_GROUP
 
-GROUP = "hydrolinkage.machines"
 OWN = "A machine of your own is written package.module:Class, file.py, file.py:Class, file.toml or file.json."
 
 
-def registered() -> dict[str, EntryPoint]:
+def registered() -> Mapping[str, EntryPoint]:
     """Return the installed machines by name."""
-    return {entry.name: entry for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name)}
+    return plugins.entry_points(plugins.MACHINES)
 
 
 @final
@@ -89,8 +88,7 @@ def group_title(entry: EntryPoint, package: str) -> str:
 
 def commands() -> Iterator[tuple[str, str]]:
     """Yield the commands by name, with what they say of themselves; none of them is loaded."""
-    added = {entry.name: entry for entry in entry_points(group=COMMANDS_GROUP)}
-    for name, entry in {**BUILT_IN, **added}.items():
+    for name, entry in {**BUILT_IN, **plugins.entry_points(plugins.COMMANDS)}.items():
         yield name, attribute(entry.module, entry.attr, "help") or ""
 
 
@@ -195,20 +193,3 @@ def source_file(module: str) -> Path | None:
         return None
     return Path(spec.origin) if spec and spec.origin and spec.origin.endswith(".py") else None
 
-
-def guarded(load: Callable[[], Any], what: str) -> Any:
-    """Return what is loaded; whatever goes wrong in a user's module becomes a DefinitionError with its line."""
-    try:
-        return load()
-    except FileNotFoundError as error:
-        raise DefinitionError(f"{what}: {error.strerror or error}.") from error
-    except SyntaxError as error:
-        raise DefinitionError(f"{what} cannot be loaded: {error.filename}, line {error.lineno}: {error.msg}.") from error
-    except LinkageError as error:
-        raise DefinitionError(f"{what} cannot be loaded: {error}") from error
-    except KeyboardInterrupt:
-        raise
-    except BaseException as error:  # a script that leaves by sys.exit is one as well
-        last = traceback.extract_tb(error.__traceback__)[-1]
-        where = "" if last.filename.startswith("<") else f" ({last.filename}, line {last.lineno})"
-        raise DefinitionError(f"{what} cannot be loaded: {type(error).__name__}: {error}{where}.") from error

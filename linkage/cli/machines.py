@@ -12,9 +12,10 @@ from typing import Any, TypeVar
 from ..errors import DefinitionError, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism, declared
+from ..plugins import guarded
 from ..quantities import Member
 from ..surroundings import Outline
-from .listing import OWN, guarded, registered
+from .listing import OWN, registered
 
 Kind = TypeVar("Kind", bound=Mechanism)
 

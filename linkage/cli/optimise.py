@@ -132,14 +132,14 @@ def tell_optimum(search: SearchFile, found: Optimum) -> None:
 
 def optimum_writers(found: Optimum, rounded: Rounded | None) -> Mapping[str, Callable[[Path], object]]:
     """Return what writes each kind of result."""
-    from ..pictures import draw_optimum, plot_optimum
+    from ..pictures import draw, plot
 
     best = rounded.machine if rounded is not None and rounded.feasible else found.machine
     return {
         "table": lambda path: found.csv(path, rounded),
         "designs": lambda path: found.designs_csv(path) if path.suffix.lower() == ".csv" else found.designs_jsonl(path),
-        "drawing": lambda path: draw_optimum(found).savefig(path),
-        "curves": lambda path: plot_optimum(found).savefig(path),
+        "drawing": lambda path: draw(found).savefig(path),
+        "curves": lambda path: plot(found).savefig(path),
         "machine": lambda path: save(best, path),
     }
 

@@ -89,9 +89,9 @@ def show_modes(machine: Mechanism, at: dict[str, float], path: Path | None) -> i
         said = ", ".join([*([str(mode)] * bool(str(mode))), *(["as declared"] * mode.is_declared)])
         print_section(f"{number}. {said}", mode.code.splitlines() or ["(no line changes)"])
     if path is not None:
-        from ..pictures import draw_modes
+        from ..pictures import draw
 
-        draw_modes(modes).savefig(path)
+        draw(modes).savefig(path)
         print(f"{path}: {len(modes)} assembly mode{'s' if len(modes) != 1 else ''}.")
     return 0
 

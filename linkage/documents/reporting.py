@@ -37,14 +37,46 @@ from .run import ReportSubject
 WRITERS: Mapping[str, Callable[[Document, Path], None]] = {".html": write_html, ".pdf": write_pdf, ".md": write_markdown}
 
 
-def report(machine: Mechanism, path: str | Path, *, language: str | None = None, units: str | None = None, **given: Any) -> Path:
-    """Return the path of the report it wrote, .html, .pdf or .md; `given` are the other arguments of `linkage.report`."""
+def report(
+    machine: Mechanism,
+    path: str | Path,
+    *,
+    language: str | None = None,
+    units: str | None = None,
+    case: Any = None,
+    over: Any = None,
+    acting: Acting | None = None,
+    at: Mapping[str, Any] = NOTHING,
+    count: int = 11,
+    columns: Sequence[str] | None = None,
+    trace: Sequence[str] | None = None,
+    limits: Mapping[str, Sequence[Any]] | None = None,
+    title_block: Mapping[str, str] = NOTHING,
+    start: int = 1,
+) -> Path:
+    """Return the path of the calculation report it wrote: .html, in one file; .pdf, A4; or .md with its pictures in FILE_files.
+
+    It has the inputs with units and sources, drawings with dimensions, the numbered equations with numbers filled in, from `start` on,
+    tables and curves, the largest pin forces, limits of motion, checks with their measured figures, verdicts, the version and a hash of
+    the inputs. The same inputs give the same bytes. Tables and curves run along one stroke; what is judged, the verdicts, the largest
+    forces and the worst places, is over all that the machine runs, its `overs` or what is given as `over`.
+
+    `language` ("en", "ru") and `units` ("si", "bar-mm", "kgf", "us") are those that hold already unless named. `case` names one load
+    case; without it all are looked at, or `acting` says loads, case and direction in one. `at` holds strokes or says between which
+    values one runs [m or rad], as for `animate`; `count` is the number of rows of the tables, `columns` the results shown, `trace` the
+    points whose paths are drawn, `limits` as `plot` takes them. `title_block` adds rows to the title block, `{"Checked by": "N. N.",
+    "Date": "2026-05-01"}`. What stood at the path is replaced whole. Raises DefinitionError for a batch of designs, another kind of file
+    or an unknown name, AssemblyError where no pose is in reach.
+    """
     check_name(path)
     place = Path(path)
     if place.suffix.lower() not in WRITERS:
         raise DefinitionError(f"{cited(str(path))}: a report's name ends in one of {', '.join(WRITERS)}, which chooses the format.")
     check_place(place)
-    document = report_document(machine, language=language, units=units, **given)
+    document = report_document(
+        machine, language=language, units=units, case=case, at=at, over=over, acting=acting, count=count, columns=columns, trace=trace,
+        limits=limits, title_block=title_block, start=start,
+    )  # fmt: skip
     with speaking(language, units):
         WRITERS[place.suffix.lower()](document, place)
     return place

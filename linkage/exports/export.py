@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import io
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
+from .. import plugins
 from ..disk import Place, check_name, check_place, replacing
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, columns_of
 from ..pictures.strokes import stroke_words
+from ..plugins import Plugins
 from ..reports import NOTHING, first_stroke, results, run_of, stroke_middles, write_csv
 from .calculation import Calculation, reached_somewhere
 from .drawing_dxf import dxf
@@ -21,45 +25,198 @@ from .drawing_svg import svg
 from .geometry import PoseDrawing, path_parts, pose_parts
 from .workbook import check_count, workbook
 
-ENDINGS = (".xlsx", ".csv", ".dxf", ".svg")
 MOST_ROWS, ROW = 500_000, 2000
 """The rows of a table that is written, and about how many bytes one takes on its way."""
 MOST_POSES = 50
 """More poses in one drawing are no drawing any more."""
 
 
+@final
+@dataclass(frozen=True, eq=False)
+class ExportJob:
+    """What is to be written: a machine or a motion, the file's name, and what `export` was told beside them."""
+
+    what: Mechanism | Motion
+    name: str
+    at: Mapping[str, Any]
+    count: int
+    trace: Sequence[str]
+    columns: Sequence[Column]
+
+    @property
+    def motion(self) -> Motion:
+        """The poses: of a motion its own; of a machine those at the values that `at` gives, else at the start of the first stroke.
+
+        Strokes that are not named stand in their middle. NaN where a pose cannot be assembled; AssemblyError where none can.
+        """
+        if isinstance(self.what, Motion):
+            return self.what
+        return reached_somewhere(self.what.at(unreachable="nan", **drawn_strokes(self.what, self.at)))
+
+
+class Exporter(ABC):
+    """A kind of file. A package adds its own by an entry point of `hydrolinkage.exporters`, whose name is the format's.
+
+    `suffix` is how the names of its files end, `help` its line in lists. `takes` says which of `trace` and `columns` go with it; `batches`
+    that a machine may be a batch of designs; `of_machines` is why a motion cannot be written, in words, "" where it can.
+    """
+
+    suffix: str
+    help: str
+    takes: frozenset[str] = frozenset()
+    batches: bool = False
+    of_machines: str = ""
+
+    @abstractmethod
+    def content(self, job: ExportJob) -> bytes:
+        """Return the file's bytes."""
+
+    def poses(self, job: ExportJob) -> Motion:
+        """Return the poses that the file holds, NaN where one cannot be assembled: of them it is told which these are."""
+        return job.motion
+
+
+@final
+class Workbook(Exporter):
+    """Live formulas, worked out anew by whatever opens them."""
+
+    suffix = ".xlsx"
+    help = "a workbook with live formulas"
+    of_machines = "a workbook follows its dimensions"
+
+    def content(self, job: ExportJob) -> bytes:
+        assert isinstance(job.what, Mechanism)
+        return workbook(Calculation(job.what, run_of(job.what, job.at), job.count), job.name)
+
+    def poses(self, job: ExportJob) -> Motion:
+        assert isinstance(job.what, Mechanism)
+        return job.what.at(unreachable="nan", **run_of(job.what, job.at).over(np.linspace(0.0, 1.0, job.count)))
+
+
+@final
+class Csv(Exporter):
+    """A table of results: of a machine its own, over its strokes; of a motion its points and outputs, or `columns`."""
+
+    suffix = ".csv"
+    help = "a table in full precision"
+    takes = frozenset({"columns"})
+    batches = True
+
+    def content(self, job: ExportJob) -> bytes:
+        motion = self.poses(job)
+        table = list(job.columns) or (columns_of(motion) if isinstance(job.what, Motion) else results(job.what, motion))
+        stream = io.StringIO(newline="")
+        write_csv(table, stream)
+        return stream.getvalue().encode("utf-8")
+
+    def poses(self, job: ExportJob) -> Motion:
+        return job.what if isinstance(job.what, Motion) else over_strokes(job.what, job.at, job.count)
+
+
+@final
+class Dxf(Exporter):
+    """A drawing in millimetres, true size, by layers."""
+
+    suffix = ".dxf"
+    help = "a true-size drawing for CAD"
+    takes = frozenset({"trace"})
+
+    def content(self, job: ExportJob) -> bytes:
+        poses, paths, _ = drawing_of(job)
+        return dxf(poses, paths)
+
+
+@final
+class Svg(Exporter):
+    """A drawing in millimetres, true size, by layers."""
+
+    suffix = ".svg"
+    help = "a true-size drawing for browsers"
+    takes = frozenset({"trace"})
+
+    def content(self, job: ExportJob) -> bytes:
+        return svg(*drawing_of(job))
+
+
+EXPORTERS = Plugins[Exporter](
+    plugins.EXPORTERS,
+    "The exporter",
+    lambda found: found() if isinstance(found, type) and issubclass(found, Exporter) else None,
+    "no subclass of linkage.exports.Exporter",
+    {"xlsx": Workbook(), "csv": Csv(), "dxf": Dxf(), "svg": Svg()},
+)
+"""The kinds of files there are, by the names of their formats."""
+
+
+def exporter_of(file: Path, format: str | None = None) -> Exporter:
+    """Return what writes a file: the format that is named, else the one that the ending of the file's name says.
+
+    DefinitionError where there is none, naming those that are installed.
+    """
+    if format is not None:
+        return EXPORTERS[known_name("Format", format, EXPORTERS, where="export(...)")]
+    own = [each for each in EXPORTERS.own.values() if each.suffix == file.suffix.lower()]
+    if own:
+        return own[0]
+    found, faults = EXPORTERS.loaded()
+    for each in found.values():
+        if each.suffix == file.suffix.lower():
+            return each
+    what = f"{file}: the file's name ends in one of {', '.join(suffixes())}, which chooses what is written."
+    raise DefinitionError(" ".join([what, *faults]))
+
+
+def suffixes(option: str = "") -> list[str]:
+    """Return the endings of the kinds of files, of those that an option goes with where one is named."""
+    found, _ = EXPORTERS.loaded()
+    return [each.suffix for each in found.values() if not option or option in each.takes]
+
+
 def export(
     what: Mechanism | Motion,
     path: Place,
     *,
+    format: str | None = None,
     at: Mapping[str, Any] = NOTHING,
     count: int = 101,
     trace: Sequence[str] = (),
     columns: Sequence[Column] = (),
 ) -> Path:
-    """Return the path of the file it wrote; see `linkage.export`."""
+    """Return the path of the file it wrote for another program: `export(hitch, "hitch.xlsx")`. The ending of the name says which.
+
+    .xlsx (extra `xlsx`): a workbook of live formulas, the numbered equations one after the other at `count` poses of a stroke; a dimension
+    typed over changes all of it. `at=dict(tilt=0.1)` holds a stroke, `at=dict(S=(0.1, 0.2))` says where one runs. What no formula gives
+    (pins found by iteration) is a number there, marked so.
+    .csv: the table of results in full precision: of a machine over its strokes, `count` poses each of those that `at` does not give; of a
+    motion at its poses, its points and outputs or the `columns` given.
+    .dxf (extra `cad`) and .svg: a drawing in millimetres, true size, by layers: of a machine at the strokes that `at` gives, a pose each
+    (default: the start of the first stroke); of a motion all its poses. `trace` names points whose paths are drawn.
+    Other kinds of files come with packages that are installed; `format="mjcf"` says by its name which kind is meant, whatever the ending.
+
+    What stood at the path is replaced whole, or left as it was. Raises DefinitionError for another kind of file, for what does not go with
+    it, a batch of designs, and where the extra is not installed; AssemblyError for poses out of reach; FileError for a path that cannot be
+    written.
+    """
     check_name(path)
     file = Path(path)
-    kind = file.suffix.lower()
-    if kind not in ENDINGS:
-        raise DefinitionError(f"{file}: the file's name ends in one of {', '.join(ENDINGS)}, which chooses what is written.")
-    check_exportable(what, kind, at, trace, columns)
+    exporter = exporter_of(file, format)
+    check_exportable(what, exporter, at, trace, columns)
     check_place(path)
-    content = content_of(what, kind, file.name, at, check_count(count), trace, columns)
+    content = exporter.content(ExportJob(what, file.name, at, check_count(count), trace, columns))
     with replacing(path) as stream:
         stream.write(content)
     return file
 
 
-def check_exportable(what: Any, kind: str, at: Any, trace: Any, columns: Any) -> None:
+def check_exportable(what: Any, exporter: Exporter, at: Any, trace: Any, columns: Any) -> None:
     """Raise DefinitionError for what is neither a machine nor a motion, and for what does not go with a kind of file."""
     if not isinstance(what, Motion):
         require_mechanism(what)
     title = what.plan.title
-    if isinstance(what, Mechanism) and kind != ".csv" and any(np.ndim(value) for value in what.dimensions.values()):
+    if isinstance(what, Mechanism) and not exporter.batches and any(np.ndim(value) for value in what.dimensions.values()):
         raise DefinitionError(f"{title}: a file holds one design, and this machine is a batch of them; choose one of its designs.")
-    if isinstance(what, Motion) and kind == ".xlsx":
-        raise DefinitionError(f"{title}: a workbook follows its dimensions, so it is made of a machine: export(machine, ...).")
+    if isinstance(what, Motion) and exporter.of_machines:
+        raise DefinitionError(f"{title}: {exporter.of_machines}, so it is made of a machine: export(machine, ...).")
     if not isinstance(at, Mapping) or not all(isinstance(name, str) for name in at):
         raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
     if isinstance(what, Motion) and at:
@@ -68,35 +225,10 @@ def check_exportable(what: Any, kind: str, at: Any, trace: Any, columns: Any) ->
         raise DefinitionError(f'{title}: trace={cited(trace)}: a list of points is expected, such as trace=["G"].')
     if not isinstance(columns, (list, tuple)) or not all(isinstance(each, Column) for each in columns):
         raise DefinitionError(f"{title}: columns={cited(columns)}: a list of columns is expected, such as results(machine, motion).")
-    if trace and kind not in (".dxf", ".svg"):
-        raise DefinitionError(f"{title}: trace= draws the paths of points, in .dxf and .svg.")
-    if columns and kind != ".csv":
-        raise DefinitionError(f"{title}: columns= chooses what a .csv holds.")
-
-
-def content_of(
-    what: Mechanism | Motion, kind: str, name: str, at: Mapping[str, Any], count: int, trace: Sequence[str], columns: Sequence[Column]
-) -> bytes:
-    """Return a file's bytes."""
-    if kind == ".csv":
-        return csv(what, at, count, columns)
-    if kind == ".xlsx":
-        assert isinstance(what, Mechanism)
-        return workbook(Calculation(what, run_of(what, at), count), name)
-    poses, paths, title = drawing_of(what, at, count, trace)
-    return dxf(poses, paths) if kind == ".dxf" else svg(poses, paths, title)
-
-
-def csv(what: Mechanism | Motion, at: Mapping[str, Any], count: int, columns: Sequence[Column]) -> bytes:
-    """Return a table of results as CSV: of a machine its own, over its strokes; of a motion its points and outputs, or `columns`."""
-    if isinstance(what, Motion):
-        table = list(columns) or columns_of(what)
-    else:
-        motion = over_strokes(what, at, count)
-        table = list(columns) or results(what, motion)
-    stream = io.StringIO(newline="")
-    write_csv(table, stream)
-    return stream.getvalue().encode("utf-8")
+    if trace and "trace" not in exporter.takes:
+        raise DefinitionError(f"{title}: trace= draws the paths of points, in {' and '.join(suffixes('trace'))}.")
+    if columns and "columns" not in exporter.takes:
+        raise DefinitionError(f"{title}: columns= chooses what a {' or a '.join(suffixes('columns'))} holds.")
 
 
 def over_strokes(machine: Mechanism, at: Mapping[str, Any], count: int) -> Motion:
@@ -118,29 +250,20 @@ def over_strokes(machine: Mechanism, at: Mapping[str, Any], count: int) -> Motio
     return reached_somewhere(machine.at(unreachable="nan", **strokes, **unknown_names))
 
 
-def drawing_of(
-    what: Mechanism | Motion, at: Mapping[str, Any], count: int, trace: Sequence[str]
-) -> tuple[list[PoseDrawing], tuple[Any, ...], str]:
-    """Return the poses, the paths and the title of a drawing.
-
-    Of a motion all its poses, and the paths through them; of a machine those at the values that `at` gives, else at the start of the
-    first stroke, and paths over that stroke. Strokes that are not named stand in their middle.
-    """
-    if isinstance(what, Motion):
-        motion = swept = what
-    else:
-        first = first_stroke(what)
-        moving = max(at, key=lambda name: np.size(at[name])) if at else first
-        values = drawn_strokes(what, at)
-        motion = reached_somewhere(what.at(unreachable="nan", **values))
-        held = {name: float(np.ravel(value)[0]) for name, value in values.items()}
-        end = what.strokes.get(moving, what.strokes[first])
-        swept = what.at(unreachable="nan", **{**held, moving: np.linspace(end.start, end.end, count)}) if trace else motion
+def drawing_of(job: ExportJob) -> tuple[list[PoseDrawing], tuple[Any, ...], str]:
+    """Return the poses, the paths and the title of a drawing: paths through the poses of a motion, of a machine over its first stroke."""
+    motion = path = job.motion
+    if isinstance(job.what, Mechanism) and job.trace:
+        first = first_stroke(job.what)
+        moving = max(job.at, key=lambda name: np.size(job.at[name])) if job.at else first
+        held = {name: float(np.ravel(value)[0]) for name, value in drawn_strokes(job.what, job.at).items()}
+        end = job.what.strokes.get(moving, job.what.strokes[first])
+        path = job.what.at(unreachable="nan", **{**held, moving: np.linspace(end.start, end.end, job.count)})
     indices = [int(each) for each in np.flatnonzero(np.broadcast_to(motion.reached, motion.shape).ravel())] if motion.shape else [0]
     if len(indices) > MOST_POSES:
         raise DefinitionError(f"{motion.plan.title}: {len(indices)} poses do not go into one drawing; choose up to {MOST_POSES}.")
     poses = [PoseDrawing(pose_words(motion, index), pose_parts(motion, index)) for index in indices]
-    return poses, path_parts(swept, trace), motion.plan.heading
+    return poses, path_parts(path, job.trace), motion.plan.heading
 
 
 def drawn_strokes(machine: Mechanism, at: Mapping[str, Any]) -> dict[str, Any]:
@@ -148,15 +271,6 @@ def drawn_strokes(machine: Mechanism, at: Mapping[str, Any]) -> dict[str, Any]:
     first = first_stroke(machine)
     values = stroke_middles(machine) | {first: machine.strokes[first].start} | dict(at)
     return {name: np.atleast_1d(value) for name, value in values.items()}
-
-
-def exported_motion(machine: Mechanism, path: Place, at: Mapping[str, Any], count: int) -> Motion:
-    """Return the poses that a file of a machine holds; NaN where it cannot be assembled."""
-    kind = Path(path).suffix.lower()
-    if kind == ".csv":
-        return over_strokes(machine, at, count)
-    run = run_of(machine, at).over(np.linspace(0.0, 1.0, count)) if kind == ".xlsx" else drawn_strokes(machine, at)
-    return machine.at(unreachable="nan", **run)
 
 
 def pose_words(motion: Motion, index: int) -> str:

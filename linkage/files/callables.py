@@ -6,28 +6,23 @@ A package adds its own by entry points of the group `hydrolinkage.requests`, eac
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from functools import lru_cache
-from importlib.metadata import EntryPoint, entry_points
-from types import MappingProxyType
+from collections.abc import Callable
 from typing import Any
 
-from ..errors import DefinitionError, unknown
+from .. import plugins
+from ..errors import unknown
 from ..motion import condition, gap, ratio, transmission
+from ..plugins import Plugins
 from ..statics import drive_force, pin_force
 
-REQUESTS_GROUP = "hydrolinkage.requests"
-
-REQUESTS: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {"ratio": ratio, "drive_force": drive_force, "pin_force": pin_force, "transmission": transmission, "gap": gap, "condition": condition}
+REQUESTS = Plugins[Callable[..., Any]](
+    plugins.REQUESTS,
+    "the request",
+    lambda found: found if callable(found) else None,
+    "no function",
+    {"ratio": ratio, "drive_force": drive_force, "pin_force": pin_force, "transmission": transmission, "gap": gap, "condition": condition},
 )
-"""The requests of this package by name."""
-
-
-@lru_cache(maxsize=1)
-def brought() -> Mapping[str, EntryPoint]:
-    """Return what other packages bring, by name."""
-    return MappingProxyType({point.name: point for point in sorted(entry_points(group=REQUESTS_GROUP), key=lambda point: point.name)})
+"""The requests there are, by name."""
 
 
 def request_function(name: str, beside: tuple[str, ...] = ()) -> Callable[..., Any]:
@@ -35,15 +30,6 @@ def request_function(name: str, beside: tuple[str, ...] = ()) -> Callable[..., A
 
     `beside` are the names of functions that are known in its place too.
     """
-    if name in REQUESTS:
-        return REQUESTS[name]
-    if name not in brought():
-        raise unknown("Function", name, [*beside, *REQUESTS, *brought()])
-    point = brought()[name]
-    try:
-        found = point.load()
-    except (ImportError, AttributeError) as error:
-        raise DefinitionError(f"the request {name} ({point.value}) cannot be loaded: {error}.") from error
-    if not callable(found):
-        raise DefinitionError(f"the request {name} ({point.value}) is no function.")
-    return found  # type: ignore[no-any-return]
+    if name not in REQUESTS:
+        raise unknown("Function", name, [*beside, *REQUESTS])
+    return REQUESTS[name]

@@ -11,7 +11,6 @@ A name is an output, a dimension or a stroke of the machine. Nothing is run but 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Mapping
 from inspect import signature
 from types import MappingProxyType
@@ -49,14 +48,14 @@ from ..steps import Point
 from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
 from .callables import request_function
-from .expression import BINARY, CONSTANTS, NUMBER, Grammar, tokens
+from .expression import BINARY, Grammar, constant, tokens
 
 CRITERION_GRAMMAR = (
     "a criterion is made of least(...), most(...), integral(...), at(..., S=...), names, numbers with units, + - * / **, and <= >= =="
 )
-_CRITERION = re.compile(
-    rf"\s*(?:{NUMBER}|(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*)|(?P<text>'[^'\n]*'|\"[^\"\n]*\")"
-    r"|(?P<sign>\*\*|<=|>=|==|!=|[-+*/(),=<>])|(?P<end>\Z))"
+_CRITERION = (
+    r"(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*)|(?P<text>'[^'\n]*'|\"[^\"\n]*\")"
+    r"|(?P<sign>\*\*|<=|>=|==|!=|[-+*/(),=<>])"
 )
 COMPARING = ("<=", ">=", "==", "!=", "<", ">")
 
@@ -257,9 +256,9 @@ class CriterionParser(Grammar):
             return name
         if (coordinate := self.coordinate(name)) is not None:
             return coordinate
-        if name in CONSTANTS:
+        if (value := constant(name)) is not None:
             self.kinds += [UNITS[name][1]] if name in UNITS else []
-            return CONSTANTS[name]
+            return value
         quantities = [each for each, one in plan.members.items() if isinstance(one, Quantity)]
         raise unknown("Quantity", name, list(dict.fromkeys([*quantities, *plan.table.names()])), where=plan.title)
 

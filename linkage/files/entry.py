@@ -19,7 +19,7 @@ from ..steps import Point, Step
 from .design import Design
 from .names import NAME_LENGTH, Names, shortened
 from .source import Mistakes
-from .validators import KINDS, Kind, amount, each_of, number_of, quantity_of
+from .validators import KINDS, Kind, amount, each_of, kind_named, number_of, quantity_of
 
 LABELS = 100
 VALUES = 100
@@ -125,7 +125,7 @@ def kind_of(cls: type[Any], parameter: Parameter, said: Mapping[str, Any]) -> Ki
     if isinstance(kind, tuple):
         return list_of(*kind)
     if isinstance(kind, str):
-        return KINDS[kind]
+        return kind_named(kind)
     return kind if isinstance(kind, Kind) else Kind(
         lambda given, names: kind.read(given, lambda each: number_of(each, names)), lambda value, design, name: kind.write(value)
     )  # fmt: skip

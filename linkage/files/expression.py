@@ -15,6 +15,7 @@ import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any, ClassVar, final
 
@@ -34,9 +35,15 @@ GRAMMAR = "an expression is made of numbers with units, names, + - * / **, brack
 
 # -- words -------------------------------------------------------------------------------------------------
 
-_UNIT = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=True))
-NUMBER = rf"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?(?:[ \t]*(?P<unit>{_UNIT})(?!\w))?)"
-_TOKEN = re.compile(rf"\s*(?:{NUMBER}|(?P<name>[^\W\d]\w*)|(?P<sign>\*\*|[-+*/(),=])|(?P<end>\Z))")
+OWN_WORDS = r"(?P<name>[^\W\d]\w*)|(?P<sign>\*\*|[-+*/(),=])"
+
+
+@lru_cache(maxsize=16)
+def words_with_numbers(others: str, units: tuple[str, ...]) -> re.Pattern[str]:
+    """Return the pattern of one word: a number with a unit, what else a grammar knows, or the end."""
+    unit = "|".join(re.escape(name) for name in sorted(units, key=len, reverse=True))
+    number = rf"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?(?:[ \t]*(?P<unit>{unit})(?!\w))?)"
+    return re.compile(rf"\s*(?:{number}|{others}|(?P<end>\Z))")
 
 
 @final
@@ -50,12 +57,12 @@ class Token:
     unit: str = ""
 
 
-def tokens(text: str, pattern: re.Pattern[str] = _TOKEN, grammar: str = GRAMMAR) -> list[Token]:
+def tokens(text: str, others: str = OWN_WORDS, grammar: str = GRAMMAR) -> list[Token]:
     """Return an expression's words, the last one of kind `end`; DefinitionError for what is none."""
     if len(text) > EXPRESSION_LENGTH:
         raise DefinitionError(f"the expression has {len(text)} characters; up to {EXPRESSION_LENGTH} are read. Give a part of it a name.")
     found: list[Token] = []
-    place = 0
+    pattern, place = words_with_numbers(others, tuple(UNITS)), 0
     while not found or found[-1].kind != "end":
         match = pattern.match(text, place)
         if match is None:
@@ -133,10 +140,14 @@ CALLS: Mapping[str, Call] = MappingProxyType(
 
 # -- reading -----------------------------------------------------------------------------------------------
 
-CONSTANTS = {"pi": math.pi} | {name: factor for name, (factor, _) in UNITS.items()}
 BINARY: dict[str, Callable[[Any, Any], Any]] = {
     "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "**": operator.pow,
 }  # fmt: skip
+
+
+def constant(name: str) -> float | None:
+    """Return what a name that stands for a number is: "pi", or a unit, `2 * mm`; None for any other."""
+    return math.pi if name == "pi" else UNITS[name][0] if name in UNITS else None
 
 
 def expression(text: str, names: Names) -> Quantity:
@@ -296,8 +307,8 @@ class Parser(Grammar):
             made = self.called(token.text, "quantity")
             assert isinstance(made, Quantity)
             return made
-        if token.text not in self.names.kinds and token.text in CONSTANTS:
-            return Number(CONSTANTS[token.text])
+        if token.text not in self.names.kinds and (value := constant(token.text)) is not None:
+            return Number(value)
         return self.names.quantity(self.checked(token.text, "quantity"))
 
     # -- functions -------------------------------------------------------------------------------------

@@ -11,12 +11,11 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from importlib import import_module
-from importlib.metadata import entry_points
 from math import isfinite
 from types import ModuleType
 from typing import Any, TypeAlias, final
 
-from .. import loads, steps, surroundings
+from .. import loads, plugins, steps, surroundings
 from ..errors import DefinitionError, unknown
 from ..motion import Over, stroke_unit
 from ..quantities import Dimension, Member, Quantity, Stroke, ref
@@ -29,7 +28,6 @@ from .names import Names, shortened
 from .over_file import over_read, over_written
 from .validators import arrow_of, coordinates_of, number_of, points_of, quantity_of, stroke_ends, strokes_of
 
-GROUP = "hydrolinkage.files"
 SHIPPED = {"hydraulics": "hydrolinkage"}
 """Sections that packages beside this one bring, each with what to install for it."""
 
@@ -245,11 +243,8 @@ def registry() -> Registry:
 
 def extensions() -> Iterable[type[Member]]:
     """Yield the classes that other packages bring; DefinitionError, with its name, for one that cannot be loaded."""
-    for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):
-        try:
-            yield point.load()
-        except (ImportError, AttributeError) as error:
-            raise DefinitionError(f"the entry {point.name} ({point.value}) of a file cannot be loaded: {error}.") from error
+    for name, entry in plugins.entry_points(plugins.MEMBERS).items():
+        yield plugins.guarded(entry.load, f"the entry {name} ({entry.value}) of a file")
 
 
 # -- classes that are named by their import path -----------------------------------------------------------

@@ -69,7 +69,8 @@ class SearchFile:
     def run(self, folder: str | os.PathLike[str] | None = None, progress: bool | Progress = False) -> Optimum | Front:
         """Return the best design, of several objectives the front; `folder` stands above the file's own."""
         own = self.arguments.get("folder")
-        return optimise(self.machine, **{**self.arguments, "folder": folder or own}, progress=progress)
+        found: Optimum | Front = optimise(self.machine, **{**self.arguments, "folder": folder or own}, progress=progress)
+        return found
 
 
 def read_search(

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import DefinitionError, unknown
 from ..quantities import Number, Quantity, is_number, label, name_of, quantity
 from ..steps import Arrow
-from ..units import UNITS, parse
+from ..units import SI, UNITS, parse
 from ..vectors import Side
 from .design import Design, degrees_text, option
 from .expression import arrow, expression, one_unit
@@ -322,8 +322,7 @@ coordinates_of = several("two coordinates in m, such as [0.20, 0.55]", quantity_
 
 
 KINDS: Mapping[str, Kind] = MappingProxyType(
-    {measures: fixed_number(measures) for measures in {each for _, each in UNITS.values()}}
-    | {kind: reference(kind) for kind in ("point", "guide", "load", "link")}
+    {kind: reference(kind) for kind in ("point", "guide", "load", "link")}
     | {
         "number": fixed_number(""),
         "angle": Kind(lambda given, names: number_of(given, names, "angle"), lambda value, design, name: degrees_text(float(value))),
@@ -354,4 +353,9 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "option": Kind(lists_of),
     }
 )
-"""The kinds by name: what a class may say in `argument_kinds`, `expects` and `places`; what a unit measures is a kind as well."""
+"""The kinds by name: what a class may say in `argument_kinds`, `expects` and `places`."""
+
+
+def kind_named(name: str) -> Kind:
+    """Return a kind by its name; what a unit measures is one as well, "mass"."""
+    return KINDS[name] if name in KINDS or name not in SI else fixed_number(name)

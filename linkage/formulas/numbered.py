@@ -38,7 +38,13 @@ def equations(
     wrt: str | None = None,
     forces: bool = False,
 ) -> Equations:
-    """Return a mechanism's equations, numbered from `start`, in the vector method's primitives; see `linkage.equations`."""
+    """Return a mechanism's equations, numbered from `start`, in the vector method's primitives: text, LaTeX, SymPy and numbers.
+
+    `print(equations(hitch))` lists them. `numbers` fills the numbers in at the pose `at` (default: the start of each stroke). `ratio`
+    names points and outputs whose derivatives by the stroke `wrt` are added; `forces` adds those of the loads, the driving forces by
+    virtual work, and what cylinders and circuits have, all without friction. Source of notation and order: Dyuzhev, Kotov,
+    Chuprynin, "Universality of the hitch of the power vehicle UES-2-250A" (Minsk, 2008), equations (4) to (27).
+    """
     design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
     check_given(design, start, at, ratio, dict(numbers=numbers, forces=forces))
     listing = Listing(design.plan)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -19,7 +19,7 @@ from ..motion import stroke_unit
 from ..plan import Plan
 from ..program.traced import elementwise
 from ..quantities import Quantity, Tabulated, unnamed
-from ..units import UNITS, deg, unit_or_none
+from ..units import SI, UNITS, deg, unit_or_none
 from ..vectors import Vec
 from .words import Cross, Deg, Dot, Norm, TurnV
 
@@ -84,13 +84,6 @@ def power_text(name: str, power: Fraction) -> str:
 NUMBER = Unit()
 LENGTH = Unit(Fraction(1))
 ANGLE = Unit(angle=Fraction(1))
-
-SI: Mapping[str, str] = {
-    "length": "m", "angle": "rad", "time": "s", "mass": "kg", "force": "N", "moment": "Nm", "pressure": "Pa", "volume": "m3", "area": "m2",
-    "flow": "m3/s", "stiffness": "N/m", "power": "W", "speed": "m/s", "angle per length": "rad/m",
-}  # fmt: skip
-"""What a unit's kind is measured in."""
-
 
 def unit_named(name: str) -> Unit:
     """Return a unit by its name; a plain number for none. DefinitionError for one that there is not."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import DefinitionError, SingularError, UntracedError, one_word
 from ..plan import ArrayReading, Mask, Plan, failures, negative
-from ..program import NO_VALUE, QUICKEST, FloatArray, Kernel, Node, RunOptions, c_text, javascript_text
+from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, Node, RunOptions
 from ..quantities import real
 from . import conditions
 from .conditions import Judged
@@ -520,32 +520,15 @@ def one_value(value: Any, name: str, title: str) -> FloatArray:
     return found.reshape(())
 
 
-# Values and ratios as the text of a function in C or JavaScript: for a controller, or a page of one's own.
-
-WRITERS: Mapping[str, Callable[[Sequence[Node], str, Mapping[str, float]], str]] = {"c": c_text, "javascript": javascript_text}
-
-TAKEN: Mapping[str, str] = {
-    "c": (
-        "auto break case char const continue default do double else enum extern float for goto if inline int long register restrict return"
-        " short signed sizeof static struct switch typedef union unsigned void volatile while main NAN INFINITY"
-        " acos asin atan atan2 ceil cos cosh exp exp2 expm1 fabs floor fma fmax fmin fmod frexp hypot isfinite isinf isnan ldexp log log10"
-        " log1p log2 modf pow remainder rint round signbit sin sinh sqrt tan tanh trunc"
-    ),
-    "javascript": (
-        "arguments await break case catch class const continue debugger default delete do else enum eval export extends false finally for"
-        " function if implements import in instanceof interface let new null package private protected public return static super switch"
-        " this throw true try typeof var void while with yield Math NaN Infinity undefined"
-    ),
-}
-"""The words of each language, and the names of what the text uses: a function called so would not compile, or would hide them."""
+# Values and ratios as the text of a function in another language: for a controller, or a page of one's own.
 
 
 def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], language: str, name: str) -> str:
     """Return requests as text in a language; see Mechanism.source."""
-    one_word("language", language, tuple(WRITERS))
+    writer = LANGUAGES[one_word("language", language, tuple(LANGUAGES))]
     if not (isinstance(name, str) and name.isascii() and name.isidentifier()):
         raise DefinitionError(f"name={name!r}: a function's name is expected, such as poses.")
-    if name in TAKEN[language].split():
+    if name in writer.words.split():
         raise DefinitionError(f"name={name!r} has a meaning in {language} already; give the function another name, such as poses.")
     if any(np.ndim(value) for value in designs.values()):
         raise DefinitionError(f"{plan.title}: source() states one design; its dimensions are arguments of the text, which serves all.")
@@ -557,7 +540,7 @@ def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request
     if language == "javascript" and is_solved(plan, nodes):
         return live_source(plan, bound, name, design)
     closed_form(plan, nodes)
-    return WRITERS[language](nodes, name, design)
+    return writer.text(nodes, name, design)
 
 
 def is_solved(plan: Plan, nodes: Sequence[Node]) -> bool:

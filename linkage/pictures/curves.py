@@ -27,8 +27,8 @@ PANEL = (4.6, 3.0)
 """The size of a panel with its share of the margins [inch]."""
 
 
-def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
-    """Return a figure of columns over the stroke, a panel each; see `linkage.plot`."""
+def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
+    """Return a figure of columns over the stroke, a panel each; see `plot`."""
     along, columns = StrokeAxis.of(motion), columns_named(motion, columns)
     if limits is not None and not isinstance(limits, Mapping):
         raise DefinitionError(f"limits={cited(limits)}: a limit for each column by its name is expected, dict(tilt=(0.1, 'max')).")
@@ -62,7 +62,7 @@ def plot_machine(
     if isinstance(shown, (list, tuple)):
         shown = [own.get(each, each) if isinstance(each, str) else each for each in shown]
     names = [each.name if isinstance(each, Column) else str(each) for each in shown]
-    return plot(motion, shown, limits={name: limit for name, limit in featured.limits.items() if name in names} | dict(limits or {}))
+    return plot_motion(motion, shown, limits={name: limit for name, limit in featured.limits.items() if name in names} | dict(limits or {}))
 
 
 def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> list[Column]:

@@ -33,7 +33,7 @@ MANY = 1_000_000
 """Poses of a path: more do not fit into a picture."""
 
 
-def draw(
+def draw_machine(
     machine: Mechanism | Motion,
     at: Any = None,
     path: Sequence[str] = (),
@@ -50,7 +50,7 @@ def draw(
     velocities: Mapping[str, Any] | None = None,
     pole: Any = None,
 ) -> Figure | Drawing:
-    """Return a mechanism's figure at chosen strokes, or a motion at one of its poses, on axes if they are given; see `linkage.draw`."""
+    """Return a mechanism's figure at chosen strokes, or a motion at one of its poses, on axes if they are given; see `draw`."""
     overlays = Overlays(force_question(forces, loads, case, direction, drive, velocities), velocities, pole)
     if ax is not None and overlays:
         raise DefinitionError("draw(ax=...): forces, velocities and poles have a figure of their own; leave out ax=.")

@@ -4,16 +4,17 @@ from ..vectors import FloatArray, pick
 from .cache import compiled
 from .derivatives import Tangent, gradient, jacobian
 from .elimination import SparseSystem, eliminated, expanded, is_zero
-from .foreign import c_text
+from .foreign import Language, ProgramText
 from .interpret import LAST, Iterated, disturbed, interpret, scatter
 from .intervals import Enclosure, enclosures
-from .javascript import Inputs, arrow_function, inside, javascript_text, number, short_names
-from .kernel import BACKEND, QUICKEST, Kernel, Result, RunOptions, fixed_backend
+from .javascript import Inputs, arrow_function, inside, number, short_names
+from .kernel import BACKEND, QUICKEST, Backend, Kernel, Result, RunOptions, fixed_backend
+from .languages import LANGUAGES
 from .linear import solve_arrays
 from .loop import HEAD, NUMBA, lane_loop
 from .node import Closure, Graph, Level, Node
 from .numba_backend import compiled_loop, pays_compiled
 from .operations import ARRAYS, FLOATS, NO_VALUE
-from .schedule import ancestors, lowered, replaced
-from .text import GUARDED, Dialect, function
+from .schedule import Schedule, ancestors, lowered, replaced
+from .text import GUARDED, TEMPLATES, Dialect, function
 from .traced import Comparison, Notes, Traced, claim, elementwise, is_traced, node_of

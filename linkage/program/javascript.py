@@ -17,7 +17,7 @@ from types import MappingProxyType
 from typing import final
 
 from .elimination import expanded
-from .foreign import NOTHING, comment, number_text
+from .foreign import NOTHING, inputs_text, number_text
 from .node import Level, Node
 from .schedule import ancestors, lowered, schedule
 
@@ -206,11 +206,22 @@ def inside(given: Mapping[Node, str], results: Sequence[Node], outer: Collection
     return f"{{{writer.statements(nodes)}return[{','.join(map(writer.read, results))}]}}"
 
 
-def javascript_text(outputs: Sequence[Node], name: str = "poses", design: Mapping[str, float] = NOTHING) -> str:
-    """Return the text of a JavaScript `function poses(d, p)`: dimensions and strokes in arrays, as a comment names them; outputs in one."""
-    plan = schedule(expanded(outputs))
-    given = {node: f"{letter}[{k}]" for letter, part in (("d", plan.design_inputs), ("p", plan.pose_inputs)) for k, node in enumerate(part)}
-    text = inside(given, plan.outputs, ("d", "p"), ALONE)
-    own = "".join(f"    const {each} = {rule};\n" for each, rule in OWN.items() if f"{each}(" in text)
-    lines = re.sub(r",(?=\w+=[^=])", ",\n        ", text[1:-1]).replace(";return", ";\n    return ")
-    return f"{comment(plan, design)}\nfunction {name}(d, p) {{\n{own}    {lines};\n}}\n"
+@final
+class JavaScript:
+    """JavaScript as a language of `source`: `function poses(d, p)`, dimensions and strokes in arrays; the outputs in one."""
+
+    words = (
+        "arguments await break case catch class const continue debugger default delete do else enum eval export extends false finally for"
+        " function if implements import in instanceof interface let new null package private protected public return static super switch"
+        " this throw true try typeof var void while with yield Math NaN Infinity undefined"
+    )
+
+    def text(self, outputs: Sequence[Node], name: str = "poses", design: Mapping[str, float] = NOTHING) -> str:
+        """Return the text of such a function of some nodes."""
+        plan = schedule(expanded(outputs))
+        inputs = (("d", plan.design_inputs), ("p", plan.pose_inputs))
+        given = {node: f"{letter}[{k}]" for letter, part in inputs for k, node in enumerate(part)}
+        text = inside(given, plan.outputs, ("d", "p"), ALONE)
+        own = "".join(f"    const {each} = {rule};\n" for each, rule in OWN.items() if f"{each}(" in text)
+        lines = re.sub(r",(?=\w+=[^=])", ",\n        ", text[1:-1]).replace(";return", ";\n    return ")
+        return f"/* {inputs_text(plan, design)} */\nfunction {name}(d, p) {{\n{own}    {lines};\n}}\n"

@@ -13,7 +13,9 @@ from typing import Protocol, final
 
 import numpy as np
 
-from ..errors import DefinitionError
+from .. import plugins
+from ..errors import DefinitionError, quoted
+from ..plugins import Plugins
 from ..vectors import FloatArray, Numbers
 from .elimination import expanded
 from .float_backend import PlainFloats
@@ -52,23 +54,24 @@ class Result:
 @final
 @dataclass(frozen=True)
 class RunOptions:
-    """How a kernel is run: "floats", "numpy" or "numba", by itself the quickest for the work; and on how many threads."""
+    """How a kernel is run: "floats", "numpy", "numba" or what a package brings, by itself the quickest; and on how many threads."""
 
     backend: str | None = None
     threads: int = 1
 
     def __post_init__(self) -> None:
-        if self.backend is not None and not (isinstance(self.backend, str) and self.backend in ("floats", "numpy", "numba")):
-            raise DefinitionError(f'backend={self.backend!r}: say "numpy", "numba" or "floats", or nothing for the quickest.')
+        if self.backend is not None and not (isinstance(self.backend, str) and (self.backend in OWN or self.backend in ADDED)):
+            *others, last = map(quoted, [*OWN, *ADDED])
+            raise DefinitionError(f"backend={self.backend!r}: say {', '.join(others)} or {last}, or nothing for the quickest.")
         if not isinstance(self.threads, int) or isinstance(self.threads, bool) or self.threads < 1:
             raise DefinitionError(f"threads={self.threads!r}: a whole number of at least 1 is expected.")
 
 
-QUICKEST = RunOptions()
-
-
 class Backend(Protocol):
-    """What fills values, shape (outputs, designs, poses), and guards."""
+    """What fills values, shape (outputs, designs, poses), and guards, by a schedule of nodes.
+
+    A package adds its own by an entry point of `hydrolinkage.backends`, which leads to a class or a function of the schedule.
+    """
 
     plan: Schedule
 
@@ -76,7 +79,15 @@ class Backend(Protocol):
         """Return whether designs, not poses, are best contiguous in the result."""
 
     def run(self, design: Sequence[Numbers], poses: Sequence[Numbers], values: FloatArray, guards: FloatArray) -> None:
-        """Fill values and guards."""
+        """Fill values and guards: what the schedule's inputs are, a float or an array each, stands in their order."""
+
+
+OWN = ("numpy", "numba", "floats")
+ADDED = Plugins[Callable[[Schedule], Backend]](
+    plugins.BACKENDS, "The back end", lambda found: found if callable(found) else None, "no function of a schedule", {}
+)
+"""The back ends that other packages bring."""
+QUICKEST = RunOptions()
 
 
 @final
@@ -95,6 +106,7 @@ class Kernel:
         self.plan = schedule(outputs, guards)
         self._unseen = np.full(len(self.plan.guards), math.inf)
         self._spent = 0
+        self._added: dict[str, Backend] = {}
 
     def __call__(
         self, inputs: Mapping[str, Numbers], out: FloatArray | None = None, way: RunOptions = QUICKEST, size: tuple[int, int] | None = None
@@ -123,6 +135,10 @@ class Kernel:
             return self.fused
         if name is None:
             self._spent += m * n
+        elif name not in OWN:
+            if name not in self._added:
+                self._added[name] = ADDED[name](self.plan)
+            return self._added[name]
         return self.arrays
 
     @cached_property

@@ -7,7 +7,7 @@ from collections.abc import Container, Iterator
 from dataclasses import replace
 
 from ..errors import DefinitionError, cited
-from ..files.callables import REQUESTS, brought, request_function
+from ..files.callables import REQUESTS, request_function
 from ..language import noted
 from ..loads import Case, ForceElement
 from ..mechanism import Mechanism, require_mechanism
@@ -81,6 +81,6 @@ def member_columns(motion: Motion, case: Case = None, direction: str | None = No
 
 def asked_by_name(member: str, column: Column) -> Column:
     """Return a member's column with what it is asked for by: the request of the column's name, of the member, where there is one."""
-    if column.request is not None or not (column.name in REQUESTS or column.name in brought()):
+    if column.request is not None or column.name not in REQUESTS:
         return column
     return replace(column, request=request_function(column.name)(member))

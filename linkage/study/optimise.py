@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from hashlib import blake2b
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, final
+from typing import TYPE_CHECKING, Any, final, overload
 
 import numpy as np
 
@@ -74,16 +74,51 @@ NEAR = 0.1
 """Starts are not nearer to one another than this part of the box's diagonal."""
 
 
+@overload
+def optimise(
+    machine: Mechanism,
+    *,
+    minimise: Measure | Quantity | str | None = ...,
+    maximise: Measure | Quantity | str | None = ...,
+    vary: Mapping[Any, Any],
+    subject_to: Any = ...,
+    case: Any = ...,
+    over: Mapping[str, Any] | None = ...,
+    robust: Mapping[str, Any] | None = ...,
+    sigmas: float = ...,
+    method: str = ...,
+    solver: str = ...,
+    starts: int | None = ...,
+    seed: int = ...,
+    limit: int | None = ...,
+    folder: str | os.PathLike[str] | None = ...,
+    progress: Any = ...,
+) -> Optimum: ...
+@overload
+def optimise(
+    machine: Mechanism,
+    *,
+    minimise: Sequence[Measure | Quantity] = ...,
+    maximise: Sequence[Measure | Quantity] = ...,
+    vary: Mapping[Any, Any],
+    subject_to: Any = ...,
+    case: Any = ...,
+    over: Mapping[str, Any] | None = ...,
+    solver: str = ...,
+    seed: int = ...,
+    limit: int | None = ...,
+    progress: Any = ...,
+) -> Front: ...
 def optimise(
     machine: Mechanism,
     *,
     minimise: Any = None,
     maximise: Any = None,
-    vary: Any,
+    vary: Mapping[Any, Any],
     subject_to: Any = (),
     case: Any = None,
-    over: Any = None,
-    robust: Any = None,
+    over: Mapping[str, Any] | None = None,
+    robust: Mapping[str, Any] | None = None,
     sigmas: float = 3.0,
     method: str = "auto",
     solver: str = "slsqp",
@@ -91,9 +126,35 @@ def optimise(
     seed: int = 0,
     limit: int | None = None,
     folder: str | os.PathLike[str] | None = None,
-    progress: bool | Progress = False,
+    progress: Any = False,
 ) -> Optimum | Front:
-    """Return the best design found, of several objectives the front; see `linkage.optimise`."""
+    """Return the best design of a machine: `optimise(hitch, maximise=least(capacity("lift", "G")), vary={"OB": (0.27, 0.33)})`.
+
+    What is to be least or greatest is one number of a design: `least(q)`, `most(q)`, `integral(q)`, `at(q, S=...)` of a quantity q (an
+    output, `drive_force()`, `pin_force("O")`, ...) and arithmetic of them; `subject_to` are comparisons of such, `most(abs(ref("tilt"))) <=
+    8 * deg`. They hold over the whole stroke, between the poses too; that every pose is assembled is always kept.
+
+    `vary` says what may change: `"OB": (low, high)` [SI], with a third number in steps; `"M": around(60 * mm)`, of a point both
+    coordinates; a list of choices; and for several names at once rows of a catalogue, `("lift.bore", "lift.rod"): [(0.1, 0.056), ...]`.
+    `over={"S": (0.0, 0.2)}` looks at a part of the stroke; an end may be a quantity that follows the design. `case` names a load case or
+    several, all of which are kept and the worst of which counts.
+
+    Of several objectives, given as lists, the front comes back: designs of which none is better in all (extra `pareto`). With
+    `robust={"OB": 0.2 * mm}` every number counts as bad as `sigmas` standard deviations make it, by tolerances as in `tolerance`.
+
+    From the best of some hundred designs spread over the box, `starts` of them for each combination of choices, a `solver` ("slsqp" or
+    "trust-constr") goes on with exact derivatives. `method="local"` begins with the machine as it is, "evolution" with the best of a
+    differential evolution. The same seed gives the same result. `limit` is how many designs are looked at before the best so far comes
+    back, with a word that it is that; by default as many as take about a minute. With `folder` finished searches are kept there, and the
+    same call goes on where another one stopped; `progress=True` shows a bar.
+
+    A design that has no value of a condition at some pose does not keep it, and a quotient whose divisor passes zero within the stroke has
+    no value. Lengths, angles, forces and pressures neither add nor compare. What limits the result is said: conditions, ends of ranges,
+    and where the machine itself allows no more.
+
+    Raises DefinitionError for what cannot be asked, StudyError where no design can be assembled over the whole stroke, and its
+    InfeasibleError, with the conflict, the least relaxation and what one condition alone would have to give, where none keeps all.
+    """
     check_one_design(machine)
     title = machine.plan.title
     one_word("method", method, METHODS)

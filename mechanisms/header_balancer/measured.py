@@ -15,7 +15,7 @@ from linkage.disk import read
 from linkage.errors import cited
 from linkage.language import said, said_of
 from linkage.program import FloatArray
-from linkage.units import UNITS, show
+from linkage.units import UNITS, show, units_of
 from linkage.verdict import Verdict
 
 from .following import HeaderState, stroke_of
@@ -96,7 +96,7 @@ def _heading(text: str, path: str | Path) -> tuple[str, float] | None:
     if kind is None:
         return None
     if unit not in UNITS or UNITS[unit][1] != kind:
-        fit = ", ".join(each for each, (_, measures) in UNITS.items() if measures == kind)
+        fit = ", ".join(units_of(kind))
         raise FileError(f"{path}, line 1: {text!r}: the unit of {name} is one of {fit}.")
     return name, UNITS[unit][0]
 

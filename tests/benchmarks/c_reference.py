@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from linkage.program import Kernel
-from linkage.program.foreign import c_text
+from linkage.program import LANGUAGES, Kernel
 
 FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 POINTER = ctypes.POINTER(ctypes.c_double)
@@ -46,7 +45,7 @@ def address(array: Any) -> Any:
 def c_case(kernel: Kernel, inputs: Mapping[str, Any], out: Any, folder: Path) -> Callable[[], Any]:
     """Return a call of a kernel's program in C over the poses of one design, its results in `out`, shape (outputs, poses)."""
     plan = kernel.fused.plan
-    function = built(c_text(kernel.plan.outputs), "kernel", folder)
+    function = built(LANGUAGES["c"].text(kernel.plan.outputs), "kernel", folder)
     design = np.array([inputs[node.value] for node in plan.design_inputs])
     strokes = [np.ascontiguousarray(inputs[node.value]) for node in plan.pose_inputs]
     given, taken = ((POINTER * len(rows))(*map(address, rows)) for rows in (strokes, out))

@@ -1,7 +1,10 @@
 """The doors draw, plot, animate, page, equations: functions of `linkage` whatever was imported before or after; what they load."""
 
+import inspect
 import subprocess
 import sys
+from ast import literal_eval
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -9,6 +12,10 @@ import pytest
 import linkage
 
 ROOT = Path(__file__).parents[2]
+LATE = {
+    "animate": "pictures.film", "draw": "pictures.draw", "equations": "formulas.numbered", "export": "exports.export",
+    "page": "pictures.browser", "plot": "pictures.draw", "report": "documents.reporting",
+}  # fmt: skip
 DOORS = ("animate", "draw", "equations", "page", "plot")
 SAY = f"print([type(getattr(linkage, name)).__name__ for name in {DOORS}], [type(name).__name__ for name in ({', '.join(DOORS)})])"
 STAR, PICTURES, FORMULAS = "from linkage import *", "import linkage.pictures", "import linkage.formulas"
@@ -35,6 +42,22 @@ def test_star_import_loads_no_library_behind_the_doors():
     assert "linkage.mechanism" in loaded
     heavy = ("matplotlib", "sympy", "scipy", "networkx", "rich", "PIL", "pydantic", "numba", "linkage.pictures", "linkage.formulas")
     assert not [name for name in loaded if name.startswith(heavy)]
+
+
+def test_what_is_loaded_late_says_what_it_takes():
+    text = printed(
+        STAR, "import inspect, pydoc, pickle, sys, linkage",
+        f"late = [getattr(linkage, name) for name in {LATE}]",
+        "print([(each.__name__, str(inspect.signature(each)), each.__doc__, pickle.loads(pickle.dumps(each)) is each) for each in late])",
+        "print(pydoc.plain(pydoc.render_doc(linkage.page)).splitlines()[2][:40])",
+        "print([name for name in sys.modules if name.startswith(('matplotlib', 'sympy', 'linkage.pictures', 'linkage.exports'))])",
+    )  # fmt: skip
+    first, page, loaded = text.splitlines()
+    assert page == "page(machine: 'Mechanism', path: 'str | " and loaded == "[]"
+    for name, signature, doc, is_same in literal_eval(first):
+        there = getattr(import_module(f"linkage.{LATE[name]}"), name)
+        assert (signature, doc, is_same) == (str(inspect.signature(there)), there.__doc__, True), name
+        assert inspect.getsource(getattr(linkage, name)).splitlines()[0] in inspect.getsource(there)
 
 
 def test_every_name_of_the_door_is_there():

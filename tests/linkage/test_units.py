@@ -7,7 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkage import Column, DefinitionError, units
+from linkage import Column, Crank, DefinitionError, Dimension, ForceElement, Ground, Load, Mechanism, Stroke, page, report, units
+from linkage.files import load, to_toml
+from linkage.plan import plan_measure
 from linkage.reports import text_table
 from linkage.units import SYSTEMS, UNITS, current_system, decimals, parse, show, shown_in, shown_number, unit_system
 
@@ -149,3 +151,100 @@ def test_a_column_follows_the_system():
         assert [*text_table([column])] == ["pd, psi", "   2205", "   1422"]
     with unit_system("si"):
         assert [*text_table([column])] == ["pd, MPa", "  15.20", "   9.81"]
+
+
+# -- units of one's own --------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def damping(monkeypatch):
+    """Three units of damping, taken out of the table again afterwards."""
+    tables = units.UNITS, units.SI, *SYSTEMS.values()
+    before = [dict(table) for table in tables]
+    units.add_unit("N*s/m", 1.0, "drag")
+    units.add_unit("kN*s/m", 1e3, "drag")
+    units.add_unit("lbf s/ft", 14.5939, "drag", systems=["us"])
+    yield
+    for table, rows in zip(tables, before, strict=True):
+        table.clear()
+        table.update(rows)
+
+
+def test_an_added_unit_is_read_and_shown_like_any_other(damping):
+    assert parse("0.25 kN*s/m", "drag") == 250.0 and parse("2 lbf s/ft") == pytest.approx(29.1878)
+    assert show(250.0, "N*s/m") == "250 N*s/m" and units.units_of("drag") == ["N*s/m", "kN*s/m", "lbf s/ft"]
+    with unit_system("us"):
+        assert show(250.0, "kN*s/m", ".2f") == "17.1 lbf s/ft" and Column("c", [1.0], "N*s/m").heading == "c, lbf s/ft"
+    with pytest.raises(DefinitionError, match=r"'3 mm' is a length where a value of kind drag is wanted; use one of: N\*s/m, kN"):
+        parse("3 mm", "drag")
+    assert units.add_unit("kN*s/m", 1e3, "drag") == 1e3
+
+
+def test_a_class_a_file_and_a_sheet_know_it(damping, tmp_path):
+    class Drag(ForceElement):
+        """A force against the motion of a point, upwards."""
+
+        places, parameters, file_section = ("point",), {"size": "N*s/m"}, "loads"
+
+        def __init__(self, point, size):
+            self.point, self.size = point, size
+
+        def loads(self, motion):
+            return [Load("B", np.stack([0.0 * motion["B"][0], self.number(motion, "size") + 0.0 * motion["B"][1]]))]
+
+    class Lever(Mechanism):
+        """A lever that is held back."""
+
+        phi = Stroke(0.1, 1.0)
+        c = Dimension(250.0, unit="kN*s/m")
+        O = Ground(0.0, 0.0)
+        B = Crank(O, OB=0.5, angle=phi)
+        drag = Drag("B", 120.0)
+
+    assert drags(Lever) == [("c", "kN*s/m"), ("drag.size", "N*s/m")]
+    plain = type("Plain", (Lever,), {"drag": None})
+    text = to_toml(plain)
+    assert 'c = "0.25 kN*s/m"' in text and load(text.replace("0.25 kN*s/m", "3 lbf s/ft"))().dimensions["c"] == pytest.approx(43.7817)
+    with pytest.raises(DefinitionError, match="Unit 'N s' is unknown"):
+        type("Other", (Lever,), {"c": Dimension(1.0, unit="N s")})
+    lines = report(Lever(), tmp_path / "lever.md", units="us", count=3).read_text(encoding="utf-8")
+    assert "| c | $c$ | 17.1304" in lines and "lbf s/ft" in lines
+    page(Lever(), tmp_path / "lever.html", vary=["c"], count=3)
+
+
+def drags(machine):
+    """Return the variables of a machine that measure drag, with their units."""
+    entries = machine.plan.table.entries
+    return [(name, each.unit) for name, each in entries.items() if plan_measure(machine.plan, name) == "drag"]
+
+
+@pytest.mark.parametrize(
+    ("name", "factor", "measures", "said"),
+    [
+        ("mm", 1e-3, "drag", "mm is known already, as 0.001 of SI for length"),
+        ("mm", 1e-2, "length", "mm is known already"),
+        ("kX", 1e3, "something", "the first unit of something is that of SI"),
+        ("2X", 1.0, "something", "one or two words without digits in front"),
+        ("X Y Z", 1.0, "something", "one or two words"),
+        (" X", 1.0, "something", "one or two words"),
+        ("X,Y", 1.0, "something", "without commas"),
+        ("", 1.0, "something", "one or two words"),
+        (None, 1.0, "something", "one or two words"),
+        ("X", 0.0, "something", "a number above zero"),
+        ("X", math.nan, "something", "a number above zero"),
+        ("X", "1", "something", "a number above zero"),
+        ("X", True, "something", "a number above zero"),
+        ("X", 1.0, "", "what it measures"),
+        ("X", 1.0, 3, "what it measures"),
+    ],
+)
+def test_what_is_no_unit_is_refused(name, factor, measures, said):
+    with pytest.raises(DefinitionError, match=said):
+        units.add_unit(name, factor, measures)
+    assert "something" not in units.SI and units.UNITS["mm"] == (1e-3, "length")
+
+
+def test_a_system_that_is_not_there_is_refused():
+    with pytest.raises(DefinitionError, match="System of units 'cgs' is unknown"):
+        units.add_unit("dyn", 1e-5, "force", systems=["cgs"])
+    assert "dyn" not in UNITS

@@ -17,6 +17,7 @@ from zlib import decompress
 import numpy as np
 import pytest
 
+from linkage import plugins
 from linkage.cli import Command, listing, main
 from linkage.cli import command as progress
 from linkage.cli import entry as commands
@@ -396,16 +397,13 @@ class Weigh(Command):
 @pytest.fixture
 def plugged(monkeypatch):
     """Let two commands and two machines be installed, one of each broken."""
-    entries = {
-        commands.GROUP: [EntryPoint("weigh", f"{__name__}:Weigh", commands.GROUP), EntryPoint("burn", "no_package:Burn", commands.GROUP)],
-        listing.GROUP: [
-            EntryPoint("good", "mechanisms.mower_lift:MowerLift", listing.GROUP),
-            EntryPoint("bad", "no_package:Bad", listing.GROUP),
-        ],
+    installed = {
+        plugins.COMMANDS: {"weigh": f"{__name__}:Weigh", "burn": "no_package:Burn"},
+        plugins.MACHINES: {"good": "mechanisms.mower_lift:MowerLift", "bad": "no_package:Bad"},
     }
+    entries = {group: {name: EntryPoint(name, value, group) for name, value in each.items()} for group, each in installed.items()}
     monkeypatch.setitem(sys.modules, __name__, sys.modules.get(__name__) or sys.modules[Weigh.__module__])
-    for module in (commands, listing):
-        monkeypatch.setattr(module, "entry_points", lambda group: entries[group])
+    monkeypatch.setattr(plugins, "entry_points", lambda group: entries[group])
 
 
 def test_command_of_another_package(said, plugged):
@@ -474,7 +472,7 @@ def test_first_line_follows_a_class_that_is_handed_on(tmp_path, monkeypatch):
     (tmp_path / "handing" / "__init__.py").write_text("from .inner import Far as Near\nraise SystemExit\n", encoding="utf-8")
     (tmp_path / "handing" / "inner.py").write_text('class Far:\n    """What it is.\n\n    More."""\n', encoding="utf-8")
     monkeypatch.syspath_prepend(tmp_path)
-    assert listing.first_line(EntryPoint("near", "handing:Near", listing.GROUP)) == "What it is."
+    assert listing.first_line(EntryPoint("near", "handing:Near", plugins.MACHINES)) == "What it is."
 
 
 def test_module_is_the_command():

@@ -367,9 +367,9 @@ def test_doctor_tells_what_is_there(said, monkeypatch):
         assert words in out
     from importlib.metadata import EntryPoint
 
-    from linkage.cli import doctor
+    from linkage import plugins
 
     broken = EntryPoint("bad", "no_package:Bad", "hydrolinkage.machines")
-    monkeypatch.setattr(doctor, "entry_points", lambda group: [broken] if group == broken.group else [])
+    monkeypatch.setattr(plugins, "entry_points", lambda group: {"bad": broken} if group == broken.group else {})
     code, out, _ = said("doctor")
     assert code == 1 and "bad of the machines (no_package:Bad) cannot be loaded: ModuleNotFoundError" in out

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import LEFT, Crank, DefinitionError, Dyad, FileError, Ground, Link, Mechanism, Pin, Stroke, deg, mm, ref
+from linkage import LEFT, Crank, DefinitionError, Dyad, FileError, Ground, Link, Mechanism, Pin, Stroke, deg, mm, plugins, ref
 from linkage.cli import main
 from linkage.files import from_dict, load, registry, save, to_dict, to_json, to_toml
 from linkage.quantities import Member, name_of, quantity
@@ -254,8 +254,8 @@ class Maker(Member):
 @pytest.fixture
 def makers(monkeypatch):
     """Install a package that brings a kind of member."""
-    point = EntryPoint("maker", f"{__name__}:Maker", registry.GROUP)
-    monkeypatch.setattr(registry, "entry_points", lambda group: [point])
+    point = EntryPoint("maker", f"{__name__}:Maker", plugins.MEMBERS)
+    monkeypatch.setattr(plugins, "entry_points", lambda group: {"maker": point})
     registry.registry.cache_clear()
     yield
     registry.registry.cache_clear()
@@ -277,7 +277,7 @@ def test_without_that_package_the_kind_is_refused(makers):
     text = to_toml(type("Made", (Hitch,), {"smith": Maker("G", 1200)}))
     registry.registry.cache_clear()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(registry, "entry_points", lambda group: [])
+        patch.setattr(plugins, "entry_points", lambda group: {})
         with pytest.raises(FileError, match=r"makers: is not a section; there are name, .*\. The kinds of \[hydraulics\] are not"):
             load(text)
         with pytest.raises(DefinitionError, match="a file cannot hold a Maker"):
@@ -285,8 +285,9 @@ def test_without_that_package_the_kind_is_refused(makers):
 
 
 def test_package_that_cannot_be_loaded_is_named(monkeypatch):
-    monkeypatch.setattr(registry, "entry_points", lambda group: [EntryPoint("gone", "no_such_package:Entry", registry.GROUP)])
+    gone = EntryPoint("gone", "no_such_package:Entry", plugins.MEMBERS)
+    monkeypatch.setattr(plugins, "entry_points", lambda group: {"gone": gone})
     registry.registry.cache_clear()
-    with pytest.raises(DefinitionError, match=r"the entry gone \(no_such_package:Entry\) of a file cannot be loaded: No module"):
+    with pytest.raises(DefinitionError, match=r"the entry gone \(no_such_package:Entry\) of a file cannot be loaded: .*: No module"):
         to_toml(Hitch)
     registry.registry.cache_clear()

@@ -16,11 +16,9 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, LinkageError, Mechanism, Stroke
-from linkage.program import Graph, Kernel, Level, RunOptions, interpret, jacobian, solve_arrays
+from linkage.program import LANGUAGES, Graph, Kernel, Level, RunOptions, interpret, jacobian, solve_arrays
 from linkage.program.cache import CompiledFile, compiled
 from linkage.program.elimination import expanded
-from linkage.program.foreign import c_text
-from linkage.program.javascript import javascript_text
 from linkage.program.loop import numba_text
 from linkage.program.numpy_backend import aligned, cache_size, with_half_angles
 from linkage.program.schedule import ancestors, lowered, schedule
@@ -236,7 +234,7 @@ def test_an_unknown_way_is_refused(asked):
 @pytest.mark.parametrize("machine", [ThreePointHitch, SHIPPED[GROUPED[0]]])
 def test_the_text_in_c_agrees(machine, tmp_path):
     kernel, inputs = everything(machine), given(machine, 200)
-    (tmp_path / "k.c").write_text(c_text(kernel.outputs), encoding="utf-8")
+    (tmp_path / "k.c").write_text(LANGUAGES["c"].text(kernel.outputs), encoding="utf-8")
     flags = ["-O2", "-std=c99", "-Wall", "-Werror", "-Wno-unused-variable", "-shared", "-fPIC"]
     subprocess.run(["gcc", *flags, "-o", tmp_path / "k.so", tmp_path / "k.c", "-lm"], check=True)
     pointer = ctypes.POINTER(ctypes.c_double)
@@ -272,7 +270,8 @@ def test_the_text_in_javascript_agrees(machine):
     rows = np.array([np.ravel(inputs[node.value]) for node in plan.pose_inputs]).T.tolist()
     asked = json.dumps([[inputs[node.value] for node in plan.design_inputs], rows]).replace("NaN", "null")
     call = f"const [d, rows] = {asked}; console.log(JSON.stringify(rows.map(p => poses(d, p.map(v => v === null ? NaN : v)))))"
-    said = subprocess.run(["node", "-e", javascript_text(kernel.outputs) + call], check=True, capture_output=True, text=True).stdout
+    text = LANGUAGES["javascript"].text(kernel.outputs)
+    said = subprocess.run(["node", "-e", text + call], check=True, capture_output=True, text=True).stdout
     found = np.array([[np.nan if part is None else part for part in row] for row in json.loads(said)]).T
     agree(found, kernel(inputs, way=RunOptions("numpy")).values[:, 0], firm(machine, inputs))
 

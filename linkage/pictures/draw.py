@@ -1,0 +1,170 @@
+"""What `linkage.draw` and `linkage.plot` show of what: which picture is made of a machine, a motion, designs, modes, a search, a chain."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, overload
+
+import numpy as np
+
+from ..assembly import Assembly
+from ..errors import DefinitionError
+from ..mechanism import Mechanism
+from ..motion import Column, Motion, RequestLike
+from ..reports import NOTHING
+from ..study import Optimum
+from .chain import draw_chain
+from .curves import plot_machine, plot_motion
+from .designs import draw_designs
+from .mode_page import draw_modes
+from .optimum import draw_optimum, plot_optimum
+from .poses import draw_machine
+
+if TYPE_CHECKING:
+    import networkx as nx
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from ..loads import Case, Loads
+    from .drawing import Drawing
+
+
+@overload
+def draw(machine: Motion, *, ax: Axes, pose: int | tuple[int, ...] = ..., faint: bool = ...) -> Drawing: ...
+@overload
+def draw(machine: Optimum, *, count: int = ...) -> Figure: ...
+@overload
+def draw(machine: Sequence[Assembly]) -> Figure: ...
+@overload
+def draw(machine: Sequence[Mechanism], at: Any = ..., path: Sequence[str] = ..., count: int = ...) -> Figure: ...
+@overload
+def draw(
+    machine: Mechanism | Motion,
+    at: Any = ...,
+    path: Sequence[str] = ...,
+    count: int = ...,
+    *,
+    ax: None = ...,
+    pose: int | tuple[int, ...] = ...,
+    faint: bool = ...,
+    forces: bool | str = ...,
+    loads: Loads = ...,
+    case: Case = ...,
+    direction: str = ...,
+    drive: str | None = ...,
+    velocities: Mapping[str, Any] | None = ...,
+    pole: bool | str | tuple[str, str] = ...,
+) -> Figure: ...
+@overload
+def draw(machine: nx.MultiGraph) -> Figure: ...
+def draw(
+    machine: Mechanism | Motion | Optimum | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism],
+    at: Any = None,
+    path: Sequence[str] = (),
+    count: int = 101,
+    *,
+    ax: Axes | None = None,
+    pose: int | tuple[int, ...] = 0,
+    faint: bool = False,
+    forces: bool | str = False,
+    loads: Loads = None,
+    case: Case = None,
+    direction: str = "frictionless",
+    drive: str | None = None,
+    velocities: Mapping[str, Any] | None = None,
+    pole: bool | str | tuple[str, str] = False,
+) -> Figure | Drawing:
+    """Return a figure of a mechanism at chosen strokes, the last one bold and the others faint; or a motion at one of its poses.
+
+    Of a mechanism, `at` are values of the first stroke [m or rad], or a mapping `dict(S=[0.0, 0.25])` for another or for
+    several; without it, the two ends of the first stroke, the others in their middle. A full turn is drawn where its
+    pins stand apart, with what the machine is about at its least and greatest, faint.
+    `path` names points whose paths are drawn over that stroke, at `count` poses. Poses out of reach are left out, and the
+    picture says so; where none is in reach this raises AssemblyError.
+
+    Of a motion, `pose` is an index into its strokes, an int for the flat one; on axes that are given, the drawing comes back, whose
+    `update(pose)` moves it. Empty axes become a sheet with equal scales that has room for the whole motion. A faint mechanism has
+    no names. Raises DefinitionError for a batch of designs, an unknown name or a pose that is not there.
+
+    Over the pose, the bold one of several, are laid: with `forces=True` the pin forces and loads as arrows to one scale, with the name of
+    a body, `forces="OBC"`, that body alone with all forces on it and their polygon; `loads`, `case`, `direction`, `drive` as `pin_forces`
+    takes them. `velocities=dict(S=0.05)` gives the points' velocities at these stroke rates [1/s], which dampers get too. `pole="EDF"` is
+    the body's instant centre, `pole=("EDF", "FKG")` that of two bodies, `pole=True` that of each body no fixed pin holds. Where a pose is
+    refused the picture says why, for a motion without `unreachable="nan"` this raises SingularError.
+
+    Of several designs, `draw([hitch, hitch.replaced(OB=0.32)])`, or a batch, all at the same strokes, in their middle unless `at` says
+    others; of two the first one is faint, of more each has its own colour; up to 12. Of `machine.assemblies()`, a small picture of each
+    mode with the line of code that chooses it.
+
+    Of the result of a search, the machine before, faint, and after, bold, at both ends of its stroke, with how far each pin moved.
+
+    Of `machine.graph`, the kinematic chain: its bodies, and the pins and slides between them.
+    """
+    is_laid = ax is not None or velocities is not None or any(each is not None and each is not False for each in (faint, forces, pole))
+    is_laid = is_laid or not (isinstance(pose, int) and pose == 0)
+    if isinstance(machine, Sequence):
+        modes = [each for each in machine if isinstance(each, Assembly)]
+        designs = [each for each in machine if not isinstance(each, Assembly)]
+        if is_laid or bool(modes) == bool(designs):
+            raise DefinitionError(
+                "draw([...]): one or more designs, with at=, path= and count= if wanted, or machine.assemblies() are expected."
+            )
+        return draw_designs(designs, at, path, count) if designs else draw_modes(modes)
+    if "networkx" in sys.modules and isinstance(machine, sys.modules["networkx"].MultiGraph):
+        if at is not None or path or is_laid:
+            raise DefinitionError("draw(machine.graph): a graph has no poses; it is drawn by itself.")
+        return draw_chain(machine)
+    if isinstance(machine, Mechanism) and not is_laid and any(map(np.ndim, machine.dimensions.values())):
+        return draw_designs([machine], at, path, count)
+    if isinstance(machine, Optimum):
+        if at is not None or path or is_laid:
+            title = machine.problem.plan.title
+            raise DefinitionError(f"{title}: a search's result is drawn at the ends of its stroke; it takes count= alone.")
+        return draw_optimum(machine, count)
+    return draw_machine(
+        machine, at, path, count, ax=ax, pose=pose, faint=faint, forces=forces, loads=loads, case=case, direction=direction, drive=drive,
+        velocities=velocities, pole=pole,
+    )  # fmt: skip
+
+
+@overload
+def plot(motion: Optimum) -> Figure: ...
+@overload
+def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = ...) -> Figure: ...
+@overload
+def plot(
+    motion: Mechanism,
+    columns: Sequence[Column | RequestLike] = ...,
+    *,
+    limits: Mapping[str, Sequence[Any]] | None = ...,
+    at: Mapping[str, Any] = ...,
+    count: int = ...,
+) -> Figure: ...
+def plot(
+    motion: Motion | Mechanism | Optimum,
+    columns: Sequence[Column | RequestLike] = (),
+    *,
+    limits: Mapping[str, Sequence[Any]] | None = None,
+    at: Mapping[str, Any] = NOTHING,
+    count: int = 101,
+) -> Figure:
+    """Return a figure of columns over the stroke, a panel each; a column that is the stroke itself is left out.
+
+    A column may go by its name: a named output, or a point's coordinate such as "G_y"; a request, `drive_force()`, is one under its own
+    words. Of a machine the columns of its table of results have names too, those it is about are drawn where none is named, with their
+    limits (`Mechanism.featured`); it runs as in `animate`, `at=dict(tilt=0.1)`, at `count` poses. `limits` are, by the column's name,
+    `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that fails, above unless said, is shaded.
+    Raises DefinitionError for a batch, a grid, or an unknown name.
+
+    Of the result of a search, the quantity of the objective and of each condition over the stroke, before and after, with its limit.
+    """
+    if isinstance(motion, Optimum):
+        if columns or limits is not None or at:
+            raise DefinitionError(f"{motion.problem.plan.title}: a search's result has its own curves and limits; write plot(optimum).")
+        return plot_optimum(motion)
+    if isinstance(motion, Mechanism):
+        return plot_machine(motion, columns, limits, at, count)
+    if at or count != 101:
+        raise DefinitionError("plot(motion, ...): a motion has its poses; at= and count= go with a machine, plot(machine, at=...).")
+    return plot_motion(motion, columns, limits=limits)

@@ -1,0 +1,114 @@
+"""What other packages bring, joined by entry points: `[project.entry-points."hydrolinkage.exporters"]` of their `pyproject.toml`.
+
+Nothing of a package is loaded before it is asked for by its name; one that cannot be loaded is named, and hides no other.
+"""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from collections.abc import Callable, Iterator, Mapping
+from functools import lru_cache
+from importlib import import_module
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Generic, TypeVar, final
+
+from .errors import DefinitionError, LinkageError
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+MACHINES = "hydrolinkage.machines"
+COMMANDS = "hydrolinkage.commands"
+REQUESTS = "hydrolinkage.requests"
+MEMBERS = "hydrolinkage.files"
+EXPORTERS = "hydrolinkage.exporters"
+LANGUAGES = "hydrolinkage.languages"
+BACKENDS = "hydrolinkage.backends"
+
+GROUPS: Mapping[str, str] = {
+    MACHINES: "machines",
+    COMMANDS: "commands",
+    REQUESTS: "requests in files",
+    MEMBERS: "members in files",
+    EXPORTERS: "kinds of files of export",
+    LANGUAGES: "languages of source",
+    BACKENDS: "back ends of evaluate",
+}
+"""The groups of entry points, each with what its entries are."""
+
+T = TypeVar("T")
+
+
+def entry_points(group: str) -> Mapping[str, EntryPoint]:
+    """Return what is installed of a group of entry points, by name, in the order of the names."""
+    return entry_points_along(group, tuple(sys.path))
+
+
+@lru_cache(maxsize=64)
+def entry_points_along(group: str, folders: tuple[str, ...]) -> Mapping[str, EntryPoint]:
+    """Return the same where modules are looked for in some folders: those of `sys.path`; read once for each such list."""
+    metadata = import_module("importlib.metadata")  # here: it takes longer to load than half of this package
+    found = {entry.name: entry for entry in metadata.entry_points(group=group)}
+    return MappingProxyType({name: found[name] for name in sorted(found)})
+
+
+def guarded(load: Callable[[], T], what: str) -> T:
+    """Return what is loaded; whatever goes wrong in a user's module becomes a DefinitionError with its line."""
+    try:
+        return load()
+    except FileNotFoundError as error:
+        raise DefinitionError(f"{what}: {error.strerror or error}.") from error
+    except SyntaxError as error:
+        raise DefinitionError(f"{what} cannot be loaded: {error.filename}, line {error.lineno}: {error.msg}.") from error
+    except LinkageError as error:
+        raise DefinitionError(f"{what} cannot be loaded: {error}") from error
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # a script that leaves by sys.exit is one as well
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        where = "" if last.filename.startswith("<") else f" ({last.filename}, line {last.lineno})"
+        raise DefinitionError(f"{what} cannot be loaded: {type(error).__name__}: {error}{where}.") from error
+
+
+@final
+class Plugins(Generic[T]):
+    """What there is of one kind, by name: what this package has itself, and what others bring in a group of entry points.
+
+    `what` begins the sentence on an entry that is not as it should be, "The exporter"; `made` returns what an entry's object stands for,
+    None where it is none, and `expected` says then what it should be.
+    """
+
+    def __init__(self, group: str, what: str, made: Callable[[object], T | None], expected: str, own: Mapping[str, T]) -> None:
+        self.group, self.what, self.made, self.expected, self.own = group, what, made, expected, own
+        self._loaded: dict[EntryPoint, T] = {}
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and (name in self.own or name in entry_points(self.group))
+
+    def __iter__(self) -> Iterator[str]:
+        """Yield the names, those of this package first; nothing is loaded."""
+        return iter({**self.own, **entry_points(self.group)})
+
+    def __getitem__(self, name: str) -> T:
+        """Return what has a name; DefinitionError where it cannot be loaded or is no such thing, KeyError where there is none."""
+        if name in self.own:
+            return self.own[name]
+        entry = entry_points(self.group)[name]
+        if entry not in self._loaded:
+            title = f"{self.what} {name} ({entry.value})"
+            found = self.made(guarded(entry.load, title))
+            if found is None:
+                raise DefinitionError(f"{title} is {self.expected}.")
+            self._loaded[entry] = found
+        return self._loaded[entry]
+
+    def loaded(self) -> tuple[dict[str, T], list[str]]:
+        """Return all that there are by name; and of those that cannot be loaded, why not."""
+        found, faults = dict(self.own), []
+        for name in entry_points(self.group):
+            try:
+                found[name] = self[name]
+            except DefinitionError as error:
+                faults.append(str(error))
+        return found, faults

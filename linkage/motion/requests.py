@@ -654,12 +654,15 @@ class NodeRequest(Request):
     """A request that needs no class: functions of a plan say its nodes and the members it is built from, and refuse what is not there.
 
     `text` is what one writes, `sentence` what is said of it where that is something else, and `key` tells it from others. What it is
-    built from is `parts`, whose names may be another thing's tomorrow where they have none.
+    built from is `parts`: where one of these has no identity, it has none either. Where all that hangs on the plan, `bound_by` returns
+    the request that it is there, and `identity_by` its identity.
     """
 
     text: str
-    nodes_of: Callable[[Plan], tuple[Node, ...]]
-    names_of: Callable[[Plan], set[str]]
+    nodes_of: Callable[[Plan], tuple[Node, ...]] | None = None
+    names_of: Callable[[Plan], set[str]] | None = None
+    bound_by: Callable[[Plan], NodeRequest] | None = None
+    identity_by: Callable[[Plan], Hashable] | None = None
     key: Hashable = None
     sentence: str = ""
     measures: str = ""
@@ -675,9 +678,13 @@ class NodeRequest(Request):
     refused_by: Callable[[MotionLike], None] | None = None
 
     def identity(self, plan: Plan) -> Hashable:
+        if self.identity_by is not None:
+            return self.identity_by(plan)
         return None if None in [identity_of(plan, each) for each in self.parts] else self.key
 
     def bound(self, plan: Plan) -> NodeRequest:
+        if self.bound_by is not None:
+            return self.bound_by(plan)
         self.names(plan)  # raises for what there is not
         return self
 
@@ -685,10 +692,10 @@ class NodeRequest(Request):
         return super().of(motion) if self.values_of is None else self.values_of(motion)
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        return self.nodes_of(plan)
+        return super().nodes(plan) if self.nodes_of is None else self.nodes_of(plan)
 
     def names(self, plan: Plan) -> set[str]:
-        return self.names_of(plan)
+        return super().names(plan) if self.names_of is None else self.names_of(plan)
 
     def notes(self, plan: Plan) -> Notes:
         return Notes() if self.notes_of is None else self.notes_of(plan)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
 from ..mechanism import Mechanism
-from ..motion import BoundRequest, Grid, Motion, Request, at_values, evaluate_grid, stroke_display_unit
+from ..motion import Grid, Motion, Request, at_values, evaluate_grid, stroke_display_unit
 from ..motion.grid import JoinedTo
 from ..motion.measures import At, Integral, Leaf, Least, Measure, Most, Worst, strokes_behind, traced, words_of
 from ..plan import Plan
@@ -29,7 +29,7 @@ The function returns a number for each pose, or one for each design: `lambda mot
 """
 
 
-def number_bound(plan: Plan, quantity: Any) -> BoundRequest | None:
+def number_bound(plan: Plan, quantity: Any) -> Request | None:
     """Return a quantity bound to a plan as nodes of its program; None of what has none: a measure, a function of a motion.
 
     DefinitionError for what is no quantity, and for a point, which has two coordinates.

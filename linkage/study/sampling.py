@@ -9,14 +9,14 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import AssemblyError, UntracedError, unwarned
-from ..motion import BoundRequest, Grid, Motion, Request
+from ..motion import Grid, Motion, NodeRequest, Request
 from ..motion.evaluation import Evaluation
 from ..motion.grid import Angles, JoinedTo, angles_of
 from ..motion.kinds import constant_part, operation
 from ..motion.measures import traced
 from ..motion.requests import slope
 from ..plan import Mask, Plan
-from ..program import QUICKEST, FloatArray, Kernel, Level
+from ..program import QUICKEST, FloatArray, Kernel, Level, Node
 from ..quantities import Quantity, Ref
 from .checks import quantity_values
 
@@ -51,7 +51,7 @@ class SampleProgram:
     be without a value though no guard tells of it.
     """
 
-    requests: tuple[BoundRequest, ...]
+    requests: tuple[Request, ...]
     rows: int
     kernel: Kernel
     angles: Angles
@@ -59,7 +59,7 @@ class SampleProgram:
     may_fail: bool
 
     @classmethod
-    def of(cls, plan: Plan, evaluation: Evaluation, sloped: Sequence[BoundRequest], owners: tuple[str, ...]) -> SampleProgram:
+    def of(cls, plan: Plan, evaluation: Evaluation, sloped: Sequence[Request], owners: tuple[str, ...]) -> SampleProgram:
         """Return the program of an evaluation's requests, and of derivatives of some by the owners, on a plan that is not traced yet."""
         bulk = evaluation._make(plan)
         own = bulk.kernel
@@ -102,7 +102,7 @@ class Sampling:
         bound = [(place, traced(plan, quantity)) for place, quantity in enumerate(self.quantities)]
         self._traced = {place: request for place, request in bound if request is not None}
         self._eager = [place for place, request in bound if request is None]
-        self._divisors: list[tuple[int, BoundRequest]] = []
+        self._divisors: list[tuple[int, Request]] = []
         for place in self._traced:
             found = [traced(plan, each) for each in divisors_of(plan, self.quantities[place])]
             self._divisors += [(place, each) for each in found if each is not None]
@@ -111,7 +111,7 @@ class Sampling:
     def at(self, grid: Grid, *, margins: bool = False, slopes: bool = False) -> Samples:
         """Return the quantities over a grid, NaN where they have no value; with the margins, and of one design the derivatives."""
         (m, n), k, p = grid.size, len(self.quantities), len(self.owners)
-        loops = Margin.each_of(self.plan) if margins else []  # before anything else is read, which may have triangles of its own
+        loops = loop_margins(self.plan) if margins else []  # before anything else is read, which may have triangles of its own
         first = len(loops) + 1
         with unwarned(), np.errstate(all="ignore"):
             found, shares = self._program(grid, loops, slopes=slopes)(grid)
@@ -138,11 +138,11 @@ class Sampling:
                 value_slopes[place] = self._differences(grid, self.quantities[place])
         return replace(samples, value_slopes=value_slopes, margin_slopes=by_owner[len(self._traced) :])
 
-    def _program(self, grid: Grid, loops: Sequence[BoundRequest], *, slopes: bool) -> SampleProgram:
+    def _program(self, grid: Grid, loops: Sequence[Request], *, slopes: bool) -> SampleProgram:
         """Return the program of the margins, of whether all has a place, of the quantities and of their divisors."""
         asked = bool(loops), slopes
         if asked not in self._programs:
-            requests = (*loops, Placed(), *self._traced.values(), *(each for _, each in self._divisors))
+            requests = (*loops, all_placed(), *self._traced.values(), *(each for _, each in self._divisors))
             sloped = [*self._traced.values(), *loops] if slopes else []
             key = "samples", tuple(each.key for each in requests), len(sloped), self.owners
             evaluation = Evaluation(grid, requests, QUICKEST, "nan")
@@ -266,55 +266,33 @@ def zero_factors(plan: Plan, divisor: Any) -> list[Any]:
 
 # How far the links are from being too short or too long to meet.
 
-@final
-@dataclass(frozen=True)
-class Margin(BoundRequest):
-    """What is above zero where one loop of links is assembled: a squared sine, or a length [m]; by the loop's number."""
+def loop_margins(plan: Plan) -> list[NodeRequest]:
+    """Return what is above zero where each loop of links that moves is assembled: a squared sine, or a length [m]."""
 
-    place: int
+    def margin(place: int) -> NodeRequest:
+        def nodes(plan: Plan) -> tuple[Node, ...]:
+            loop = plan.trace.loops[place]
+            return (loop.terms[0] / loop.terms[2] if loop.kind == "links" else loop.terms[0],)
 
-    @classmethod
-    def each_of(cls, plan: Plan) -> list[Margin]:
-        """Return those of a plan, of what moves."""
-        loops = [place for place, loop in enumerate(plan.trace.loops) if loop.kind in ("links", "length")]
-        return [cls(place) for place in loops if plan.trace.loops[place].terms[0].level is not Level.CONSTANT]
+        return NodeRequest(
+            text=f"margin {place}", key=("margin", place), nodes_of=nodes, names_of=lambda plan: plan.reaches(plan.trace.loops[place].step)
+        )
 
-    @property
-    def key(self) -> Any:
-        return "margin", self.place
-
-    def nodes(self, plan: Plan) -> tuple[Any, ...]:
-        loop = plan.trace.loops[self.place]
-        return (loop.terms[0] / loop.terms[2] if loop.kind == "links" else loop.terms[0],)
-
-    def names(self, plan: Plan) -> set[str]:
-        return plan.reaches(plan.trace.loops[self.place].step)
-
-    def __str__(self) -> str:
-        return f"margin {self.place}"
+    loops = [place for place, loop in enumerate(plan.trace.loops) if loop.kind in ("links", "length")]
+    return [margin(place) for place in loops if plan.trace.loops[place].terms[0].level is not Level.CONSTANT]
 
 
-@final
-@dataclass(frozen=True)
-class Placed(BoundRequest):
-    """A number that is finite where every point has a place."""
+def all_placed() -> NodeRequest:
+    """Return a number that is finite where every point has a place."""
 
-    @property
-    def key(self) -> Any:
-        return "placed"
-
-    def nodes(self, plan: Plan) -> tuple[Any, ...]:
+    def nodes(plan: Plan) -> tuple[Node, ...]:
         whole = plan.trace.graph.constant(0.0)
         for name in plan.moving:
             for node in plan.nodes(name):
                 whole = whole + node
         return (whole,)
 
-    def names(self, plan: Plan) -> set[str]:
-        return plan.reaches(*plan.moving)
-
-    def __str__(self) -> str:
-        return "all places"
+    return NodeRequest(text="all places", key="placed", nodes_of=nodes, names_of=lambda plan: plan.reaches(*plan.moving))
 
 
 def with_values(designs: Mapping[str, Any], changed: Mapping[str, Any]) -> dict[str, Any]:

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
-from ..motion import BoundRequest, Motion, RequestLike, evaluate_grid, stroke_display_unit
+from ..motion import Motion, Request, RequestLike, evaluate_grid, stroke_display_unit
 from ..motion.grid import Grid, JoinedTo
 from ..motion.kinds import measure_of
 from ..motion.requests import dimensions_of, slopes_of
@@ -121,7 +121,7 @@ class Aim:
 
     machine: Mechanism
     targets: tuple[Target, ...]
-    bound: tuple[BoundRequest, ...]
+    bound: tuple[Request, ...]
     strokes: Mapping[str, FloatArray]
     base: Motion
     wanted: FloatArray

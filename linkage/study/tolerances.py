@@ -13,12 +13,12 @@ import numpy as np
 from ..errors import DefinitionError, cited, one_word, unknown, unwarned
 from ..frozen import refuses_changes
 from ..mechanism import Mechanism
-from ..motion import BoundRequest, Request, RequestLike, require_motion
+from ..motion import NodeRequest, Request, RequestLike, require_motion
 from ..motion.grid import MotionLike
 from ..motion.measures import words_of
 from ..motion.requests import dimensions_of, identity_of
 from ..plan import Plan
-from ..program import FloatArray, Node, Notes, gradient
+from ..program import FloatArray, Node, gradient
 from ..quantities import is_number
 from ..units import show
 from .box import unit_points
@@ -170,35 +170,23 @@ def shifted_designs(machine: Mechanism, tolerances: Mapping[str, Tolerance], lev
 
 # The standard deviation that tolerances give a quantity, from its exact gradient: a request, so that a search can follow it.
 
-@final
-@dataclass(frozen=True, eq=False)
-class Sigma(Request):
-    """The standard deviation of a quantity, to the first order in the tolerances of some dimensions, as something to ask for."""
-
-    quantity: RequestLike
-    tolerances: Mapping[str, ToleranceLike]
-
-    def identity(self, plan: Plan) -> Hashable:
-        of = identity_of(plan, self.quantity)
-        return None if of is None else ("sigma", of, deviations_of(plan, self.tolerances))
-
-    def bound(self, plan: Plan) -> SigmaOf:
-        return SigmaOf(traced_number(plan, self.quantity), self.quantity, deviations_of(plan, self.tolerances))
-
-    def __str__(self) -> str:
-        return f"sigma({words_of(self.quantity)})"
-
-
-def sigma(quantity: RequestLike, tolerances: Mapping[str, ToleranceLike]) -> Sigma:
+def sigma(quantity: RequestLike, tolerances: Mapping[str, ToleranceLike]) -> NodeRequest:
     """Return the request for the standard deviation of a quantity, sqrt(sum (g_i sigma_i)^2) with its exact gradient g.
 
     `sigma("tilt", {"OB": 0.1 * mm, "M": 0.5 * mm})` in the quantity's unit, in `evaluate`, `function`, `gradient` and searches. Dimensions
     are independent of each other. Source: the law of propagation of uncertainty, ISO/IEC Guide 98-3 (GUM), 5.1.2.
     """
-    return Sigma(quantity, tolerances)
+    def identity(plan: Plan) -> Hashable:
+        of = identity_of(plan, quantity)
+        return None if of is None else ("sigma", of, deviations_of(plan, tolerances))
+
+    def bound_in(plan: Plan) -> NodeRequest:
+        return sigma_of(traced_number(plan, quantity), quantity, deviations_of(plan, tolerances))
+
+    return NodeRequest(text=f"sigma({words_of(quantity)})", bound_by=bound_in, identity_by=identity)
 
 
-def traced_number(plan: Plan, quantity: Any) -> BoundRequest:
+def traced_number(plan: Plan, quantity: Any) -> Request:
     """Return a quantity bound to a plan; DefinitionError for what has no gradient in the program."""
     found = number_bound(plan, quantity)
     if found is None:
@@ -212,51 +200,26 @@ def deviations_of(plan: Plan, tolerances: Any) -> tuple[tuple[str, float], ...]:
     return tuple((name, each.sigma) for name, each in tolerances_of(plan, tolerances).items())
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class SigmaOf(BoundRequest):
-    """The standard deviation of a quantity, bound to a plan: the quantity, and dimensions with their standard deviations [SI]."""
+def sigma_of(what: Request, quantity: RequestLike, deviations: tuple[tuple[str, float], ...]) -> NodeRequest:
+    """Return the standard deviation of a quantity that is bound to a plan, from dimensions with their standard deviations [SI]."""
 
-    what: BoundRequest
-    quantity: RequestLike
-    deviations: tuple[tuple[str, float], ...]
-
-    @property
-    def key(self) -> Hashable:
-        return "sigma", self.what.key, self.deviations
-
-    @property
-    def order(self) -> int:
-        return 1 + self.what.order
-
-    def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        (node,) = self.what.nodes(plan)
-        owners = [owner for owner, _ in dimensions_of(plan, [name for name, _ in self.deviations])]
+    def nodes(plan: Plan) -> tuple[Node, ...]:
+        (node,) = what.nodes(plan)
+        owners = [owner for owner, _ in dimensions_of(plan, [name for name, _ in deviations])]
         graph, total = node.graph, node.graph.constant(0.0)
-        for share, (_, each) in zip(gradient(node, [plan.trace.inputs[owner] for owner in owners]), self.deviations, strict=True):
+        for share, (_, each) in zip(gradient(node, [plan.trace.inputs[owner] for owner in owners]), deviations, strict=True):
             total = total + (each * share) * (each * share)
         return (graph.apply("sqrt", total),)
 
-    def names(self, plan: Plan) -> set[str]:
-        return self.what.names(plan)
+    def refuse(motion: MotionLike) -> None:
+        what.refuse(motion)
+        require_motion(motion).gradient(quantity, wrt=[name for name, _ in deviations])
 
-    def notes(self, plan: Plan) -> Notes:
-        return self.what.notes(plan)
-
-    def refuse(self, motion: MotionLike) -> None:
-        self.what.refuse(motion)
-        require_motion(motion).gradient(self.quantity, wrt=[name for name, _ in self.deviations])
-
-    @property
-    def may_fail(self) -> bool:
-        return True
-
-    @property
-    def follows_angles(self) -> bool:
-        return self.what.follows_angles
-
-    def __str__(self) -> str:
-        return f"the sigma of {self.what.sentence}"
+    return NodeRequest(
+        text=f"sigma({words_of(quantity)})", sentence=f"the sigma of {what.sentence}", key=("sigma", what.key, deviations),
+        order=1 + what.order, nodes_of=nodes, names_of=what.names, notes_of=what.notes, refused_by=refuse, may_fail=True,
+        follows_angles=what.follows_angles,
+    )  # fmt: skip
 
 
 def spread(

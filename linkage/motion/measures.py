@@ -22,7 +22,7 @@ import numpy as np
 from ..errors import DefinitionError, LawError, UntracedError, cited
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import PoseCondition, Quantity, is_number, name_of, x, y
+from ..quantities import Arithmetic, PoseCondition, Quantity, is_number, name_of, x, y
 from .motion import Motion
 from .requests import NodeRequest, Request, Value, bound
 
@@ -32,13 +32,13 @@ MeasuredQuantity: TypeAlias = "str | Quantity | Request | Worst | Callable[[Moti
 OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = MappingProxyType(
     {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "**": operator.pow}
 )
+SYMBOLS = {"add": "+", "subtract": "-", "multiply": "*", "divide": "/", "power": "**"}
 BINDS = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 3}
 
 
-class Measure(ABC):
+class Measure(Arithmetic):
     """One number of a design. Measures add and multiply; compared with one another or a number they make a condition."""
 
-    __array_ufunc__ = None
     __hash__ = object.__hash__
 
     @property
@@ -60,35 +60,14 @@ class Measure(ABC):
         """How strongly it binds as text."""
         return 9
 
-    def __add__(self, other: Operand) -> Measure:
-        return CombinedMeasure("+", self, as_measure(other))
-
-    def __radd__(self, other: Operand) -> Measure:
-        return CombinedMeasure("+", as_measure(other), self)
-
-    def __sub__(self, other: Operand) -> Measure:
-        return CombinedMeasure("-", self, as_measure(other))
-
-    def __rsub__(self, other: Operand) -> Measure:
-        return CombinedMeasure("-", as_measure(other), self)
-
-    def __mul__(self, other: Operand) -> Measure:
-        return CombinedMeasure("*", self, as_measure(other))
-
-    def __rmul__(self, other: Operand) -> Measure:
-        return CombinedMeasure("*", as_measure(other), self)
-
-    def __truediv__(self, other: Operand) -> Measure:
-        return CombinedMeasure("/", self, as_measure(other))
-
-    def __rtruediv__(self, other: Operand) -> Measure:
-        return CombinedMeasure("/", as_measure(other), self)
-
-    def __pow__(self, other: float) -> Measure:
-        return CombinedMeasure("**", self, as_measure(other))
-
-    def __neg__(self) -> Measure:
-        return CombinedMeasure("*", Given(-1.0), self)
+    def applied(self, function: str, *operands: Any) -> Measure:
+        """Return what an operation makes of measures and numbers; DefinitionError for any other of NumPy's functions."""
+        if function == "negative":
+            return CombinedMeasure("*", Given(-1.0), self)
+        if function not in SYMBOLS:
+            raise DefinitionError(f"{self}: measures take + - * / **; take np.{function} of the quantity in it.")
+        left, right = map(as_measure, operands)
+        return CombinedMeasure(SYMBOLS[function], left, right)
 
     def __ge__(self, other: Operand) -> Constraint:
         return Constraint(self, ">=", as_measure(other))

@@ -328,7 +328,8 @@ def area_of_duty(duty: DriveDuty, asked: float) -> Measure:
     By virtual work the integral of M_g2 is the force times the way of the cylinder; `asked` is that of M_l2 [J].
     """
     way = at("length", psi=max(duty.phi_0, duty.psi_0)) - at("length", psi=duty.psi_k)
-    return at("pull") * way - asked
+    found: Measure = at("pull") * way - asked
+    return found
 
 
 def design_arm_drive(

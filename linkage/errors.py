@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
 from traceback import extract_tb
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -63,7 +63,7 @@ class AssemblyError(LinkageError):
 class SingularError(AssemblyError):
     """A ratio or a force was asked for at a singular pose; positions stay available in `motion`."""
 
-    def __init__(self, message: str, *, point: str = "", mask: npt.ArrayLike | None = None, motion: Any = None) -> None:
+    def __init__(self, message: str, *, point: str = "", mask: npt.ArrayLike | None = None, motion: object = None) -> None:
         super().__init__(message, point=point, mask=mask)
         self.reason = message
         self.motion = motion

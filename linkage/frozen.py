@@ -34,7 +34,7 @@ def read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return view
 
 
-def unmasked(value: Any) -> Any:
+def unmasked(value: object) -> Any:
     """Return a masked array of numbers as floats with NaN in the places that are masked; anything else as it is."""
     if isinstance(value, np.ma.MaskedArray) and value.dtype.kind in "fiu":
         return np.ma.filled(value.astype(float), np.nan)

@@ -348,7 +348,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         return columns_of(motion)
 
     @of_a_design
-    def verdicts(self, motion: Motion | None = None, *, over: Any = None, acting: Acting | None = None) -> list[str]:
+    def verdicts(self, motion: Motion | None = None, *, over: object = None, acting: Acting | None = None) -> list[str]:
         """Return what an engineer should know of this design: `Verdict`s and sentences; of a batch, how many designs fail.
 
         Of a motion over all that it covers, without one over `overs` or what is given as `over`; under all load cases that occur, in all
@@ -387,7 +387,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         """
         return ShownList(self.judge(over, acting).answers(questions))
 
-    def judge(self, over: Any = None, acting: Acting | None = None) -> Judge:
+    def judge(self, over: object = None, acting: Acting | None = None) -> Judge:
         """Return who answers questions of this design, over what is given or what it runs."""
         given = self.overs if over is None else over if isinstance(over, (list, tuple)) else (over,)
         known = [isinstance(each, (Over, Motion)) or is_strokes(each) for each in given]

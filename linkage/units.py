@@ -173,7 +173,10 @@ def display_unit(measure: str, length: str = "m") -> str:
     return {"angle": "deg", "length": length, "force": "kN", "pressure": "bar"}.get(measure, "")
 
 
-_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\s\d]\S*(?: [^\s\d]+)?)?\s*\Z")
+DIGITS = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+"""A number without its sign as it is written everywhere: in classes' texts, files, studies and commands."""
+_QUANTITY = re.compile(rf"\s*([-+]?{DIGITS})\s*([^\s\d]\S*(?: [^\s\d]+)?)?\s*\Z")
+_SPAN = re.compile(r"\s*(?P<low>.+?)\s+to\s+(?P<high>.+?)(?:\s+(?:in steps of|by)\s+(?P<step>.+?))?\s*\Z")
 _COMMA = re.compile(r"\s*[-+]?\d*,\d+\s*[^\s\d,]*\s*\Z")
 
 
@@ -201,6 +204,23 @@ def parse(text: str, kind: str = "") -> float:
         article = "an" if measured[0] in "aeiou" else "a"
         raise DefinitionError(f"{text!r} is {article} {measured} where a value of kind {kind} is wanted; use one of: {valid}.")
     return finite_value(float(float(number) * factor), text)
+
+
+def parse_span(text: str, kind: str = "") -> tuple[float, ...] | None:
+    """Return the ends in SI, and the step where there is one, of a text such as `270 to 330 mm by 5 mm`; None of any other text.
+
+    What has no unit has that of the first part behind it that has one.
+    """
+    found = _SPAN.match(text)
+    if found is None:
+        return None
+    parts = [part for part in found.group("low", "high", "step") if part]
+    matches = [_QUANTITY.match(part) for part in parts]
+    unit = next((match[2] for match in matches[1:] if match is not None and match[2]), "")
+    return tuple(
+        parse(f"{part} {unit}" if unit and match is not None and not match[2] else part, kind)
+        for part, match in zip(parts, matches, strict=True)
+    )
 
 
 def finite_value(value: float, text: str) -> float:

@@ -26,7 +26,7 @@ class Verdict(str, Shown):
     heading: str
     answer: Any
 
-    def __new__(cls, rule: str, ok: bool | None, sentence: str, heading: str = "", answer: Any = None) -> Self:
+    def __new__(cls, rule: str, ok: bool | None, sentence: str, heading: str = "", answer: object = None) -> Self:
         """Return a verdict; DefinitionError for a rule or a sentence that is no text.
 
         `rule` is its name for programs, English; `heading` is it in the language that is spoken, from the catalogues where it is not given.
@@ -45,7 +45,7 @@ class Verdict(str, Shown):
         """Return it with a name added to its rule, where several members follow the same one."""
         return type(self)(f"{self.rule} {name}", self.ok, self.sentence, f"{self.heading} {name}", self.answer)
 
-    def answered(self, answer: Any) -> Self:
+    def answered(self, answer: object) -> Self:
         """Return it with what the judge found."""
         return type(self)(self.rule, self.ok, self.sentence, self.heading, answer)
 

@@ -106,7 +106,7 @@ def of_module(module: ModuleType, name: str, place: str) -> type[Mechanism]:
     return machine(next(iter(own.values())), place)
 
 
-def is_machine(found: Any) -> bool:
+def is_machine(found: object) -> bool:
     """Return whether something is a class of mechanism."""
     return isinstance(found, type) and issubclass(found, Mechanism) and found is not Mechanism
 

@@ -14,12 +14,12 @@ from ..errors import AssemblyError, DefinitionError, SingularError, known_name, 
 from ..language import said, said_of
 from ..loads import DIRECTIONS, PLAIN, PLAIN_CASE, Acting, LoadCase
 from ..mechanism import Mechanism
-from ..motion import Column, Motion, Over, Request, RequestLike, columns_of, out_of_reach, stroke_unit
+from ..motion import Column, Motion, Over, Request, RequestLike, columns_of, out_of_reach, stroke_measure, stroke_unit
 from ..plan import Plan, plan_measure
 from ..quantities import Dimension, Quantity, Stroke
 from ..reports import NOTHING, At, force_columns, results, run_of
 from ..steps import Point
-from ..units import UNITS, parse
+from ..units import UNITS, parse, parse_span
 from ..verdict import Verdict
 from .command import say_remark
 
@@ -76,12 +76,10 @@ def parsed_over(machine: Mechanism, text: str) -> Over:
 
 def parsed_ends(plan: Plan, name: str, text: str) -> float | tuple[float, float]:
     """Return one value of a stroke, or two ends [m or rad]; a unit behind the second holds for the first too, as in `15:80deg`."""
-    from ..files.study_file import span_said
-
-    kind, parts = stroke_kind(plan, name), [part.strip() for part in text.split(":")]
+    kind, parts = stroke_measure(plan, name), [part.strip() for part in text.split(":")]
     if len(parts) == 1:
         return si_value(parts[0], kind, f"--over {name}")
-    span = span_said(" to ".join(parts), kind) if len(parts) == 2 and all(parts) else None
+    span = parse_span(" to ".join(parts), kind) if len(parts) == 2 and all(parts) else None
     if span is None or len(span) != 2:
         raise DefinitionError(f"--over {name}={text}: one value or two ends are expected, such as {name}=15deg:80deg.")
     return span[0], span[1]
@@ -213,12 +211,7 @@ def stroke_values(plan: Plan, text: str) -> tuple[str, Any]:
     name, values = pair(text, "--at", "S=0.6,650mm")
     if name not in plan.strokes:
         raise unknown("Stroke", name, plan.strokes, where=plan.title)
-    return name, np.array([si_value(value, stroke_kind(plan, name), f"--at {name}") for value in values.split(",")])
-
-
-def stroke_kind(plan: Plan, name: str) -> str:
-    """Return what a stroke measures: "angle" or "length"."""
-    return "angle" if stroke_unit(plan, name) == "rad" else "length"
+    return name, np.array([si_value(value, stroke_measure(plan, name), f"--at {name}") for value in values.split(",")])
 
 
 # -- columns -----------------------------------------------------------------------------------------------

@@ -74,7 +74,7 @@ CONDITIONS: Mapping[str, Condition] = MappingProxyType({"reachable": reachable})
 AXES = {"_x": x, "_y": y, ".x": x, ".y": y}
 
 
-def measure_said(text: Any, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Measure:
+def measure_said(text: object, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Measure:
     """Return the measure that a text says; DefinitionError for what is none of this machine.
 
     What depends on no stroke is one too: `mass`.
@@ -93,7 +93,7 @@ def measure_or_constant(found: Any, machine: Mechanism) -> Measure:
     return at(found) if is_quantity and not strokes_behind(machine.plan, found) else as_measure(found)
 
 
-def condition_said(text: Any, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Condition:
+def condition_said(text: object, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Condition:
     """Return the condition that a text says; DefinitionError for what is none of this machine."""
     parser = CriterionParser(checked_text(text), machine)
     found = parser.whole()
@@ -104,7 +104,7 @@ def condition_said(text: Any, machine: Mechanism, over: Mapping[str, Any] | None
     return found
 
 
-def quantity_said(text: Any, machine: Mechanism) -> Any:
+def quantity_said(text: object, machine: Mechanism) -> Any:
     """Return the quantity over poses that a text says: an output's name, a quantity or a request; DefinitionError for what is none."""
     found = CriterionParser(checked_text(text), machine).whole()
     if is_number(found) or isinstance(found, (Measure, Condition, Worst)):
@@ -114,7 +114,7 @@ def quantity_said(text: Any, machine: Mechanism) -> Any:
     return found
 
 
-def checked_text(text: Any) -> str:
+def checked_text(text: object) -> str:
     """Return a text; DefinitionError for anything else."""
     if not isinstance(text, str) or not text.strip():
         raise DefinitionError(f'{text!r:.60} is no text in quotes, such as "least(tilt)".')
@@ -190,7 +190,7 @@ class CriterionParser(Grammar):
 
     # -- parts -----------------------------------------------------------------------------------------
 
-    def joined(self, sign: str, a: Any, b: Any) -> Any:
+    def joined(self, sign: str, a: object, b: object) -> Any:
         if sign in ("*", "/") and isinstance(a, Request) and isinstance(b, Amount):
             return Combined("multiply" if sign == "*" else "divide", (a, Number(float(b))))  # measures something else
         if sign in ("+", "-"):
@@ -203,7 +203,7 @@ class CriterionParser(Grammar):
             raise DefinitionError(f"{self.words(a)} {sign} {self.words(b)} cannot be calculated.") from None
         return self.checked_number(found, f"{a!r} {sign} {b!r}") if is_number(a) and is_number(b) else found
 
-    def check_sum(self, sign: str, a: Any, b: Any) -> None:
+    def check_sum(self, sign: str, a: object, b: object) -> None:
         """Raise DefinitionError where a number with a unit is added to a quantity of another kind."""
         kinds = [
             MeasureKind(KINDS[each.measures]) if isinstance(each, Amount) and each.measures in KINDS
@@ -218,12 +218,12 @@ class CriterionParser(Grammar):
         return -part
 
     @staticmethod
-    def words(part: Any) -> str:
+    def words(part: object) -> str:
         """Return a part in words."""
         return words_of(part) if isinstance(part, (Quantity, Request, Worst, str)) else str(part)
 
     @staticmethod
-    def checked_number(value: Any, text: str) -> float:
+    def checked_number(value: object, text: str) -> float:
         """Return a number; DefinitionError where a calculation has no finite one."""
         if not isinstance(value, (int, float)) or not math.isfinite(value):
             raise DefinitionError(f"{text} has no finite value.")
@@ -361,7 +361,7 @@ class CriterionParser(Grammar):
         return first, second
 
 
-def is_count(value: Any, make: Callable[..., Any], key: str) -> bool:
+def is_count(value: object, make: Callable[..., Any], key: str) -> bool:
     """Return whether an argument is a whole number without a unit in the place of one, such as the order of a derivative."""
     return type(value) is float and value.is_integer() and signature(make).parameters[key].annotation in (int, "int")
 

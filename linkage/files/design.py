@@ -36,7 +36,7 @@ class Design:
         self.written.add(name)
         return float(self.set.get(name, given.number))
 
-    def amount(self, given: Any, unit: str = "", name: str = "") -> Any:
+    def amount(self, given: object, unit: str = "", name: str = "") -> Any:
         """Return a number of a load as it is given, in its unit where that is exact, or the expression in its place.
 
         `name` is that of its design variable, where it is one.
@@ -74,7 +74,7 @@ class Design:
         """Return the text of a quantity's or a vector's own rule, whatever its name; DefinitionError unless it reads back as the same."""
         return self.checked(str(given), own_form(given), expression if isinstance(given, Quantity) else arrow)
 
-    def checked(self, text: str, says: Any, read: Callable[[str, Names], Any]) -> str:
+    def checked(self, text: str, says: object, read: Callable[[str, Names], Any]) -> str:
         """Return a text; DefinitionError unless it is read as what it says."""
         if own_form(read(text, self.names)) != says:
             raise DefinitionError(f"{text} does not read back as it is; give its parts names of their own.")
@@ -95,12 +95,12 @@ def in_unit(value: float, unit: str) -> float | str:
     return text if parse(text) == value else value
 
 
-def option(value: Any) -> Any:
+def option(value: object) -> Any:
     """Return an option of a load as a file holds it: a number, a word, a name, a list of them; DefinitionError for anything else."""
     return [one_option(each) for each in value] if isinstance(value, (tuple, list, np.ndarray)) and np.ndim(value) else one_option(value)
 
 
-def one_option(value: Any) -> Any:
+def one_option(value: object) -> Any:
     """Return a number, a word or a member's name; DefinitionError for anything else."""
     value = name_of(value) if isinstance(value, Member) else plain(value)
     if is_number(value) or isinstance(value, str):
@@ -162,7 +162,7 @@ def is_label_of(text: str, link: Link) -> bool:
 # -- what a quantity or a vector says, apart from how it is written: whether a text reads back as the same --
 
 
-def own_form(member: Any) -> Any:
+def own_form(member: object) -> Any:
     """Return what a member says, as nested tuples that compare; its own name does not count."""
     if isinstance(member, Ref):
         return member.target
@@ -171,7 +171,7 @@ def own_form(member: Any) -> Any:
     return type(member), *(form(value) for name, value in vars(member).items() if name not in ("_name", "_class"))
 
 
-def form(part: Any) -> Any:
+def form(part: object) -> Any:
     """Return what a part of a member says: its name where it has one."""
     if isinstance(part, tuple):
         return tuple(map(form, part))

@@ -62,7 +62,7 @@ class Argument:
         """Whether it must be given."""
         return self.default is Parameter.empty
 
-    def written(self, member: Any, design: Design, owner: str) -> Any:
+    def written(self, member: object, design: Design, owner: str) -> Any:
         """Return the argument that a member has as a file holds it; None where it need not be written. `owner` is the member's name."""
         value = kept(member, self.name)
         if value is None and not self.needed:
@@ -71,7 +71,7 @@ class Argument:
         return None if self.may_go and repr(found) == repr(self.kind.write(self.default, design, "")) else found
 
 
-def kept(member: Any, argument: str) -> Any:
+def kept(member: object, argument: str) -> Any:
     """Return what a member was given for an argument; DefinitionError where it does not keep it."""
     values = [getattr(member, name) for name in (argument, *KEPT_AS.get(argument, ())) if hasattr(member, name)]
     if not values:
@@ -161,7 +161,7 @@ def made_of(found: Mapping[str, Any], arguments: Iterable[Argument]) -> dict[str
     return {each.name: each.kind.make(found[each.name]) for each in arguments if each.name in found}
 
 
-def written_table(member: Any, design: Design, arguments: Iterable[Argument], owner: str = "") -> dict[str, Any]:
+def written_table(member: object, design: Design, arguments: Iterable[Argument], owner: str = "") -> dict[str, Any]:
     """Return the arguments of a member by their keys; those of a value within it come last."""
     found: dict[str, Any] = {}
     inner: dict[str, Any] = {}
@@ -186,7 +186,7 @@ class Within(Kind):
         """Return the kind of a value of a class."""
         arguments = arguments_of(part)
 
-        def write(value: Any, design: Design, name: str) -> dict[str, Any]:
+        def write(value: object, design: Design, name: str) -> dict[str, Any]:
             if not isinstance(value, part):
                 what = f"its {name.rpartition('.')[2]} is a Python function" if callable(value) else repr(value)
                 raise DefinitionError(f"{what}, which a file cannot hold; write {part.__name__}(...), whose numbers may follow dimensions.")
@@ -199,7 +199,7 @@ def list_of(part: type[Any]) -> Kind:
     """Return the kind of a list of values of a class: a table with the arguments of that class for each."""
     arguments = arguments_of(part)
 
-    def read_one(given: Any, names: Names) -> dict[str, Any]:
+    def read_one(given: object, names: Names) -> dict[str, Any]:
         if not isinstance(given, Mapping):
             raise DefinitionError("is not a table { key = value }.")
         mistakes = Mistakes()
@@ -208,7 +208,7 @@ def list_of(part: type[Any]) -> Kind:
         mistakes.check()
         return found
 
-    def read(given: Any, names: Names) -> list[dict[str, Any]]:
+    def read(given: object, names: Names) -> list[dict[str, Any]]:
         if not isinstance(given, (list, tuple)):
             raise DefinitionError("is not a list [...].")
         if len(given) > VALUES:
@@ -285,7 +285,7 @@ class FileEntry:
 
     # -- reading ---------------------------------------------------------------------------------------
 
-    def read(self, given: Any, names: Names) -> Member:
+    def read(self, given: object, names: Names) -> Member:
         """Return the member that an entry says; DefinitionError, with all mistakes by their keys, for what cannot be."""
         if not isinstance(given, Mapping):
             raise DefinitionError(f"{shortened(given)} is not a table {{ key = value }} with the keys {', '.join(self.keys)}.")
@@ -321,7 +321,7 @@ class FileEntry:
                 raise DefinitionError(f"{shortened(key)} is not a label; write the points' names joined, such as AB or BOC.")
         return dict.fromkeys(labels)
 
-    def _read_parents(self, given: Any, names: Names) -> tuple[Any, ...]:
+    def _read_parents(self, given: object, names: Names) -> tuple[Any, ...]:
         """Return what a member is built from: one thing, or a list of them."""
         if len(self.built_from) == 1:
             return (self.built_from[0].kind.read(given, names),)

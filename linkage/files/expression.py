@@ -25,7 +25,7 @@ from ..errors import DefinitionError, unknown
 from ..quantities import Function, Length, Member, Number, Quantity, angle, distance, x, y
 from ..quantities.quantity import FUNCTIONS
 from ..steps import Arrow, CosineAngle, Turn, Vector
-from ..units import UNITS, parse
+from ..units import DIGITS, UNITS, parse
 from .names import Names
 
 EXPRESSION_LENGTH = 1_000
@@ -42,7 +42,7 @@ OWN_WORDS = r"(?P<name>[^\W\d]\w*)|(?P<sign>\*\*|[-+*/(),=])"
 def words_with_numbers(others: str, units: tuple[str, ...]) -> re.Pattern[str]:
     """Return the pattern of one word: a number with a unit, what else a grammar knows, or the end."""
     unit = "|".join(re.escape(name) for name in sorted(units, key=len, reverse=True))
-    number = rf"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?(?:[ \t]*(?P<unit>{unit})(?!\w))?)"
+    number = rf"(?P<number>{DIGITS}(?:[ \t]*(?P<unit>{unit})(?!\w))?)"
     return re.compile(rf"\s*(?:{number}|{others}|(?P<end>\Z))")
 
 
@@ -113,7 +113,7 @@ def applied(function: str) -> Callable[..., Quantity]:
     return make
 
 
-def finite_number(value: Any, text: str) -> Number:
+def finite_number(value: object, text: str) -> Number:
     """Return a number; DefinitionError where a calculation has no finite one."""
     if not isinstance(value, (int, float)) or not math.isfinite(value):
         raise DefinitionError(f"{text} has no finite value.")

@@ -19,7 +19,7 @@ SHAPES = ("path", "poses")
 _COMPARED = re.compile(r"([^<>=!]+)(<=|>=)([^<>=!]+)")
 
 
-def over_read(given: Any, names: Names) -> Over:
+def over_read(given: object, names: Names) -> Over:
     """Return where is looked, as a table says it; DefinitionError, with the key, for what it is not."""
     if not isinstance(given, Mapping):
         raise DefinitionError(f'{shortened(given)} is not a table of strokes, such as {{ phi = ["15 deg", "80 deg"], t = 0.0 }}.')
@@ -42,14 +42,14 @@ def over_read(given: Any, names: Names) -> Over:
     return made
 
 
-def stroke_of_over(given: Any, names: Names) -> Any:
+def stroke_of_over(given: object, names: Names) -> Any:
     """Return what a stroke of it is given: one value, or several, numbers [SI], texts with a unit, quantities of the design."""
     if isinstance(given, list):
         return tuple(amount_of(each, names, "") for each in given)
     return amount_of(given, names, "")
 
 
-def condition_of(text: Any, names: Names) -> PoseCondition:
+def condition_of(text: object, names: Names) -> PoseCondition:
     """Return the condition on poses that a text says, `x(T) <= 4`; DefinitionError for any other."""
     found = _COMPARED.fullmatch(text) if isinstance(text, str) else None
     if found is None:

@@ -41,7 +41,7 @@ def from_dict(data: Mapping[str, Any], trust: Collection[str] = ()) -> type[Mech
     return built(data, Faults(source="the tables"), trusted(trust))
 
 
-def trusted(given: Any) -> tuple[str, ...]:
+def trusted(given: object) -> tuple[str, ...]:
     """Return the packages that may be imported; DefinitionError for what is no list of names."""
     if isinstance(given, str) or not isinstance(given, Collection) or not all(isinstance(each, str) and each for each in given):
         raise DefinitionError(f'trust={shortened(given)} is no list of packages; write trust=["mypackage"].')
@@ -63,7 +63,7 @@ def built(data: Any, faults: Faults, trust: Collection[str]) -> type[Mechanism]:
 # -- the tables --------------------------------------------------------------------------------------------
 
 
-def sections_of(data: Any, faults: Faults) -> dict[str, Mapping[str, Any]]:
+def sections_of(data: object, faults: Faults) -> dict[str, Mapping[str, Any]]:
     """Return the sections with their entries; what is no section is noted."""
     if not isinstance(data, Mapping):
         raise FileError(f"{faults.source}: a table of sections is expected, not {type(data).__name__}.")
@@ -90,7 +90,7 @@ def head_read(data: Mapping[str, Any], faults: Faults) -> tuple[str, str | None]
     return str(title), doc
 
 
-def featured_read(given: Any, faults: Faults) -> Featured:
+def featured_read(given: object, faults: Faults) -> Featured:
     """Return what the machine is about; what is none is noted."""
     found = Featured()
     with faults.at("featured"):

@@ -62,7 +62,7 @@ def stroke_written(member: Stroke, design: Design) -> list[float | str]:
     return [degrees_text(end) if turns else end for end in (member.start, member.end)]
 
 
-def dimension_of(given: Any, names: Names) -> Dimension:
+def dimension_of(given: object, names: Names) -> Dimension:
     """Return a dimension with the unit it is shown in: a number [SI], `500 mm`, or { value = 0.5, unit = "mm" }."""
     if isinstance(given, Mapping):
         if not {"value"} <= set(given) <= {"value", "unit"} or not isinstance(given.get("unit", ""), str):
@@ -83,7 +83,7 @@ def dimension_written(member: Dimension, design: Design) -> Any:
     return next(found, {"value": value, "unit": member.unit})
 
 
-def output_of(given: Any, names: Names) -> Quantity:
+def output_of(given: object, names: Names) -> Quantity:
     """Return the quantity that an expression says; of a name alone one that follows it."""
     found = quantity_of(given, names)
     return ref(found.name) if found.name else found
@@ -94,7 +94,7 @@ def output_written(member: Any, design: Design) -> float | str:
     return member.number if member.is_constant else design.own(member)
 
 
-def vector_of(given: Any, names: Names) -> steps.Arrow:
+def vector_of(given: object, names: Names) -> steps.Arrow:
     """Return the vector that a text says; DefinitionError for the name of one."""
     found = arrow_of(given, names)
     if isinstance(found, str):
@@ -206,7 +206,7 @@ class Registry:
         what = unknown("Kind", shortened(key, quote=False), words) if key else f"{shortened(given)} is no entry of [{section}]."
         raise DefinitionError(f"{what} Write it like {example}.{self.elsewhere(given)}{self.absent()}")
 
-    def elsewhere(self, given: Any) -> str:
+    def elsewhere(self, given: object) -> str:
         """Return in which section an entry would be known, in words; "" where in none."""
         keys = set(given) if isinstance(given, Mapping) else set()
         found = [(word, section) for section, words in self.sections.items() for word in words if word and word in keys]

@@ -130,7 +130,7 @@ def objectives_listed(head: StudyHead, over: Mapping[str, Any] | None) -> dict[s
     return found
 
 
-def conditions_listed(head: StudyHead, given: Any, over: Mapping[str, Any] | None) -> list[Any]:
+def conditions_listed(head: StudyHead, given: object, over: Mapping[str, Any] | None) -> list[Any]:
     """Return the conditions of a list of texts; mistakes are noted, each with its number."""
     found: list[Any] = []
     if isinstance(given, str):

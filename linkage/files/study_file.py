@@ -19,13 +19,13 @@ from ..disk import check_place
 from ..errors import DefinitionError, FileError, known_name, one_word, unknown
 from ..loads import PLAIN_CASE, LoadCase
 from ..mechanism import Mechanism
-from ..motion import Over, stroke_unit
+from ..motion import Over, stroke_measure
 from ..plan import Plan, plan_measure
 from ..quantities import is_number, is_whole
 from ..study.problem import ranges_of
 from ..study.space import Space, around, known_dimension
 from ..study.tolerances import Tolerance, tolerances_of
-from ..units import parse
+from ..units import parse, parse_span
 from .criterion import CriterionParser
 from .names import shortened
 from .source import TEXT, Faults, source
@@ -36,10 +36,7 @@ FindMachine: TypeAlias = Callable[[str, Path], type[Mechanism]]
 PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
 RANGE_WORDS = 'a range such as "270 to 330 mm", "270 to 330 mm in steps of 5 mm" or "within 60 mm", or a list of choices'
 
-_SPAN = re.compile(r"\s*(?P<low>.+?)\s+to\s+(?P<high>.+?)(?:\s+(?:in steps of|by)\s+(?P<step>.+?))?\s*\Z")
 _AROUND = re.compile(r"\s*(?:within|around|\+-|\+/-|±)\s*(?P<by>.+?)(?:\s+(?:in steps of|by)\s+(?P<step>.+?))?\s*\Z")
-_BARE = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?\Z")
-_UNIT_PART = re.compile(r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*(?P<unit>[^\W\d]\S*|°)\s*\Z")
 
 
 @final
@@ -80,7 +77,7 @@ class StudyHead:
         """The machine's plan."""
         return self.machine.plan
 
-    def path_of(self, given: Any) -> Path:
+    def path_of(self, given: object) -> Path:
         """Return a path as it is meant: relative to the file's own folder. DefinitionError for what is none."""
         if not isinstance(given, str) or not given.strip():
             raise DefinitionError(f"{shortened(given)} is no path in quotes.")
@@ -99,7 +96,7 @@ def machine_said(data: Mapping[str, Any], faults: Faults, find: FindMachine, bas
     return found
 
 
-def settings_said(plan: Plan, given: Any, faults: Faults) -> dict[str, Any]:
+def settings_said(plan: Plan, given: object, faults: Faults) -> dict[str, Any]:
     """Return dimensions [SI] by name; mistakes are noted."""
     found: dict[str, Any] = {}
     for name, value in flattened(given, plan, "set"):
@@ -111,7 +108,7 @@ def settings_said(plan: Plan, given: Any, faults: Faults) -> dict[str, Any]:
 # Values: numbers in SI, or texts with a unit that measures what it should.
 
 
-def flattened(given: Any, plan: Plan, what: str, words: Sequence[str] = ()) -> Iterator[tuple[str, Any]]:
+def flattened(given: object, plan: Plan, what: str, words: Sequence[str] = ()) -> Iterator[tuple[str, Any]]:
     """Yield the entries of a table of dimensions; `lift.bore = 1`, which TOML keeps as a table in a table, by its whole name."""
     if not isinstance(given, Mapping):
         raise DefinitionError(f"{what} = {shortened(given)}: a table by the names of dimensions is expected, such as [{what}] OB = ...")
@@ -128,7 +125,7 @@ def measure_of_name(plan: Plan, name: str) -> str:
     return plan_measure(plan, plan.table.spellings[name][0]) if known else "length" if f"{name}.x" in plan.table.spellings else ""
 
 
-def amount_said(given: Any, measures: str) -> float:
+def amount_said(given: object, measures: str) -> float:
     """Return a number as it is [SI], or that of a text whose unit measures what it should; DefinitionError for anything else."""
     if isinstance(given, str):
         return parse(given, measures)
@@ -137,7 +134,7 @@ def amount_said(given: Any, measures: str) -> float:
     return float(given)
 
 
-def value_said(given: Any, plan: Plan, name: str) -> Any:
+def value_said(given: object, plan: Plan, name: str) -> Any:
     """Return the value of a dimension [SI], of a point a pair."""
     measures = measure_of_name(plan, name)
     if isinstance(given, (list, tuple)):
@@ -154,7 +151,7 @@ def value_said(given: Any, plan: Plan, name: str) -> Any:
 RANGE_KEYS = ("from", "to", "step", "around", "choices")
 
 
-def vary_said(head: StudyHead, given: Any) -> dict[Any, Any]:
+def vary_said(head: StudyHead, given: object) -> dict[Any, Any]:
     """Return what varies as `optimise` takes it; mistakes are noted, each under its name."""
     found: dict[Any, Any] = {}
     with head.faults.at("vary"):
@@ -173,7 +170,7 @@ def vary_said(head: StudyHead, given: Any) -> dict[Any, Any]:
     return found
 
 
-def range_said(given: Any, plan: Plan, name: str) -> Any:
+def range_said(given: object, plan: Plan, name: str) -> Any:
     """Return what a dimension ranges over as `optimise` takes it: a tuple, `around(...)`, or a list of choices."""
     measures = measure_of_name(plan, name)
     if isinstance(given, (list, tuple)):
@@ -185,20 +182,10 @@ def range_said(given: Any, plan: Plan, name: str) -> Any:
     if near is not None:
         step = near.group("step")
         return around(parse(near.group("by"), measures), None if step is None else parse(step, measures))
-    ends = span_said(text, measures)
+    ends = parse_span(text, measures)
     if ends is None:
         raise DefinitionError(f"{shortened(given)} is no range; write {RANGE_WORDS}.")
     return ends
-
-
-def span_said(text: str, measures: str) -> tuple[float, ...] | None:
-    """Return the ends and the step [SI] of a text such as `270 to 330 mm`; None of any other one."""
-    found = _SPAN.match(text)
-    if found is None:
-        return None
-    parts = [found.group("low"), found.group("high"), *([found.group("step")] if found.group("step") else [])]
-    unit = next((match.group("unit") for part in parts[1:] if not _BARE.match(part) and (match := _UNIT_PART.match(part))), "")
-    return tuple(parse(f"{part} {unit}" if unit and _BARE.match(part) else part, measures) for part in parts)
 
 
 def range_of_table(given: Mapping[str, Any], plan: Plan, name: str, measures: str) -> Any:
@@ -216,7 +203,7 @@ def range_of_table(given: Mapping[str, Any], plan: Plan, name: str, measures: st
     return (*(amount_said(given[key], measures) for key in ("from", "to")), *step)
 
 
-def rows_said(given: Any, plan: Plan, names: Sequence[str]) -> list[Any]:
+def rows_said(given: object, plan: Plan, names: Sequence[str]) -> list[Any]:
     """Return the rows of a catalogue, each with a value for each of some names."""
     if not isinstance(given, list):
         raise DefinitionError(f"{shortened(given)}: rows are expected, a list [...] with {len(names)} values each.")
@@ -233,7 +220,7 @@ def rows_said(given: Any, plan: Plan, names: Sequence[str]) -> list[Any]:
 TOLERANCE_KEYS = ("limits", "law")
 
 
-def tolerances_said(head: StudyHead, given: Any, *key: str) -> dict[str, Any]:
+def tolerances_said(head: StudyHead, given: object, *key: str) -> dict[str, Any]:
     """Return tolerances by the names of dimensions; mistakes are noted, each under its name behind a key."""
     found: dict[str, Any] = {}
     with head.faults.at(*key):
@@ -247,7 +234,7 @@ def tolerances_said(head: StudyHead, given: Any, *key: str) -> dict[str, Any]:
     return found
 
 
-def tolerance_said(given: Any, measures: str) -> Tolerance:
+def tolerance_said(given: object, measures: str) -> Tolerance:
     """Return a tolerance: how far to either side, the two limits, or { limits, law }."""
     if isinstance(given, Mapping):
         for each in given:
@@ -258,7 +245,7 @@ def tolerance_said(given: Any, measures: str) -> Tolerance:
     return Tolerance(limits_said(given, measures))
 
 
-def limits_said(given: Any, measures: str) -> float | tuple[float, float]:
+def limits_said(given: object, measures: str) -> float | tuple[float, float]:
     """Return how far a dimension may lie from its value [SI]: to either side, or its two limits."""
     if isinstance(given, list):
         if len(given) != 2:
@@ -270,7 +257,7 @@ def limits_said(given: Any, measures: str) -> float | tuple[float, float]:
 # Strokes, load cases, words and numbers.
 
 
-def over_said(head: StudyHead, given: Any, *key: str) -> dict[str, Any]:
+def over_said(head: StudyHead, given: object, *key: str) -> dict[str, Any]:
     """Return the parts of the strokes that are looked at, as `optimise` takes them; mistakes are noted behind a key.
 
     A text is the name of an `Over` that the machine declares.
@@ -301,7 +288,7 @@ def strokes_declared(head: StudyHead, name: str) -> dict[str, Any]:
     return dict(over.strokes)
 
 
-def part_said(head: StudyHead, stroke: str, given: Any) -> Any:
+def part_said(head: StudyHead, stroke: str, given: object) -> Any:
     """Return a part of a stroke: one value, or two ends, which may be quantities that follow the design."""
     measures = stroke_measure(head.plan, stroke)
     if isinstance(given, Mapping):
@@ -312,25 +299,20 @@ def part_said(head: StudyHead, stroke: str, given: Any) -> Any:
         if len(given) != 2:
             raise DefinitionError(f"{shortened(given)}: two ends are expected.")
         return tuple(end_said(head, each, measures) for each in given)
-    span = span_said(given, measures) if isinstance(given, str) else None
+    span = parse_span(given, measures) if isinstance(given, str) else None
     if span is not None and len(span) == 3:
         raise DefinitionError(f"{shortened(given)}: a search looks at the whole of a stroke, not at steps of it.")
     return amount_said(given, measures) if span is None else span
 
 
-def end_said(head: StudyHead, given: Any, measures: str) -> Any:
+def end_said(head: StudyHead, given: object, measures: str) -> Any:
     """Return an end of a stroke's part: a number [SI], or a quantity."""
     if isinstance(given, str) and re.match(r"\s*[^\W\d]", given):
         return CriterionParser(given, head.machine).whole()
     return amount_said(given, measures)
 
 
-def stroke_measure(plan: Plan, stroke: str) -> str:
-    """Return what a stroke measures: "angle" or "length"."""
-    return "angle" if stroke_unit(plan, stroke) == "rad" else "length"
-
-
-def case_said(head: StudyHead, given: Any) -> Any:
+def case_said(head: StudyHead, given: object) -> Any:
     """Return the name of a load case, or a list of names; DefinitionError for an unknown one."""
     cases = head.plan.of_kind(LoadCase)
     if isinstance(given, list) and given:

@@ -27,7 +27,7 @@ import numpy as np
 from ..errors import DefinitionError, one_word, unknown
 from ..loads import Acting
 from ..mechanism import Mechanism
-from ..motion import Column, Request, stroke_display_unit
+from ..motion import Column, Request, stroke_display_unit, stroke_measure
 from ..motion.kinds import measure_of
 from ..motion.measures import At, Constraint, Given, Measure
 from ..program import FloatArray
@@ -41,7 +41,7 @@ from ..study.monte_carlo import limits_listed
 from ..study.optimise import constraint_in_case, in_case
 from ..study.space import Around, coordinates
 from ..study.survey import Progress
-from ..units import display_unit, show
+from ..units import display_unit, parse_span, show
 from .criterion import CriterionParser, checked_text, condition_said, measure_said, quantity_said
 from .names import shortened
 from .study_file import (
@@ -56,8 +56,6 @@ from .study_file import (
     outputs_said,
     over_said,
     range_said,
-    span_said,
-    stroke_measure,
     tolerances_said,
 )
 from .survey_measures import TextMeasures, named_measures
@@ -146,12 +144,12 @@ class StudyTask(ABC):
         """Return the strokes as columns."""
         return [Column(name, np.ravel(value), stroke_display_unit(self.plan, name, "mm"), 4) for name, value in strokes.items()]
 
-    def unit_of_quantity(self, quantity: Any) -> str:
+    def unit_of_quantity(self, quantity: object) -> str:
         """Return the unit that a quantity is shown in."""
         return display_unit(measure_of(self.plan, quantity), "mm")
 
 
-def box_range(machine: Mechanism, name: str, said: Any) -> dict[str, Any]:
+def box_range(machine: Mechanism, name: str, said: object) -> dict[str, Any]:
     """Return a range as a box takes it; DefinitionError for one in steps."""
     plan = machine.plan
     if isinstance(said, Around):
@@ -166,11 +164,11 @@ def box_range(machine: Mechanism, name: str, said: Any) -> dict[str, Any]:
     return {name: said}
 
 
-def stroke_values_said(given: Any, measures: str, poses: int) -> Any:
+def stroke_values_said(given: object, measures: str, poses: int) -> Any:
     """Return values of a stroke [SI]: one, those of a list, or so many over a range."""
     if isinstance(given, list):
         return np.array([amount_said(each, measures) for each in given])
-    span = span_said(given, measures) if isinstance(given, str) else None
+    span = parse_span(given, measures) if isinstance(given, str) else None
     if span is None:
         return amount_said(given, measures)
     if len(span) == 3:
@@ -344,7 +342,7 @@ def with_case(quantity: Any, case: Any) -> Any:
     return quantity.under(Acting(case=case), keep=True) if case is not None and isinstance(quantity, Request) else quantity
 
 
-def quantity_or_measure(text: Any, machine: Mechanism) -> Any:
+def quantity_or_measure(text: object, machine: Mechanism) -> Any:
     """Return the quantity over poses that a text says, or a measure; DefinitionError for what is neither."""
     found = CriterionParser(checked_text(text), machine).whole()
     return measure_said(text, machine) if isinstance(found, Measure) else quantity_said(text, machine)
@@ -392,7 +390,7 @@ class SettingsTask(StudyTask):
                 with self.at("targets", str(number)):
                     self.targets.append(self.target(condition_said(text, self.machine)))
 
-    def target(self, condition: Any) -> Target:
+    def target(self, condition: object) -> Target:
         """Return the target that a condition says; DefinitionError for any but `at(...) == number`."""
         if isinstance(condition, Constraint) and condition.symbol == "==":
             for one, other in ((condition.left, condition.right), (condition.right, condition.left)):

@@ -28,7 +28,7 @@ DEEPEST = 3
 """How deep lists may stand in each other."""
 
 
-def file_value(value: Any, design: Design, name: str = "") -> Any:
+def file_value(value: object, design: Design, name: str = "") -> Any:
     """Return a value as a file holds it, by what it is: an expression, a name, a number, a word, lists and tables of them.
 
     `name` is that of its design variable, where it is one. DefinitionError for what a file cannot hold.
@@ -65,7 +65,7 @@ class Kind:
 # -- numbers and expressions -------------------------------------------------------------------------------
 
 
-def quantity_of(given: Any, names: Names) -> Quantity:
+def quantity_of(given: object, names: Names) -> Quantity:
     """Return a number [SI], a text such as `500 mm`, or an expression as a quantity."""
     if isinstance(given, str):
         return expression(given, names)
@@ -74,7 +74,7 @@ def quantity_of(given: Any, names: Names) -> Quantity:
     return Number(float(given))
 
 
-def number_of(given: Any, names: Names, measures: str = "") -> float:
+def number_of(given: object, names: Names, measures: str = "") -> float:
     """Return a number as it is given, or that of a text without names whose unit measures what it should [SI]."""
     if isinstance(given, str):
         check_unit(given, measures)
@@ -87,7 +87,7 @@ def number_of(given: Any, names: Names, measures: str = "") -> float:
     return given  # an int stays one: it prints as it was written
 
 
-def amount_of(given: Any, names: Names, measures: str) -> Any:
+def amount_of(given: object, names: Names, measures: str) -> Any:
     """Return a number [SI], that of a text such as `1200 kg` whose unit measures what it should, or an expression as a quantity."""
     if not isinstance(given, str):
         return number_of(given, names)
@@ -103,7 +103,7 @@ def check_unit(text: str, measures: str) -> None:
         parse(text.strip("+-() \t\n"), measures)
 
 
-def two(given: Any, what: str) -> tuple[Any, Any]:
+def two(given: object, what: str) -> tuple[Any, Any]:
     """Return the two parts of a list; DefinitionError for anything else."""
     if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != 2:
         raise DefinitionError(f"{shortened(given)} is not {what}.")
@@ -113,33 +113,33 @@ def two(given: Any, what: str) -> tuple[Any, Any]:
 def several(what: str, one: Read) -> Read:
     """Return the check of a list of two, each by itself."""
 
-    def read(given: Any, names: Names) -> tuple[Any, Any]:
+    def read(given: object, names: Names) -> tuple[Any, Any]:
         first, second = two(given, what)
         return one(first, names), one(second, names)
 
     return read
 
 
-def corners_of(given: Any, names: Names) -> Any:
+def corners_of(given: object, names: Names) -> Any:
     """Return a list of places, each by two coordinates."""
     if not isinstance(given, (list, tuple)) or len(given) > CORNERS:
         raise DefinitionError(f"{shortened(given)} is no list of up to {CORNERS} places in m, such as [[0, 0], [0.4, 0]].")
     return tuple(each_of(enumerate(given), lambda place, each: coordinates_of(each, names)))
 
 
-def centre_of(given: Any, names: Names) -> Any:
+def centre_of(given: object, names: Names) -> Any:
     """Return the name of a point, or a place by two coordinates."""
     return names.checked(given, "point") if isinstance(given, str) else coordinates_of(given, names)
 
 
-def word_list_of(given: Any, names: Names) -> tuple[str, ...]:
+def word_list_of(given: object, names: Names) -> tuple[str, ...]:
     """Return words from a list."""
     if not isinstance(given, (list, tuple)):
         raise DefinitionError(f"{shortened(given)} is no list of words.")
     return tuple(each_of(enumerate(given), lambda place, each: word_of(each)))
 
 
-def lists_of(given: Any, names: Names, depth: int = 0) -> Any:
+def lists_of(given: object, names: Names, depth: int = 0) -> Any:
     """Return a number or a word, or a list of them, or lists of lists as tuples."""
     if not isinstance(given, (list, tuple)):
         return word_of(given) if isinstance(given, str) else number_of(given, names)
@@ -151,19 +151,19 @@ def lists_of(given: Any, names: Names, depth: int = 0) -> Any:
 # -- names and words ---------------------------------------------------------------------------------------
 
 
-def arrow_of(given: Any, names: Names) -> Arrow | str:
+def arrow_of(given: object, names: Names) -> Arrow | str:
     """Return a vector, or the name of one."""
     if not isinstance(given, str):
         raise DefinitionError(f'{shortened(given)} is not a vector, such as "Vector(A, O)".')
     return arrow(given, names)
 
 
-def origin_of(given: Any, names: Names) -> str | tuple[float, float]:
+def origin_of(given: object, names: Names) -> str | tuple[float, float]:
     """Return the name of a point, or a position [m]."""
     return names.checked(given, "point") if isinstance(given, str) else place_of(given, names)
 
 
-def points_of(given: Any, names: Names) -> tuple[str, ...]:
+def points_of(given: object, names: Names) -> tuple[str, ...]:
     """Return the names of points, from a text such as `O B C` or a list."""
     words = given.split() if isinstance(given, str) else given
     if not isinstance(words, Sequence) or not words:
@@ -171,7 +171,7 @@ def points_of(given: Any, names: Names) -> tuple[str, ...]:
     return tuple(names.checked(word, "point") for word in words)
 
 
-def body_of(given: Any, names: Names) -> str:
+def body_of(given: object, names: Names) -> str:
     """Return the name of a link, or the names of points of a body, in one text."""
     words = given.split() if isinstance(given, str) else given
     if not isinstance(words, Sequence) or not words or len(set(map(str, words))) < len(words):
@@ -180,7 +180,7 @@ def body_of(given: Any, names: Names) -> str:
     return " ".join(names.checked(word, kind) for word in words)
 
 
-def loads_of(given: Any, names: Names) -> Any:
+def loads_of(given: object, names: Names) -> Any:
     """Return the name of a load, or a list of such."""
     if isinstance(given, str) or not isinstance(given, Sequence):
         return names.checked(given, "load")
@@ -197,21 +197,21 @@ def each_of(given: Iterable[tuple[Any, Any]], read: Callable[[Any, Any], Any]) -
     return found
 
 
-def load_list_of(given: Any, names: Names) -> tuple[str, ...]:
+def load_list_of(given: object, names: Names) -> tuple[str, ...]:
     """Return the names of loads from a list."""
     if not isinstance(given, (list, tuple)):
         raise DefinitionError("is not a list [...].")
     return tuple(each_of(enumerate(given), lambda place, name: names.checked(name, "load")))
 
 
-def factors_of(given: Any, names: Names) -> dict[str, float]:
+def factors_of(given: object, names: Names) -> dict[str, float]:
     """Return numbers by the names of loads."""
     if not isinstance(given, Mapping):
         raise DefinitionError("is not a table { key = value }.")
     return dict(each_of(given.items(), lambda name, value: (names.checked(name, "load"), number_of(value, names))))
 
 
-def strokes_of(given: Any, names: Names) -> dict[str, float]:
+def strokes_of(given: object, names: Names) -> dict[str, float]:
     """Return values of strokes by name [SI]."""
     strokes = [name for name, section in names.sections.items() if section == "strokes"]
     if not isinstance(given, Mapping):
@@ -222,14 +222,14 @@ def strokes_of(given: Any, names: Names) -> dict[str, float]:
     return {name: number_of(value, names) for name, value in given.items()}
 
 
-def member_of(given: Any, names: Names) -> str:
+def member_of(given: object, names: Names) -> str:
     """Return the name of any member."""
     if not isinstance(given, str) or given not in names.kinds:
         raise unknown("Name", shortened(given, quote=False), names.kinds)
     return given
 
 
-def side_named(given: Any, names: Names) -> Side:
+def side_named(given: object, names: Names) -> Side:
     """Return the side that a word says."""
     found = Side.said(given) if isinstance(given, str) else None
     if found is None:
@@ -237,14 +237,14 @@ def side_named(given: Any, names: Names) -> Side:
     return found
 
 
-def word_of(given: Any, names: Names | None = None) -> str:
+def word_of(given: object, names: Names | None = None) -> str:
     """Return a word that stands for itself."""
     if not isinstance(given, str) or not given.isprintable():
         raise DefinitionError(f"{shortened(given)} stands where a word in quotes is expected.")
     return given
 
 
-def switch_of(given: Any, names: Names) -> bool:
+def switch_of(given: object, names: Names) -> bool:
     """Return true or false."""
     if not isinstance(given, (bool, np.bool_)):
         raise DefinitionError(f"{shortened(given)} is neither true nor false.")
@@ -268,13 +268,13 @@ def written_force(value: Any, design: Design, name: str) -> Any:
     return [design.amount(part, "N", f"{owner}.{axis}") for axis, part in zip("xy", value, strict=True)]
 
 
-def written_names(value: Any, design: Design, name: str) -> str | list[str]:
+def written_names(value: object, design: Design, name: str) -> str | list[str]:
     """Return the name of one member, or a list of names."""
     found = [name_of(each) for each in (value if isinstance(value, (list, tuple)) else (value,))]
     return found[0] if len(found) == 1 else found
 
 
-def written_body(value: Any, design: Design, name: str) -> str:
+def written_body(value: object, design: Design, name: str) -> str:
     """Return the names of a link or of points of a body in one text."""
     return " ".join(map(name_of, value.split() if isinstance(value, str) else value if isinstance(value, tuple) else (value,)))
 
@@ -289,7 +289,7 @@ def written_centre(value: Any, design: Design, name: str) -> Any:
     return file_value(value, design) if isinstance(value, tuple) else name_of(value)
 
 
-def written_pair(value: Any, design: Design, name: str) -> Any:
+def written_pair(value: object, design: Design, name: str) -> Any:
     """Return numbers in a list; DefinitionError for lists in it."""
     return option(value)
 

@@ -114,14 +114,14 @@ def json_text(data: Mapping[str, Any]) -> str:
     return "{\n" + ",\n".join(f"  {json_inline(name)}: {json_section(value)}" for name, value in data.items()) + "\n}\n"
 
 
-def json_section(value: Any) -> str:
+def json_section(value: object) -> str:
     """Return a section with a line for each member; any other value in one line."""
     if not isinstance(value, Mapping):
         return json_inline(value)
     return "{\n" + ",\n".join(f"    {json_inline(name)}: {json_inline(each)}" for name, each in value.items()) + "\n  }"
 
 
-def json_inline(value: Any) -> str:
+def json_inline(value: object) -> str:
     """Return a value in one line."""
     return json.dumps(value, ensure_ascii=False, allow_nan=False)
 
@@ -153,7 +153,7 @@ def toml_key(name: str) -> str:
     return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else toml_inline(name)
 
 
-def toml_inline(value: Any) -> str:
+def toml_inline(value: object) -> str:
     """Return a value in one line."""
     if isinstance(value, Mapping):
         return f"{{ {', '.join(f'{toml_key(name)} = {toml_inline(each)}' for name, each in value.items())} }}"
@@ -164,7 +164,7 @@ def toml_inline(value: Any) -> str:
     return repr(value)
 
 
-def long_text(value: Any) -> str:
+def long_text(value: object) -> str:
     """Return a value of the head; a text of several lines as such, a list of names filled into lines."""
     if isinstance(value, list):
         names = " ".join(f"{toml_inline(each)}," for each in value)

@@ -7,7 +7,7 @@ from .gaps import gap
 from .grid import Grid
 from .judge import Judge, Question, case_named
 from .judging import Judging, geometry_verdicts, judge_verdicts
-from .limits import stroke_display_unit, stroke_unit
+from .limits import stroke_display_unit, stroke_measure, stroke_unit
 from .line import highest, last_holding
 from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst

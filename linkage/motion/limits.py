@@ -343,6 +343,11 @@ def stroke_number(value: float, unit: str, digits: int = 9) -> str:
     return shown_number(value, display_unit(UNITS[unit][1]), digits)
 
 
+def stroke_measure(plan: Plan, name: str) -> str:
+    """Return what a stroke measures: "angle" or "length"."""
+    return UNITS[stroke_unit(plan, name)][1]
+
+
 def stroke_display_unit(plan: Plan, name: str, length: str = "m") -> str:
     """Return the unit that a stroke is shown in: deg where it is an angle, else that of a length."""
     return display_unit(UNITS[stroke_unit(plan, name)][1], length)

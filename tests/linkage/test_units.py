@@ -11,7 +11,7 @@ from linkage import Column, Crank, DefinitionError, Dimension, ForceElement, Gro
 from linkage.files import load, to_toml
 from linkage.plan import plan_measure
 from linkage.reports import text_table
-from linkage.units import SYSTEMS, UNITS, current_system, decimals, parse, show, shown_in, shown_number, unit_system
+from linkage.units import SYSTEMS, UNITS, current_system, decimals, parse, parse_span, show, shown_in, shown_number, unit_system
 
 
 @pytest.mark.parametrize(
@@ -151,6 +151,28 @@ def test_a_column_follows_the_system():
         assert [*text_table([column])] == ["pd, psi", "   2205", "   1422"]
     with unit_system("si"):
         assert [*text_table([column])] == ["pd, MPa", "  15.20", "   9.81"]
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "ends"),
+    [
+        ("270 to 330 mm", "length", (0.27, 0.33)),
+        ("270 mm to 0.33", "length", (0.27, 0.33)),
+        ("-15 to 80 deg by 5", "angle", (-15 * units.deg, 80 * units.deg, 5 * units.deg)),
+        ("1 to 2 kgf m", "moment", (units.g0, 2 * units.g0)),
+        ("0.1 to 0.2 in steps of 1 mm", "length", (0.1e-3, 0.2e-3, 1e-3)),
+        ("270 mm", "length", None),
+    ],
+)
+def test_two_ends_have_the_unit_that_is_said_last(text, kind, ends):
+    found = parse_span(text, kind)
+    assert found == (ends if ends is None else pytest.approx(ends, rel=1e-15))
+
+
+@pytest.mark.parametrize("text", ["a to 3 mm", "1 to 2 parsec", "1,5 to 2 mm", "1 to 2 deg"])
+def test_ends_that_are_no_lengths_are_refused(text):
+    with pytest.raises(DefinitionError):
+        parse_span(text, "length")
 
 
 # -- units of one's own --------------------------------------------------------------------------------------

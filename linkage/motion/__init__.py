@@ -16,7 +16,7 @@ from .over import OPTIONS, Over
 from .poles import whole_body
 from .pose_requests import condition, transmission
 from .reach import limits_over
-from .requests import BoundRequest, MotionFunction, NodeRequest, Request, RequestLike, SmoothPiece, Value, ratio
+from .requests import MotionFunction, NodeRequest, Request, RequestLike, SmoothPiece, Value, ratio
 from .search import Extremum, Span, below_zero, greatest, lowest, reached
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values
 from .table import Column, Tabled, columns_of

@@ -338,8 +338,10 @@ def recalled(motion: MotionLike, what: Hashable, make: Callable[[], Made]) -> Ma
     known: dict[Hashable, Any] = motion.plan.made("recent", lambda _: {})
     strokes = tuple((name, value.shape, blake2b(value.tobytes(), digest_size=16).digest()) for name, value in motion.strokes.items())
     key = what, tuple(motion.designs), tuple(map(float, motion.designs.values())), strokes, motion._grid.per_design
-    if key not in known:
-        known[key] = make()
-        for old in list(known)[:-RECENT]:
-            known.pop(old, None)
-    return cast(Made, known[key])
+    kept = known.get(key)  # another thread may throw it away meanwhile
+    if kept is not None:
+        return cast(Made, kept)
+    found = known[key] = make()
+    for old in list(known)[:-RECENT]:
+        known.pop(old, None)
+    return found

@@ -154,7 +154,7 @@ class Motion(Shown):
     def __getitem__(self, name: RequestLike) -> FloatArray:
         """Return a point's position or a vector, shape (2, ...) [m], or a quantity, shape (...) [SI]; or a request, by its own function.
 
-        `motion[drive_force() * ratio("G_y")]` is what `driving_force(motion)` and `motion.ratio("G_y")` give, multiplied.
+        `motion[drive_force() * ratio("tilt")]` is what `driving_force(motion)` and `motion.ratio("tilt")` give, multiplied.
         """
         if isinstance(name, Request):
             return name.of(self)

@@ -197,7 +197,6 @@ class Request(Arithmetic):
         return False
 
 
-BoundRequest = Request  # until every room has one class for what is written and what is bound
 RequestLike: TypeAlias = str | Member | Request
 
 
@@ -252,7 +251,7 @@ def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
     return None if None in found else found
 
 
-def known_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[BoundRequest, ...]:
+def known_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[Request, ...]:
     """Return a list of requests bound to a plan, as they were bound before where they are the same; the errors of `all_bound`."""
     identities = identities_of(plan, requests)
     if identities is None or holds_given(identities):

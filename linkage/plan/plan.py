@@ -126,7 +126,7 @@ class Plan(Members):
 
     def made(self, key: Hashable, make: Callable[[Plan], Made]) -> Made:
         """Return a kernel, or what holds one, made once from a program of its own: it does not depend on what was asked for before."""
-        found = cast(Made | None, self._kernels.get(key))
+        found = cast("Made | None", self._kernels.get(key))
         if found is None:
             self._kernels[key] = found = make(self._fork())
             for old in list(self._kernels)[:-MOST_KERNELS]:

@@ -243,9 +243,11 @@ class Quantity(Member):
 
 def identity_of_parts(whole: Quantity, kind: str, *parts: Quantity) -> Hashable:
     """Return the identity of what consists of its parts alone: its name, else that of the parts, itself where one of them has no other."""
+    if whole.name:
+        return whole.name
     identities = [part.identity for part in parts]
     is_itself = any(identity is part for identity, part in zip(identities, parts, strict=True))
-    return whole.name or (whole if is_itself else (kind, *identities))
+    return whole if is_itself else (kind, *identities)
 
 
 def quantity(value: Operand) -> Quantity:

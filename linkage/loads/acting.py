@@ -52,7 +52,7 @@ class Acting:
         if self.drive is not None:
             object.__setattr__(self, "drive", name_of(self.drive))
         if self.rates is not None and not isinstance(self.rates, Mapping):
-            raise DefinitionError(f"Acting(rates={cited(self.rates)}): a speed for each stroke is expected, such as rates=dict(S=0.05).")
+            raise DefinitionError(f"Acting(rates={cited(self.rates)}): a value for each stroke is expected, such as rates=dict(S=0.05).")
         keep_own(self)
 
     @property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
@@ -50,11 +51,12 @@ def evaluate(
 ) -> list[FloatArray]:
     """Return the values of requests of designs at strokes; see Mechanism.evaluate."""
     if out is None and unreachable in ("raise", "nan"):
-        found = at_one_pose(plan, designs, strokes, requests) if way == QUICKEST else None
-        if found is None:
-            found = at_few_poses(plan, designs, strokes, requests, way)
-        if found is not None:
-            return found
+        with suppress(UntracedError):
+            found = at_one_pose(plan, designs, strokes, requests) if way == QUICKEST else None
+            if found is None:
+                found = at_few_poses(plan, designs, strokes, requests, way)
+            if found is not None:
+                return found
     grid = Grid(plan, designs, at_values(strokes, plan, float_array), per_design=per_design)
     return evaluate_grid(grid, requests, out, way, unreachable)
 
@@ -127,7 +129,7 @@ def at_few_poses(
     plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], requests: Sequence[RequestLike], way: RunOptions
 ) -> list[FloatArray] | None:
     """Return the same of one design at arrays of strokes, shape (n,), within the declared ranges; None as `at_one_pose` does."""
-    if plan.solved or len(strokes) != len(plan.strokes) or set(map(type, designs.values())) > {float}:
+    if plan.solved or len(strokes) != len(plan.strokes) or not {*map(type, designs.values())} <= {float}:
         return None
     sizes = set()
     for name, stroke in plan.strokes.items():
@@ -139,7 +141,7 @@ def at_few_poses(
             return None
         sizes.add(value.size)
     identities = identities_of(plan, requests)
-    if identities is None or len(sizes) != 1:
+    if identities is None or holds_given(identities) or len(sizes) != 1:
         return None
     program = plan.made(("few poses", identities), lambda _: BulkProgram.of(plan, all_bound(plan, requests)))
     if program.angles:

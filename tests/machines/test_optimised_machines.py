@@ -387,7 +387,7 @@ def test_a_folder_is_refused_for_what_cannot_be_told_from_another(tmp_path):
 def test_an_interrupted_search_says_what_is_kept(tmp_path):
     def stopped(motion):
         stopped.asked += 1
-        if stopped.asked > 40:
+        if stopped.asked > 10:
             raise KeyboardInterrupt
         return motion.y("G")
 

@@ -243,7 +243,7 @@ USES = [
     ("lift.fits(@)", "3; Lift; lifting", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
     ("lift.standard(@)", "3; Lift; lifting", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
     ("lift.buckling(@)", "3; Lift; lifting", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
-    ("lift.thrust(motion, direction=@)", '"up"; 3; None; []', ("Direction", "is unknown. Known: frictionless, extending, retracting.")),
+    ("lift.thrust(motion, direction=@)", '"up"; 3; []', ("Direction", "is unknown. Known: frictionless, extending, retracting.")),
     ("lift.pressure(motion, direction=@)", '"up"; 3; []', ("Direction", "is unknown. Known: frictionless, extending, retracting.")),
     ("lift.thrust(motion, case=@)", '"Q"; 3; []', ("Load case", "is unknown in Lift. Known: plain, transport.")),
     ("lift.fits(many)", "", ("Cylinder(A, B, bore=0.08, rod=0.045) is judged for one", "a time; this motion has (2,). Take one.")),

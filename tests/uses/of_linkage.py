@@ -660,7 +660,7 @@ USES = [
     ("driving_force(motion, case=@)", '"Q"; 3; []; {}; "load"', ("Load case", "is unknown in Lift. Known: plain, transport.")),
     (
         "driving_force(motion, direction=@)",
-        '"up"; 3; None; []; {}',
+        '"up"; 3; []; {}',
         ("Direction", "is unknown. Known: frictionless, extending, retracting."),
     ),
     ("driving_force(motion, rates=@)", "3; []", ("a value for each stroke is expected, such as rates=dict(S=0.05).",)),
@@ -674,7 +674,7 @@ USES = [
     ("driving_force(motion, efficiency=0.9)", "", ('An efficiency works against the motion: say direction="extending" or "retracting".',)),
     ("driving_force(both)", "", ("Two has 2 strokes: say drive= one of S, T.",)),
     ("pin_forces(@)", 'None; 3; "S"; Lift; lifting; []', ("is no motion; give machine.sweep(...) or machine.at(...).",)),
-    ("pin_forces(motion, direction=@)", '"up"; 3; None; []', ("Direction", "is unknown. Known: frictionless, extending, retracting.")),
+    ("pin_forces(motion, direction=@)", '"up"; 3; []', ("Direction", "is unknown. Known: frictionless, extending, retracting.")),
     ("pin_forces(motion, case=@)", '"Q"; 3; []', ("Load case", "is unknown in Lift. Known: plain, transport.")),
     ("reaction(@)", 'None; 3; "S"; Lift; lifting; []', ("is no motion; give machine.sweep(...) or machine.at(...).",)),
     ("reaction(motion, support=@)", '"Q"; 3; []; "load"', ("is unknown in Lift. Known: shoe.",)),

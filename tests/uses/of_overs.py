@@ -36,7 +36,7 @@ USES = [
     ),
     ('lifting.answers([most(drive_force(case="transport"))], acting=@)', 'Acting(case="plain")', ("stands in it, and", "drop one")),
     ("Acting(@)", 'direction="up"', ("Direction 'up' is unknown. Known: frictionless, extending, retracting.",)),
-    ("Acting(@)", "rates=3; rates=[1]", ("a speed for each stroke is expected, such as rates=dict(S=0.05).",)),
+    ("Acting(@)", "rates=3; rates=[1]", ("a value for each stroke is expected, such as rates=dict(S=0.05).",)),
     ("lifting.answers([most(worst('tilt', over=@))])", '"T"; "loading"', ("is no stroke; its strokes are S.",)),
     ("lifting.verdicts(motion, over=@)", "Over(); dict(S=0.1)", ("a motion and over= both say where is looked; give one of them.",)),
     ("study.zone(lifting, 'tilt', @)", "over=dict(OB=(0.28, 0.3))", ("dimensions are varied by vary=", "write vary=.")),

@@ -18,6 +18,7 @@ from linkage import (
     SingularError,
     Stroke,
     angle,
+    deg,
     distance,
     ratio,
     x,
@@ -57,6 +58,20 @@ def test_a_table_of_strokes_gives_what_a_row_of_them_gives(machine):
         table = machine().evaluate(asked, unreachable="nan", backend="numpy", **{name: value[None, :] for name, value in strokes.items()})
     for one, other in zip(row, table, strict=True):
         assert_array_equal(one, other[..., 0, :])
+
+
+class Bar(Mechanism):
+    """A bar that turns: its length is all there is of a design."""
+
+    phi = Stroke(0.0, 90 * deg)
+    O = Ground(0.0, 0.0)
+    A = Crank(O, OA=0.5, angle=phi)
+
+
+def test_designs_of_which_every_value_is_an_array_keep_their_shape():
+    (place,) = Bar(**{"OA": [0.5, 0.6], "O.x": [0.0, 0.1], "O.y": [0.0, 0.2]}).evaluate(["A"], phi=np.linspace(0.0, 1.0, 3))
+    assert place.shape == (2, 2, 3)
+    assert_allclose(place[:, 1, 0], (0.7, 0.2), rtol=1e-15)
 
 
 def test_a_pose_without_a_value_is_refused_among_many_that_have_one():

@@ -179,13 +179,17 @@ def narrowed(look: Look, tops: Tops) -> Tops:
 
 
 def from_ends(look: Look, tops: Tops) -> Tops:
-    """Return tops, of which those at the ends of legs are narrowed."""
+    """Return tops, of which those at the ends of legs are narrowed; an end that nothing near it exceeds but by rounding is the top."""
     at_end = ((tops.t == 0.0) | (tops.t == 1.0)) & (tops.half > CLOSE)
     if not at_end.any():
         return tops
     inwards = np.where(at_end, np.where(tops.t == 0.0, tops.half, -tops.half), 0.0)
     found = steps_to_borders(look, Tops(tops.leg, tops.t, tops.value, inwards, tops.bound))
-    return Tops(*(np.where(at_end, getattr(found, name), getattr(tops, name)) for name in tops.__dataclass_fields__))
+    with np.errstate(invalid="ignore"):
+        is_top = at_end & (found.value - tops.value <= ROUNDED * np.abs(tops.value))
+    settled = Tops(tops.leg, tops.t, tops.value, np.where(is_top, 0.0, tops.half), tops.bound)
+    rises = at_end & ~is_top
+    return Tops(*(np.where(rises, getattr(found, name), getattr(settled, name)) for name in tops.__dataclass_fields__))
 
 
 def best_seen(tops: Tops, t: FloatArray, seen: FloatArray, half: FloatArray) -> Tops:

@@ -128,10 +128,7 @@ class Answer:
 
     def __str__(self) -> str:
         if np.ndim(self.value):
-            finite = np.asarray(self.value)[np.isfinite(self.value)]
-            if not finite.size:
-                return said("no value at any pose")
-            return f"{said('{low} to {high}', low=f'{finite.min():.6g}', high=f'{finite.max():.6g}')} {self.where}"
+            return self.batch_words
         if self.status == NOTHING_LEFT:
             return said("nothing is left to judge: every place is unlimited, left out or lost")
         if self.measures == LOST_SHARE:
@@ -140,6 +137,22 @@ class Answer:
             return f"{said('no value at any pose')}{f'; {self.lost.sentence}' if self.lost.sentence else ''}"
         found = f"{self.amount} {self.place}".strip()
         return f"{found}; {self.lost_words}" if self.lost else found
+
+    @property
+    def batch_words(self) -> str:
+        """What is found of several designs, in words: the least and the greatest value, or how many are not assembled."""
+        values = np.asarray(self.value, float)
+        if self.measures == LOST_SHARE:
+            lost = int((values > 0.0).sum())
+            if not lost:
+                return said("every place is assembled")
+            return said("{n} of {total} designs cannot be assembled over the whole motion", n=lost, total=values.size)
+        finite = values[np.isfinite(values)]
+        if not finite.size:
+            return said("no value at any pose")
+        unit = display_unit(self.measures, "mm")
+        low, high = (show(float(each), unit, 6) for each in (finite.min(), finite.max()))
+        return f"{said('{low} to {high}', low=low, high=high)} {self.where}".strip()
 
     @property
     def reach_words(self) -> str:

@@ -1,5 +1,7 @@
 """The judge: every case, movement and side over all that a machine runs; what has no value; and the laws between answers."""
 
+import re
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -226,6 +228,14 @@ def test_lost_places_are_not_kept_unless_their_over_allows_them():
     assert all(each.ok for each in short)
     allowed = long.answers([most(y("B")) <= 10.0, reachable], over=Over(lost="allowed"))
     assert all(each.ok for each in allowed) and allowed[0].lost
+
+
+def test_a_batch_is_told_in_units_and_by_its_designs():
+    many = Rocker(L0=[0.45, 0.6])
+    high, whole = many.answers([most(y("B")), reachable])
+    assert re.fullmatch(r"[0-9.]+ mm to [0-9.]+ mm at S = .*", str(high))
+    assert str(whole) == "1 of 2 designs cannot be assembled over the whole motion"
+    assert str(Rocker(L0=[0.45, 0.46]).answers([reachable])[0]) == "every place is assembled"
 
 
 def test_no_value_has_one_meaning():

@@ -145,6 +145,7 @@ def four_bar(rng, width):
         margin = total(b, c, -g, -a)
     else:
         low, high = low - pi, high - pi
+        b = max(b, a)  # so that it reaches stretched wherever the crank stands
         c = b + (g - a) + bent(rng, width, high - low, a * g / (g - a), g)
         margin = total(g, -a, b, -c)
     values = values_of(rng, low, high)

@@ -311,9 +311,9 @@ def case_named(plan: Plan, case: Any) -> str:
     """Return the name of a load case of the class, by its name, its title or itself; DefinitionError for any other."""
     cases = plan.of_kind(LoadCase)
     for name, each in cases.items():
-        if each is case or case in (name, each.title):
+        if each is case or (isinstance(case, str) and case in (name, each.title)):
             return name
-    if case == PLAIN_CASE:
+    if isinstance(case, str) and case == PLAIN_CASE:
         return PLAIN_CASE
     raise DefinitionError(f"{plan.title}: the load case {cited(case)} is unknown; known are {', '.join((PLAIN_CASE, *cases))}.")
 

@@ -5,7 +5,7 @@ from importlib.metadata import entry_points
 import numpy as np
 import pytest
 
-from linkage import LEFT, Crank, Dimension, Dyad, Ground, Mechanism, Stroke
+from linkage import LEFT, Crank, Dimension, Dyad, Ground, Mechanism, Stroke, distance
 from linkage.motion.margins import assembly_error_at, least_margins
 
 
@@ -59,9 +59,12 @@ def hole(seed, k, depth=1.0):
     short = depth * 0.125 * bend.min() * width**2
     share = rng.uniform(0.35, 0.65)
     end = "QBC"[k - 1]
-    lengths = {"AD": share * (total - short), f"{end}D": (1.0 - share) * (total - short)}
     angles = {"abc"[row]: straight[row] - turns[row] * at[row] for row in range(k)} | {"pqr"[row]: turns[row] for row in range(k)}
-    machine = MACHINES[k](**lengths, **angles)
+    strokes = dict(zip("uvw"[:k], np.meshgrid(*[np.linspace(0.0, 1.0, 9)] * k), strict=True))
+    (apart,) = MACHINES[k](**angles).evaluate([distance("A", end)], **strokes)
+    reach = 0.4 * apart.min() / total  # links of nearly one length where the ends come close, so that nothing folds elsewhere
+    share = float(np.clip(share, 0.5 - reach, 0.5 + reach))
+    machine = MACHINES[k](AD=share * (total - short), **{f"{end}D": (1.0 - share) * (total - short)}, **angles)
     return machine.sweep(**dict.fromkeys("uvw"[:k], 2), unreachable="nan"), at, short
 
 

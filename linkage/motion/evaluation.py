@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import DefinitionError, SingularError, UntracedError, one_word
 from ..plan import ArrayReading, Mask, Plan, failures, negative
-from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, Node, RunOptions
+from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions
 from ..quantities import real
 from . import conditions
 from .conditions import Judged
@@ -117,8 +117,7 @@ def at_one_pose(
     found = None if pose is None else pose(values)
     if found is None:
         return None
-    array = np.array(found)
-    return [array[first : first + rows] if rows > 1 else array[first] for first, rows in program.rows]
+    return program.bulk.split(np.array(found))
 
 
 FEW = 8192
@@ -147,10 +146,9 @@ def at_few_poses(
     if program.angles:
         return None
     result = program.kernel({**designs, **strokes}, None, way, (1, sizes.pop()))
-    if not (result.guards > 0.0).all() or (program.may_fail and not np.isfinite(result.values).all()):
+    if not program.is_clear(result):
         return None
-    found = result.values[:, 0]
-    return [found[first : first + rows] if rows > 1 else found[first] for first, rows in program.parts]
+    return program.split(result.values[:, 0])
 
 
 @dataclass(frozen=True)
@@ -166,15 +164,45 @@ class BulkProgram:
     may_fail: bool
 
     @classmethod
-    def of(cls, plan: Plan, requests: tuple[Request, ...]) -> BulkProgram:
-        """Return the program of requests that are bound to a plan."""
-        start = {name: np.asarray(stroke.start, float) for name, stroke in plan.strokes.items()}
-        return Evaluation(Grid(plan, plan.defaults, start), requests, QUICKEST).program
+    def of(cls, plan: Plan, requests: Sequence[Request]) -> BulkProgram:
+        """Return the program of requests that are bound to a plan, made once; guards watch what they are built from."""
+        return plan.made(("bulk", tuple([each.key for each in requests])), lambda fork: cls.traced(fork, requests))
+
+    @classmethod
+    def traced(cls, plan: Plan, requests: Sequence[Request]) -> BulkProgram:
+        """Return the same, traced in a plan of its own."""
+        nodes = [each.nodes(plan) for each in requests]
+        guards = [*assumed_of(plan, requests), *(node for each in requests for node in each.gaps(plan))]
+        guards += plan.trace.watched(members_behind(plan, requests), max((each.regular for each in requests), default=0.0))
+        followed = {k: angles_of(plan, nodes[k]) for k, each in enumerate(requests) if each.follows_angles}
+        angles = {k: found for k, found in followed.items() if found is not None and found.angles}
+        lengths = [each.rows for each in requests]
+        parts = tuple(zip(accumulate(lengths[:-1], initial=0), lengths, strict=True)) if lengths else ()
+        may_fail = plan.may_overflow or any(each.may_fail for each in requests)
+        return cls(Kernel([node for each in nodes for node in each], guards), parts, angles, may_fail)
+
+    def split(self, values: FloatArray) -> list[FloatArray]:
+        """Return one array a request of values, shape (rows, ...): (...), of a point (2, ...)."""
+        return [values[first : first + rows] if rows > 1 else values[first] for first, rows in self.parts]
+
+    def is_clear(self, result: Result) -> bool:
+        """Return whether no pose of a result has to be looked at closely."""
+        return bool((result.guards > 0.0).all()) and not (self.may_fail and not np.isfinite(result.values).all())
 
     @cached_property
     def rows(self) -> int:
         """The rows of all requests."""
         return sum(rows for _, rows in self.parts)
+
+
+def members_behind(plan: Plan, requests: Sequence[Request]) -> set[str]:
+    """Return the members that requests are built from."""
+    return set().union(*(each.names(plan) for each in requests))
+
+
+def assumed_of(plan: Plan, requests: Sequence[Request]) -> list[Node]:
+    """Return what requests take to be above zero."""
+    return [node for each in requests for node in each.notes(plan).assumed]
 
 
 @final
@@ -187,73 +215,37 @@ class Evaluation:
     way: RunOptions
     unreachable: str = "raise"
 
-    @property
-    def names(self) -> set[str]:
-        """The members that the requests are built from."""
-        return set().union(*(each.names(self.grid.plan) for each in self.requests))
-
-    @property
-    def kernel(self) -> Kernel:
-        """The kernel of the requests, watched by the guards of what they are built from."""
-        return self.program.kernel
-
     @cached_property
     def program(self) -> BulkProgram:
-        """The kernel and what its rows are, made once for these requests."""
-        return self.grid.plan.made(("bulk", tuple([each.key for each in self.requests])), self._make)
-
-    @property
-    def may_fail(self) -> bool:
-        """Whether there may be poses without a value that no guard tells of."""
-        return self.program.may_fail
+        """The kernel of the requests and what its rows are."""
+        return BulkProgram.of(self.grid.plan, self.requests)
 
     def run(self, out: FloatArray | None) -> list[FloatArray]:
         """Return one array a request, in the usual shapes; rows of `out` where it is given."""
         grid, program = self.grid, self.program
         result = program.kernel(grid.flat, self._target(program.rows, out), self.way, grid.size)
-        if not (result.guards > 0.0).all() or (program.may_fail and not np.isfinite(result.values).all()):
+        if not program.is_clear(result):
             self._settle(result.values)
         found = grid.full(result.values)
         if program.angles and grid.stroke_shape:
             self._unwrap(found)
-        return [found[first : first + rows] if rows > 1 else found[first] for first, rows in program.parts]
+        return program.split(found)
 
     def _starts(self) -> Iterator[tuple[int, Request]]:
         """Yield each request with its first row."""
         for (first, _), each in zip(self.program.parts, self.requests, strict=True):
             yield first, each
 
-    def _make(self, plan: Plan) -> BulkProgram:
-        nodes = [each.nodes(plan) for each in self.requests]
-        guards = [*self._assumed(plan), *(node for each in self._gaps(plan) for node in each), *self._guards(plan)]
-        kernel = Kernel([node for each in nodes for node in each], guards)
-        followed = {k: angles_of(plan, nodes[k]) for k, each in enumerate(self.requests) if each.follows_angles}
-        angles = {k: found for k, found in followed.items() if found is not None and found.angles}
-        lengths = [each.rows for each in self.requests]
-        parts = tuple(zip(accumulate(lengths[:-1], initial=0), lengths, strict=True)) if lengths else ()
-        return BulkProgram(kernel, parts, angles, plan.may_overflow or any(each.may_fail for each in self.requests))
-
-    def _guards(self, plan: Plan) -> list[Node]:
-        """Return the guards of what the requests are built from."""
-        return plan.trace.watched(self.names, max((each.regular for each in self.requests), default=0.0))
-
-    def _assumed(self, plan: Plan) -> list[Node]:
-        """Return what the requests take to be above zero."""
-        return [node for each in self.requests for node in each.notes(plan).assumed]
-
-    def _gaps(self, plan: Plan) -> list[tuple[Node, ...]]:
-        """Return, for each request, the nodes that are above zero where it has a value."""
-        return [each.gaps(plan) for each in self.requests]
-
     def _watch(self, plan: Plan) -> tuple[int, list[int], Kernel]:
         """Return how many of its outputs are assumptions, and gaps of each request; and the kernel.
 
         Its outputs are the assumptions, what tells whether there is a place, how near each request is, and the gaps of each.
         """
-        assumed = self._assumed(plan)
+        assumed = assumed_of(plan, self.requests)
         near = [nearness_of(plan, each) for each in self.requests]
-        gaps = self._gaps(plan)
-        kernel = Kernel([*assumed, *plan.trace.placeable(self.names), *near, *(node for each in gaps for node in each)])
+        gaps = [each.gaps(plan) for each in self.requests]
+        placed = plan.trace.placeable(members_behind(plan, self.requests))
+        kernel = Kernel([*assumed, *placed, *near, *(node for each in gaps for node in each)])
         return len(assumed), list(map(len, gaps)), kernel
 
     def _target(self, rows: int, out: FloatArray | None) -> FloatArray | None:
@@ -320,7 +312,8 @@ class Evaluation:
 
     def _failed(self, inputs: Mapping[str, Any], count: int) -> Mask:
         """Return the mask of poses, shape (count,), at which something that the requests are built from cannot be placed."""
-        plan, names, failed = self.grid.plan, self.names, np.zeros(count, bool)
+        plan, failed = self.grid.plan, np.zeros(count, bool)
+        names = members_behind(plan, self.requests)
         for name, mask in failures(plan, plan.read(inputs), failed.shape):
             if name in names:
                 failed |= mask
@@ -334,7 +327,7 @@ class Evaluation:
             at_end = ~mask & ~np.isfinite(found).all(axis=0)
             if not each.order and at_end.any():
                 at = {name: value[at_end] for name, value in inputs.items()}
-                found = to_rounding(found, at_end, self.kernel.plan.outputs[rows], at)
+                found = to_rounding(found, at_end, self.program.kernel.plan.outputs[rows], at)
             found = np.where(mask, np.nan, found)
             if self._raises and not np.isfinite(found).all():
                 self._refuse()
@@ -420,12 +413,9 @@ class PoseProgram:
     """Some requests in floats: `of_design(designs)` is a function of the strokes, the design worked out."""
 
     def __init__(self, plan: Plan, requests: tuple[Request, ...]) -> None:
-        program = BulkProgram.of(plan, requests)
-        self._plan, self._requests = plan, requests
-        self._kernel, self._may_fail, self.rows = program.kernel, program.may_fail, program.parts
-        names = set().union(*(each.names(plan) for each in requests))
-        self._tells_nearness = plan.trace.nearness(names).op != "constant"
-        self._order = [list(plan.strokes).index(node.value) for node in self._kernel.plan.pose_inputs]
+        self.bulk, self._plan, self._requests = BulkProgram.of(plan, requests), plan, requests
+        self._tells_nearness = plan.trace.nearness(members_behind(plan, requests)).op != "constant"
+        self._order = [list(plan.strokes).index(node.value) for node in self.bulk.kernel.plan.pose_inputs]
         self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
 
     def of_design(self, designs: Mapping[str, Any]) -> Pose | None:
@@ -439,9 +429,9 @@ class PoseProgram:
         return pose
 
     def _pose(self, designs: Mapping[str, Any]) -> Pose:
-        floats, count, order, may_fail = self._kernel.floats, len(self._kernel.plan.outputs), self._order, self._may_fail
-        many = len(self._plan.strokes)
-        passed = floats.design([float(designs[node.value]) for node in self._kernel.plan.design_inputs])
+        kernel, order, may_fail, many = self.bulk.kernel, self._order, self.bulk.may_fail, len(self._plan.strokes)
+        floats, count = kernel.floats, len(kernel.plan.outputs)
+        passed = floats.design([float(designs[node.value]) for node in kernel.plan.design_inputs])
         pose, is_ordered = floats.quick["pose"], order == list(range(many))
 
         def at(strokes: Sequence[float]) -> tuple[float, ...] | None:

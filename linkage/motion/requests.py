@@ -256,7 +256,7 @@ def known_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[Request, .
     identities = identities_of(plan, requests)
     if identities is None or holds_given(identities):
         return all_bound(plan, requests)
-    return plan.made(("bound", identities), lambda _: all_bound(plan, requests))
+    return plan.made(("all bound", identities), lambda _: all_bound(plan, requests))
 
 
 def holds_given(identity: Hashable) -> bool:

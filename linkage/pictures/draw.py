@@ -17,8 +17,10 @@ from ..study import Optimum
 from .chain import draw_chain
 from .curves import plot_machine, plot_motion
 from .designs import draw_designs
+from .force_arrows import force_question
 from .mode_page import draw_modes
 from .optimum import draw_optimum, plot_optimum
+from .overlays import Overlays
 from .poses import draw_machine
 
 if TYPE_CHECKING:
@@ -122,10 +124,8 @@ def draw(
             title = machine.problem.plan.title
             raise DefinitionError(f"{title}: a search's result is drawn at the ends of its stroke; it takes count= alone.")
         return draw_optimum(machine, count)
-    return draw_machine(
-        machine, at, path, count, ax=ax, pose=pose, faint=faint, forces=forces, loads=loads, case=case, direction=direction, drive=drive,
-        velocities=velocities, pole=pole,
-    )  # fmt: skip
+    overlays = Overlays(force_question(forces, loads, case, direction, drive, velocities), velocities, pole)
+    return draw_machine(machine, at, path, count, overlays, ax=ax, pose=pose, faint=faint)
 
 
 @overload

@@ -19,7 +19,6 @@ from ..quantities import is_whole, real
 from ..reports import Run, first_stroke, stroke_middles
 from . import style
 from .drawing import Drawing, mechanism
-from .force_arrows import force_question
 from .free_body import draw_free_body
 from .layout import cloud, surrounding_points
 from .overlays import NO_OVERLAYS, Overlays
@@ -38,20 +37,13 @@ def draw_machine(
     at: Any = None,
     path: Sequence[str] = (),
     count: int = 101,
+    overlays: Overlays = NO_OVERLAYS,
     *,
     ax: Axes | None = None,
     pose: int | tuple[int, ...] = 0,
     faint: bool = False,
-    forces: bool | str = False,
-    loads: Any = None,
-    case: Any = None,
-    direction: str = "frictionless",
-    drive: str | None = None,
-    velocities: Mapping[str, Any] | None = None,
-    pole: Any = None,
 ) -> Figure | Drawing:
     """Return a mechanism's figure at chosen strokes, or a motion at one of its poses, on axes if they are given; see `draw`."""
-    overlays = Overlays(force_question(forces, loads, case, direction, drive, velocities), velocities, pole)
     if ax is not None and overlays:
         raise DefinitionError("draw(ax=...): forces, velocities and poles have a figure of their own; leave out ax=.")
     if isinstance(machine, Motion):

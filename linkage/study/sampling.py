@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import AssemblyError, UntracedError, unwarned
 from ..motion import Grid, Motion, NodeRequest, Request
-from ..motion.evaluation import Evaluation
+from ..motion.evaluation import BulkProgram, Evaluation
 from ..motion.grid import Angles, JoinedTo, angles_of
 from ..motion.kinds import constant_part, operation
 from ..motion.measures import traced
@@ -59,14 +59,14 @@ class SampleProgram:
     may_fail: bool
 
     @classmethod
-    def of(cls, plan: Plan, evaluation: Evaluation, sloped: Sequence[Request], owners: tuple[str, ...]) -> SampleProgram:
-        """Return the program of an evaluation's requests, and of derivatives of some by the owners, on a plan that is not traced yet."""
-        bulk = evaluation._make(plan)
+    def of(cls, plan: Plan, requests: tuple[Request, ...], sloped: Sequence[Request], owners: tuple[str, ...]) -> SampleProgram:
+        """Return the program of requests, and of derivatives of some by the owners, on a plan that is not traced yet."""
+        bulk = BulkProgram.traced(plan, requests)
         own = bulk.kernel
-        following = [node for each in evaluation.requests if each.follows_angles for node in each.nodes(plan)]
+        following = [node for each in requests if each.follows_angles for node in each.nodes(plan)]
         shares = [node for each in sloped for node in slope(each, owners).nodes(plan)] if owners else []
         return cls(
-            evaluation.requests, len(own.outputs), Kernel([*own.outputs, *shares], own.guards), angles_of(plan, [*following, *shares]),
+            requests, len(own.outputs), Kernel([*own.outputs, *shares], own.guards), angles_of(plan, [*following, *shares]),
             (Kernel(shares), angles_of(plan, shares)) if shares else None, bulk.may_fail,
         )  # fmt: skip
 
@@ -114,7 +114,7 @@ class Sampling:
         loops = loop_margins(self.plan) if margins else []  # before anything else is read, which may have triangles of its own
         first = len(loops) + 1
         with unwarned(), np.errstate(all="ignore"):
-            found, shares = self._program(grid, loops, slopes=slopes)(grid)
+            found, shares = self._program(loops, slopes=slopes)(grid)
             found = found.reshape(len(found), m, n)
             values = np.full((k, m, n), np.nan)
             values[[*self._traced]] = found[first : first + len(self._traced)]
@@ -138,15 +138,14 @@ class Sampling:
                 value_slopes[place] = self._differences(grid, self.quantities[place])
         return replace(samples, value_slopes=value_slopes, margin_slopes=by_owner[len(self._traced) :])
 
-    def _program(self, grid: Grid, loops: Sequence[Request], *, slopes: bool) -> SampleProgram:
+    def _program(self, loops: Sequence[Request], *, slopes: bool) -> SampleProgram:
         """Return the program of the margins, of whether all has a place, of the quantities and of their divisors."""
         asked = bool(loops), slopes
         if asked not in self._programs:
             requests = (*loops, all_placed(), *self._traced.values(), *(each for _, each in self._divisors))
             sloped = [*self._traced.values(), *loops] if slopes else []
             key = "samples", tuple(each.key for each in requests), len(sloped), self.owners
-            evaluation = Evaluation(grid, requests, QUICKEST, "nan")
-            self._programs[asked] = self.plan.made(key, lambda plan: SampleProgram.of(plan, evaluation, sloped, self.owners))
+            self._programs[asked] = self.plan.made(key, lambda plan: SampleProgram.of(plan, requests, sloped, self.owners))
         return self._programs[asked]
 
     def _lost(self, grid: Grid, values: FloatArray, reached: Mask) -> Mask:

@@ -9,19 +9,19 @@ from itertools import product
 from typing import Any, TypeAlias, final
 
 import numpy as np
-import numpy.typing as npt
 
 from ..errors import DefinitionError, SingularWarning
 from ..frozen import refuses_changes
 from ..mechanism import Mechanism
-from ..motion import Motion, at_values, out_of_reach
+from ..motion import Motion, at_values, highest, out_of_reach
+from ..motion.box import highest_in
+from ..motion.line import Index
 from ..motion.measures import words_of
+from ..plan import Mask
 from ..program import FloatArray
 from .box import Box, setting_words
 from .checks import QuantityLike, check_one_design, check_vary, function_value, poses_of, quantity_values
 
-Mask: TypeAlias = npt.NDArray[np.bool_]
-Index: TypeAlias = npt.NDArray[np.intp]
 POSES = 51
 
 
@@ -125,19 +125,10 @@ def near_dead_points(motion: Motion, quantity: QuantityLike) -> list[str]:
     return list(dict.fromkeys(str(each.message) for each in heard if issubclass(each.category, SingularWarning)))
 
 
-# The least and the greatest value of functions over boxes, all of them at once.
-#
-# A grid of the box gives the starts: every grid point that no neighbour betters. From each a compass search goes on, with a
-# stencil that reaches along edges and diagonals and is halved where it finds nothing better; points outside are put back on
-# the box. It needs no derivatives, so that the function may be anything, with gaps (NaN), and where the function is
-# smooth its limit is a stationary point of the box. Source: Kolda, Lewis, Torczon, SIAM Review 45 (2003), 385-482.
+# The least and the greatest value of functions over boxes, all of them at once: as strokes are searched, from a coarser grid.
 
 Function: TypeAlias = Callable[[Index, FloatArray, Index], FloatArray]
 """`f(task, unit, choice)`: the value of task (m,) at unit coordinates (m, k), choice (m,)."""
-
-STARTS = 4  # of each task and sense
-CLOSE = 2e-8  # of a side of the box: a smooth value is then found to 1e-15 of its change over the box
-WHOLE = 4  # dimensions up to which the stencil has all 3**k points
 
 
 @final
@@ -166,71 +157,54 @@ def grid_of(k: int) -> FloatArray:
     return np.array(list(product(axis, repeat=k))).reshape(side**k, k)
 
 
+@final
+class SettingsBox:
+    """A function of settings in the unit box, as a search in boxes asks: less the function and the function, of each task and choice."""
+
+    def __init__(self, f: Function, tasks: int, k: int, choices: int) -> None:
+        self.f, self.k, self.side, self.choices, self.count = f, k, points_a_side(k), choices, 0
+        every, grid = np.arange(tasks * choices), grid_of(k)
+        self.seen, self.kept = self.at(every, np.broadcast_to(grid, (len(every), *grid.shape)))
+
+    def values(self, design: Index, places: FloatArray) -> FloatArray:
+        """Return the function (u, n) at places (u, n, k) of a task and choice each (u,)."""
+        task, choice = np.divmod(np.repeat(design, places.shape[1]), self.choices)
+        self.count += task.size
+        return self.f(task, places.reshape(task.size, self.k), choice).reshape(places.shape[:2])
+
+    def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
+        """Return both (2, u, n), and which settings have a value (u, n)."""
+        values = self.values(design, places)
+        return np.stack([-values, values]), np.isfinite(values)
+
+    def own(self, function: int, design: Index, places: FloatArray) -> FloatArray:
+        """Return one of both (u, n), by its number."""
+        return np.asarray((-1.0, 1.0)[function] * self.values(design, places))
+
+    def keeps(self, design: Index, places: FloatArray) -> Mask:
+        """Return which settings have a value (u, n)."""
+        return np.isfinite(self.values(design, places))
+
+    def look(self, _: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+        """Return both along the one dimension of a box, at the grid (n,) or places (tasks and choices, n)."""
+        return (self.seen, self.kept) if t.ndim == 1 else self.at(np.arange(len(t)), t[..., None])
+
+    def highest(self) -> tuple[FloatArray, FloatArray]:
+        """Return the highest values (2, tasks and choices), NaN where there is none, and where (2, tasks and choices, k)."""
+        if self.k == 1:
+            found = highest(self.look, [self.side - 1])
+            return found.value, found.t[..., None]
+        if self.k:
+            top = highest_in(self)
+            return top.value, top.unit
+        return self.seen[..., 0], np.zeros((*self.seen.shape[:2], 0))
+
+
 def extremes(f: Function, tasks: int, k: int, choices: int) -> Extremes:
     """Return the extremes of f over a unit box of k dimensions and some choices, for every task."""
-    grid = grid_of(k)
-    task, choice, at = (part.ravel() for part in np.meshgrid(np.arange(tasks), np.arange(choices), np.arange(len(grid)), indexing="ij"))
-    seen = f(task, grid[at], choice).reshape(tasks, choices, len(grid))
-    parts = [best_of_grid(sense * seen, k) for sense in (1.0, -1.0)]
-    sense = np.repeat([1.0, -1.0], [len(part[0]) for part in parts])
-    task, choice, at = (np.concatenate([part[axis] for part in parts]) for axis in range(3))
-    unit, value = compass(f, task, choice, sense, grid[at], sense * seen[task, choice, at], 0.5 / max(points_a_side(k) - 1, 1))
-    return best_ends(tasks, k, task, choice, sense, unit, value, seen.reshape(tasks, -1))
-
-
-def best_of_grid(value: FloatArray, k: int) -> tuple[Index, Index, Index]:
-    """Return where to start (task, choice, grid point): of each task the best grid points that no neighbour betters."""
-    tasks, choices, _ = value.shape
-    side = points_a_side(k)
-    filled = np.where(np.isnan(value), np.inf, value)
-    cube = filled.reshape(tasks, choices, *(side,) * k)
-    padded = np.pad(cube, [(0, 0), (0, 0), *((1, 1),) * k], constant_values=np.inf)
-    lowest = np.isfinite(cube)
-    for offset in product((0, 1, 2), repeat=k):
-        lowest &= cube <= padded[(slice(None), slice(None), *(slice(each, each + side) for each in offset))]
-    ranked = np.where(lowest.reshape(tasks, -1), filled.reshape(tasks, -1), np.inf)
-    order = np.argsort(ranked, axis=1, kind="stable")[:, :STARTS]
-    row, column = np.nonzero(np.isfinite(np.take_along_axis(ranked, order, axis=1)))
-    return row, *np.divmod(order[row, column], value.shape[2])
-
-
-def stencil(k: int) -> FloatArray:
-    """Return the directions looked into, shape (n, k)."""
-    if k <= WHOLE:
-        return np.array([each for each in product((-1.0, 0.0, 1.0), repeat=k) if any(each)]).reshape(-1, k)
-    return np.concatenate([np.eye(k), -np.eye(k)])
-
-
-def compass(
-    f: Function, task: Index, choice: Index, sense: FloatArray, unit: FloatArray, value: FloatArray, step: float
-) -> tuple[FloatArray, FloatArray]:
-    """Return where sense * f is least near each start, shape (b, k), and that value, shape (b,)."""
-    k = unit.shape[1]
-    if not k:
-        return unit, value
-    ways, unit, value, size = stencil(k), unit.copy(), value.copy(), np.full(len(unit), step)
-    going = np.arange(len(unit))
-    while len(going):
-        near = np.clip(unit[going, None, :] + size[going, None, None] * ways, 0.0, 1.0)
-        many = len(ways)
-        found = f(np.repeat(task[going], many), near.reshape(-1, k), np.repeat(choice[going], many)).reshape(-1, many)
-        found = np.where(np.isnan(found), np.inf, sense[going, None] * found)
-        place = np.argmin(found, axis=1)
-        least = found[np.arange(len(going)), place]
-        better = least < value[going]
-        moved = going[better]
-        unit[moved], value[moved] = near[better, place[better]], least[better]
-        size[going[~better]] *= 0.5
-        going = going[size[going] > CLOSE]
-    return unit, value
-
-
-def best_ends(
-    tasks: int, k: int, task: Index, choice: Index, sense: FloatArray, unit: FloatArray, value: FloatArray, seen: FloatArray
-) -> Extremes:
-    """Return the best end of every task and sense."""
-    values, units, choices = np.full((2, tasks), np.nan), np.full((2, tasks, k), np.nan), np.zeros((2, tasks), int)
-    for end in np.argsort(-value, kind="stable"):
-        row: Any = (0 if sense[end] > 0.0 else 1, task[end])
-        values[row], units[row], choices[row] = sense[end] * value[end], unit[end], choice[end]
-    return Extremes(values, units, choices, seen)
+    box = SettingsBox(f, tasks, k, choices)
+    value, unit = (each.reshape(2, tasks, choices, *each.shape[2:]) for each in box.highest())
+    choice = np.argmax(np.where(np.isnan(value), -np.inf, value), axis=-1)
+    best = np.take_along_axis(unit, choice[..., None, None], axis=2)[:, :, 0]
+    found = f(np.tile(np.arange(tasks), 2), best.reshape(2 * tasks, k), choice.ravel()).reshape(2, tasks)
+    return Extremes(found, np.where(np.isnan(found)[..., None], np.nan, best), choice, box.seen[1].reshape(tasks, -1))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
 from traceback import extract_tb
@@ -127,11 +127,10 @@ def cited(value: object, most: int = 60) -> str:
     return text if len(text) <= most else f"{text[: most - 3]}..."
 
 
-def known_name(kind: str, name: object, names: Iterable[str], where: str = "") -> str:
+def known_name(kind: str, name: object, names: Collection[str], where: str = "") -> str:
     """Return a name that is there; raise the error of `unknown` for any other one, and for what is no name at all."""
-    listed = list(names)
-    if not isinstance(name, str) or name not in listed:
-        raise unknown(kind, name, listed, where)
+    if not isinstance(name, str) or name not in names:
+        raise unknown(kind, name, names, where)
     return name
 
 

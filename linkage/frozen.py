@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Any, NoReturn, TypeVar
 
 import numpy as np
@@ -17,6 +18,11 @@ Kind = TypeVar("Kind", bound=type)
 
 class FrozenDict(dict[Key, Value]):
     """A dict that does not change; `dict(...)` of it is a copy that does."""
+
+    @cached_property
+    def is_of_floats(self) -> bool:
+        """Whether all values are plain floats, as the dimensions of one design are."""
+        return {float}.issuperset(map(type, self.values()))
 
     def _refuse(self, *given: object, **named: object) -> NoReturn:
         raise DefinitionError("These values are what was worked out or declared, and do not change; take a copy of them, dict(...).")

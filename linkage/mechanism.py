@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, cited, is_yes, told, unknown
+from .frozen import FrozenDict
 from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
 from .mobility import FourBar, Mobility, chain_graph, check, four_bars, mobility
@@ -201,7 +202,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         return next(base for base in cls.__mro__ if name in vars(base) and issubclass(base, Mechanism))
 
     def __init__(self, **dimensions: npt.ArrayLike) -> None:
-        self._values = self._settings(dimensions)
+        self._values = FrozenDict(self._settings(dimensions))
 
     def _settings(self, dimensions: Mapping[str, npt.ArrayLike]) -> dict[str, Numbers]:
         """Return the values of all dimensions, some of them set; DefinitionError for what is none, and for what it cannot be."""
@@ -260,13 +261,14 @@ class Mechanism(Shown, metaclass=MechanismType):
         given = self._settings(dimensions)
         touched = {owner for name in dimensions for owner in self._owners(name)}
         changed = copy(self)
-        changed._values = {name: given[name] if name in touched else value for name, value in self._values.items()}
+        changed._values = FrozenDict({name: given[name] if name in touched else value for name, value in self._values.items()})
         return changed
 
     def _part(self, start: int, stop: int) -> Self:
         """Return the designs from start to before stop of a batch, whose dimensions are floats or arrays (m,)."""
         part = copy(self)
-        part._values = {name: value if isinstance(value, float) else value[start:stop] for name, value in self._values.items()}
+        values = self._values.items()
+        part._values = FrozenDict({name: value if isinstance(value, float) else value[start:stop] for name, value in values})
         return part
 
     def _owners(self, name: str) -> set[str]:

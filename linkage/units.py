@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from types import MappingProxyType
@@ -230,7 +230,7 @@ def finite_value(value: float, text: str) -> float:
     return value
 
 
-def unit_or_none(unit: object, where: str, among: Iterable[str] = UNITS) -> str:
+def unit_or_none(unit: object, where: str, among: Collection[str] = UNITS) -> str:
     """Return a unit, or "" for none; DefinitionError, with the units there are, for anything else."""
     return "" if isinstance(unit, str) and not unit else known_name("Unit", unit, among, where=where)
 

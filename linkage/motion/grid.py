@@ -40,9 +40,9 @@ class Grid:
         joining: Joining | None = None,
     ) -> None:
         self.plan, self.per_design = plan, per_design
-        self.designs: FrozenDict[str, Any] = FrozenDict(designs)
+        self.designs: FrozenDict[str, Any] = designs if type(designs) is FrozenDict else FrozenDict(designs)
         self.strokes: FrozenDict[str, FloatArray] = FrozenDict({name: read_only(value) for name, value in strokes.items()})
-        self._is_plain = set(map(type, self.designs.values())) <= {float}
+        self._is_plain = self.designs.is_of_floats
         arrays = [] if self._is_plain else [np.shape(value) for value in self.designs.values() if varies(value)]
         try:
             self.design_shape = np.broadcast_shapes(*arrays) if arrays else ()
@@ -51,11 +51,14 @@ class Grid:
             raise DefinitionError(f"{plan.title}: the shapes of the design arrays do not fit each other: {shapes}.") from None
         if per_design:
             self.strokes = strokes_per_design(self.strokes, self.design_shape, plan.title)
-        shape = next((value.shape for value in self.strokes.values()), ())
-        self.stroke_shape: tuple[int, ...] = shape[len(self.design_shape) if per_design else 0 :]
+        shape: tuple[int, ...] = ()
+        for value in self.strokes.values():
+            shape = value.shape
+        self.stroke_shape = shape[len(self.design_shape) :] if per_design else shape
         self.shape = (*self.design_shape, *self.stroke_shape)
         self.joins_itself, self._joining = joining is None, joining or joined_by_stroke
         self._angles: dict[Kernel, FloatArray] = {}
+        self._is_pose = self._is_plain and not plan.solved and all(value.size == 1 for value in self.strokes.values())
 
     @cached_property
     def size(self) -> tuple[int, int]:
@@ -118,6 +121,18 @@ class Grid:
         solved = {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
         found = {**shaped, **self.strokes, **solved}
         return FrozenDict({name: read_only(value) if isinstance(value, np.ndarray) else value for name, value in found.items()})
+
+    def run(self, kernel: Kernel) -> tuple[FloatArray, bool]:
+        """Return a kernel's values on the grid, shape (outputs, ...), and whether all its guards are above zero everywhere.
+
+        One pose of one design goes straight to the program in floats: there the way through arrays would cost more than the pose.
+        """
+        if self._is_pose:
+            row, count = kernel.floats.pose(self.designs, self.strokes), len(kernel.plan.outputs)
+            values = np.array(row[:count])
+            return values.reshape((count, *self.shape)) if self.shape else values, all(guard > 0.0 for guard in row[count:])
+        result = kernel(self.flat, size=self.size)
+        return self.full(result.values), bool((result.guards > 0.0).all())
 
     def full(self, values: FloatArray) -> FloatArray:
         """Return a kernel's values in the grid's shape."""

@@ -68,10 +68,8 @@ class Motion(Shown):
         joining: Joining | None = None,
         tangent: Mapping[str, FloatArray] | None = None,
     ) -> None:
-        parts = (plan, Plan), (designs, Mapping), (strokes, Mapping)
-        if not all(isinstance(given, kind) for given, kind in parts) or (designs.keys(), strokes.keys()) != (
-            plan.table.entries.keys(), plan.strokes.keys()
-        ):  # fmt: skip
+        is_made = isinstance(plan, Plan) and isinstance(designs, Mapping) and isinstance(strokes, Mapping)
+        if not is_made or designs.keys() != plan.table.entries.keys() or strokes.keys() != plan.strokes.keys():
             raise DefinitionError("Motion(...) is made by a design: machine.sweep(...) or machine.at(...).")
         one_word("unreachable", unreachable, ("raise", "nan"))
         self._grid = Grid(plan, designs, strokes, per_design=per_design, joining=joining)
@@ -81,10 +79,10 @@ class Motion(Shown):
         self._values: dict[Hashable, FloatArray] = {}
         self._kept: dict[Hashable, Any] = {}
         self._watched: dict[Hashable, bool] = {}
-        self.reached: Mask = np.ones(self.shape, bool)
-        result = plan.kernel(plan.moving, guarded=True)(self._grid.flat, size=self._grid.size)
-        self._places = self._grid.full(result.values)
-        self._is_near_singular = not np.all(result.guards > 0.0)
+        self.reached: Mask = np.empty(self.shape, bool)
+        self.reached.fill(True)
+        self._places, is_clear = self._grid.run(plan.kernel(plan.moving, guarded=True))
+        self._is_near_singular, self._is_reached = not is_clear, True
         if self._is_near_singular or plan.may_overflow:
             self._settle_unreached()
         if self._is_near_singular:
@@ -164,7 +162,7 @@ class Motion(Shown):
         if isinstance(member, Quantity):
             return self.value(member)
         if isinstance(member, Arrow):
-            return self._evaluated(member, ())
+            return self._evaluated(Value(member))
         raise DefinitionError(f"{self.plan.title}: {name} = {member} has no value over the stroke; name a point, a vector or an output.")
 
     def x(self, point: Target) -> FloatArray:
@@ -211,8 +209,9 @@ class Motion(Shown):
         if not isinstance(member, Quantity):
             raise DefinitionError(f'{self.plan.title}: {member.name} is no quantity; ask for motion["{member.name}"].')
         words = str(member.name or member)
-        refused = self._refused(Value(member, ()), words)
-        return self._finite(np.where(self.reached & ~refused, self._evaluated(member, ()), np.nan), refused, words)
+        what = Value(member)
+        refused = self._refused(what, words)
+        return self._finite(np.where(self.reached & ~refused, self._evaluated(what), np.nan), refused, words)
 
     def sketched(self, quantity: Quantity) -> FloatArray:
         """Return what a quantity is at the sketch pose of each design [SI], shaped to broadcast against results."""
@@ -250,12 +249,12 @@ class Motion(Shown):
         """
         stroke = stroke_of(self.plan, wrt)
         order, method = order_of(order), method_of(method, step)
-        member = self._member(target)
-        refused = self._refused(Value(member, (stroke,) * order), f"The ratio of {member.name or member}")
-        step = None if step is None else float(step)
-        found = self._evaluated(member, (stroke,) * order) if method == "exact" else self._numeric(member, stroke, order, step)
-        found = np.where(refused, np.nan, found) if refused.any() else found
-        return self._finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
+        what = Value(self._member(target), (stroke,) * order)
+        words = f"The ratio of {what.name}"
+        refused = self._refused(what, words)
+        found = self._evaluated(what) if method == "exact" else self._numeric(what, None if step is None else float(step))
+        found = np.where(refused, np.nan, found) if np.count_nonzero(refused) else found
+        return self._finite(found, refused, f"{words} by {stroke}")
 
     def velocity(self, target: Target, rates: Mapping[str, Any]) -> FloatArray:
         """Return the velocity of a point [m/s], shape (2, ...), or the rate of an output, from stroke rates [1/s]."""
@@ -273,7 +272,7 @@ class Motion(Shown):
         total = sum((self.ratio(target, wrt=name) * value for name, value in driven.items()), self._still(target))
         for first, u in given.items():
             for second, v in given.items():
-                total = total + self._evaluated(member, tuple(sorted((first, second)))) * u * v
+                total = total + self._evaluated(Value(member, tuple(sorted((first, second))))) * u * v
         return np.where(refused, np.nan, total)
 
     def pole(
@@ -399,6 +398,7 @@ class Motion(Shown):
             for axis, part in enumerate((place.x, place.y)):
                 self._places[2 * index + axis, ...][failed] = np.where(lost, np.nan, part)
         self.reached[failed] = ~lost
+        self._is_reached = not lost.any()
         if self.unreachable == "raise" and lost.any():
             raise out_of_reach(self)
 
@@ -409,6 +409,7 @@ class Motion(Shown):
         if lost.any():
             self._places = np.where(lost, np.nan, self._places)
             self.reached &= ~lost
+            self._is_reached = False
 
     def _refuse_parted(self) -> None:
         """Raise SingularError where an angle that is followed from the sketch changes by a turn from one pose to the next."""
@@ -435,7 +436,7 @@ class Motion(Shown):
 
     def _place(self, name: str) -> FloatArray:
         if name in self.plan.ground:
-            return self._evaluated(self.plan.members[name], ())
+            return self._evaluated(Value(self.plan.members[name]))
         index = 2 * self.plan.moving.index(name)
         return self._places[index : index + 2]
 
@@ -452,22 +453,21 @@ class Motion(Shown):
             checked_name("Name", name, self.plan.members, self.plan.title)
         return target
 
-    def _evaluated(self, member: Member, along: tuple[str, ...]) -> FloatArray:
-        """Return a value or a derivative through the program; the first derivatives of all points come in one pass, kept."""
-        if isinstance(member, Point) and member.name in self.plan.ground and along:
+    def _evaluated(self, what: Value) -> FloatArray:
+        """Return a value or a derivative through the program; the derivatives of all points come in one pass, kept."""
+        member, along = what.member, what.strokes
+        pass_of_all = bool(along) and isinstance(member, Point)
+        if pass_of_all and member.name in self.plan.ground:
             return np.zeros((2, *self.shape))
-        pass_of_all = isinstance(member, Point) and bool(along)
-        what = Value(member, along)
-        targets: tuple[Any, ...] = self.plan.moving if pass_of_all else (member.name or member,)
-        key = (targets, along) if pass_of_all else what.key
+        key = (self.plan.moving, along) if pass_of_all else what.key
         if key not in self._values:
             if pass_of_all:
-                kernel = self.plan.kernel(targets, along)
+                kernel = self.plan.kernel(self.plan.moving, along)
             else:
                 kernel = self.plan.made(("watched", what.key), lambda twin: Kernel(what.nodes(twin), watched(twin, what)))
-            result = kernel(self._grid.flat, size=self._grid.size)
-            found = self._grid.full(result.values)
-            self._watched[what.key] = not np.all(result.guards > 0.0)
+            found, is_clear = self._grid.run(kernel)
+            if not pass_of_all:
+                self._watched[what.key] = not is_clear
             if self._is_near_singular and not along:
                 at_end = self.reached & ~np.isfinite(found).all(axis=0)
                 found = to_rounding(found, at_end, kernel.plan.outputs, self._grid.inputs_at(at_end)) if at_end.any() else found
@@ -475,7 +475,7 @@ class Motion(Shown):
             self._values[key] = found if continued is None else continued
             self._values[key].flags.writeable = False
         values = self._values[key]
-        if not self.reached.all() and member.name not in self.plan.ground:
+        if not self._is_reached and member.name not in self.plan.ground:
             values = np.where(self.reached, values, np.nan)
         if pass_of_all:
             index = 2 * self.plan.moving.index(member.name)
@@ -486,7 +486,9 @@ class Motion(Shown):
         """Return what holds angles, which are continued along the stroke; None where they need not be."""
         return self.plan.made(("angles", what.key), lambda plan: angles_of(plan, what.nodes(plan))).continued(self._grid, self.reached)
 
-    def _numeric(self, member: Member, stroke: str, order: int, step: float | None) -> FloatArray:
+    def _numeric(self, what: Value, step: float | None) -> FloatArray:
+        member, stroke, order = what.member, what.strokes[0], what.order
+
         def values(offsets: FloatArray) -> FloatArray:
             shifted = {name: value[..., None] + (offsets if name == stroke else 0.0 * offsets) for name, value in self.strokes.items()}
             near = self.moved(shifted)
@@ -497,15 +499,15 @@ class Motion(Shown):
         found, error, still = differences.derivative(values, abs(declared.end - declared.start), order, step, least)
         most = differences.USELESS if step is None else differences.COARSE
         useless, lost = differences.losses(found, np.where(self.reached, error, 0.0), still, len(self.shape), most)
-        what = f"The numerical ratio of {member.name or member}{'' if step is None else f' with step={step:.6g}'}"
+        title = f"The numerical ratio of {what.name}{'' if step is None else f' with step={step:.6g}'}"
         if step is not None:
             useless |= self.reached & ~np.isfinite(found).all(axis=tuple(range(found.ndim - len(self.shape))))
         if useless.any() and self.unreachable == "raise":
             where = where_words(self.plan, useless, self.strokes)
-            raise SingularError(f"{what} is refused {where}: {differences.why_refused(step)}", mask=useless, motion=self)
+            raise SingularError(f"{title} is refused {where}: {differences.why_refused(step)}", mask=useless, motion=self)
         if lost > differences.WARN[order]:
             other = "the exact one is not" if step is None else "without a step it is chosen at every pose"
-            text = f"{what} is off by up to about {lost:.0e} of its greatest value; {other}."
+            text = f"{title} is off by up to about {lost:.0e} of its greatest value; {other}."
             warn(SingularWarning(text, estimate=lost))
         return np.where(useless, np.nan, found)
 
@@ -517,7 +519,7 @@ class Motion(Shown):
     def _finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
         """Return values that are finite at every pose reached; NaN where they are not and NaN was asked for."""
         finite = np.isfinite(values)
-        if finite.all():
+        if np.count_nonzero(finite) == finite.size:
             return values
         good: Mask = np.asarray(finite if finite.ndim == len(self.shape) else finite.all(axis=0))
         missing = ~good & self.reached & ~excused
@@ -571,7 +573,7 @@ class Motion(Shown):
     def _is_near(self, what: Request) -> bool:
         """Return whether some pose has to be looked at closely: for points that is known, for other values it is told with these."""
         if isinstance(what, Value) and not isinstance(what.member, Point):
-            self._evaluated(what.member, what.strokes)
+            self._evaluated(what)
             return self._watched[what.key]
         return self._is_near_singular
 

@@ -334,7 +334,8 @@ class Value(Request):
     @property
     def name(self) -> str | Quantity:
         """The member by its name, or itself where it has none."""
-        return self.member if isinstance(self.member, Quantity) and not self.member.name else self.member.name
+        member = self.member
+        return member.name or member if isinstance(member, Quantity) else member.name
 
     @property
     def key(self) -> Hashable:

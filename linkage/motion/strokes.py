@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from math import isfinite, pi
 from typing import Any
 
@@ -36,21 +36,21 @@ def at_values(given: Mapping[str, Any], plan: Plan, take: Callable[[Any], FloatA
     strokes, title = plan.strokes, plan.title
     known_strokes(given, strokes, title)
     try:
-        arrays = [take(given[name]) for name in strokes]
+        arrays = {name: take(given[name]) for name in strokes}
     except ValueError:
         raise DefinitionError(f"{title}: strokes are numbers or arrays of numbers (SI); given {dict(given)!r}.") from None
-    for name, array in zip(strokes, arrays, strict=True):
+    for name, array in arrays.items():
         if array.size:
-            ends = float(array.min()), float(array.max())
+            ends = (array.item(),) * 2 if array.size == 1 else (float(array.min()), float(array.max()))
             if not (isfinite(ends[0]) and isfinite(ends[1])):
                 raise DefinitionError(f"{title}: the stroke {name} holds a value that is not finite.")
             check_magnitude(name, ends, plan)
     if len(arrays) == 1:
-        return dict(zip(strokes, arrays, strict=True))
+        return arrays
     try:
-        return dict(zip(strokes, np.broadcast_arrays(*arrays), strict=True))
+        return dict(zip(strokes, np.broadcast_arrays(*arrays.values()), strict=True))
     except ValueError:
-        shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(strokes, arrays, strict=True))
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
         raise DefinitionError(f"{title}: the strokes' shapes do not fit each other: {shapes}.") from None
 
 
@@ -127,7 +127,7 @@ def _axis(name: str, given: Any, plan: Plan) -> FloatArray:
 
 # What a motion is given for, checked: names, rates, orders and steps.
 
-def checked_name(kind: str, target: Any, known: Iterable[str], title: str) -> str:
+def checked_name(kind: str, target: Any, known: Collection[str], title: str) -> str:
     """Return the name of a member or the name as given; raise DefinitionError where it is not a known one."""
     return known_name(kind, target.name if isinstance(target, Member) else target, known, where=title)
 

@@ -10,6 +10,7 @@ from typing import final
 
 import numpy as np
 
+from ..frozen import FrozenDict
 from ..vectors import FloatArray, Numbers
 from .cache import compiled
 from .operations import FLOATS, NO_VALUE, QUICK
@@ -24,6 +25,8 @@ class PlainFloats:
     def __init__(self, plan: Schedule) -> None:
         self.plan = plan
         self._latest: tuple[bytes, tuple[float, ...]] = b"none", ()
+        self._latest_of: tuple[Mapping[str, float], tuple[float, ...]] = {}, ()
+        self._strokes = tuple(node.value for node in plan.pose_inputs)
 
     @cached_property
     def quick(self) -> Mapping[str, Callable[..., tuple[float, ...]]]:
@@ -51,6 +54,21 @@ class PlainFloats:
             passed = self.careful["design"](*values)
         self._latest = key, passed
         return passed
+
+    def pose(self, design: FrozenDict[str, float], strokes: Mapping[str, FloatArray]) -> tuple[float, ...]:
+        """Return outputs and guards of one design, floats by name, at one pose, arrays of one number by name.
+
+        What the pose part needs of the latest design is kept by the dictionary itself, which does not change.
+        """
+        known, passed = self._latest_of
+        if known is not design:
+            passed = self.design([design[node.value] for node in self.plan.design_inputs])
+            self._latest_of = design, passed
+        row = [strokes[name].item() for name in self._strokes]
+        try:
+            return self.quick["pose"](*passed, *row)
+        except NO_VALUE:
+            return self.careful["pose"](*passed, *row)
 
     def poses(self, passed: Sequence[float], columns: Sequence[Sequence[float]], n: int) -> list[tuple[float, ...]]:
         """Return outputs and guards pose by pose."""

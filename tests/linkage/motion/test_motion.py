@@ -30,6 +30,7 @@ from linkage import (
     y,
 )
 from linkage.motion.grid import unwrapped
+from linkage.program.float_backend import PlainFloats
 from mechanisms.three_point_hitch import ThreePointHitch
 
 
@@ -99,6 +100,26 @@ def test_a_batch_is_its_designs_one_by_one():
         assert_allclose(together["G"][:, index], alone["G"], rtol=1e-13)
         assert_allclose(together.ratio("G")[:, index], alone.ratio("G"), rtol=1e-12)
         assert_allclose(together["tilt"][index], alone["tilt"], rtol=1e-12)
+
+
+def test_one_pose_is_one_of_many_and_costs_two_calls_of_floats(monkeypatch):
+    design = ThreePointHitch(OB=0.31)
+    design.at(S=0.1).ratio("G")
+    many, runs = design.at(S=[0.05, 0.1, 0.15]), []
+    found = many["G"], many.ratio("G"), many.value("tilt")
+    run = PlainFloats.pose
+    monkeypatch.setattr(PlainFloats, "pose", lambda *given: runs.append(given) or run(*given))
+    monkeypatch.setattr(PlainFloats, "run", lambda *given: pytest.fail("one pose goes through arrays"))
+    one = design.at(S=0.1)
+    one.ratio("G")
+    assert len(runs) == 2  # where it is, and the ratios of all points
+    one.ratio("E"), one["F"]
+    assert len(runs) == 2
+    for part, all_of_it in zip((one["G"], one.ratio("G")), found, strict=False):
+        assert_array_equal(part, all_of_it[..., 1])
+    monkeypatch.undo()
+    assert_array_equal(one.value("tilt"), found[2][1])
+    assert design.at(S=[[0.1]])["G"].shape == (2, 1, 1)
 
 
 def test_two_counts_give_a_grid():

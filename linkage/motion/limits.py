@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, final
 
@@ -12,12 +12,8 @@ from ..errors import AssemblyError, DefinitionError
 from ..frozen import FrozenDict, refuses_changes
 from ..language import said, said_of
 from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
-from ..program import FloatArray
 from ..shown import Shown
 from ..units import UNITS, deg, display_unit, show, shown_number, unit_sign
-from .line import last_holding
-
-SAMPLES = 1441
 
 
 @final
@@ -218,58 +214,6 @@ class Open:
             self.turns, "the motion repeats after {n} turn ({angle})", "the motion repeats after {n} turns ({angle})", angle=turned
         )  # fmt: skip
         return f"{apart}; {again}"
-
-
-# The search for the ends of what is reached.
-
-Scan = Callable[[FloatArray], "Scanned"]
-"""A look at some stroke values: which are reached, and what fails."""
-
-
-@final
-@refuses_changes
-@dataclass(frozen=True)
-class Scanned:
-    """What was seen at some stroke values: the mask of those reached."""
-
-    reached: Mask
-    failing: Callable[[int], str]
-    """The step that fails at one of the values."""
-    stops: tuple[float, ...] = ()
-    """Ends that are known already: those of groups, found on the way."""
-
-
-def search(scan: Scan, low: float, high: float, gaps: Sequence[float] = ()) -> list[Interval]:
-    """Return the reachable intervals between two strokes, given places in the gaps that may lie between samples."""
-    at = np.linspace(low, high, SAMPLES)
-    reached = np.array(scan(at).reached)
-    at = np.concatenate([at, gaps])
-    reached = np.concatenate([reached, np.zeros(len(gaps), bool)])
-    order = np.argsort(at, kind="stable")
-    return intervals(scan, at[order], reached[order])
-
-
-def intervals(scan: Scan, at: FloatArray, reached: Mask) -> list[Interval]:
-    """Return the reachable ranges among samples, their ends found by bisection."""
-    found: list[Interval] = []
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], reached, [False]]).astype(int)))
-    for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
-        low, low_stop = (at[first], "") if first == 0 else end_of_reach(scan, at[first], at[first - 1])
-        high, high_stop = (at[last], "") if last == len(at) - 1 else end_of_reach(scan, at[last], at[last + 1])
-        found.append(Interval(float(low), float(high), low_stop, high_stop))
-    return found
-
-
-def end_of_reach(scan: Scan, inside: float, outside: float) -> tuple[float, str]:
-    """Return the last stroke reached between one inside and one outside, and the step that fails beyond it."""
-    seen = scan(np.linspace(inside, outside, 65))
-    known = [stop for stop in seen.stops if min(inside, outside) <= stop <= max(inside, outside)]
-    if known:
-        return known[0], seen.failing(int(np.argmin(seen.reached)))
-    if np.all(seen.reached):
-        return inside, ""
-    last, beyond = last_holding(lambda at: np.array(scan(at).reached), inside, outside, parts=64)
-    return float(last), scan(np.array([beyond])).failing(0)
 
 
 # Where a mechanism cannot be assembled, in words: the strokes, and what is missing there.

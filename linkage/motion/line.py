@@ -29,6 +29,9 @@ Look: TypeAlias = Callable[[Index, FloatArray], tuple[FloatArray, Mask]]
 """`look(leg, t)` at places (n,) of all D designs, or (D, n) of each its own: the values of K functions (K, D, n), NaN where there is none,
 and whether each pose (D, n) is reached."""
 
+Curve: TypeAlias = Callable[[FloatArray], FloatArray]
+"""A function of places (n,), NaN where it has no value."""
+
 SAMPLES = 4096  # over the range
 MANY, FEW, FINE, COARSE = 1024, 64, 33, 9  # brackets at most; places in a bracket, up to how many brackets and beyond
 PATIENCE, LAST = 8, 8  # for so many rounds all brackets go on that may win, then the best
@@ -257,6 +260,23 @@ def last_holding(
             break
         inside, outside = ends
     return inside, outside
+
+
+def sign_changes(f: Curve, low: FloatArray, high: FloatArray, close: float = 0.0) -> tuple[FloatArray, FloatArray]:
+    """Return the last places (c,) from `low` to `high` where f has the sign that it has at `low`, and the next ones, where it has not."""
+    sign = np.sign(f(low))[:, None]
+    return last_holding(lambda at: np.sign(f(at.ravel())).reshape(at.shape) == sign, low, high, close) if low.size else (low, high)
+
+
+def highest_between(f: Curve, low: FloatArray, high: FloatArray) -> FloatArray:
+    """Return where f is highest between places `low` and `high` (c,), all looked for together."""
+
+    def look(_: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+        at = low[:, None] + (high - low)[:, None] * t
+        seen = f(at.ravel()).reshape(at.shape)
+        return seen[None], np.isfinite(seen)
+
+    return low + (high - low) * highest(look, [FINE - 1]).t[0] if low.size else low
 
 
 def steps_to_borders(look: Look, edges: Tops) -> Tops:

@@ -22,14 +22,11 @@ from .limits import (
     Interval,
     Limits,
     Open,
-    Scanned,
     StrokeLimits,
-    intervals,
-    search,
     stroke_unit,
     where_words,
 )
-from .line import SAMPLES, Index, bisected, highest, samples
+from .line import CLOSE, SAMPLES, Curve, Index, highest, last_holding, samples, sign_changes
 from .pose_requests import transmission
 from .strokes import TURN, check_any
 
@@ -47,10 +44,10 @@ def limits(motion: MotionLike) -> Limits:
     check_any(motion.strokes, motion.plan)
     held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
 
-    def along(name: str) -> StrokeLimits:
+    def of_stroke(name: str) -> StrokeLimits:
         return recalled(motion, ("limits", name), lambda: stroke_limits(motion, name, held))
 
-    return Limits({name: along(name) for name in motion.strokes})
+    return Limits({name: of_stroke(name) for name in motion.strokes})
 
 
 def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> StrokeLimits:
@@ -62,7 +59,7 @@ def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> S
     turn = max(0.0, np.pi - 0.5 * span)
     low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
     between = Course(motion.plan, motion._grid.flat, name, held).interruptions(low, high)
-    found = search(scanner(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
+    found = reachable_ranges(along(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
     crossings = tuple((each.deepest, called(motion.plan, each.step)) for each in between if not each.is_gap)
     others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
     least = least_transmission(motion, name, held, found)
@@ -71,14 +68,54 @@ def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> S
     return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns, tuple(still))
 
 
-def scanner(moved: Moved, name: str, held: Mapping[str, float]) -> Callable[[FloatArray], Scanned]:
-    """Return a look at values of one stroke."""
+def along(moved: Moved, name: str, held: Mapping[str, float]) -> Scan:
+    """Return the motion at values of one stroke (n,), the others held."""
+    return lambda at: moved({**held, name: at})
 
-    def scan(at: FloatArray) -> Scanned:
-        motion = moved({**held, name: at})
-        return Scanned(motion.reached, lambda place: failing(moved({**held, name: at[place : place + 1]})), motion._grid.solved.stops)
 
-    return scan
+# The ends of what is reached.
+
+LOOKED_AT = 1441
+"""Values of a stroke at which it is looked for reachable ranges."""
+Scan = Callable[[FloatArray], MotionLike]
+"""The motion at some values of a stroke."""
+
+
+def reachable_ranges(scan: Scan, low: float, high: float, gaps: Sequence[float] = ()) -> list[Interval]:
+    """Return the reachable ranges between two strokes, given places in the gaps that may lie between samples."""
+    at = np.linspace(low, high, LOOKED_AT)
+    reached = np.concatenate([scan(at).reached, np.zeros(len(gaps), bool)])
+    at = np.concatenate([at, gaps])
+    order = np.argsort(at, kind="stable")
+    return ranges_among(scan, at[order], reached[order])
+
+
+def ranges_among(scan: Scan, at: FloatArray, reached: Mask) -> list[Interval]:
+    """Return the reachable ranges among samples, with their ends."""
+    found: list[Interval] = []
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], reached, [False]]).astype(int)))
+    for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
+        low, low_stop = (at[first], "") if first == 0 else end_of_reach(scan, at[first], at[first - 1])
+        high, high_stop = (at[last], "") if last == len(at) - 1 else end_of_reach(scan, at[last], at[last + 1])
+        found.append(Interval(float(low), float(high), low_stop, high_stop))
+    return found
+
+
+def end_of_reach(scan: Scan, inside: float, outside: float) -> tuple[float, str]:
+    """Return the last stroke reached between one inside and one outside, and the step that fails beyond it.
+
+    Ends of groups are known already, found on the way.
+    """
+    at = np.linspace(inside, outside, 65)
+    seen = scan(at)
+    known = [stop for stop in seen._grid.solved.stops if min(inside, outside) <= stop <= max(inside, outside)]
+    if known:
+        place = int(np.argmin(seen.reached))
+        return known[0], failing(scan(at[place : place + 1]))
+    if np.all(seen.reached):
+        return inside, ""
+    last, beyond = last_holding(lambda at: np.array(scan(at).reached), inside, outside)
+    return float(last), failing(scan(np.array([beyond])))
 
 
 def failing(motion: MotionLike) -> str:
@@ -204,7 +241,7 @@ def first_times(motion: MotionLike, stroke: str, held: Mapping[str, float], at: 
     return np.asarray(~np.tril(apart <= AGAIN * size, -1).any(axis=1))
 
 
-def length_ratio(motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[str, float]) -> Callable[[FloatArray], FloatArray]:
+def length_ratio(motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[str, float]) -> Curve:
     """Return the ratio of an element's length by a stroke, as a function of that stroke (n,); NaN where it has none."""
     length = Distance(*element.ends)
 
@@ -215,31 +252,21 @@ def length_ratio(motion: MotionLike, element: TwoPoint, stroke: str, held: Mappi
     return rate
 
 
-def roots_between(rate: Callable[[FloatArray], FloatArray], low: float, high: float) -> list[float]:
+def roots_between(rate: Curve, low: float, high: float) -> list[float]:
     """Return where a function passes zero between two strokes, or at one of them, to 1e-13 of the range between them."""
     ends, beyond = (low, high), 2.0 * NEAR * (high - low)
     low, span = low - beyond, high - low + 2.0 * beyond
-    t = np.linspace(0.0, 1.0, SAMPLES + 1)
-    values = rate(low + span * t)
+    at = low + span * np.linspace(0.0, 1.0, SAMPLES + 1)
+    values = rate(at)
     known = np.flatnonzero(np.isfinite(values) & (values != 0.0))  # a sample on a root lies between its neighbours
-    before, after = known[:-1], known[1:]
-    crossed = np.flatnonzero((values[before] < 0.0) != (values[after] < 0.0))
-    found = []
-    for place in crossed.tolist():
-        first, last = before[place], after[place]
-        sense = np.sign(values[first])
-
-        def look(leg: Index, t: FloatArray, sense: Any = sense) -> tuple[FloatArray, Mask]:
-            seen = rate(low + span * t.ravel()).reshape(t.shape)[None]
-            return np.where(sense * seen > 0.0, seen, np.nan), np.isfinite(seen[0])
-
-        root = float(bisected(look, np.zeros((1, 1, 1), int), t[first].reshape(1, 1, 1), t[last].reshape(1, 1, 1))[0, 0, 0])
-        if passes(rate, low + span * root, NEAR * span, sense):
-            found.append(float(np.clip(low + span * root, *ends)))
-    return found
+    crossed = np.flatnonzero((values[known[:-1]] < 0.0) != (values[known[1:]] < 0.0))
+    before, after = known[crossed], known[crossed + 1]
+    roots, _ = sign_changes(rate, at[before], at[after], CLOSE * span)
+    senses = np.sign(values[before])
+    return [float(np.clip(root, *ends)) for root, sense in zip(roots, senses, strict=True) if passes(rate, root, NEAR * span, sense)]
 
 
-def passes(rate: Callable[[FloatArray], FloatArray], root: float, near: float, sense: float) -> bool:
+def passes(rate: Curve, root: float, near: float, sense: float) -> bool:
     """Return whether a function passes zero at a place: of this sign before, of the other behind, and much less there than beside."""
     before, here, behind = (sense * rate(root + near * np.array([-1.0, 0.0, 1.0]))).tolist()
     return bool(before > 0.0 > behind and abs(here) < 0.5 * min(before, -behind))
@@ -285,7 +312,7 @@ def stop_words(motion: MotionLike) -> str:
         return ""
     ((name, values),) = motion.strokes.items()
     order = np.argsort(values, kind="stable")
-    found = intervals(scanner(motion.moved, name, {}), values[order], motion.reached[order])
+    found = ranges_among(along(motion.moved, name, {}), values[order], motion.reached[order])
     unit = stroke_unit(motion.plan, name)
     spans = [f"from {name} = {each.low:.6g} to {each.high:.6g} {unit}" for each in found]
     return f" It goes {', and '.join(spans)}."

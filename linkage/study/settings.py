@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias, final, overload
+from typing import Any, final, overload
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, known_name
 from ..language import said
 from ..mechanism import Mechanism
-from ..motion import highest, last_holding
+from ..motion import last_holding
 from ..motion.grid import recalled
+from ..motion.line import Curve, highest_between, sign_changes
 from ..motion.measures import words_of
 from ..motion.requests import identity_of
 from ..plan import Mask
@@ -23,10 +24,7 @@ from .checks import QuantityLike, check_one_design, is_one, poses_of, quantity_v
 from .targets import Solutions, Target, solutions_for
 
 SAMPLES = 1025
-PARTS = 128  # of what lies between two samples, where it is looked for the end of what is reached or for a zero
 TOUCH = 1e-9  # of the values' span: what comes as near as this to the target touches it
-
-OffTarget: TypeAlias = Callable[[FloatArray], FloatArray]
 
 
 @final
@@ -98,7 +96,7 @@ def settings_for(
     base = machine.at(unreachable="nan", **{each: [value] for each, value in strokes.items()})
 
     def curve(at: FloatArray) -> FloatArray:
-        return quantity_values(poses_of(machine, {name: at}, base, np.zeros(at.shape, int)), quantity) - target
+        return quantity_values(poses_of(machine, {name: at}, base, np.zeros(at.shape, int)), quantity) - target if at.size else at
 
     identity = None if callable(quantity) else identity_of(machine.plan, quantity)
     known = ("settings", name, identity, target, low, high)
@@ -111,15 +109,17 @@ def settings_for(
     return Settings(name, tuple(kept), words.roots(kept, target) if kept else words.none(at, off + target, target))
 
 
-def roots_of(curve: OffTarget, low: float, high: float) -> tuple[FloatArray, FloatArray, list[float]]:
+def roots_of(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatArray, list[float]]:
     """Return the samples of a curve between two values, what it is there, and where it is zero."""
     at = ends_of_reach(curve, np.linspace(low, high, SAMPLES))
     off = curve(at)
-    found = sorted(root for root in (*sign_changes(curve, at, off), *touchings(curve, at, off)) if is_root(curve, root, off))
-    return at, off, [root for place, root in enumerate(found) if not place or root - found[place - 1] > 1e-9 * (high - low)]
+    found = np.sort(np.concatenate([at[off == 0.0], zeros_passed(curve, at, off), zeros_touched(curve, at, off)]))
+    span = float(np.nanmax(off) - np.nanmin(off)) if np.isfinite(off).any() else 0.0
+    found = found[np.abs(curve(found)) <= max(TOUCH * span, 1e-13)]  # where it does not jump over zero
+    return at, off, found[np.diff(found, prepend=-np.inf) > 1e-9 * (high - low)].tolist()
 
 
-def ends_of_reach(curve: OffTarget, at: FloatArray) -> FloatArray:
+def ends_of_reach(curve: Curve, at: FloatArray) -> FloatArray:
     """Return the samples with the ends of every reachable range added."""
     known = np.isfinite(curve(at))
     edges = np.flatnonzero(known[1:] != known[:-1])
@@ -130,47 +130,26 @@ def ends_of_reach(curve: OffTarget, at: FloatArray) -> FloatArray:
         return np.asarray(np.isfinite(curve(places.ravel())).reshape(places.shape))
 
     inside, outside = (at[np.where(known[edges] == is_inside, edges, edges + 1)] for is_inside in (True, False))
-    return np.sort(np.concatenate([at, last_holding(reached, inside, outside, parts=PARTS)[0]]))
+    return np.sort(np.concatenate([at, last_holding(reached, inside, outside)[0]]))
 
 
-def sign_changes(curve: OffTarget, at: FloatArray, off: FloatArray) -> list[float]:
-    """Return where the curve goes through zero."""
+def zeros_passed(curve: Curve, at: FloatArray, off: FloatArray) -> FloatArray:
+    """Return where the curve goes through zero between samples; NaN where it has a gap before it."""
     with np.errstate(invalid="ignore"):
         places = np.flatnonzero((np.sign(off[1:]) * np.sign(off[:-1])) < 0.0)
-    return [*at[off == 0.0].tolist(), *(zero_between(curve, float(at[place]), float(at[place + 1])) for place in places)]
+    near = np.array(sign_changes(curve, at[places], at[places + 1]))
+    beside = np.abs(curve(near.ravel())).reshape(near.shape)
+    return np.where(np.isfinite(beside).all(axis=0), np.where(beside[1] < beside[0], near[1], near[0]), np.nan)
 
 
-def zero_between(curve: OffTarget, low: float, high: float) -> float:
-    """Return the zero between two values of opposite sign; NaN where the curve has a gap before it."""
-    sign = np.sign(curve(np.array([low]))[0])
-    near = np.array(last_holding(lambda at: np.sign(curve(at)) == sign, low, high, parts=PARTS))
-    off = np.abs(curve(near))
-    return float(near[np.argmin(off)]) if np.isfinite(off).all() else float("nan")
-
-
-def touchings(curve: OffTarget, at: FloatArray, off: FloatArray) -> list[float]:
+def zeros_touched(curve: Curve, at: FloatArray, off: FloatArray) -> FloatArray:
     """Return where the curve comes nearest to zero without going through it, at least between its neighbours."""
     size = np.abs(off)
     with np.errstate(invalid="ignore"):
         dips = (size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]) & (np.sign(off[2:]) == np.sign(off[:-2]))
         dips &= (size[1:-1] < size[:-2]) | (size[1:-1] < size[2:])  # along a level stretch it comes no nearer
-    return [nearest_between(curve, float(at[place]), float(at[place + 2])) for place in np.flatnonzero(dips)]
-
-
-def nearest_between(curve: OffTarget, low: float, high: float) -> float:
-    """Return where the curve is nearest to zero between two values."""
-
-    def look(_: Any, t: FloatArray) -> tuple[FloatArray, Any]:
-        off = curve(low + (high - low) * t.ravel())
-        return -np.abs(off).reshape(1, 1, -1), np.isfinite(off)[None]
-
-    return low + (high - low) * float(highest(look, [32]).t.item())
-
-
-def is_root(curve: OffTarget, root: float, off: FloatArray) -> bool:
-    """Return whether the curve is zero there, and does not jump over zero."""
-    span = float(np.nanmax(off) - np.nanmin(off)) if np.isfinite(off).any() else 0.0
-    return bool(np.abs(curve(np.array([root]))[0]) <= max(TOUCH * span, 1e-13))
+    places = np.flatnonzero(dips)
+    return highest_between(lambda places: -np.abs(curve(places)), at[places], at[places + 2])
 
 
 @final

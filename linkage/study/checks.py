@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, UntracedError, cited, told, unwarned
 from ..mechanism import Mechanism
-from ..motion import Motion, Request, each_at_its_stroke
+from ..motion import Motion, Request
 from ..motion.measures import words_of
 from ..plan import Plan
 from ..program import FloatArray
@@ -70,12 +70,6 @@ def why_not_assembled(machine: Mechanism) -> str:
     except AssemblyError as error:
         return " ".join(str(error).split())
     return ""
-
-
-def poses_of(machine: Mechanism, settings: Mapping[str, Any], base: Motion, place: Any) -> Motion:
-    """Return the poses of some settings (m,) of a machine, each at one of the poses (n,) of it as it is set, by its place (m,)."""
-    strokes = {name: value[place] for name, value in base.strokes.items()}
-    return each_at_its_stroke(machine.plan, machine.replaced(**settings).dimensions, strokes, base, place)
 
 
 def function_value(quantity: Callable[[Motion], Any], motion: Motion) -> Any:

@@ -12,8 +12,9 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
 from ..mechanism import Mechanism
-from ..motion import Grid, Motion, Request, at_values, evaluate_grid, stroke_display_unit
+from ..motion import Grid, Motion, Request, at_values, each_at_its_stroke, evaluate_grid, stroke_display_unit
 from ..motion.grid import JoinedTo
+from ..motion.line import Index
 from ..motion.measures import At, Integral, Leaf, Least, Measure, Most, Worst, strokes_behind, traced, words_of
 from ..plan import Plan
 from ..program import FloatArray, RunOptions
@@ -51,7 +52,7 @@ def measured_title(plan: Plan, quantity: Any) -> str:
 @final
 @dataclass(frozen=True, eq=False)
 class StudyPoses:
-    """The poses that a study looks at: the motion of the machine as it is set, which can be assembled at all of them.
+    """The poses that a study looks at, and quantities of many designs there: `base` is the motion of the machine as it is set.
 
     Angles of other designs lie within 180 deg of those of this one.
     """
@@ -60,7 +61,7 @@ class StudyPoses:
 
     @classmethod
     def of(cls, machine: Mechanism, strokes: Mapping[str, Any], count: int) -> StudyPoses:
-        """Return the poses at strokes [SI], by default `count` of them over a single stroke.
+        """Return the poses at strokes [SI], by default `count` of them over a single stroke, at all of which a machine can be assembled.
 
         Raises DefinitionError for no poses, AssemblyError where the machine as it is set cannot be assembled.
         """
@@ -97,7 +98,7 @@ class StudyPoses:
 
     def traced(self, machine: Mechanism, requests: Sequence[Any], way: RunOptions, poses: slice = slice(None)) -> list[FloatArray]:
         """Return requests of m designs at n of the poses, an array (m, n) each, NaN where they have no value."""
-        found = evaluate_grid(self._grid(machine, poses), requests, None, way, "nan")
+        found = evaluate_grid(self.grid(machine, poses), requests, None, way, "nan")
         return [each.reshape(-1, each.shape[-1]) for each in found]
 
     def motion(self, machine: Mechanism) -> Motion:
@@ -105,6 +106,11 @@ class StudyPoses:
         base = self.base
         joining = JoinedTo(base._grid, np.arange(self.count).reshape(self.shape))
         return Motion(base.plan, machine.dimensions, base.strokes, "nan", joining=joining)
+
+    def of_each(self, machine: Mechanism, place: Index) -> Motion:
+        """Return the motion of m designs, each at one of the poses, by its place (m,); NaN out of reach."""
+        strokes = {name: value[place] for name, value in self.flat.items()}
+        return each_at_its_stroke(self.base.plan, machine.dimensions, strokes, self.base, place)
 
     def of_function(self, machine: Mechanism, quantity: Any) -> FloatArray:
         """Return what a function of a motion, or a request without a program, gives of m designs: (m, n), or a number each, (m, 1)."""
@@ -162,7 +168,8 @@ class StudyPoses:
         """Return values (..., n) in the shape of the strokes; numbers for each design, (..., 1), without it."""
         return values.reshape((*values.shape[:-1], *(self.shape if values.shape[-1] == self.count else ())))
 
-    def _grid(self, machine: Mechanism, poses: slice) -> Grid:
+    def grid(self, machine: Mechanism, poses: slice = slice(None)) -> Grid:
+        """Return m designs at n of the poses."""
         places = np.arange(self.count)[poses]
         strokes = {name: value[poses] for name, value in self.flat.items()}
         return Grid(self.base.plan, machine.dimensions, strokes, joining=JoinedTo(self.base._grid, places))

@@ -20,7 +20,8 @@ from ..plan import Mask
 from ..program import FloatArray
 from ..units import show, unit_or_none
 from .box import range_of
-from .checks import QuantityLike, check_one_design, is_one, poses_of, quantity_values, unit_of, why_not_assembled
+from .checks import QuantityLike, check_one_design, is_one, quantity_values, unit_of, why_not_assembled
+from .measured import StudyPoses
 from .targets import Solutions, Target, solutions_for
 
 SAMPLES = 1025
@@ -93,14 +94,14 @@ def settings_for(
         given = ", ".join(f"{each}={cited(value)}" for each, value in {"target": target, **strokes}.items())
         raise DefinitionError(f"{machine.plan.title}: {given}: one number is expected for each, in SI.")
 
-    base = machine.at(unreachable="nan", **{each: [value] for each, value in strokes.items()})
+    pose = StudyPoses(machine.at(unreachable="nan", **{each: [value] for each, value in strokes.items()}))
 
     def curve(at: FloatArray) -> FloatArray:
-        return quantity_values(poses_of(machine, {name: at}, base, np.zeros(at.shape, int)), quantity) - target if at.size else at
+        return quantity_values(pose.of_each(machine.replaced(**{name: at}), np.zeros(at.shape, int)), quantity) - target if at.size else at
 
     identity = None if callable(quantity) else identity_of(machine.plan, quantity)
     known = ("settings", name, identity, target, low, high)
-    at, off, unique = roots_of(curve, low, high) if identity is None else recalled(base, known, lambda: roots_of(curve, low, high))
+    at, off, unique = roots_of(curve, low, high) if identity is None else recalled(pose.base, known, lambda: roots_of(curve, low, high))
     lost = {root: why for root in unique if (why := why_not_assembled(machine.replaced(**{name: root})))}
     kept = [root for root in unique if root not in lost]
     words = SettingWords(name, unit_of(machine.plan, name), words_of(quantity), unit)

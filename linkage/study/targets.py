@@ -11,8 +11,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
-from ..motion import Motion, Request, RequestLike, evaluate_grid, stroke_display_unit
-from ..motion.grid import Grid, JoinedTo
+from ..motion import Motion, Request, RequestLike, stroke_display_unit
 from ..motion.kinds import measure_of
 from ..motion.requests import dimensions_of, slopes_of
 from ..plan import Plan
@@ -21,6 +20,7 @@ from ..quantities import is_number
 from ..units import deg, display_unit, mm, show, unit_or_none
 from .box import Box, setting_words, unit_points
 from .checks import check_one_design, is_one, why_not_assembled
+from .measured import StudyPoses
 from .tolerances import traced_number
 
 
@@ -122,8 +122,7 @@ class Aim:
     machine: Mechanism
     targets: tuple[Target, ...]
     bound: tuple[Request, ...]
-    strokes: Mapping[str, FloatArray]
-    base: Motion
+    poses: StudyPoses
     wanted: FloatArray
     scale: FloatArray
 
@@ -141,31 +140,28 @@ class Aim:
         strokes = {name: np.array([each.strokes[name] for each in targets]) for name in machine.strokes}
         scale = [each.within or usual_miss(plan, each) for each in targets]
         with unwarned():
-            base = Motion(plan, machine.dimensions, strokes, "nan")
-        return cls(machine, tuple(targets), bound, strokes, base, np.array([each.value for each in targets]), np.array(scale))
+            poses = StudyPoses(Motion(plan, machine.dimensions, strokes, "nan"))
+        return cls(machine, tuple(targets), bound, poses, np.array([each.value for each in targets]), np.array(scale))
 
     def misses(self, machine: Mechanism) -> FloatArray:
         """Return how far m designs are off each target, in its units, shape (m, targets); NaN where they have no value."""
         unique = {request.key: each.quantity for request, each in zip(self.bound, self.targets, strict=True)}
-        found = dict(zip(unique, evaluate_grid(self._grid(machine), list(unique.values()), None, RunOptions("numpy"), "nan"), strict=True))
-        columns = [np.atleast_2d(found[request.key])[:, place] for place, request in enumerate(self.bound)]
+        found = dict(zip(unique, self.poses.traced(machine, list(unique.values()), RunOptions("numpy")), strict=True))
+        columns = [found[request.key][:, place] for place, request in enumerate(self.bound)]
         return np.asarray((np.stack(columns, axis=1) - self.wanted) / self.scale)
 
     def slopes(self, machine: Mechanism, names: Sequence[str]) -> FloatArray:
         """Return the derivatives of the misses of m designs by dimensions, shape (m, targets, dimensions)."""
         plan, dimensions = machine.plan, dimensions_of(machine.plan, names)
         owners, signs = tuple(owner for owner, _ in dimensions), np.array([float(sign) for _, sign in dimensions])
-        flat = self._grid(machine).flat
+        grid = self.poses.grid(machine)
         found: dict[Any, FloatArray] = {}
         for request in self.bound:
             if request.key not in found:
                 kept = plan.made(("gradient", request.key, owners), lambda twin, what=request: slopes_of(twin, what, owners))  # type: ignore[misc]
-                found[request.key] = kept.kernel(flat, way=RunOptions("numpy"), size=self._grid(machine).size).values[: len(owners)]
+                found[request.key] = kept.kernel(grid.flat, way=RunOptions("numpy"), size=grid.size).values[: len(owners)]
         columns = [found[request.key][:, :, place] for place, request in enumerate(self.bound)]
         return np.asarray(np.stack(columns, axis=0).transpose(2, 0, 1) * signs / self.scale[:, None])
-
-    def _grid(self, machine: Mechanism) -> Grid:
-        return Grid(machine.plan, machine.dimensions, self.strokes, joining=JoinedTo(self.base._grid, np.arange(len(self.targets))))
 
     def words(self, place: int, value: float | None = None) -> str:
         """Return a target in words, or a value of it: `tilt = 5 deg at S = 100 mm`."""

@@ -20,7 +20,8 @@ from ..motion.measures import words_of
 from ..plan import Mask
 from ..program import FloatArray
 from .box import Box, setting_words
-from .checks import QuantityLike, check_one_design, check_vary, function_value, poses_of, quantity_values
+from .checks import QuantityLike, check_one_design, check_vary, function_value, quantity_values
+from .measured import StudyPoses
 
 POSES = 51
 
@@ -72,10 +73,10 @@ def zone(
     if 0 in shape:
         raise DefinitionError(f"{machine.plan.title}: there are no strokes to look at; give at least one value of {', '.join(poses)}.")
     flat = {name: value.ravel() for name, value in poses.items()}
-    base = machine.at(unreachable="nan", **flat)
+    looked_at = StudyPoses(machine.at(unreachable="nan", **flat))
 
     def f(task: Index, unit: FloatArray, choice: Index) -> FloatArray:
-        return quantity_values(poses_of(machine, box.settings(unit, choice), base, task), quantity)
+        return quantity_values(looked_at.of_each(machine.replaced(**box.settings(unit, choice)), task), quantity)
 
     tasks = int(np.prod(shape, dtype=int))
     found = extremes(f, tasks, len(box.ranges), len(box.choices))

@@ -1,22 +1,16 @@
-"""What a study measures: an output by name, a quantity, or any function of a motion; and of which machines."""
+"""Of which machines a study can be, and what it says of a dimension."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any, TypeAlias
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, UntracedError, cited, told, unwarned
+from ..errors import AssemblyError, DefinitionError, cited
 from ..mechanism import Mechanism
-from ..motion import Motion, Request
-from ..motion.measures import words_of
 from ..plan import Plan
-from ..program import FloatArray
-from ..quantities import Quantity, is_number
-
-QuantityLike: TypeAlias = str | Quantity | Request | Callable[[Motion], FloatArray]
-"""A named output, a quantity, a request, or a function of a motion that returns a number for each pose, NaN where it has none."""
+from ..quantities import is_number
 
 
 def unit_of(plan: Plan, name: str) -> str:
@@ -70,45 +64,3 @@ def why_not_assembled(machine: Mechanism) -> str:
     except AssemblyError as error:
         return " ".join(str(error).split())
     return ""
-
-
-def function_value(quantity: Callable[[Motion], Any], motion: Motion) -> Any:
-    """Return what a function of a motion gives; DefinitionError, with the line, for whatever goes wrong in it."""
-    name = getattr(quantity, "__name__", cited(quantity))
-    with told(f"{motion.plan.title}: the function {name} of a motion of many settings"):
-        return quantity(motion)
-
-
-def real_numbers(found: Any) -> FloatArray:
-    """Return what a function gives as an array of floats; TypeError for complex numbers, of which a part would be lost."""
-    if np.iscomplexobj(found):
-        raise TypeError("complex numbers")
-    return np.asarray(found, float)
-
-
-def quantity_values(motion: Motion, quantity: QuantityLike, *, endless: bool = False) -> FloatArray:
-    """Return a quantity at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study.
-
-    An infinite one is none, unless it may be `endless`.
-    """
-    title = motion.plan.title
-    if isinstance(quantity, type) or not (callable(quantity) or isinstance(quantity, (str, Quantity, Request))):
-        raise DefinitionError(f"{title}: {cited(quantity)} is no output, quantity or function of a motion; give one, such as 'tilt'.")
-    with unwarned(), np.errstate(all="ignore"):
-        if callable(quantity):
-            found = function_value(quantity, motion)
-        elif isinstance(quantity, Request):
-            try:  # by its program where it has one
-                found = motion._requested(quantity)
-            except UntracedError:
-                found = motion[quantity]
-        else:
-            found = motion[quantity]
-    try:
-        result = real_numbers(found)
-    except (TypeError, ValueError):
-        raise DefinitionError(f"{title}: {words_of(quantity)} gives {cited(found)}; a number for each pose is expected.") from None
-    if result.shape != motion.shape:
-        what = f"{words_of(quantity)} has the shape {result.shape} where {motion.shape} is expected"
-        raise DefinitionError(f"{motion.plan.title}: {what}; ask for a number such as an output, or lambda motion: motion.y('G').")
-    return np.where((~np.isnan(result) if endless else np.isfinite(result)) & motion.reached, result, np.nan)

@@ -10,24 +10,22 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, unwarned
+from ..errors import AssemblyError, DefinitionError, UntracedError, cited, told, unwarned
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, at_values, each_at_its_stroke, evaluate_grid, stroke_display_unit
 from ..motion.grid import JoinedTo
 from ..motion.line import Index
 from ..motion.measures import At, Integral, Leaf, Least, Measure, Most, Worst, strokes_behind, traced, words_of
-from ..plan import Plan
+from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import Quantity
 from ..units import show
-from .checks import check_one_design, function_value, real_numbers
-from .sampling import eager
+from .checks import check_one_design
 
-Measured: TypeAlias = str | Quantity | Request | Measure | Callable[[Motion], Any]
-"""An output by its name, a quantity, a request such as `drive_force()`, a measure such as `most("tilt")`, or a function of a motion.
-
-The function returns a number for each pose, or one for each design: `lambda motion: np.ptp(motion["tilt"], axis=-1)`.
-"""
+QuantityLike: TypeAlias = str | Quantity | Request | Callable[[Motion], FloatArray]
+"""A named output, a quantity, a request, or a function of a motion that returns a number for each pose, NaN where it has none."""
+Measured: TypeAlias = QuantityLike | Measure
+"""The same, or a measure such as `most("tilt")`; the function may return one number for each design: `np.ptp(motion["tilt"], axis=-1)`."""
 
 
 def number_bound(plan: Plan, quantity: Any) -> Request | None:
@@ -41,6 +39,15 @@ def number_bound(plan: Plan, quantity: Any) -> Request | None:
         what = f"{plan.title}: {cited(quantity)} is no output, quantity, request, measure or function of a motion"
         raise DefinitionError(f"{what}; give one, such as 'tilt' or drive_force().")
     return None
+
+
+def traced_number(plan: Plan, quantity: Any) -> Request:
+    """Return a quantity bound to a plan; DefinitionError for what has no gradient in the program."""
+    found = number_bound(plan, quantity)
+    if found is None:
+        what = f"{plan.title}: {words_of(quantity)} is no part of the program, so that its gradient is not known"
+        raise DefinitionError(f"{what}; give an output, a quantity or a request.")
+    return found
 
 
 def measured_title(plan: Plan, quantity: Any) -> str:
@@ -175,6 +182,51 @@ class StudyPoses:
         return Grid(self.base.plan, machine.dimensions, strokes, joining=JoinedTo(self.base._grid, places))
 
 
+# A quantity as a motion gives it.
+
+
+def function_value(quantity: Callable[[Motion], Any], motion: Motion) -> Any:
+    """Return what a function of a motion gives; DefinitionError, with the line, for whatever goes wrong in it."""
+    name = getattr(quantity, "__name__", cited(quantity))
+    with told(f"{motion.plan.title}: the function {name} of a motion of many settings"):
+        return quantity(motion)
+
+
+def real_numbers(found: Any) -> FloatArray:
+    """Return what a function gives as an array of floats; TypeError for complex numbers, of which a part would be lost."""
+    if np.iscomplexobj(found):
+        raise TypeError("complex numbers")
+    return np.asarray(found, float)
+
+
+def quantity_values(motion: Motion, quantity: QuantityLike, *, endless: bool = False) -> FloatArray:
+    """Return a quantity at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study.
+
+    An infinite one is none, unless it may be `endless`.
+    """
+    title = motion.plan.title
+    if isinstance(quantity, type) or not (callable(quantity) or isinstance(quantity, (str, Quantity, Request))):
+        raise DefinitionError(f"{title}: {cited(quantity)} is no output, quantity or function of a motion; give one, such as 'tilt'.")
+    with unwarned(), np.errstate(all="ignore"):
+        if callable(quantity):
+            found = function_value(quantity, motion)
+        elif isinstance(quantity, Request):
+            try:  # by its program where it has one
+                found = motion._requested(quantity)
+            except UntracedError:
+                found = motion[quantity]
+        else:
+            found = motion[quantity]
+    try:
+        result = real_numbers(found)
+    except (TypeError, ValueError):
+        raise DefinitionError(f"{title}: {words_of(quantity)} gives {cited(found)}; a number for each pose is expected.") from None
+    if result.shape != motion.shape:
+        what = f"{words_of(quantity)} has the shape {result.shape} where {motion.shape} is expected"
+        raise DefinitionError(f"{motion.plan.title}: {what}; ask for a number such as an output, or lambda motion: motion.y('G').")
+    return np.where((~np.isnan(result) if endless else np.isfinite(result)) & motion.reached, result, np.nan)
+
+
 def function_array(function: Callable[[Motion], Any], motion: Motion) -> FloatArray:
     """Return what a function of a motion of m designs gives, shape (m, n) or (m, 1); DefinitionError for anything else."""
     found, designs = function_value(function, motion), motion._design_shape
@@ -190,6 +242,33 @@ def function_array(function: Callable[[Motion], Any], motion: Motion) -> FloatAr
         raise DefinitionError(f"{text}; return a number for each pose, or one for each design.")
     lost = ~motion.reached.reshape(m, -1).all(axis=1)
     return np.where(lost | ~np.isfinite(result.ravel()), np.nan, result.ravel())[:, None]
+
+
+def motion_of(grid: Grid) -> Motion:
+    """Return the motion over a grid, NaN out of reach."""
+    joining = grid._joining if isinstance(grid._joining, JoinedTo) else None
+    return Motion(grid.plan, grid.designs, grid.strokes, "nan", per_design=grid.per_design, joining=joining)
+
+
+def eager(motion: Motion, quantity: Any) -> FloatArray:
+    """Return a quantity at every pose of a motion, NaN where it has no value."""
+    if isinstance(quantity, str) and quantity not in motion.plan.members and quantity in motion.plan.table.spellings:
+        owner, sign = motion.plan.table.spellings[quantity]
+        return np.asarray(np.broadcast_to(sign * motion.inputs[owner], motion.shape))
+    found = quantity.of(motion) if isinstance(quantity, Request) else quantity_values(motion, quantity, endless=True)
+    return np.asarray(np.broadcast_to(found, motion.shape))
+
+
+def unlimited(motion: Motion, quantity: Any) -> Mask | None:
+    """Return the mask of poses at which nothing limits a quantity, so that it has no value there; None of one that always has."""
+    if not isinstance(quantity, Request):
+        return None
+    try:
+        with unwarned(), np.errstate(all="ignore"):
+            found = quantity.unlimited(motion)
+    except (AssemblyError, UntracedError):  # what it would say is refused there, or depends on more than the pose
+        return None
+    return None if found is None else np.asarray(np.broadcast_to(found, motion.shape))
 
 
 # What a measure takes of its quantity, pose by pose.

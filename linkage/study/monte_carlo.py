@@ -19,8 +19,7 @@ from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import is_number
 from ..units import display_unit
-from .measured import Measured, StudyPoses, fold, fold_start, measured_title, number_bound
-from .sampling import unlimited
+from .measured import Measured, StudyPoses, fold, fold_start, measured_title, number_bound, unlimited
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, shifted_designs, tolerance_words, tolerances_of
 
 Task = TypeVar("Task")

@@ -40,16 +40,8 @@ from ..motion.strokes import check_magnitude
 from ..plan import Mask, Plan
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
-from .sampling import (
-    Samples,
-    Sampling,
-    divisors_of,
-    eager,
-    motion_of,
-    rows_of_motion,
-    unlimited,
-    with_values,
-)
+from .measured import eager, motion_of, unlimited
+from .sampling import Samples, Sampling, divisors_of, rows_of_motion, with_values
 from .space import Space
 
 SAMPLES = {0: 1, 1: 49, 2: 17, 3: 9, 4: 5}

@@ -8,17 +8,17 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import AssemblyError, UntracedError, unwarned
+from ..errors import unwarned
 from ..motion import Grid, Motion, NodeRequest, Request
 from ..motion.evaluation import BulkProgram, Evaluation
-from ..motion.grid import Angles, JoinedTo, angles_of
+from ..motion.grid import Angles, angles_of
 from ..motion.kinds import constant_part, operation
 from ..motion.measures import traced
 from ..motion.requests import slope
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node
 from ..quantities import Quantity, Ref
-from .checks import quantity_values
+from .measured import eager, motion_of, unlimited
 
 DIFFERENCE = 6e-6
 """Of a variable's span: the step of a central difference, where nothing better is to be had."""
@@ -175,21 +175,6 @@ class Sampling:
         return np.array(found)
 
 
-def motion_of(grid: Grid) -> Motion:
-    """Return the motion over a grid, NaN out of reach."""
-    joining = grid._joining if isinstance(grid._joining, JoinedTo) else None
-    return Motion(grid.plan, grid.designs, grid.strokes, "nan", per_design=grid.per_design, joining=joining)
-
-
-def eager(motion: Motion, quantity: Any) -> FloatArray:
-    """Return a quantity at every pose of a motion, NaN where it has no value."""
-    if isinstance(quantity, str) and quantity not in motion.plan.members and quantity in motion.plan.table.spellings:
-        owner, sign = motion.plan.table.spellings[quantity]
-        return np.asarray(np.broadcast_to(sign * motion.inputs[owner], motion.shape))
-    found = quantity.of(motion) if isinstance(quantity, Request) else quantity_values(motion, quantity, endless=True)
-    return np.asarray(np.broadcast_to(found, motion.shape))
-
-
 def rows_of_motion(plan: Plan, quantities: Sequence[Any]) -> Callable[[Motion], FloatArray]:
     """Return quantities as one function of a motion (k, ...): by the plan's program, those that are no part of it as the motion gives them.
 
@@ -210,18 +195,6 @@ def rows_of_motion(plan: Plan, quantities: Sequence[Any]) -> Callable[[Motion], 
 
 
 # Where there is no value.
-
-
-def unlimited(motion: Motion, quantity: Any) -> Mask | None:
-    """Return the mask of poses at which nothing limits a quantity, so that it has no value there; None of one that always has."""
-    if not isinstance(quantity, Request):
-        return None
-    try:
-        with unwarned(), np.errstate(all="ignore"):
-            found = quantity.unlimited(motion)
-    except (AssemblyError, UntracedError):  # what it would say is refused there, or depends on more than the pose
-        return None
-    return None if found is None else np.asarray(np.broadcast_to(found, motion.shape))
 
 
 def changes_sign(values: FloatArray, reached: Mask) -> Mask:

@@ -20,8 +20,8 @@ from ..plan import Mask
 from ..program import FloatArray
 from ..units import show, unit_or_none
 from .box import range_of
-from .checks import QuantityLike, check_one_design, is_one, quantity_values, unit_of, why_not_assembled
-from .measured import StudyPoses
+from .checks import check_one_design, is_one, unit_of, why_not_assembled
+from .measured import QuantityLike, StudyPoses, quantity_values
 from .targets import Solutions, Target, solutions_for
 
 SAMPLES = 1025

@@ -20,8 +20,7 @@ from ..quantities import is_number
 from ..units import deg, display_unit, mm, show, unit_or_none
 from .box import Box, setting_words, unit_points
 from .checks import check_one_design, is_one, why_not_assembled
-from .measured import StudyPoses
-from .tolerances import traced_number
+from .measured import StudyPoses, traced_number
 
 
 @final

@@ -23,7 +23,7 @@ from ..quantities import is_number
 from ..units import show
 from .box import unit_points
 from .checks import check_mechanism, unit_of
-from .measured import number_bound
+from .measured import traced_number
 
 LAWS = ("normal", "uniform", "truncated")
 SIGMAS = 3.0
@@ -184,15 +184,6 @@ def sigma(quantity: RequestLike, tolerances: Mapping[str, ToleranceLike]) -> Nod
         return sigma_of(traced_number(plan, quantity), quantity, deviations_of(plan, tolerances))
 
     return NodeRequest(text=f"sigma({words_of(quantity)})", bound_by=bound_in, identity_by=identity)
-
-
-def traced_number(plan: Plan, quantity: Any) -> Request:
-    """Return a quantity bound to a plan; DefinitionError for what has no gradient in the program."""
-    found = number_bound(plan, quantity)
-    if found is None:
-        what = f"{plan.title}: {words_of(quantity)} is no part of the program, so that its gradient is not known"
-        raise DefinitionError(f"{what}; give an output, a quantity or a request.")
-    return found
 
 
 def deviations_of(plan: Plan, tolerances: Any) -> tuple[tuple[str, float], ...]:

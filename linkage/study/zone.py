@@ -20,8 +20,8 @@ from ..motion.measures import words_of
 from ..plan import Mask
 from ..program import FloatArray
 from .box import Box, setting_words
-from .checks import QuantityLike, check_one_design, check_vary, function_value, quantity_values
-from .measured import StudyPoses
+from .checks import check_one_design, check_vary
+from .measured import QuantityLike, StudyPoses, function_value, quantity_values
 
 POSES = 51
 

@@ -17,7 +17,7 @@ from linkage.language import said
 from linkage.loads import Acting, ForceElement, LoadCase
 from linkage.mechanism import Mechanism
 from linkage.motion import Column, Judge, Motion, columns_of, least
-from linkage.statics import elements_of, same
+from linkage.statics import LawRequest, elements_of, same
 from linkage.units import g0, show
 from linkage.verdict import Verdict
 
@@ -25,7 +25,7 @@ from .inputs import Array, direction_of, proper_share
 from .judged import line_verdicts
 from .lift import LiftCircuit
 from .member import Cylinder, found_in
-from .requests import Capacity
+from .requests import capacity_request
 
 
 @final
@@ -68,8 +68,8 @@ class CapacityCommand(Command):
             print(f"{machine.plan.title}: {ram.name} lifts at {point} {way}, beside the machine's own loads. Pressures are gauge.\n")
         write_table(columns, over.reached.size, options.csv)
         judge = machine.judge(over, Acting(case=case))
-        asked = Capacity(ram, Acting(), circuit, point, along, share)
-        found = [capacity_verdict(judge, asked), *line_verdicts(circuit, judge), *ram.verdicts(judge)]
+        asked = capacity_request(ram, Acting(), circuit, point, along, share)
+        found = [capacity_verdict(judge, asked, point), *line_verdicts(circuit, judge), *ram.verdicts(judge)]
         if options.csv != "-":
             print("", *found, sep="\n")
         return judged_code(found, options)
@@ -142,9 +142,9 @@ def at_pressure(circuit: LiftCircuit, motion: Motion, share: float) -> str:
     return f" at {share:g} of {supply}" if share != 1.0 else f" at {supply}"
 
 
-def capacity_verdict(judge: Judge, asked: Capacity) -> Verdict:
-    """Return the least capacity over all that a judge looks at, and where."""
-    found, point = judge.answer(least(asked)), asked.point
+def capacity_verdict(judge: Judge, asked: LawRequest, point: str) -> Verdict:
+    """Return the least capacity at a point over all that a judge looks at, and where."""
+    found = judge.answer(least(asked))
     if np.isnan(found.value):
         text = said("the load at {point} drives, or does nothing: it is not limited by this cylinder.", point=point)
         return Verdict("capacity", None, text, answer=found)

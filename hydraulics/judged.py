@@ -16,15 +16,15 @@ from linkage.errors import DefinitionError, known_name, unknown
 from linkage.language import said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting, Case, Loads, situation_of
 from linkage.motion import Answer, Condition, Judge, Motion, Question, Span, at, below_zero, least, most, reached, require_motion
-from linkage.statics import elements_of, same
+from linkage.statics import LawRequest, elements_of, same
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
 from .cylinder import standard_bores
 from .inputs import not_negative, one_number
 from .line import LiftLine
-from .member import PISTON, SIDES, Cylinder, Gauge, Thrust, carries_loads, one_design, one_size
-from .requests import GoingBack, Pressure, Reserve
+from .member import PISTON, SIDES, Cylinder, carries_loads, one_design, one_size, thrust_request
+from .requests import going_back_request, pressure_request, reserve_request
 
 TRIES = 4
 """Standard bores that are tried as a remedy, from the first that may do."""
@@ -148,12 +148,11 @@ class LiftingCylinder:
     @property
     def thrusts(self) -> list[Question]:
         """Its least and its greatest thrust, as questions."""
-        return [least(Thrust(self.ram, Acting())), most(Thrust(self.ram, Acting()))]
+        return [least(thrust_request(self.ram, Acting())), most(thrust_request(self.ram, Acting()))]
 
-    @property
-    def back(self) -> GoingBack:
-        """What the other side must give while it goes back."""
-        return GoingBack(*self.asked, way=self.way_back)
+    def back(self, resistance: float = 0.0, tells: str = "push") -> LawRequest:
+        """Return what the other side must give while it goes back, or what the load alone makes."""
+        return going_back_request(*self.asked, self.way_back, resistance, tells)
 
     @property
     def asked(self) -> tuple[Cylinder, Acting, LiftLine]:
@@ -162,18 +161,18 @@ class LiftingCylinder:
 
     def questions(self) -> list[Question]:
         """Return what its verdicts ask at first."""
-        standing = [most(Pressure(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in SIDES]
-        going = [most(self.back), least(replace(self.back, tells="load"))]
-        return [*self.thrusts, least(Reserve(*self.asked)), *standing, *going]
+        standing = [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in SIDES]
+        going = [most(self.back()), least(self.back(tells="load"))]
+        return [*self.thrusts, least(reserve_request(*self.asked)), *standing, *going]
 
     def conditions(self) -> dict[str, Condition]:
         """Return what it has to keep: it lifts, holds on both sides, and goes back."""
         asked, name = (self.ram.name, Acting(), self.circuit.name), self.circuit.name
-        held, supply = (at(Gauge(f"{name} {word}", read)) for word, read in (("held", self.circuit.held), ("supply", self.circuit.supply)))
-        back = most(GoingBack(*asked, way=self.way_back))
+        held, supply = (at(LawRequest(text=f"{name} {each.__name__}", formula=each)) for each in (self.circuit.held, self.circuit.supply))
+        back = most(going_back_request(*asked, self.way_back))
         return {
-            "lifting": least(Reserve(*asked)) >= 1.0,
-            "holding": most(Pressure(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held,
+            "lifting": least(reserve_request(*asked)) >= 1.0,
+            "holding": most(pressure_request(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held,
             "lowering": back <= supply if self.ram.works == "both" else back <= 0.0,
         }
 
@@ -185,7 +184,7 @@ class LiftingCylinder:
 
     def lifting(self) -> Verdict:
         """Return whether the pump lifts wherever it runs; where not, the pressure needed and the standard bore that would do."""
-        question, pump = least(Reserve(*self.asked)) >= 1.0, self.show(self.circuit.supply(self.judge.motion))
+        question, pump = least(reserve_request(*self.asked)) >= 1.0, self.show(self.circuit.supply(self.judge.motion))
         found = self.judge.answer(question)
         if np.isnan(found.value) and found.ok is None:
             text = said("the load drives all the way: it is not limited by this cylinder{remedy}.", remedy=self.other_side())
@@ -212,7 +211,7 @@ class LiftingCylinder:
         way, acting = self.judge.way, self.judge.situation(found)
         if way is None:
             return ()
-        reserve = Reserve(self.ram, acting, self.circuit, is_judged=True)
+        reserve = reserve_request(self.ram, acting, self.circuit, is_judged=True)
         return below_zero(way, lambda at: of_reserve(reserve.of(at)))
 
     def other_side(self) -> str:
@@ -221,14 +220,14 @@ class LiftingCylinder:
 
     def remedy(self, reserve: float) -> str:
         """Return what makes up for a reserve below 1: a pressure, or a standard bore with its reserve."""
-        found = self.judge.answer(most(Pressure(*self.asked, is_needed=True)))
+        found = self.judge.answer(most(pressure_request(*self.asked, is_needed=True)))
         if found.unbounded or not np.isfinite(found.value):
             return said("No pressure and no bore lifts there; keep away from that pose.")
         needed = self.show(found.value)
         if len(self.circuit.rams(self.judge.motion)) > 1:
             return said("It needs {needed}, or larger bores on this line.", needed=needed)
         for bore in self.larger(reserve):
-            gained = self.judge.answer(least(Reserve(*self.asked, bore=bore))).value
+            gained = self.judge.answer(least(reserve_request(*self.asked, bore=bore))).value
             if gained >= 1.0:
                 text = said(
                     "It needs {needed}, or a bore of {bore}, with a reserve of {gained:.2f}.",
@@ -253,7 +252,7 @@ class LiftingCylinder:
         """Return the pressures that the load makes with the pump off, and whether they stay below the relief valve's."""
         circuit, limit = self.circuit, float(self.circuit.held(self.judge.motion))
         order = SIDES if self.ram.works != "rod" else SIDES[::-1]
-        asked = [most(Pressure(self.ram, Acting(direction=FRICTIONLESS), circuit, side)) <= limit for side in order]
+        asked = [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), circuit, side)) <= limit for side in order]
         working, other = self.judge.answers(asked)
         endless = next((each for each in (working, other) if each.unbounded), None)
         if endless is not None:
@@ -284,8 +283,7 @@ class LiftingCylinder:
         the load then drives it on, as a lever past its top, the pump's pressure on the other side has to do it.
         """
         judge, against = self.judge, said("against {pressure} in the return line", pressure=self.show(resistance))
-        back = replace(self.back, resistance=resistance)
-        push, alone = judge.answers([most(back) <= 0.0, least(replace(back, tells="load"))])
+        push, alone = judge.answers([most(self.back(resistance)) <= 0.0, least(self.back(resistance, "load"))])
         if push.ok:
             if alone.value <= 1e-9 * float(self.circuit.supply(judge.motion)):
                 text = said(
@@ -298,7 +296,7 @@ class LiftingCylinder:
                 against=against, pressure=self.show(alone.value), where=alone.place,
             )  # fmt: skip
             return Verdict("lowering", True, text, answer=push)
-        where = self.stuck(replace(back, acting=judge.situation(push)))
+        where = self.stuck(replace(self.back(resistance), acting=judge.situation(push)))
         if push.unbounded:
             text = said(
                 "it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.",
@@ -324,7 +322,7 @@ class LiftingCylinder:
         """The direction in which it goes back, told at the ends of the strokes."""
         return self.ram.way_back(self.judge.motion, Acting(self.judge.acting.loads))
 
-    def stuck(self, back: GoingBack) -> str:
+    def stuck(self, back: LawRequest) -> str:
         """Return where it does not go back, in words."""
         way = self.judge.way
         if way is None:

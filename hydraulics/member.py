@@ -11,11 +11,11 @@ FAIL standard size: bore 110 mm and rod 60 mm; the rod is not of ISO 3320, next 
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Hashable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, Self, TypeAlias, Unpack, cast, final
+from typing import Any, ClassVar, Literal, TypeAlias, TypeVar, Unpack, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -64,7 +64,7 @@ from linkage.motion import (
 )
 from linkage.plan import Plan
 from linkage.quantities import Member, Reference, distance, label, name_of
-from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, same, situation_identity
+from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, same
 from linkage.units import mm, show, shown_number, unit_sign
 from linkage.verdict import Verdict
 
@@ -271,18 +271,19 @@ class Cylinder(TwoPoint, Tabled, Judging):
     def questions(self, judge: Judge) -> list[Question]:
         """Return its least and greatest length, and the utilisation of its rod."""
         ends = distance(self.A, self.B)
-        return [least(ends), most(ends), *([most(BucklingUse(self, Acting())) <= 1.0] if carries_loads(judge) else [])]
+        return [least(ends), most(ends), *([most(buckling_request(self, Acting())) <= 1.0] if carries_loads(judge) else [])]
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         """Return that it fits, where its stroke is declared, and that its rod does not buckle."""
         found: dict[str, Condition] = {}
         ends = distance(self.A, self.B)
-        closed, stroke = (at(Gauge(f"{self.name} {name}", partial(self._length_given, name))) for name in ("closed", "stroke"))
+        given = {name: LawRequest(text=f"{self.name} {name}", formula=partial(self._length_given, name)) for name in LENGTHS}
+        closed, stroke = at(given["closed"]), at(given["stroke"])
         if self.stroke is not None and self.closed is None:
             found["length"] = most(ends) - least(ends) <= stroke
         elif self.closed is not None:
             found["length"] = AllOf((least(ends) >= closed, *((most(ends) <= closed + stroke,) if self.stroke is not None else ())))
-        return found | ({"buckling": most(BucklingUse(self.name, Acting())) <= 1.0} if carries_loads(judge) else {})
+        return found | ({"buckling": most(buckling_request(self.name, Acting())) <= 1.0} if carries_loads(judge) else {})
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it fits wherever the machine runs, is of a standard size, and whether a rod that carries something buckles."""
@@ -302,7 +303,7 @@ class Cylinder(TwoPoint, Tabled, Judging):
         if len(circuits) == 1:
             found |= circuits[0].gauges_of(self)
         found |= {name: partial(self._length_given, name) for name in LENGTHS if getattr(self, name) is not None}
-        return {name: Gauge(f"{self.name} {name}", read) for name, read in found.items()}
+        return {name: LawRequest(text=f"{self.name} {name}", formula=read) for name, read in found.items()}
 
     def _length_given(self, name: str, motion: AnyMotion) -> Array:
         """Return its closed length or its stroke as it is given [m]."""
@@ -446,7 +447,7 @@ class Cylinder(TwoPoint, Tabled, Judging):
         """Return the same over all that a judge looks at."""
         size = one_size(self.sized(judge.motion))
         rod = Buckling(size.rod, self.mounting, self.safety)
-        worst = judge.answer(most(BucklingUse(self, Acting())) <= 1.0)
+        worst = judge.answer(most(buckling_request(self, Acting())) <= 1.0)
         if np.isnan(worst.value) or not worst.value > 0.0:
             return [never_pushed()]
         with unwarned():  # the verdict itself says what comes of it
@@ -496,116 +497,77 @@ class AllOf(Condition):
 # What is asked of one cylinder.
 
 
-@dataclass(frozen=True, eq=False)
-class CylinderRequest(LawRequest):
-    """The base of what is asked of one cylinder of a class, by its name, in a situation; its directions are the cylinder's own."""
-
-    cylinder: str | Cylinder
-    acting: Acting
-
-    def identity(self, plan: Plan) -> Hashable:
-        loads = situation_identity(self.acting)
-        return None if loads is None else (type(self).__name__, self.named, *self.options, loads)
-
-    @property
-    def named(self) -> Any:
-        """The cylinder by its name, or itself where it has none."""
-        return self.cylinder if isinstance(self.cylinder, str) else self.cylinder.name or self.cylinder
-
-    @property
-    def options(self) -> tuple[Hashable, ...]:
-        """What it is asked with, beside loads and load case."""
-        return (self.acting.direction,)
-
-    @property
-    def direction(self) -> str | None:
-        """The cylinder's own direction that is named; None for its own way of working, or for no friction."""
-        return self.acting.direction
-
-    def under(self, acting: Acting, *, keep: bool = False) -> Self:
-        found = self.acting.within(replace(acting, drive=None), "" if keep else str(self))
-        return self if found == self.acting else replace(self, acting=found)
-
-    @property
-    def mover(self) -> Hashable:
-        return cast("Hashable", self.named)
-
-    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
-        return DIRECTIONS if rubs else DIRECTIONS[:1]
-
-    def examine(self, plan: Plan) -> None:
-        self.ram(plan)
-
-    def ram(self, plan: Plan) -> Cylinder:
-        """Return the cylinder that is meant, as a plan has it."""
-        return self.named if isinstance(self.named, Cylinder) else found_in(plan.members, self.named, plan.title)
-
-    def __str__(self) -> str:
-        given = [str(each) for each in self.options if each is not None]
-        return f"{self.word}({', '.join([str(self.named), *given, *case_words(self.acting.case)])})"
-
-    @property
-    @abstractmethod
-    def word(self) -> str:
-        """The function that makes it."""
+Values = TypeVar("Values")
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Thrust(CylinderRequest):
-    """What a cylinder carries."""
+def cylinder_request(
+    word: str,
+    cylinder: str | Cylinder,
+    acting: Acting,
+    formula: Callable[[AnyMotion, Cylinder, Acting], Array],
+    before: tuple[Hashable, ...] = (),
+    after: tuple[Hashable, ...] = (),
+    *,
+    measures: str = "",
+) -> LawRequest:
+    """Return the request for what a formula gives of one cylinder of a class, in a situation; its directions are the cylinder's own.
 
-    word = "thrust"
-    measures = "force"
-
-    @property
-    def options(self) -> tuple[Hashable, ...]:
-        return (None if self.acting.movement == FRICTIONLESS else self.acting.movement,)
-
-    def law(self, motion: AnyMotion) -> Array:
-        return member_thrust(motion, self.ram(motion.plan), self.acting)
+    It is written as a function, `word`, of the cylinder, of what stands `before` and `after` the direction, and of the load case.
+    """
+    named = cylinder if isinstance(cylinder, str) else cylinder.name or cylinder
+    return LawRequest(
+        formula=partial(formula_of_cylinder, formula, named), text=partial(cylinder_text, word, (named, *before), after),
+        known=(word, named, before, after), acting=acting, measures=measures, mover=named, examine=partial(cylinder_in, named),
+    )  # fmt: skip
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class BucklingUse(CylinderRequest):
-    """How far a cylinder's rod is used against buckling."""
+def cylinder_text(word: str, before: Sequence[Hashable], after: Sequence[Hashable], acting: Acting) -> str:
+    """Return how what is asked of a cylinder in a situation is written."""
+    given = [str(each) for each in (*before, acting.direction, *after) if each is not None]
+    return f"{word}({', '.join([*given, *case_words(acting.case)])})"
 
-    below: bool = False
-    word = "buckling"
 
-    @property
-    def options(self) -> tuple[Hashable, ...]:
-        return *super().options, "below zero" if self.below else None
+def formula_of_cylinder(
+    formula: Callable[[AnyMotion, Cylinder, Acting], Values], named: str | Cylinder, motion: AnyMotion, acting: Acting
+) -> Values:
+    """Return what a formula gives of the cylinder that is meant, as the motion's class has it."""
+    return formula(motion, cylinder_in(named, motion.plan), acting)
 
-    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
-        return (SmoothPiece(self, below=replace(self, below=True)),)
 
-    def law(self, motion: AnyMotion) -> Array:
-        ram = self.ram(motion.plan)
-        return ram._use(motion, self.acting, below=True) if self.below else ram.buckling_use(motion, acting=self.acting)
+def cylinder_in(named: str | Cylinder, plan: Plan) -> Cylinder:
+    """Return the cylinder that is meant, as a plan has it; DefinitionError where there is none of that name."""
+    return found_in(plan.members, named, plan.title) if isinstance(named, str) else named
+
+
+def thrust_request(cylinder: str | Cylinder, acting: Acting) -> LawRequest:
+    """Return the request for what a cylinder carries [N]."""
+    found = cylinder_request("thrust", cylinder, acting, member_thrust, measures="force")
+    return replace(found, text=partial(thrust_text, found.mover))
+
+
+def thrust_text(named: Hashable, acting: Acting) -> str:
+    """Return how the thrust of a cylinder is written: that there is no friction goes without saying."""
+    return cylinder_text("thrust", (named,), (), replace(acting, direction=None if acting.direction == FRICTIONLESS else acting.direction))
+
+
+def buckling_request(cylinder: str | Cylinder, acting: Acting, *, below: bool = False) -> LawRequest:
+    """Return the request for how far a cylinder's rod is used against buckling; `below` zero it goes on in a pull."""
+    found = cylinder_request("buckling", cylinder, acting, partial(rod_use, below=below), after=("below zero" if below else None,))
+    return replace(found, pieces_in=partial(buckling_pieces, cylinder))
+
+
+def buckling_pieces(cylinder: str | Cylinder, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
+    """Return the one smooth piece of a rod's use: it goes on below zero in a pull."""
+    return (SmoothPiece(request, below=buckling_request(cylinder, request.situation, below=True)),)
+
+
+def rod_use(motion: AnyMotion, cylinder: Cylinder, acting: Acting, *, below: bool) -> Array:
+    """Return how far a cylinder's rod is used over a motion's poses, in a pull 0 or `below`."""
+    return cylinder._use(motion, acting, below=True) if below else cylinder.buckling_use(motion, acting=acting)
 
 
 Reading: TypeAlias = Callable[[AnyMotion], Array]
 """A number of a cylinder over the poses of a motion [SI]."""
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class Gauge(LawRequest):
-    """What a live page reads of a cylinder at every pose, with its words."""
-
-    words: str
-    read: Reading
-
-    def law(self, motion: AnyMotion) -> Array:
-        return self.read(motion)
-
-    def examine(self, plan: Plan) -> None:
-        """Look at nothing: it was made by a cylinder of the plan."""
-
-    def __str__(self) -> str:
-        return self.words
 
 
 def thrust_along(cylinder: Cylinder, thrust: Array) -> Array:

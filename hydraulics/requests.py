@@ -5,118 +5,99 @@ Each is the cylinder's or the circuit's own method, read pose by pose: `motion[p
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
-from typing import cast, final
+from functools import partial
+from typing import TypeAlias, cast, final
 
 import numpy as np
 
 from linkage.errors import DefinitionError, known_name, unknown
 from linkage.loads import DIRECTIONS, Acting, Case, situation_of
 from linkage.mechanism import Mechanism
-from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most, require_motion
-from linkage.motion.grid import MotionLike
+from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most
 from linkage.plan import Mask, Plan
 from linkage.quantities import Quantity, Reference, distance, name_of, quantity
-from linkage.statics import AnyMotion, member_thrust, same
+from linkage.statics import AnyMotion, LawRequest, member_thrust, same
 
 from .cylinder import CylinderSize
 from .inputs import Array, direction_of, follows, only_where, proper_share
 from .line import LiftLine, WayBack, Work
-from .member import PISTON, ROD, SIDES, BucklingUse, Circuit, CylinderRequest, Thrust, circuit_having, found_in
+from .member import (
+    PISTON,
+    ROD,
+    SIDES,
+    Circuit,
+    Cylinder,
+    buckling_request,
+    circuit_having,
+    cylinder_in,
+    cylinder_request,
+    formula_of_cylinder,
+    found_in,
+    thrust_request,
+)
+
+Circuits: TypeAlias = str | LiftLine
+"""A circuit by its name, or itself; "" for the only one that has a cylinder."""
 
 
-def thrust(cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None) -> Thrust:
+def thrust(
+    cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None
+) -> LawRequest:
     """Return the request for what a cylinder carries [N], positive where it pushes: `lift.thrust(motion, case=..., direction=...)`.
 
     `acting` says case and direction in one, with loads and rates too. With declared friction and a direction it has values and no
     derivatives.
     """
-    return Thrust(name_of(cylinder), situation_of("thrust", acting, case=case, direction=direction))
+    return thrust_request(name_of(cylinder), situation_of("thrust", acting, case=case, direction=direction))
 
 
-@dataclass(frozen=True, eq=False)
-class CircuitRequest(CylinderRequest):
-    """The base of what is asked of a cylinder on the circuit that feeds it: the only one that has it, unless one is named."""
+def circuit_with(plan: Plan, ram: Cylinder, circuit: Circuits, word: str) -> LiftLine:
+    """Return the circuit that is meant; DefinitionError where none or several have the cylinder, or the one named has not.
 
-    circuit: str | LiftLine = ""
-
-    @property
-    def options(self) -> tuple[Hashable, ...]:
-        named = self.circuit if isinstance(self.circuit, str) else self.circuit.name or self.circuit
-        return (f"circuit={named}" if isinstance(named, str) and named else named or None), self.acting.direction
-
-    def examine(self, plan: Plan) -> None:
-        self.circuit_of(plan)
-
-    def circuit_of(self, plan: Plan) -> LiftLine:
-        """Return the circuit that is meant; DefinitionError where none or several have the cylinder, or the one named has not."""
-        circuits, ram = plan.of_kind(LiftLine), self.ram(plan)
-        if not isinstance(self.circuit, str):
-            return self.circuit
-        if self.circuit and self.circuit not in circuits:
-            raise unknown("LiftCircuit", self.circuit, circuits, where=plan.title)
-        having = {name: each for name, each in circuits.items() if any(same(ram, one) for one in each.members(plan.members))}
-        if self.circuit and self.circuit not in having:
-            raise DefinitionError(f"{plan.title}: {self.circuit} does not feed {ram.name}; that is on {', '.join(having) or 'none'}.")
-        if self.circuit or len(having) == 1:
-            return having[self.circuit or next(iter(having))]
-        if having:
-            raise DefinitionError(f"{plan.title}: {ram.name} is on {len(having)} circuits; say circuit= one of {', '.join(having)}.")
-        remedy = f"declare one, circuit = LiftCircuit({ram.name}, pressure=...)"
-        raise DefinitionError(f"{plan.title}: {self.word}({ram.name}): no LiftCircuit has it, whose pump and relief count; {remedy}.")
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class Pressure(CircuitRequest):
-    """The pressure in a cylinder: on the side that works, or on one side.
-
-    One that `is_needed` is that of the pump while it drives the cylinder, on the side that does.
+    `word` is what is asked of it.
     """
+    circuits = plan.of_kind(LiftLine)
+    if not isinstance(circuit, str):
+        return circuit
+    if circuit and circuit not in circuits:
+        raise unknown("LiftCircuit", circuit, circuits, where=plan.title)
+    feeding = {name: each for name, each in circuits.items() if any(same(ram, one) for one in each.members(plan.members))}
+    if circuit and circuit not in feeding:
+        raise DefinitionError(f"{plan.title}: {circuit} does not feed {ram.name}; that is on {', '.join(feeding) or 'none'}.")
+    if circuit or len(feeding) == 1:
+        return feeding[circuit or next(iter(feeding))]
+    if feeding:
+        raise DefinitionError(f"{plan.title}: {ram.name} is on {len(feeding)} circuits; say circuit= one of {', '.join(feeding)}.")
+    remedy = f"declare one, circuit = LiftCircuit({ram.name}, pressure=...)"
+    raise DefinitionError(f"{plan.title}: {word}({ram.name}): no LiftCircuit has it, whose pump and relief count; {remedy}.")
 
-    side: str = ""
-    is_needed: bool = False
-    below: bool = False
-    word = "pressure"
-    measures = "pressure"
 
-    @property
-    def options(self) -> tuple[Hashable, ...]:
-        kinds = ["needed"] * self.is_needed + ["below zero"] * self.below
-        return *super().options, (self.side and f"side={self.side}") or None, " ".join(kinds) or None
+def circuit_request(
+    word: str,
+    cylinder: str | Cylinder,
+    acting: Acting,
+    circuit: Circuits,
+    formula: Callable[[AnyMotion, Cylinder, Acting], Array],
+    before: tuple[Hashable, ...] = (),
+    after: tuple[Hashable, ...] = (),
+    *,
+    measures: str = "",
+) -> LawRequest:
+    """Return the request for what a formula gives of a cylinder on the circuit that feeds it: the only one that has it, unless named."""
+    named = circuit if isinstance(circuit, str) else circuit.name or circuit
+    shown = (f"circuit={named}" if isinstance(named, str) and named else named) or None
+    found = cylinder_request(word, cylinder, acting, formula, (*before, shown), after, measures=measures)
+    return replace(found, examine=partial(examine_circuit, cylinder, circuit, word))
 
-    def examine(self, plan: Plan) -> None:
-        if self.circuit:
-            self.circuit_of(plan)
-        else:
-            circuit_having(self.ram(plan), plan)
 
-    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
-        return self.ram(plan).driven if self.is_needed else DIRECTIONS
+def examine_circuit(cylinder: str | Cylinder, circuit: Circuits, word: str, plan: Plan) -> None:
+    """Raise DefinitionError where a plan has no such cylinder on such a circuit."""
+    circuit_with(plan, cylinder_in(cylinder, plan), circuit, word)
 
-    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
-        if self.side:
-            return (self.piece_on(self.side),)
-        ram = self.ram(plan)
-        if self.is_needed:
-            return (self.piece_on(driving_side(self.acting.direction)),)
-        if any(same(ram, one) for each in plan.of_kind(Circuit).values() for one in each.feeds(plan.members)):
-            return (SmoothPiece(self, ram.works),)
-        return tuple(self.piece_on(side) for side in SIDES)
 
-    def piece_on(self, side: str) -> SmoothPiece:
-        """Return the piece of one side."""
-        return SmoothPiece(replace(self, side=side), side, below=replace(self, side=side, below=True))
-
-    def law(self, motion: AnyMotion) -> Array:
-        ram, given = self.ram(motion.plan), self.acting
-        circuit = self.circuit_of(motion.plan) if self.circuit else None
-        if not self.side:
-            if circuit is not None:
-                return circuit.pressure_in(ram, motion, given)
-            return ram.pressure(motion, acting=given)
-        return ram.pressure_on(self.side, motion, given, circuit, below=self.below)
+# The pressure.
 
 
 def pressure(
@@ -127,7 +108,7 @@ def pressure(
     direction: str | None = None,
     side: str = "",
     acting: Acting | None = None,
-) -> Pressure:
+) -> LawRequest:
     """Return the request for the pressure in a cylinder [Pa gauge]: `lift.pressure(motion, case=..., direction=...)`.
 
     It is that of the cylinder's one circuit, efficiencies and back pressure included; `circuit` names one of several LiftCircuits.
@@ -135,7 +116,60 @@ def pressure(
     """
     if side:
         known_name("Side", side, SIDES)
-    return Pressure(name_of(cylinder), situation_of("pressure", acting, case=case, direction=direction), circuit_name(circuit), side)
+    given = situation_of("pressure", acting, case=case, direction=direction)
+    return pressure_request(name_of(cylinder), given, circuit_name(circuit), side)
+
+
+def pressure_request(
+    cylinder: str | Cylinder, acting: Acting, circuit: Circuits = "", side: str = "", *, is_needed: bool = False, below: bool = False
+) -> LawRequest:
+    """Return the request for the pressure in a cylinder: on the side that works, or on one side.
+
+    One that `is_needed` is that of the pump while it drives the cylinder, on the side that does. `below` zero it goes on where the other
+    side holds.
+    """
+    kinds = " ".join(["needed"] * is_needed + ["below zero"] * below) or None
+    formula = partial(pressure_over, circuit=circuit, side=side, below=below)
+    options = (side and f"side={side}") or None, kinds
+    return replace(
+        circuit_request("pressure", cylinder, acting, circuit, formula, after=options, measures="pressure"),
+        examine=partial(examine_pressure, cylinder, circuit), directions=partial(driven_or_both, cylinder, is_needed),
+        pieces_in=partial(pressure_pieces, cylinder, circuit, side, is_needed),
+    )  # fmt: skip
+
+
+def pressure_over(motion: AnyMotion, ram: Cylinder, acting: Acting, *, circuit: Circuits, side: str, below: bool) -> Array:
+    """Return the pressure in a cylinder over a motion's poses [Pa gauge]."""
+    line = circuit_with(motion.plan, ram, circuit, "pressure") if circuit else None
+    if side:
+        return ram.pressure_on(side, motion, acting, line, below=below)
+    return ram.pressure(motion, acting=acting) if line is None else line.pressure_in(ram, motion, acting)
+
+
+def examine_pressure(cylinder: str | Cylinder, circuit: Circuits, plan: Plan) -> None:
+    """Raise DefinitionError where it is not plain which circuit, if any, gives a cylinder its pressure."""
+    ram = cylinder_in(cylinder, plan)
+    if circuit:
+        circuit_with(plan, ram, circuit, "pressure")
+    else:
+        circuit_having(ram, plan)
+
+
+def driven_or_both(cylinder: str | Cylinder, is_needed: bool, plan: Plan) -> tuple[str, ...]:
+    """Return the directions in which a pressure is judged: those in which the pump drives where it is what is needed, else all."""
+    return cylinder_in(cylinder, plan).driven if is_needed else DIRECTIONS
+
+
+def pressure_pieces(
+    cylinder: str | Cylinder, circuit: Circuits, side: str, is_needed: bool, request: LawRequest, plan: Plan
+) -> tuple[SmoothPiece, ...]:
+    """Return the smooth pieces of a pressure: one a side that may hold, going on below zero where the other one does."""
+    on_side = partial(pressure_request, cylinder, request.situation, circuit, is_needed=is_needed)
+    ram = cylinder_in(cylinder, plan)
+    sides = [side] if side else [driving_side(request.situation.direction)] if is_needed else SIDES
+    if not side and not is_needed and any(same(ram, one) for each in plan.of_kind(Circuit).values() for one in each.feeds(plan.members)):
+        return (SmoothPiece(request, ram.works),)
+    return tuple(SmoothPiece(on_side(each), each, below=on_side(each, below=True)) for each in sides)
 
 
 def circuit_name(circuit: Reference | None) -> str:
@@ -143,37 +177,57 @@ def circuit_name(circuit: Reference | None) -> str:
     return "" if circuit is None else name_of(circuit)
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Reserve(CircuitRequest):
-    """The greatest rod force over the needed one; of one that is judged, while it moves against the load.
+def driving_side(direction: str | None) -> str:
+    """Return the side that drives a cylinder in a direction."""
+    return {"extending": PISTON, "retracting": ROD}.get(direction or "", "")
+
+
+# The reserve.
+
+
+def reserve(
+    cylinder: Reference, *, case: Case = None, circuit: Reference | None = None, direction: str | None = None, acting: Acting | None = None
+) -> LawRequest:
+    """Return the request for the greatest rod force over the needed one: `circuit.reserve(motion, cylinder=lift, case=..., direction=...)`.
+
+    NaN where the load drives, which is not limited by this cylinder and counts in no least value. Where it is judged, of a cylinder that
+    works with both sides each counts while it moves against the load.
+    """
+    given = situation_of("reserve", acting, case=case, direction=direction)
+    return reserve_request(name_of(cylinder), given, circuit_name(circuit))
+
+
+def reserve_request(
+    cylinder: str | Cylinder, acting: Acting, circuit: Circuits = "", *, is_judged: bool = False, bore: float = 0.0
+) -> LawRequest:
+    """Return the request for the greatest rod force over the needed one; of one that is judged, while it moves against the load.
 
     `bore` [m] is another one tried in the place of the cylinder's own.
     """
+    tried = Tried(circuit, is_judged, bore)
+    options = "against the load" if is_judged else None, f"bore={bore:g}" if bore else None
+    return replace(
+        circuit_request("reserve", cylinder, acting, circuit, tried.reserve, after=options),
+        directions=partial(driven_or_both, cylinder, True), pieces_in=partial(reserve_pieces, cylinder, tried),
+        unlimited_in=partial(formula_of_cylinder, tried.unlimited, cylinder),
+    )  # fmt: skip
 
-    is_judged: bool = False
-    bore: float = 0.0
-    word = "reserve"
 
-    @property
-    def options(self) -> tuple[Hashable, ...]:
-        tried = f"bore={self.bore:g}" if self.bore else None
-        return *super().options, "against the load" if self.is_judged else None, tried
+@final
+@dataclass(frozen=True, eq=False)
+class Tried:
+    """On which circuit a reserve is asked for, whether while it moves against the load, and with which other bore [m], 0 for its own."""
 
-    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
-        return self.ram(plan).driven
+    circuit: Circuits
+    is_judged: bool
+    bore: float
 
-    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
-        if self.acting.direction not in self.ram(plan).driven:
-            return (SmoothPiece(self),)
-        use = Use(self.cylinder, self.acting, self.circuit, self.bore)
-        return (SmoothPiece(replace(self, is_judged=True), driving_side(self.acting.direction), use),)
-
-    def law(self, motion: AnyMotion) -> Array:
-        circuit, given = self.circuit_of(motion.plan), self.acting
+    def reserve(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Array:
+        """Return the greatest rod force over the needed one at a motion's poses."""
+        circuit = circuit_with(motion.plan, ram, self.circuit, "reserve")
         if not (self.is_judged or self.bore):
-            return circuit.reserve(motion, cylinder=self.ram(motion.plan), acting=given)
-        work = self.work(motion)
+            return circuit.reserve(motion, cylinder=ram, acting=acting)
+        work = self.work(motion, ram, acting)
         with np.errstate(invalid="ignore"):
             return np.asarray(circuit.most(motion, work) / only_where(self.against(work) > 0.0, work.force))[()]
 
@@ -181,108 +235,71 @@ class Reserve(CircuitRequest):
         """Return what is above zero where the cylinder has to drive [N]: the thrust in its direction where that is judged."""
         return work.thrust * work.sense if self.is_judged else work.force
 
-    def work(self, motion: AnyMotion) -> Work:
+    def work(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Work:
         """Return what the cylinder has to do, with another bore where one is tried."""
-        found = self.circuit_of(motion.plan).work(motion, cylinder=self.ram(motion.plan), acting=self.acting)
-        return replace(found, size=CylinderSize(self.bore, found.size.rod, found.size.count, found.size.works)) if self.bore else found
+        found = circuit_with(motion.plan, ram, self.circuit, "reserve").work(motion, cylinder=ram, acting=acting)
+        return replace(found, size=self.sized(found.size))
 
-    def unlimited(self, motion: MotionLike) -> Mask:
-        work = self.work(require_motion(motion))
+    def sized(self, size: CylinderSize) -> CylinderSize:
+        """Return a cylinder's size with the bore that is tried."""
+        return CylinderSize(self.bore, size.rod, size.count, size.works) if self.bore else size
+
+    def unlimited(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Mask:
+        """Return the mask of poses at which the load drives, so that the reserve has no bound."""
+        work = self.work(motion, ram, acting)
         return np.asarray(np.isfinite(work.thrust) & ~(self.against(work) > 0.0))
 
-
-@final
-@dataclass(frozen=True, eq=False)
-class Use(CircuitRequest):
-    """One over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
-
-    bore: float = 0.0
-    word = "use"
-
-    @property
-    def options(self) -> tuple[Hashable, ...]:
-        return *super().options, self.bore
-
-    def law(self, motion: AnyMotion) -> Array:
-        circuit, given, ram = self.circuit_of(motion.plan), self.acting, self.ram(motion.plan)
-        size, k_m = ram.sized(motion), circuit.efficiency(motion, "mechanical")
-        size = CylinderSize(self.bore, size.rod, size.count, size.works) if self.bore else size
-        thrust = member_thrust(motion, ram, given)
-        sense = 1.0 if given.direction == "extending" else -1.0
+    def use(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Array:
+        """Return one over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
+        circuit = circuit_with(motion.plan, ram, self.circuit, "use")
+        k_m = circuit.efficiency(motion, "mechanical")
+        size, thrust = self.sized(ram.sized(motion)), member_thrust(motion, ram, acting)
+        sense = 1.0 if acting.direction == "extending" else -1.0
         most = circuit.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m))
         return np.asarray(sense * thrust / (k_m * most))[()]
 
 
-def reserve(
-    cylinder: Reference, *, case: Case = None, circuit: Reference | None = None, direction: str | None = None, acting: Acting | None = None
-) -> Reserve:
-    """Return the request for the greatest rod force over the needed one: `circuit.reserve(motion, cylinder=lift, case=..., direction=...)`.
+def reserve_pieces(cylinder: str | Cylinder, tried: Tried, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
+    """Return the smooth piece of a reserve: of the side that drives, whose inverse goes on smoothly where the load drives."""
+    acting = request.situation
+    if acting.direction not in cylinder_in(cylinder, plan).driven:
+        return (SmoothPiece(request),)
+    use = circuit_request("use", cylinder, acting, tried.circuit, tried.use, after=(tried.bore,))
+    judged = reserve_request(cylinder, acting, tried.circuit, is_judged=True, bore=tried.bore)
+    return (SmoothPiece(judged, driving_side(acting.direction), use),)
 
-    NaN where the load drives, which is not limited by this cylinder and counts in no least value. Where it is judged, of a cylinder that
-    works with both sides each counts while it moves against the load.
+
+# Going back.
+
+
+def going_back_request(
+    cylinder: str | Cylinder, acting: Acting, circuit: Circuits, way: str, resistance: float = 0.0, tells: str = "push"
+) -> LawRequest:
+    """Return the request for what the other side must give while a cylinder goes back against a resistance [Pa].
+
+    `way` is "extending" or "retracting"; `tells="load"` asks for what the load alone makes in the side that empties.
     """
-    return Reserve(name_of(cylinder), situation_of("reserve", acting, case=case, direction=direction), circuit_name(circuit))
+    formula = partial(going_back_over, circuit=circuit, way=way, resistance=resistance, tells=tells)
+    options = way, resistance, tells
+    found = circuit_request("going back", cylinder, acting, circuit, formula, after=options, measures="pressure")
+    return replace(found, directions=partial(one_direction, way))
 
 
-def driving_side(direction: str | None) -> str:
-    """Return the side that drives a cylinder in a direction."""
-    return {"extending": PISTON, "retracting": ROD}.get(direction or "", "")
+def one_direction(way: str, plan: Plan) -> tuple[str, ...]:
+    """Return the direction alone in which a cylinder goes back."""
+    return (way,)
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class GoingBack(CircuitRequest):
-    """What the other side must give while a cylinder goes back against a resistance [Pa]; `tells="load"` what the load alone makes."""
-
-    way: str = "retracting"
-    resistance: float = 0.0
-    tells: str = "push"
-    word = "going back"
-    measures = "pressure"
-
-    @property
-    def options(self) -> tuple[Hashable, ...]:
-        return *super().options, self.way, self.resistance, self.tells
-
-    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
-        return (self.way,)
-
-    def law(self, motion: AnyMotion) -> Array:
-        ram, given, k_m = self.ram(motion.plan), self.acting, self.circuit_of(motion.plan).efficiency(motion, "mechanical")
-        found = WayBack.of(ram, motion, given, self.way, self.resistance, k_m)
-        return found.working if self.tells == "load" else found.push
+def going_back_over(
+    motion: AnyMotion, ram: Cylinder, acting: Acting, *, circuit: Circuits, way: str, resistance: float, tells: str
+) -> Array:
+    """Return what the other side must give, or the load alone makes, at a motion's poses [Pa]."""
+    k_m = circuit_with(motion.plan, ram, circuit, "going back").efficiency(motion, "mechanical")
+    found = WayBack.of(ram, motion, acting, way, resistance, k_m)
+    return found.working if tells == "load" else found.push
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Capacity(CircuitRequest):
-    """The largest load at a point that the pump lifts."""
-
-    point: str = ""
-    along: tuple[float, float] = (0.0, 1.0)
-    share: float = 1.0
-    word = "capacity"
-    measures = "force"
-
-    @property
-    def options(self) -> tuple[Hashable, ...]:
-        along = None if self.along == (0.0, 1.0) else f"along=({self.along[0]:g}, {self.along[1]:g})"
-        return self.point, *super().options, along, None if self.share == 1.0 else f"share={self.share:g}"
-
-    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
-        return ()
-
-    def examine(self, plan: Plan) -> None:
-        super().examine(plan)
-        known_name("Point", self.point, plan.points, where=plan.title)
-
-    def law(self, motion: AnyMotion) -> Array:
-        circuit, ram = self.circuit_of(motion.plan), self.ram(motion.plan)
-        return circuit.capacity(motion, self.point, along=self.along, share=self.share, cylinder=ram, acting=self.acting)
-
-    def unlimited(self, motion: MotionLike) -> Mask:
-        thrust = member_thrust(require_motion(motion), self.ram(motion.plan), Acting(self.acting.loads, self.acting.case))
-        return np.asarray(np.isfinite(thrust) & np.isnan(self.of(motion)))
+# The capacity.
 
 
 def capacity(
@@ -294,7 +311,7 @@ def capacity(
     case: Case = None,
     circuit: Reference | None = None,
     acting: Acting | None = None,
-) -> Capacity:
+) -> LawRequest:
     """Return the request for the largest load [N] at a point that the pump lifts beside the machine's own: `circuit.capacity(motion, "G")`.
 
     NaN where the load drives or does nothing, which is not limited by this cylinder and counts in no least value.
@@ -302,14 +319,62 @@ def capacity(
     proper_share(share)
     x, y = direction_of(along)
     given, unit = situation_of("capacity", acting, case=case), (float(x) + 0.0, float(y) + 0.0)
-    return Capacity(name_of(cylinder), given, circuit_name(circuit), name_of(point), unit, float(share))
+    return capacity_request(name_of(cylinder), given, circuit_name(circuit), name_of(point), unit, float(share))
+
+
+def capacity_request(
+    cylinder: str | Cylinder, acting: Acting, circuit: Circuits, point: str, along: tuple[float, float], share: float
+) -> LawRequest:
+    """Return the request for the largest load at a point that the pump lifts, along a direction of length one."""
+    lifted = Lifted(circuit, point, along, share)
+    upwards = None if along == (0.0, 1.0) else f"along=({along[0]:g}, {along[1]:g})"
+    options = upwards, None if share == 1.0 else f"share={share:g}"
+    return replace(
+        circuit_request("capacity", cylinder, acting, circuit, lifted.capacity, (point,), options, measures="force"),
+        directions=no_direction, examine=partial(lifted.examine, cylinder),
+        unlimited_in=partial(formula_of_cylinder, lifted.unlimited, cylinder),
+    )  # fmt: skip
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Lifted:
+    """On which circuit, at which point, along which direction and at which share of the pressure a load is lifted."""
+
+    circuit: Circuits
+    point: str
+    along: tuple[float, float]
+    share: float
+
+    def examine(self, cylinder: str | Cylinder, plan: Plan) -> None:
+        """Raise DefinitionError where a plan has no such cylinder, circuit or point."""
+        circuit_with(plan, cylinder_in(cylinder, plan), self.circuit, "capacity")
+        known_name("Point", self.point, plan.points, where=plan.title)
+
+    def capacity(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Array:
+        """Return the largest load that is lifted at a motion's poses [N]."""
+        circuit = circuit_with(motion.plan, ram, self.circuit, "capacity")
+        return circuit.capacity(motion, self.point, along=self.along, share=self.share, cylinder=ram, acting=acting)
+
+    def unlimited(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Mask:
+        """Return the mask of poses at which the load drives or does nothing, so that the capacity has no bound."""
+        thrust = member_thrust(motion, ram, Acting(acting.loads, acting.case))
+        return np.asarray(np.isfinite(thrust) & np.isnan(self.capacity(motion, ram, acting)))
+
+
+def no_direction(plan: Plan) -> tuple[str, ...]:
+    """Return that a request is judged in no direction of motion."""
+    return ()
+
+
+# The use of a rod.
 
 
 def buckling(
     cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None
-) -> BucklingUse:
+) -> LawRequest:
     """Return the request for the utilisation of a rod: `lift.buckling_use(motion, case=..., direction=...)`, at most 1 where it holds."""
-    return BucklingUse(name_of(cylinder), situation_of("buckling", acting, case=case, direction=direction))
+    return buckling_request(name_of(cylinder), situation_of("buckling", acting, case=case, direction=direction))
 
 
 # A condition of a search.

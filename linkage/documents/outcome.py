@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from ..errors import LinkageError, unknown, unwarned
 from ..language import noted, said, translated
-from ..loads import PLAIN_CASE, Acting
+from ..loads import PLAIN, PLAIN_CASE, Acting
 from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, most, stroke_display_unit
 from ..motion.limits import StrokeLimits
 from ..motion.measures import Least, Most
@@ -27,7 +27,7 @@ from ..program import FloatArray
 from ..reports import results
 from ..reports.table import cells as text_cells
 from ..reports.table import column_blocks, flat
-from ..statics import MemberThrust, PinLoad, drive_force, judged_table
+from ..statics import PinLoad, drive_force, judged_table, thrust_from_forces
 from ..units import factor, show, shown_number, unit_sign
 from .calculation import has_loads
 from .content import Block, Cell, Illustration, Paragraph, Section, TableBlock
@@ -359,7 +359,7 @@ def drive_rows(subject: ReportSubject) -> Iterator[tuple[str, ...]]:
     known = {name: column.request for name, column in subject.member_columns if column.name == "thrust"}  # these have a program
     for name in one.thrusts:
         own = known.get(name)
-        request = own if isinstance(own, Request) else MemberThrust(Acting(), name)
+        request = own if isinstance(own, Request) else thrust_from_forces(name, PLAIN)
         asked.append((said("thrust of {name}", name=name), request, "kN"))
     answers = subject.judge.answers([each(request) for _, request, _ in asked for each in (least, most)])
     for (name, _, unit), low, high in zip(asked, answers[::2], answers[1::2], strict=True):

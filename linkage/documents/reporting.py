@@ -20,7 +20,7 @@ from ..motion import Answer, Constraint, Leaf, least, most, places_text, stroke_
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
 from ..pictures.strokes import column_among
-from ..reports import NOTHING, At, ColumnOf
+from ..reports import NOTHING, At, is_column
 from ..units import current_system, show, shown_number, unit_system
 from ..verdict import Verdict
 from .calculation import calculated, calculation_section, has_loads
@@ -246,7 +246,7 @@ def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -
         quantity, limit = subject.quantities.get(name), limit_of(given)
         if quantity is not None:
             asked[name] = least(quantity) >= limit.value if limit.fails == "below" else most(quantity) <= limit.value
-    own = [name for name in asked if isinstance(subject.quantities[name], ColumnOf)]
+    own = [name for name in asked if is_column(subject.quantities[name])]
     plain = [place.over for place in subject.judge.places if PLAIN_CASE in place.cases(subject.judge.acting)]
     answers = dict(zip(asked, subject.judge.answers([*asked.values()]), strict=True))
     if own and plain and len(plain) < len(subject.judge.places):  # a table's own column is under the machine's own loads

@@ -16,7 +16,7 @@ from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Judge, Motion, Request, Tabled, stroke_display_unit
 from ..motion.measures import MeasuredQuantity
 from ..quantities import Quantity, is_whole
-from ..reports import At, ColumnOf, Run, column_requests, results, run_of
+from ..reports import At, Run, column_requests, is_column, results, run_of
 from ..reports.results import asked_by_name
 from ..statics import PinForces, drive_force, pin_forces, pin_forces_under
 from ..units import show
@@ -140,7 +140,7 @@ class ReportSubject:
         """What asks for the columns of results and of members anywhere, by their names; nothing for one that only the table gives."""
         with unwarned():
             own = column_requests(self.machine, self.curve, self.columns).items()
-            asked = {name: request for name, (_, request, why) in own if not (why and isinstance(request, ColumnOf))}
+            asked = {name: request for name, (_, request, why) in own if not (why and is_column(request))}
             kinds = str, Quantity, Request
             found: dict[str, MeasuredQuantity] = {name: request for name, request in asked.items() if isinstance(request, kinds)}
             for name, column in self.member_columns:

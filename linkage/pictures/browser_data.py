@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Mapping, Sequence
+from functools import cached_property, partial
 from typing import Any, cast, final
 
 import numpy as np
@@ -53,26 +52,15 @@ def track_number(track: SlideTrack, part: str, axis: str) -> NodeRequest:
     return NodeRequest(text=f"the {part} of {track.name}", key=("track", track.name, part, axis), nodes_of=nodes, names_of=names)
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class ActingForce(LawRequest):
-    """A part of one of the machine's own loads at every pose [N], by its place among them."""
+def load_part(place: int, axis: int) -> LawRequest:
+    """Return the request for a part of one of the machine's own loads [N], by its place among them."""
+    return LawRequest(formula=partial(load_part_of, place, axis), text=f"load {place}", known=("own load", place, axis))
 
-    place: int
-    axis: int
 
-    def identity(self, plan: Plan) -> Hashable:
-        return "own load", self.place, self.axis
-
-    def law(self, motion: AnyMotion) -> FloatArray:
-        assert isinstance(motion, TracedMotion)  # it is asked for by a page alone
-        return cast(FloatArray, traced_loads(motion, PLAIN, AT_REST).loads[self.place].force[self.axis])
-
-    def examine(self, plan: Plan) -> None:
-        """Look at nothing: the load is of the plan."""
-
-    def __str__(self) -> str:
-        return f"load {self.place}"
+def load_part_of(place: int, axis: int, motion: AnyMotion) -> FloatArray:
+    """Return a part of one of the machine's own loads on a traced motion [N]."""
+    assert isinstance(motion, TracedMotion)  # it is asked for by a page alone
+    return cast(FloatArray, traced_loads(motion, PLAIN, AT_REST).loads[place].force[axis])
 
 
 @final
@@ -154,12 +142,12 @@ class PageRequests:
             self.by_name[f"joint {name}"] = transmission(name)
         for name, member in self.plan.of_kind(Tabled).items():
             self.by_name |= {f"gauge {name} {what}": request for what, request in member.gauges(self.plan).items()}
-        for k, (_, x, y) in enumerate(self.arrows):
+        for k, (_, x, y, _) in enumerate(self.arrows):
             self.by_name |= {f"arrow {k} x": x, f"arrow {k} y": y}
 
     @cached_property
-    def arrows(self) -> list[tuple[str, Request, Request]]:
-        """The forces that can be drawn: their points, and their parts [N]; those at the pins, then the loads. None of what has none."""
+    def arrows(self) -> list[tuple[str, Request, Request, bool]]:
+        """The forces that can be drawn: their points, their parts [N], and whether it is a load; those at the pins come first."""
         poses = self.motion.moved({name: value[self.motion.reached][:1] for name, value in self.motion.strokes.items()})
         try:
             with unwarned():
@@ -171,8 +159,8 @@ class PageRequests:
             return []
         forces = [each for each in joints if each.has_force and each.place is None]  # an arrow of the page begins at a point
         told = [each for each in forces if alone_on(each, forces)]
-        found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y")) for each in told]
-        return found + [(point, ActingForce(k, 0), ActingForce(k, 1)) for k, point in loads]
+        found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False) for each in told]
+        return found + [(point, load_part(k, 0), load_part(k, 1), True) for k, point in loads]
 
 
 def alone_on(joint: JointForce, joints: Sequence[JointForce]) -> str:
@@ -410,11 +398,11 @@ def grip_data(plan: Plan, names: Sequence[str]) -> list[dict[str, int]]:
 def arrow_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]]:
     """Return the arrows whose both parts the program has."""
     points, found = list(requests.plan.points), []
-    for k, (point, x, _) in enumerate(requests.arrows):
+    for k, (point, _, _, is_load) in enumerate(requests.arrows):
         keys = f"arrow {k} x", f"arrow {k} y"
         if all(key in live.rows for key in keys):
             rows = {axis: live.rows[key][0] for axis, key in zip("xy", keys, strict=True)}
-            found.append({"point": points.index(point), **rows} | ({"load": 1} if isinstance(x, ActingForce) else {}))
+            found.append({"point": points.index(point), **rows} | ({"load": 1} if is_load else {}))
     return found
 
 

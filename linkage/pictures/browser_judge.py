@@ -21,7 +21,7 @@ from ..motion.over import ALLOWED
 from ..motion.requests import NodeRequest, bound
 from ..plan import Plan
 from ..program import Node
-from ..reports import ColumnOf
+from ..reports import is_column
 from ..units import display_unit, factor, shown_in
 from .curves import limit_of, typeset
 
@@ -88,7 +88,7 @@ class LiveQuestions:
             raise DefinitionError(f"{leaf}: an integral is not followed in the page.")
         found = []
         for number, place in enumerate(self.judge.places[:1] if isinstance(leaf, At) else self.judge.places):
-            if isinstance(leaf.quantity, ColumnOf) and PLAIN_CASE not in place.cases(self.judge.acting):
+            if is_column(leaf.quantity) and PLAIN_CASE not in place.cases(self.judge.acting):
                 continue  # a table's own column is under the machine's own loads, which do not occur here
             for row in self.judge.rows(leaf, place):
                 found.append((number, row, self.row(row.request)))

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Sequence
-from dataclasses import dataclass
-from typing import final
+from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
@@ -15,47 +14,33 @@ from ..motion import Column, Motion, Request, RequestLike, require_motion
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke, x, y
-from ..statics import AnyMotion, LawRequest, TracedLaw, TracedMotion
+from ..statics import AnyMotion, LawRequest, TracedMotion
 from .results import columns_by, results
 
 CLOSE = 1e-6
 """How far a column may lie from the table's own values, compared with its greatest, to count as the same."""
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class ColumnOf(LawRequest):
-    """A column of a machine's table of results, by its place and its name."""
+def column_request(machine: Mechanism, place: int, name: str) -> LawRequest:
+    """Return the request for a column of a machine's table of results, by its place and its name."""
+    formula = partial(column_over, machine, place, name)
+    return LawRequest(formula=formula, text=f"the column {name}", known=("column", machine, place, name), column=name)
 
-    machine: Mechanism
-    place: int
-    name: str
 
-    def identity(self, plan: Plan) -> Hashable:
-        return "column", self.machine, self.place, self.name
+def is_column(request: object) -> bool:
+    """Return whether a request is for a column of the table alone: what no other request asks for."""
+    return isinstance(request, LawRequest) and bool(request.column)
 
-    def law(self, motion: AnyMotion) -> FloatArray:
-        given = require_motion(motion)
-        found = columns_by(self.machine, given)
-        if self.place >= len(found):
-            if isinstance(motion, TracedMotion):
-                raise UntracedError(
-                    f"{given.plan.title}: the column {self.name} is a member's, and the member does not say what asks for it."
-                )
-            found = results(self.machine, given)
-        return np.asarray(np.asarray(found[self.place].values)[()])[()]
 
-    def traced(self, motion: TracedMotion) -> TracedLaw:
-        law = super().traced(motion)
-        claimed = motion.notes.claims.get(self.name, ())
-        motion.notes.gaps = {node: owner for node, owner in motion.notes.gaps.items() if node in claimed}
-        return law
-
-    def examine(self, plan: Plan) -> None:
-        """Look at nothing: it was made of a table of the plan's machine."""
-
-    def __str__(self) -> str:
-        return f"the column {self.name}"
+def column_over(machine: Mechanism, place: int, name: str, motion: AnyMotion) -> FloatArray:
+    """Return a column's values over a motion's poses, from the machine's table of results."""
+    given = require_motion(motion)
+    found = columns_by(machine, given)
+    if place >= len(found):
+        if isinstance(motion, TracedMotion):
+            raise UntracedError(f"{given.plan.title}: the column {name} is a member's, and the member does not say what asks for it.")
+        found = results(machine, given)
+    return np.asarray(np.asarray(found[place].values)[()])[()]
 
 
 def column_requests(
@@ -70,7 +55,7 @@ def column_requests(
     for place, column in enumerate(results(machine, motion) if columns is None else columns):
         names[column.name] += 1
         name = column.name if names[column.name] == 1 else f"{column.name} ({names[column.name]})"
-        own = ColumnOf(machine, place, column.name)
+        own = column_request(machine, place, column.name)
         for request in (plain.get(name), column.request, own):
             if request is not None:
                 reason = not_followed(motion, request, column)

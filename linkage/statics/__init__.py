@@ -1,18 +1,10 @@
 """Forces: the drive's by virtual work, the joints' by equilibrium of every body, supports, friction. N and Nm."""
 
 from .applied import applied_loads, elements_of
-from .force_requests import (
-    DriveForce,
-    MemberThrust,
-    case_words,
-    drive_force,
-    pin_force,
-    pin_forces_under,
-    situation_identity,
-)
+from .force_requests import drive_force, pin_force, pin_forces_under, thrust_from_forces
 from .holding import same, stroke_followed
 from .joint_forces import JointForce, PinForces, pin_forces
-from .law_requests import LawRequest, TracedLaw
+from .law_requests import LawRequest, case_words
 from .poses import AnyMotion, plan_of
 from .supports import reaction
 from .table import PinLoad, judged_table, max_table, table_text

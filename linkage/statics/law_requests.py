@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
-from collections.abc import Hashable
-from copy import copy
-from dataclasses import dataclass
-from typing import Self, final
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import final
+from weakref import ref
 
 from ..errors import UntracedError
-from ..motion import Request, require_motion
+from ..loads import DIRECTIONS, PLAIN, Acting, Case, ForceElement, LoadCase
+from ..motion import Motion, Request, SmoothPiece, require_motion
 from ..motion.grid import MotionLike
 from ..motion.requests import identity_of
-from ..plan import Plan
+from ..plan import Mask, Plan
 from ..program import FloatArray, Node, Notes
 from .poses import AnyMotion
 from .traced_loads import TracedMotion, traced_apart
@@ -32,61 +33,122 @@ class TracedLaw:
 class LawInPlan:
     """What a formula is in a plan: what tells it from others, the members that it reads, and those it is differentiated through.
 
-    `traced_with` tells the formulas that are traced in one with it, `words` what it is of there.
+    `trace` gives it on a traced motion of the plan, `traced_with` tells the formulas that are traced in one with it, `sentence` what it is
+    of there.
     """
 
     key: Hashable
     read: frozenset[str]
     through: frozenset[str]
+    trace: Callable[[TracedMotion], TracedLaw]
     traced_with: Hashable = None
-    words: str = ""
+    sentence: str = ""
 
 
+def law_in_plan(motion: TracedMotion, trace: Callable[[TracedMotion], TracedLaw], sentence: str = "") -> LawInPlan:
+    """Return what a formula is in the plan of a traced motion, from its nodes there; UntracedError where it has no program."""
+    traced = trace(motion)
+    notes = traced.motion.notes
+    key = "law", motion._reading.graph, traced.node.number, *notes.assumed, None, *notes.switches, None, *notes.gaps
+    return LawInPlan(key, frozenset(motion.read), frozenset(motion.through), trace, sentence=sentence)
+
+
+@final
+@dataclass(frozen=True, eq=False, kw_only=True)
 class LawRequest(Request):
-    """The base of requests that a formula gives: a subclass says `law(motion)`, plain arithmetic on what a motion tells."""
+    """What a formula gives over a motion's poses: `formula(motion, acting)`, plain arithmetic on what a motion tells; [SI], shape (...).
 
-    _in_plan: LawInPlan | None = None
+    On a traced motion it gives one number of a program. Where `acting` is None it hangs on no situation, and is `formula(motion)`.
+    `text` is what one writes, of the situation where it hangs on one; `known` tells the formula from others, whatever the situation:
+    None where it may change. `mover` is the cylinder in whose directions it is judged, else these are the strokes'; `directions(plan)`
+    are those in which it is, all where there is friction unless it says so.
+
+    The rest is asked for where a request has something of its own to say: `examine(plan)` raises DefinitionError where a plan has nothing
+    of the kind, `measured_in(plan)` says what it measures there, `pieces_in(request, plan)` its smooth pieces, `unlimited_in(motion,
+    acting)` the mask of poses where it has no bound, and `look_up(request, motion)` what it is in the plan of a traced motion.
+    `column` names the column of a table that it is, whose gaps alone it has.
+    """
+
+    formula: Callable[..., FloatArray]
+    text: str | Callable[[Acting], str]
+    known: Hashable = None
+    acting: Acting | None = None
+    measures: str = ""
+    mover: Hashable = None
+    directions: Callable[[Plan], tuple[str, ...]] | None = None
+    examine: Callable[[Plan], object] | None = None
+    measured_in: Callable[[Plan], str] | None = None
+    pieces_in: Callable[[LawRequest, Plan], tuple[SmoothPiece, ...]] | None = None
+    unlimited_in: Callable[[Motion, Acting], Mask] | None = None
+    look_up: Callable[[LawRequest, TracedMotion], LawInPlan] | None = None
+    column: str = ""
+    in_plan: LawInPlan | None = None
     """What it is in the plan that it is bound to."""
 
-    @abstractmethod
     def law(self, motion: AnyMotion) -> FloatArray:
         """Return the values over a motion's poses [SI], shape (...); one number of a program where the motion is traced."""
-
-    @abstractmethod
-    def examine(self, plan: Plan) -> None:
-        """Raise DefinitionError where a plan has nothing of the kind, UntracedError where it has values alone."""
+        return self.formula(motion) if self.acting is None else self.formula(motion, self.acting)
 
     def of(self, motion: MotionLike) -> FloatArray:
         return self.law(require_motion(motion))
 
+    def __str__(self) -> str:
+        return self.text if isinstance(self.text, str) else self.text(self.situation)
+
+    # -- in a situation ----------------------------------------------------------------------------------
+
+    @property
+    def situation(self) -> Acting:
+        """The situation in which it is asked."""
+        return PLAIN if self.acting is None else self.acting
+
+    def identity(self, plan: Plan) -> Hashable:
+        acting = self.situation
+        loads = situation_identity(acting)
+        return None if self.known is None or loads is None else ("law", self.known, loads, acting.direction, acting.drive)
+
+    def under(self, acting: Acting, *, keep: bool = False) -> LawRequest:
+        if self.acting is None:
+            return self
+        outer = acting if self.of_strokes else replace(acting, drive=None)
+        found = self.acting.within(outer, "" if keep else str(self))
+        return self if found == self.acting else replace(self, acting=found)
+
+    @property
+    def of_strokes(self) -> bool:
+        return self.acting is not None and self.mover is None
+
+    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
+        if self.acting is None:
+            return ()
+        return self.directions(plan) if self.directions is not None else DIRECTIONS if rubs else DIRECTIONS[:1]
+
+    def measured(self, plan: Plan) -> str:
+        return self.measures if self.measured_in is None else self.measured_in(plan)
+
+    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
+        return super().pieces(plan) if self.pieces_in is None else self.pieces_in(self, plan)
+
+    def unlimited(self, motion: MotionLike) -> Mask | None:
+        return None if self.unlimited_in is None else self.unlimited_in(require_motion(motion), self.situation)
+
     # -- bound to a plan ---------------------------------------------------------------------------------
 
-    def bound(self, plan: Plan) -> Self:
-        identity = identity_of(plan, self)
+    def bound(self, plan: Plan) -> LawRequest:
+        identity = identity_of(plan, self) if self.situation.loads is None else None  # what is kept must not keep loads alive
         return self._bound(plan) if identity is None else plan.made(("bound", identity), lambda _: self._bound(plan))
 
-    def _bound(self, plan: Plan) -> Self:
-        self.examine(plan)
-        return self.told(traced_apart(plan, self.looked_up))
-
-    def told(self, found: LawInPlan) -> Self:
-        """Return the same, bound to the plan in which it is that."""
-        same = copy(self)
-        object.__setattr__(same, "_in_plan", found)  # of a frozen dataclass that nobody has seen yet
-        return same
-
-    def looked_up(self, motion: TracedMotion) -> LawInPlan:
-        """Return what it is in the plan of a traced motion; UntracedError where it has no program."""
-        traced = self.traced(motion)
-        notes = traced.motion.notes
-        key = "law", motion._reading.graph, traced.node.number, *notes.assumed, None, *notes.switches, None, *notes.gaps
-        return LawInPlan(key, frozenset(motion.read), frozenset(motion.through))
+    def _bound(self, plan: Plan) -> LawRequest:
+        if self.examine is not None:
+            self.examine(plan)
+        look_up = partial(law_in_plan, trace=self.traced) if self.look_up is None else partial(self.look_up, self)
+        return replace(self, in_plan=traced_apart(plan, look_up))
 
     def traced(self, motion: TracedMotion) -> TracedLaw:
         """Return the formula on the nodes of a program; UntracedError where it has none."""
         motion.notes.owner, motion.notes.tests = str(self), 0
         try:
-            return TracedLaw(motion, motion.node(self.law(motion)))
+            found = TracedLaw(motion, motion.node(self.law(motion)))
         except UntracedError as error:
             raise UntracedError(f"{self}: {error}") from error
         except Exception as error:
@@ -94,26 +156,33 @@ class LawRequest(Request):
             raise UntracedError(
                 f"{motion.plan.title}: {self} has values, and no program that gives derivatives: {said}. Take finite differences."
             ) from error
-
-    @property
-    def in_plan(self) -> LawInPlan:
-        """What it is in the plan that it is bound to."""
-        assert self._in_plan is not None, f"{self} is not bound to a plan"
-        return self._in_plan
+        if self.column:
+            claimed = motion.notes.claims.get(self.column, ())
+            motion.notes.gaps = {node: owner for node, owner in motion.notes.gaps.items() if node in claimed}
+        return found
 
     @property
     def key(self) -> Hashable:
-        return self if self._in_plan is None else self._in_plan.key
+        return self if self.in_plan is None else self.in_plan.key
+
+    @property
+    def sentence(self) -> str:
+        return str(self) if self.in_plan is None else self.in_plan.sentence or str(self)
 
     @property
     def traced_with(self) -> Hashable:
-        return self.key if self._in_plan is None else self._in_plan.traced_with or self.key
+        return self.key if self.in_plan is None else self.in_plan.traced_with or self.key
+
+    def _in(self, plan: Plan) -> LawInPlan:
+        """Return what it is in the plan that it is bound to."""
+        assert self.in_plan is not None, f"{self} is not bound to {plan.title}"
+        return self.in_plan
 
     def _traced(self, plan: Plan) -> TracedLaw:
         """Return the formula on a plan's program, traced there once."""
         found = plan.trace.kept.get(self.key)
         if not isinstance(found, TracedLaw):
-            found = plan.trace.kept[self.key] = self.traced(TracedMotion(plan, plan.trace))
+            found = plan.trace.kept[self.key] = self._in(plan).trace(TracedMotion(plan, plan.trace))
         return found
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
@@ -126,14 +195,14 @@ class LawRequest(Request):
         return tuple(self.notes(plan).gaps)
 
     def names(self, plan: Plan) -> set[str]:
-        return set(self.in_plan.read)
+        return set(self._in(plan).read)
 
     def differentiated(self, plan: Plan) -> set[str]:
-        return set(self.in_plan.through)
+        return set(self._in(plan).through)
 
     @property
     def order(self) -> int:
-        return 1 if self._in_plan is not None and self._in_plan.through else 0
+        return 1 if self.in_plan is not None and self.in_plan.through else 0
 
     @property
     def may_fail(self) -> bool:
@@ -145,3 +214,32 @@ class LawRequest(Request):
 
     def refuse(self, motion: MotionLike) -> None:
         self.of(motion)
+
+
+# The situation that a request is asked in: what tells it from others, and how it is written.
+
+
+def situation_identity(acting: Acting) -> Hashable:
+    """Return what tells loads in a load case from others, which it does not keep alive; None where one of them may change.
+
+    The direction and the drive are not in it. Members that were declared do not change, nor do frozen dataclasses. What their laws
+    compute with is taken not to change either.
+    """
+    loads = acting.loads
+    listed = () if loads is None else loads if isinstance(loads, (list, tuple)) else (loads,)
+    given = (acting.case, *listed)
+    parts = [each if each is None or isinstance(each, str) else ref(each) if is_unchanging(each) else ... for each in given]
+    return None if acting.rates is not None or ... in parts else (loads is None, *parts)
+
+
+def is_unchanging(thing: object) -> bool:
+    """Return whether loads or a load case cannot change: members of a class, and frozen dataclasses."""
+    if not isinstance(thing, (ForceElement, LoadCase)):
+        return False
+    settings = vars(type(thing)).get("__dataclass_params__")
+    return bool(thing._class) or (settings is not None and settings.frozen)
+
+
+def case_words(case: Case) -> list[str]:
+    """Return a load case as an argument in words; nothing of none."""
+    return [] if case is None else [f"case={case if isinstance(case, str) else case.name or case.label}"]

@@ -5,9 +5,9 @@ Pressures are gauge.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import final
+from functools import partial
 
 import numpy as np
 
@@ -57,27 +57,25 @@ def capacity(motion: Motion, point: str = "G", share: float = 1.0) -> FloatArray
     return circuit_of(motion).capacity(motion, point, own_loads(motion), share=share)
 
 
-@final
-@dataclass(frozen=True)
-class Lifted(LawRequest):
-    """The lifting capacity (28) [N] at a point and a share of the pump's pressure, as something to ask for; of G at the full one."""
+def lifted(point: str = "G", share: float = 1.0) -> LawRequest:
+    """Return the request for the lifting capacity (28) [N] at a point and a share of the pump's pressure."""
+    return LawRequest(
+        formula=partial(capacity_beside_own, point, share), text="the lifting capacity", known=("lifted", point, share), measures="force",
+        examine=lifting_circuit,
+    )  # fmt: skip
 
-    point: str = "G"
-    share: float = 1.0
-    measures = "force"
 
-    def identity(self, plan: Plan) -> Hashable:
-        return "lifted", self.point, self.share
+def capacity_beside_own(point: str, share: float, motion: AnyMotion) -> FloatArray:
+    """Return the lifting capacity over a motion's poses [N], beside the hitch's own loads."""
+    return lifting_circuit(motion.plan).capacity(motion, point, own_loads(motion), share=share)
 
-    def examine(self, plan: Plan) -> None:
-        if "circuit" not in plan.of_kind(LiftCircuit):
-            raise DefinitionError(f"{plan.title} has no lift circuit of the name circuit, whose pump lifts.")
 
-    def law(self, motion: AnyMotion) -> FloatArray:
-        return motion.plan.of_kind(LiftCircuit)["circuit"].capacity(motion, self.point, own_loads(motion), share=self.share)
-
-    def __str__(self) -> str:
-        return "the lifting capacity"
+def lifting_circuit(plan: Plan) -> LiftCircuit:
+    """Return the circuit of a hitch that lifts; DefinitionError where there is none."""
+    circuits = plan.of_kind(LiftCircuit)
+    if "circuit" not in circuits:
+        raise DefinitionError(f"{plan.title} has no lift circuit of the name circuit, whose pump lifts.")
+    return circuits["circuit"]
 
 
 def write_capacity(written: Formulas) -> None:

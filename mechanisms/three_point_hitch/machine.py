@@ -34,7 +34,7 @@ from linkage.language import noted, said
 from linkage.loads.element import Formulas
 from linkage.units import MPa, deg, g0, kg, litre, minute, mm
 
-from .capacity import Lifted, capacity, write_capacity
+from .capacity import capacity, lifted, write_capacity
 from .report import rules
 
 
@@ -98,9 +98,9 @@ class ThreePointHitch(Mechanism):
     def columns(self, motion: Motion) -> list[Column]:
         """Return the stroke, the moving points, the ratio I = dG_y/dS (27), the lifting capacity (28) and the upright's tilt."""
         points = [each for each in super().columns(motion) if each.name != "tilt"]
-        lifted = Column(noted("capacity"), capacity(motion), "kN", 3, Lifted())
+        lifts = Column(noted("capacity"), capacity(motion), "kN", 3, lifted())
         growth = Column("I", motion.ratio("G")[1], "", 4, ratio(y("G")))
-        return [*points, growth, lifted, Column(noted("tilt"), motion["tilt"], "deg", 3, "tilt")]
+        return [*points, growth, lifts, Column(noted("tilt"), motion["tilt"], "deg", 3, "tilt")]
 
     def formulas(self, written: Formulas) -> None:
         """Write, after what its elements say, F_cyl = p_max area (29) and the lifting capacity G_g = F_cyl eta / I_G (28)."""

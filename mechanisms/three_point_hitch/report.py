@@ -13,7 +13,7 @@ from linkage.reports import ranges_below_zero, spans_in_words
 from linkage.units import g0, show, shown_number
 from linkage.verdict import Verdict
 
-from .capacity import BEHIND, SHARE, Lifted, at_hitch_points, behind, capacity, circuit_of, weakest
+from .capacity import BEHIND, SHARE, at_hitch_points, behind, capacity, circuit_of, lifted, weakest
 from .tractor import balance_verdict, front_axle, largest_mass, tipping_mass, tipping_slope
 from .zones import mast_words
 
@@ -60,9 +60,9 @@ def weakest_verdict(motion: Motion) -> Verdict:
 
 def limit_verdict(judge: Judge) -> Verdict:
     """Return which limit comes first over the motion: pressure, the front axle's share, or tipping."""
-    asked = [least(each) for each in (Lifted(), MotionFunction(largest_mass), MotionFunction(tipping_mass))]
-    lifted, steer, tip = (float(each.value) for each in judge.answers(asked))
-    limits = {said("the pressure"): lifted / g0, said("the front axle's least load"): steer, said("tipping"): tip}
+    asked = [least(each) for each in (lifted(), MotionFunction(largest_mass), MotionFunction(tipping_mass))]
+    force, steer, tip = (float(each.value) for each in judge.answers(asked))
+    limits = {said("the pressure"): force / g0, said("the front axle's least load"): steer, said("tipping"): tip}
     least_of = {name: value for name, value in limits.items() if np.isfinite(value)}
     if not least_of:
         return Verdict("largest implement", True, said("nothing limits it over this motion."))
@@ -79,9 +79,9 @@ def limit_verdict(judge: Judge) -> Verdict:
 def test_verdict(judge: Judge) -> Verdict:
     """Return what can be lifted through the whole range at 90 % of the pressure, the way tractors are tested."""
     parts, places = [], (said("at the hitch points"), said("{distance} behind them", distance=show(BEHIND, "mm", ".0f")))
-    for where, lifted in zip(places, judge.answers([least(Lifted("F", SHARE)), least(MotionFunction(behind))]), strict=True):
-        is_limited = bool(np.isfinite(lifted.value))
-        parts.append(f"{where} {show(float(lifted.value), 'kN', '.2f') if is_limited else said('not limited by the cylinders')}")
+    for where, found in zip(places, judge.answers([least(lifted("F", SHARE)), least(MotionFunction(behind))]), strict=True):
+        is_limited = bool(np.isfinite(found.value))
+        parts.append(f"{where} {show(float(found.value), 'kN', '.2f') if is_limited else said('not limited by the cylinders')}")
     text = said(
         "through the whole range at {share:.0f} % of the pressure (as OECD Code 2): {parts}.", share=100 * SHARE, parts=", ".join(parts)
     )  # fmt: skip

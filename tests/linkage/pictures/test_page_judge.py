@@ -11,7 +11,7 @@ from linkage import LoadCase, Over, Stroke
 from linkage.motion import live_text
 from linkage.pictures.browser import page_part
 from linkage.pictures.browser_data import PageRequests, page_data
-from linkage.reports import ColumnOf
+from linkage.reports import is_column
 from linkage.units import bar, mm
 from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
@@ -108,7 +108,7 @@ def check(machine, designs, n=9):
         for asked, live in zip(data["questions"], said["found"], strict=True):
             if live.get("unknown"):
                 continue
-            own = any(isinstance(leaf.quantity, ColumnOf) for each in known[asked["rule"]] for leaf in each.margin.leaves)
+            own = any(is_column(leaf.quantity) for each in known[asked["rule"]] for leaf in each.margin.leaves)
             where = [each for each in overs if not own or each.cases is None or "plain" in each.cases]
             answers = other.answers(known[asked["rule"]], over=where)
             if any(each.ok is False for each in answers):

@@ -251,9 +251,8 @@ class Tried:
 
     def use(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Array:
         """Return one over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
-        circuit = circuit_with(motion.plan, ram, self.circuit, "use")
-        k_m = circuit.efficiency(motion, "mechanical")
-        size, thrust = self.sized(ram.sized(motion)), member_thrust(motion, ram, acting)
+        circuit, size = circuit_with(motion.plan, ram, self.circuit, "use"), self.sized(ram.sized(motion))
+        k_m, thrust = circuit.efficiency(motion, "mechanical"), member_thrust(motion, ram, acting)
         sense = 1.0 if acting.direction == "extending" else -1.0
         most = circuit.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m))
         return np.asarray(sense * thrust / (k_m * most))[()]

@@ -270,7 +270,7 @@ def sides_asked(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
 
     Of a pressure the greatest: the least is nought, on the side that does not hold.
     """
-    is_open = isinstance(quantity, Request) and type(quantity).unlimited is not Request.unlimited
+    is_open = isinstance(quantity, Request) and quantity.may_be_unlimited
     return (least,) if is_open else (most,) if getattr(quantity, "measures", "") == "pressure" else (least, most)
 
 

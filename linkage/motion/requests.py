@@ -108,6 +108,11 @@ class Request(Arithmetic):
         """Return the mask of poses at which its law has no bound, such as where the load drives; None where it always has one."""
         return None
 
+    @property
+    def may_be_unlimited(self) -> bool:
+        """Whether its law may have no bound at some poses, as `unlimited` then tells."""
+        return False
+
     # -- bound to a plan ---------------------------------------------------------------------------------
 
     @property
@@ -482,6 +487,10 @@ class Combined(Request):
         sides = [next((piece.side for piece in each if piece.side), "") for each in chosen]
         combined = [Combined(self.function, tuple(piece.request for piece in each)) for each in chosen]
         return tuple(SmoothPiece(request, side) for request, side in zip(combined, sides, strict=True))
+
+    @property
+    def may_be_unlimited(self) -> bool:
+        return any(each.may_be_unlimited for each in self.requests)
 
     def unlimited(self, motion: MotionLike) -> Mask | None:
         found = [mask for mask in (each.unlimited(motion) for each in self.requests) if mask is not None]

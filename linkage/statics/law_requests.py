@@ -129,6 +129,10 @@ class LawRequest(Request):
     def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
         return super().pieces(plan) if self.pieces_in is None else self.pieces_in(self, plan)
 
+    @property
+    def may_be_unlimited(self) -> bool:
+        return self.unlimited_in is not None
+
     def unlimited(self, motion: MotionLike) -> Mask | None:
         return None if self.unlimited_in is None else self.unlimited_in(require_motion(motion), self.situation)
 

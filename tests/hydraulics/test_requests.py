@@ -1,5 +1,7 @@
 """What is asked of cylinders: their own methods' values by every way of asking, exact derivatives, and refusals in words."""
 
+import pickle
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -286,3 +288,19 @@ def test_two_that_are_equal_share_one_kernel():
     assert thrust("lift").bound(hitch.plan).key == thrust(ThreePointHitch.lift, direction="extending").bound(hitch.plan).key
     assert thrust("lift").bound(hitch.plan).key != thrust("lift", case=LoadCase("half", scale={"load": 0.5})).bound(hitch.plan).key
     assert Pulled().at(S=0.1)[thrust("lift")] < 0.0
+
+
+def test_requests_go_to_other_processes():
+    """What a worker of a study is sent asks for the same, and is known as the same."""
+    motion, plan = ThreePointHitch().sweep(3), ThreePointHitch.plan
+    asked = reserve("lift"), pressure("lift", side="rod"), capacity("lift", "G", share=0.9), buckling("lift"), thrust("lift"), drive_force()
+    for request in asked:
+        sent = pickle.loads(pickle.dumps(request))
+        assert str(sent) == str(request) and sent.identity(plan) == request.identity(plan)
+        assert_allclose(motion[sent], motion[request], rtol=0.0, atol=0.0)
+
+
+def test_what_has_no_bound_in_places_says_so():
+    """A reserve and a capacity have none where the load drives, and nor has a sum with one; a pressure and a thrust always have."""
+    assert all(each.may_be_unlimited for each in (reserve("lift"), capacity("lift", "G"), 2.0 * reserve("lift")))
+    assert not any(each.may_be_unlimited for each in (pressure("lift"), thrust("lift"), thrust("lift") + drive_force(), ratio("G")))

@@ -48,8 +48,8 @@ from linkage.motion import (
     Column,
     Condition,
     Constraint,
+    HasVerdicts,
     Judge,
-    Judging,
     Motion,
     Question,
     Request,
@@ -82,7 +82,7 @@ SIDES = (PISTON, ROD)
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Cylinder(TwoPoint, Tabled, Judging):
+class Cylinder(TwoPoint, Tabled, HasVerdicts):
     """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
 
     In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
@@ -600,7 +600,7 @@ def circuits_of(cylinder: Cylinder, plan: Declared) -> list[Circuit]:
     return [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
 
 
-class Circuit(ForceElement, Judging):
+class Circuit(ForceElement, HasVerdicts):
     """The base of circuits: what feeds cylinders."""
 
     places: ClassVar[tuple[str, ...]] = ()

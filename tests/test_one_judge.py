@@ -20,7 +20,7 @@ ALLOWED = {
     # numbers of samples, of poses that were asked for, and of what was given
     "linkage/loads/element.py": "a given number in a message",
     "hydraulics/accumulator.py": "a given number in a message; vessels, not poses",
-    "linkage/motion/scan.py": "whether an angle moves at all",
+    "linkage/motion/stroke_search.py": "whether an angle moves at all",
     "linkage/motion/poles.py": "the points of a body that are farthest apart",
     "linkage/statics/table.py": "a door to the search, of results of pin_forces; a machine's table asks the judge",
     "linkage/statics/joint_forces.py": "the residual of the equations, and words on poses that were asked for",

@@ -6,7 +6,7 @@ from .featured import Featured
 from .gaps import gap
 from .grid import Grid
 from .judge import Judge, Question, case_named
-from .judging import Judging, geometry_verdicts, judge_verdicts
+from .judging import HasVerdicts, geometry_verdicts, judge_verdicts
 from .limits import stroke_display_unit, stroke_measure, stroke_unit
 from .line import highest, last_holding
 from .live import LiveText, live_text

@@ -52,26 +52,26 @@ class Rounding:
         graph = plan.trace.graph
         return cls(tuple(nodes), tuple(map(Iterated.of, closures)), graph.node(plan.trace.extent))
 
-    def at(self, inputs: Mapping[str, Any]) -> Left:
+    def at(self, inputs: Mapping[str, Any]) -> PrecisionLeft:
         """Return what is left at poses, inputs as floats or (n,)."""
         values, errors = scatter((*self.nodes, self.extent), inputs, self.iterated)
-        return Left(values[:-1], errors[:-1], np.sqrt(values[-1]))
+        return PrecisionLeft(values[:-1], errors[:-1], np.sqrt(values[-1]))
 
 
 @final
 @dataclass(frozen=True, eq=False)
-class Left:
+class PrecisionLeft:
     """Values of a program, how far rounding scatters them, shape (rows, n), and the machine's size [m], shape (n,)."""
 
     values: FloatArray
     errors: FloatArray
     size: FloatArray
 
-    def part(self, rows: slice) -> Left:
+    def part(self, rows: slice) -> PrecisionLeft:
         """Return those of some rows."""
-        return Left(self.values[rows], self.errors[rows], self.size)
+        return PrecisionLeft(self.values[rows], self.errors[rows], self.size)
 
-    def over(self, scale: Any) -> FloatArray:
+    def relative(self, scale: Any) -> FloatArray:
         """Return the largest error of a component, shape (n,), each relative to its own value or to a size that is larger.
 
         Infinite where one has no value. `scale` is one size for all, or one a component, shape (rows, n).
@@ -81,9 +81,9 @@ class Left:
         return np.where(np.isnan(found), np.inf, found)
 
     @property
-    def length(self) -> Left:
+    def length(self) -> PrecisionLeft:
         """The length of what the rows are the components of, as one row."""
-        return Left(np.hypot.reduce(self.values, axis=0)[None], np.hypot.reduce(self.errors, axis=0)[None], self.size)
+        return PrecisionLeft(np.hypot.reduce(self.values, axis=0)[None], np.hypot.reduce(self.errors, axis=0)[None], self.size)
 
 
 @final
@@ -110,7 +110,7 @@ class Culprit:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Judged:
+class Conditioning:
     """How far poses (n,) are from singular ones for a result.
 
     The conditions of the loops and the least spans of the directions it is built from, by member; the relative error to expect; and the
@@ -142,12 +142,12 @@ class Judged:
                 mask = mask | (cond > WARN)
         return mask & ~self.refused
 
-    def as_loops(self) -> Judged:
+    def as_loops(self) -> Conditioning:
         """Return the same with an error that is at least what the loops alone lose: 0.3 eps cond^2."""
         lost = [0.3 * np.finfo(float).eps * cond * cond for cond in self.conditions.values()]
         return replace(self, error=np.maximum.reduce([self.error, *lost]))
 
-    def at(self, mask: Mask) -> Judged:
+    def at(self, mask: Mask) -> Conditioning:
         """Return the same of some poses."""
         def cut(given: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
             return {name: np.broadcast_to(each, mask.shape)[mask] for name, each in given.items()}
@@ -167,18 +167,18 @@ class Judged:
         return Culprit(direction, span=1.0 / close[direction])
 
 
-def judged(plan: Plan, reading: ArrayReading, steep: set[str], names: set[str], error: FloatArray, doubt: float) -> Judged:
+def conditioning(plan: Plan, reading: ArrayReading, steep: set[str], names: set[str], error: FloatArray, doubt: float) -> Conditioning:
     """Return how far poses are from singular ones for a result built from some members, whose relative error (n,) is known.
 
     `steep` are the members that it is differentiated through, `doubt` is the error from which on it has to be told.
     """
     moving = {name: span for name, span in reading.spans.items() if not name or (name in names and plan.moves(plan.members[name]))}
     spans = {name: np.broadcast_to(span, error.shape) for name, span in moving.items()}
-    loops = {name: np.broadcast_to(cond, error.shape) for name, cond in conditions(plan, reading, names).items()}
-    return Judged(plan, loops, spans, error, frozenset(steep), doubt)
+    loops = {name: np.broadcast_to(cond, error.shape) for name, cond in loop_conditions(plan, reading, names).items()}
+    return Conditioning(plan, loops, spans, error, frozenset(steep), doubt)
 
 
-def conditions(plan: Plan, reading: ArrayReading, names: set[str]) -> dict[str, FloatArray]:
+def loop_conditions(plan: Plan, reading: ArrayReading, names: set[str]) -> dict[str, FloatArray]:
     """Return the condition of every loop among some members, at every pose of a reading."""
     return {
         name: condition_of_sine(np.asarray(sine, float)) * np.sqrt(np.maximum(reading.rounding.get(name, 1.0), 1.0))
@@ -202,7 +202,7 @@ def condition_of_sine(sine: FloatArray) -> FloatArray:
         return worst
 
 
-def singular_error(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, motion: MotionLike) -> SingularError:
+def singular_error(found: Conditioning, mask: Mask, strokes: Mapping[str, Any], what: str, motion: MotionLike) -> SingularError:
     """Return the error for a result asked at singular poses; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
     near = found.culprit()
@@ -226,7 +226,7 @@ def singular_error(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: 
     )  # fmt: skip
 
 
-def lost_places(found: Judged, mask: Mask, strokes: Mapping[str, Any]) -> SingularError:
+def lost_places(found: Conditioning, mask: Mask, strokes: Mapping[str, Any]) -> SingularError:
     """Return the error for poses of which rounding leaves nothing; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
     near = found.culprit()
@@ -254,7 +254,7 @@ def crosses(motion: MotionLike, name: str) -> bool:
     return bool(motion.moved({stroke: np.ravel(values)[place] + np.array([-step, step])}).reached.all())
 
 
-def warn_near(found: Judged, what: str, be: str = "is") -> None:
+def warn_near(found: Conditioning, what: str, be: str = "is") -> None:
     """Warn of poses next to a singular one, with the estimate of what is lost; `found` is of these alone."""
     near = found.culprit()
     plan, name, estimate = found.plan, near.member, float(np.max(found.error))

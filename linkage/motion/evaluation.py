@@ -17,7 +17,7 @@ from ..plan import ArrayReading, Mask, Plan, failures, negative
 from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions
 from ..quantities import real
 from . import conditions
-from .conditions import Judged
+from .conditions import Conditioning
 from .grid import Angles, Grid, angles_of, to_rounding, varies
 from .live import live_source, true_nodes
 from .motion import Motion
@@ -261,7 +261,7 @@ class Evaluation:
         """Put right the poses where a guard tells: place them to rounding, refuse or mask those out of reach or singular."""
         plan = self.grid.plan
         assumed, gaps, kernel = plan.made(("guards", tuple(each.key for each in self.requests)), self._watch)
-        worst: dict[int, Judged] = {}
+        worst: dict[int, Conditioning] = {}
         for band, part in pieces(*self.grid.size):
             inputs = {name: part_of_input(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
             block = place[:, band, part]
@@ -277,13 +277,15 @@ class Evaluation:
                 bad = ~np.all(hard, axis=0) | near.any(axis=0) | ~np.isfinite(block).all(axis=0)
             if bad.any():
                 at_bad = {name: input_at(value, name in plan.table.entries, bad) for name, value in inputs.items()}
-                self._put_right(block, bad, at_bad, worst, ~hard[:assumed, bad].all(axis=0), near[:, bad])
+                self._put_right(block, bad, at_bad, worst, np.logical_not(hard[:assumed, bad].all(axis=0)), near[:, bad])
             for (first, each), gap in zip(self._starts(), empty, strict=True):
                 block[first : first + each.rows, gap] = np.nan
         for k, found in worst.items():
             conditions.warn_near(found, f"{plan.title}: {self.requests[k].sentence}", "comes")
 
-    def _put_right(self, block: FloatArray, bad: Mask, inputs: dict[str, Any], worst: dict[int, Judged], broken: Any, near: Any) -> None:
+    def _put_right(
+        self, block: FloatArray, bad: Mask, inputs: dict[str, FloatArray], worst: dict[int, Conditioning], broken: Mask, near: Mask
+    ) -> None:
         """Fill the poses of a block that a mask names, from their paired inputs.
 
         `broken`: where an assumption does not hold; `near`: for each request, where it has to be looked at closely.

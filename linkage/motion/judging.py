@@ -13,7 +13,7 @@ from ..language import said
 from ..quantities import Member
 from ..units import deg, show
 from ..verdict import Verdict
-from . import scan
+from . import stroke_search
 from .answer import Answer, share_text
 from .judge import Judge, Question
 from .limits import StrokeLimits, place_text
@@ -27,7 +27,7 @@ JUDGED = 200
 """Designs of a batch whose members are judged, each by itself."""
 
 
-class Judging(Member):
+class HasVerdicts(Member):
     """A member that has something to say of a machine, such as a cylinder: its base beside that of its kind."""
 
     def questions(self, judge: Judge) -> list[Question]:
@@ -52,7 +52,7 @@ def judge_verdicts(judge: Judge) -> list[str]:
         return batch_verdicts(judge)
     if not judge.is_reached:
         return assembly_verdicts(judge)
-    members = judge.plan.of_kind(Judging).values()
+    members = judge.plan.of_kind(HasVerdicts).values()
     judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
     lost = judge.answer(reachable).ok is False
     return [*geometry_verdicts(judge), *member_verdicts(judge.lost_allowed() if lost else judge)]
@@ -80,7 +80,7 @@ def dead_points_over(judge: Judge) -> list[Verdict]:
     found: dict[tuple[str, str], list[Verdict]] = {}
     for motion in [place.motion for place in judge.places if place.motion.reached.any()] or [judge.motion]:
         spans = {name: (float(np.min(value)), float(np.max(value))) for name, value in motion.strokes.items()}
-        for name, limits in scan.limits(motion).items():
+        for name, limits in stroke_search.limits(motion).items():
             if spans[name][0] < spans[name][1] or len(spans) == 1:
                 for each in dead_point_verdicts(limits, spans[name]):
                     found.setdefault((name, each.rule), []).append(each)
@@ -180,7 +180,7 @@ def transmission_words(judge: Judge) -> list[str]:
 
 def member_verdicts(judge: Judge) -> list[Verdict]:
     """Return what the members that judge themselves say; with their names where several follow the same rule."""
-    members = judge.plan.of_kind(Judging)
+    members = judge.plan.of_kind(HasVerdicts)
     found = [(name, verdict) for name, member in members.items() for verdict in member.verdicts(judge)]
     count = Counter(rule for _, rule in {(name, verdict.rule) for name, verdict in found})
     return [verdict if count[verdict.rule] == 1 else verdict.named(name) for name, verdict in found]
@@ -194,7 +194,7 @@ def batch_verdicts(judge: Judge) -> list[str]:
     text = said("{n} of {total} designs cannot be assembled over the whole motion", n=lost.size, total=total)
     text += said("; the first is design {number}.", number=lost[0] + 1) if lost.size else "."
     found: list[str] = [Verdict("assembly", not lost.size, text)]
-    if not judge.plan.of_kind(Judging):
+    if not judge.plan.of_kind(HasVerdicts):
         return found
     if total > JUDGED:
         text = said(

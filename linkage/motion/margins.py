@@ -15,8 +15,8 @@ import numpy as np
 from ..errors import AssemblyError
 from ..plan import Loop, Mask, Plan
 from ..program import FloatArray
-from .course import ON_ARRAYS, ROUNDING, Clearances
 from .grid import recalled
+from .interruptions import ON_ARRAYS, ROUNDING, Clearances
 from .motion import Motion, out_of_reach
 from .search import places_text, searched
 

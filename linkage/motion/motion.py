@@ -16,10 +16,10 @@ from ..quantities import Angle, Distance, Member, Quantity, needs
 from ..shown import Shown
 from ..steps import Arrow, Point
 from ..vectors import Vec
-from . import conditions, differences, scan
-from .conditions import Judged
-from .course import Interruption
+from . import conditions, differences, stroke_search
+from .conditions import Conditioning
 from .grid import Grid, JoinedTo, Joining, angles_of, joined_in_order, not_joined, to_rounding
+from .interruptions import Interruption
 from .limits import Limits, assembly_error, no_joint, span_text, stroke_unit, where_words
 from .over import Over, over_of
 from .poles import body_points, body_rates, pole_of, whole_body
@@ -54,7 +54,7 @@ class Motion(Shown):
     strokes go on along a path.
     """
 
-    _limits_of: ClassVar[Callable[[Any], Limits]] = scan.limits
+    _limits_of: ClassVar[Callable[[Any], Limits]] = stroke_search.limits
     """What looks for its limits: along the strokes alone, until the room of the judge gives more."""
 
     def __init__(
@@ -88,8 +88,8 @@ class Motion(Shown):
         if self._is_near_singular:
             self._settle_lost()
         self._places.flags.writeable = self.reached.flags.writeable = False
-        if unreachable == "raise" and scan.is_watched(self):
-            scan.refuse_interrupted(self)
+        if unreachable == "raise" and stroke_search.is_watched(self):
+            stroke_search.refuse_interrupted(self)
         if unreachable == "raise" and plan.followed and len(self.strokes) > 1:
             self._refuse_parted()
 
@@ -128,7 +128,7 @@ class Motion(Shown):
         spans = [f"{name} = {span_text(values, stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
         poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
         reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
-        return f"<Motion of {self.plan.title}: {poses}, {reached}{scan.between_words(self.interruptions)}>"
+        return f"<Motion of {self.plan.title}: {poses}, {reached}{stroke_search.between_words(self.interruptions)}>"
 
     def __contains__(self, name: object) -> bool:
         """Whether a name is that of a point, a vector or a quantity: what `motion[name]` gives."""
@@ -359,9 +359,9 @@ class Motion(Shown):
         """
         if self._grid.size[1] < 2:
             return ()
-        if not scan.is_watched(self):
+        if not stroke_search.is_watched(self):
             return None
-        return scan.interruptions(self) if self.unreachable == "nan" else ()
+        return stroke_search.interruptions(self) if self.unreachable == "nan" else ()
 
     def moved(self, strokes: Mapping[str, Any]) -> Self:
         """Return the same designs at other strokes [SI], each at its own where the arrays begin with the designs; NaN out of reach."""
@@ -549,11 +549,11 @@ class Motion(Shown):
             return np.zeros(self.shape, bool)
         return self._refused_near(what, words, lambda found, mask: self._singular(found, mask, words))
 
-    def _singular(self, found: Judged, mask: Mask, words: str) -> SingularError:
+    def _singular(self, found: Conditioning, mask: Mask, words: str) -> SingularError:
         """Return the error for a result asked at singular poses."""
         return conditions.singular_error(found, mask, self.strokes, words, self)
 
-    def _refused_near(self, what: Request, words: str, error: Callable[[Judged, Mask], SingularError]) -> Mask:
+    def _refused_near(self, what: Request, words: str, error: Callable[[Conditioning, Mask], SingularError]) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked.
 
         `error` makes what is raised of how the refused poses are judged and of their mask.
@@ -640,9 +640,9 @@ def each_at_its_stroke(
 def out_of_reach(motion: Motion) -> AssemblyError:
     """Return the error for the poses of a motion that are not reached: out of reach, or behind a change point."""
     if motion._crossed.any():
-        return scan.group_change_point_error(motion, motion._crossed)
+        return stroke_search.group_change_point_error(motion, motion._crossed)
     missing = ~motion.reached
-    return assembly_error(motion.plan, motion._grid.read_at(missing), missing, motion.strokes, scan.stop_words(motion))
+    return assembly_error(motion.plan, motion._grid.read_at(missing), missing, motion.strokes, stroke_search.stop_words(motion))
 
 
 class OnePose:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import unwarned
 from ..plan import Plan, called
-from . import scan
+from . import stroke_search
 from .answer import places_text
 from .judge import Judge
 from .limits import BoxLimits, Limits, LoopMargin
@@ -20,7 +20,7 @@ from .over import Over
 
 def limits_over(motion: Motion, overs: Sequence[Over | Motion] = (Over(),)) -> Limits:
     """Return the limits along every stroke of one design, and what is lost over the box of all, or over what is given."""
-    strokes = scan.limits(motion)
+    strokes = stroke_search.limits(motion)
     return Limits(strokes, box_limits(Judge(motion.plan, motion.designs, overs))) if strokes else strokes
 
 

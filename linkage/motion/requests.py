@@ -23,7 +23,7 @@ from ..program import LAST, FloatArray, Kernel, Node, Notes, ancestors, disturbe
 from ..quantities import TAKEN, Arithmetic, Member, Number, Quantity, label, quantity, spelled
 from ..quantities.quantity import PoseCondition
 from ..steps import Arrow, Point
-from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Judged, Left, Rounding, judged
+from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Conditioning, PrecisionLeft, Rounding, conditioning
 from .grid import Angles, Grid, MotionLike, angles_of
 from .strokes import checked_name, order_of
 
@@ -180,16 +180,16 @@ class Request(Arithmetic):
         """Return the nodes whose rounding tells its error: its own, and what these are compared with."""
         return self.nodes(plan)
 
-    def scale(self, plan: Plan, left: Left) -> FloatArray:
+    def scale(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
         """Return what a component's error is compared with where that is smaller [SI], from what rounding leaves of its nodes.
 
         Shape (n,), or (rows, n) where each component has its own.
         """
         return np.full(left.size.shape, SMALL)
 
-    def error(self, plan: Plan, left: Left) -> FloatArray:
+    def error(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
         """Return the relative error to expect, shape (n,), from what rounding leaves of those nodes."""
-        return left.over(self.scale(plan, left))
+        return left.relative(self.scale(plan, left))
 
     @property
     def may_fail(self) -> bool:
@@ -383,7 +383,7 @@ class Value(Request):
             with np.errstate(all="ignore"):
                 reading.value(self.member)
 
-    def scale(self, plan: Plan, left: Left) -> FloatArray:
+    def scale(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
         scale = natural_size(self.member, left.size)
         if scale is None:
             return super().scale(plan, left)
@@ -580,10 +580,10 @@ class Combined(Request):
     def rounded(self, plan: Plan) -> tuple[Node, ...]:
         return *self.nodes(plan), *(node for each in self.requests for node in each.rounded(plan))
 
-    def error(self, plan: Plan, left: Left) -> FloatArray:
-        return left.part(slice(0, self.rows)).over(self.scale(plan, left))
+    def error(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
+        return left.part(slice(0, self.rows)).relative(self.scale(plan, left))
 
-    def scale(self, plan: Plan, left: Left) -> FloatArray:
+    def scale(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
         values, sizes, first = [], [], self.rows
         for each in self.parts:
             if not isinstance(each, Request):
@@ -682,7 +682,7 @@ class NodeRequest(Request):
     follows_angles: bool = False
     stands_for_others: bool = False
     notes_of: Callable[[Plan], Notes] | None = None
-    error_of: Callable[[Left], FloatArray] | None = None
+    error_of: Callable[[PrecisionLeft], FloatArray] | None = None
     values_of: Callable[[MotionLike], FloatArray] | None = None
     refused_by: Callable[[MotionLike], None] | None = None
 
@@ -719,11 +719,11 @@ class NodeRequest(Request):
     def regular(self) -> float:
         return super().regular if self.regular_above is None else self.regular_above
 
-    def scale(self, plan: Plan, left: Left) -> FloatArray:
+    def scale(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
         known = {"length": left.size, "angle": np.ones_like(left.size)}
         return known.get(self.measures, super().scale(plan, left))
 
-    def error(self, plan: Plan, left: Left) -> FloatArray:
+    def error(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
         return super().error(plan, left) if self.error_of is None else self.error_of(left)
 
     def __post_init__(self) -> None:
@@ -745,13 +745,13 @@ def point_ratios(members: Set[str]) -> NodeRequest:
         places = [node for name in plan.moving if name in among for node in plan.nodes(name)]
         return tuple(node for stroke in plan.strokes for node in plan.derived(places, (stroke,)))
 
-    def error(left: Left) -> FloatArray:
+    def error(left: PrecisionLeft) -> FloatArray:
         parts = [left.part(slice(row, row + 2)) for row in range(0, len(left.values), 2)]
         if not parts:
             return np.zeros(left.size.shape)
         with np.errstate(all="ignore"):
             largest = np.max([np.hypot(*part.values) for part in parts], axis=0)
-        return np.asarray(np.max([part.length.over(MINOR * largest) for part in parts], axis=0))
+        return np.asarray(np.max([part.length.relative(MINOR * largest) for part in parts], axis=0))
 
     return NodeRequest(
         text="the ratios of the points", key=("ratios", among), nodes_of=nodes, names_of=lambda plan: set(among), order=1,
@@ -762,7 +762,7 @@ def point_ratios(members: Set[str]) -> NodeRequest:
 def places_of(points: tuple[str, ...]) -> NodeRequest:
     """Return the places of some points together: what a motion works out first."""
 
-    def error(left: Left) -> FloatArray:
+    def error(left: PrecisionLeft) -> FloatArray:
         with np.errstate(all="ignore"):
             found = left.errors.max(axis=0, initial=0.0) / left.size
         return np.where(np.isnan(found), np.inf, found)
@@ -785,7 +785,7 @@ def slope(what: Request, by: tuple[str, ...]) -> NodeRequest:
 
     return NodeRequest(
         text=f"the gradient of {what.sentence}", key=("slope", what.key, by), nodes_of=nodes, names_of=what.names, order=1 + what.order,
-        error_of=lambda left: left.length.over(SMALL),
+        error_of=lambda left: left.length.relative(SMALL),
     )  # fmt: skip
 
 
@@ -878,7 +878,7 @@ def keeps_digits(plan: Plan, what: Request, inputs: Mapping[str, Any], near: Mas
     values = np.broadcast_to(kernel(inputs, size=near.shape).values, (len(kernel.plan.outputs), *near.shape)).reshape(-1, near.size)
     own, size, shaken, least = values[:count], values[count], values[count + 1 : -1], values[-1]
     with np.errstate(all="ignore"):
-        error = what.error(plan, Left(own, LAST * np.abs(shaken - own), np.sqrt(size)))
+        error = what.error(plan, PrecisionLeft(own, LAST * np.abs(shaken - own), np.sqrt(size)))
         return np.asarray(((error <= DIGITS) & (least > NEAR**2)).reshape(near.shape))
 
 
@@ -889,12 +889,12 @@ def coarse_look(plan: Plan, what: Request) -> tuple[Kernel, int]:
     return Kernel([*own, plan.trace.graph.node(plan.trace.extent), *disturbed(own), least]), len(own)
 
 
-def examined(plan: Plan, what: Request, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:
+def examined(plan: Plan, what: Request, inputs: Mapping[str, Any], reading: ArrayReading) -> Conditioning:
     """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
     what.read_own(reading)
     rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.rounded(twin)))
     error = what.error(plan, rounding.at(inputs))
-    found = judged(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
+    found = conditioning(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
     return found.as_loops() if what.stands_for_others else found
 
 

@@ -6,7 +6,7 @@ import pytest
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, isothermal, lift_verdicts
 from linkage import RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, Verdict, Weight, most, y
 from linkage.loads import ForceElement
-from linkage.motion import Judging, Tabled
+from linkage.motion import HasVerdicts, Tabled
 from linkage.reports import results
 from linkage.units import bar, litre, mm
 
@@ -166,7 +166,7 @@ def test_a_variants_further_members_are_judged_and_shown_beside_the_machines_own
 
 
 def test_a_member_of_ones_own_judges_itself():
-    class Fuse(Weight, Judging):  # type: ignore[misc]
+    class Fuse(Weight, HasVerdicts):  # type: ignore[misc]
         def verdicts(self, judge):
             answer = judge.answer(most(y(self.point)) <= 1.0)
             return [Verdict("fuse", answer.ok, f"it goes up to {answer.value:.3f} m {answer.place}.", answer=answer)]
@@ -192,4 +192,4 @@ def test_columns_in_a_load_case_are_asked_of_members_that_know_them():
 
 @pytest.mark.parametrize("kind", [Cylinder, LiftCircuit, FloatCircuit])
 def test_what_hydraulics_brings_judges_itself(kind):
-    assert issubclass(kind, Judging) and issubclass(kind, ForceElement)
+    assert issubclass(kind, HasVerdicts) and issubclass(kind, ForceElement)

@@ -60,7 +60,7 @@ def test_exact_ratio_keeps_to_its_estimate_next_to_a_dead_point(x, y, OB, away, 
     motion = Lever(O=(x, y), OB=OB).at(S=AB, unreachable="nan")
     wanted = exact((x, y), AB, OB)
     assume(wanted is not None and motion.reached)
-    found = conditions.conditions(motion.plan, motion._reading, {"B"})["B"]
+    found = conditions.loop_conditions(motion.plan, motion._reading, {"B"})["B"]
     for order in (1, 2):
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")

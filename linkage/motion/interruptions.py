@@ -90,7 +90,7 @@ class Clearances:
 
 
 @final
-class Course:
+class StrokeClearance:
     """One design along one stroke, the others held: `seen(x)` are the clearances at values of the stroke, shape (loops, n)."""
 
     def __init__(self, plan: Plan, designs: Mapping[str, Any], name: str, held: Mapping[str, float]) -> None:

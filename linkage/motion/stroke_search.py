@@ -14,8 +14,8 @@ from ..program import FloatArray
 from ..quantities import Distance
 from ..steps import Point
 from ..units import deg
-from .course import Course, Interruption
 from .grid import MotionLike, recalled
+from .interruptions import Interruption, StrokeClearance
 from .limits import (
     Extreme,
     Held,
@@ -58,7 +58,7 @@ def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> S
     span = end - start
     turn = max(0.0, np.pi - 0.5 * span)
     low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
-    between = Course(motion.plan, motion._grid.flat, name, held).interruptions(low, high)
+    between = StrokeClearance(motion.plan, motion._grid.flat, name, held).interruptions(low, high)
     found = reachable_ranges(along(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
     crossings = tuple((each.deepest, called(motion.plan, each.step)) for each in between if not each.is_gap)
     others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
@@ -291,7 +291,7 @@ def interruptions(motion: MotionLike) -> tuple[Interruption, ...]:
     known = clear.get(key)
     if known is not None and known[0] <= low and high <= known[1]:
         return ()
-    found = Course(motion.plan, motion._grid.flat, name, {}).interruptions(low, high)
+    found = StrokeClearance(motion.plan, motion._grid.flat, name, {}).interruptions(low, high)
     if not found and (known is None or (low <= known[0] and known[1] <= high)):
         clear[key] = low, high
         for old in list(clear)[:-KEPT]:

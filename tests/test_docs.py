@@ -1,5 +1,6 @@
 """The pages: what they link is there, and what is drawn for them is what they show. Their examples run as doctests."""
 
+import json
 import re
 import subprocess
 import sys
@@ -175,6 +176,16 @@ def test_formulas_of_the_theory_are_set():
         assert written.startswith("<math") and "\\" not in written, each
 
 
+def test_the_cells_of_the_notebook_run():
+    """In this process, where nothing is shown; what a kernel shows is looked at in the slow part."""
+    names: dict = {}
+    for cell in json.loads((DOCS / "notebook.ipynb").read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "code":
+            exec("".join(cell["source"]), names)
+    assert names["motion"].reached.all() and names["hitch"].verdicts(names["motion"])
+
+
+@pytest.mark.slow
 def test_the_notebook_runs():
     pytest.importorskip("nbclient", reason="notebooks are run by nbclient, of the extra `test`")
     from made import notebook

@@ -1,6 +1,7 @@
 """Next to singular poses nothing is wrong in silence: positions and ratios against sixty digits, errors told against true ones."""
 
 import warnings
+from itertools import islice
 
 import numpy as np
 import pytest
@@ -153,9 +154,11 @@ def alike(seed):
     return outcomes
 
 
+@pytest.mark.parametrize("most", [DAILY, pytest.param(3 * DAILY, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("kind", range(len(KINDS)), ids=[each.__name__ for each in KINDS])
-def test_a_vector_is_judged_as_its_worse_component(kind):
-    assert [each for seed in range(kind, 3 * DAILY * len(KINDS), len(KINDS)) for each in alike(seed)]
+def test_a_vector_is_judged_as_its_worse_component(kind, most):
+    """At the first poses there are, at the most so many."""
+    assert list(islice(filter(None, map(alike, range(kind, 3 * DAILY * len(KINDS), len(KINDS)))), most))
 
 
 @pytest.mark.slow

@@ -74,8 +74,18 @@ def assert_same_numbers(plain, converted, system):
         assert (not direct and one == other) or agree(one, one_unit, other, other_unit), (one, other, plain, converted)
 
 
-@pytest.mark.parametrize("system", [pytest.param(name, marks=[] if name == "us" else pytest.mark.slow) for name in SYSTEMS])
-@pytest.mark.parametrize("name", SPEAKING)
+LONG = "crane"
+"""What it says is worked out anew in each system, and is much."""
+
+
+@pytest.mark.parametrize(
+    ("name", "system"),
+    [
+        pytest.param(name, system, marks=[] if system == "us" and name != LONG else pytest.mark.slow)
+        for name in SPEAKING
+        for system in SYSTEMS
+    ],
+)
 def test_a_sentence_has_the_same_numbers_in_every_system(name, system):
     plain, converted = spoken(name), spoken(name, system=system)
     assert [getattr(each, "ok", None) for each in plain] == [getattr(each, "ok", None) for each in converted]

@@ -75,7 +75,8 @@ def test_table_has_gaps_where_the_corner_is(said, tmp_path, command, count, tota
 @pytest.mark.parametrize(
     "command",
     [
-        "plot {} -o out.png --at S1=0,0.2 --at S2=0.3", 'plot {} G_y -o out.png --at S2=0.3', "page {} -o out.html --at S2=0.3",
+        "plot {} -o out.png --at S1=0,0.2 --at S2=0.3", 'plot {} G_y -o out.png --at S2=0.3',
+        pytest.param("page {} -o out.html --at S2=0.3", marks=pytest.mark.slow),
         "export {} -o out.xlsx --at S2=0.3 --count 9", "export {} -o out.dxf --at S2=0.3 --poses 7",
         "export {} -o out.svg --at S1=0,0.2 --at S2=0.3", "animate {} -o out.gif --at S2=0.3 --count 4",
     ],
@@ -142,10 +143,13 @@ def test_margin_of_a_loop_is_the_angle_between_its_links():
 # -- where commands look -----------------------------------------------------------------------------------
 
 
-def test_over_is_named_or_said_by_its_strokes(said):
-    for over in ("level", "S2=0:100mm", "S2=0:0.1,S1=0:225mm"):
-        code, out, _ = said(f"show {DECLARED} --over {over}")
-        assert code == 0 and "ok   assembly: it is assembled over S1 = 0 to 0.225 m, S2 = 0 to 0.1 m." in out
+@pytest.mark.parametrize("over", ["level", "S2=0:100mm", "S2=0:0.1,S1=0:225mm"])
+def test_over_is_named_or_said_by_its_strokes(said, over):
+    code, out, _ = said(f"show {DECLARED} --over {over}")
+    assert code == 0 and "ok   assembly: it is assembled over S1 = 0 to 0.225 m, S2 = 0 to 0.1 m." in out
+
+
+def test_overs_stand_one_after_the_other(said):
     _, out, _ = said(f"show {DECLARED} --over level --over S2=0.2")
     assert "S2 = 0 to 0.1 m" in out and "S2 = 0.2 m" in out
     _, out, _ = said(f"limits {DECLARED} --over level")

@@ -76,7 +76,7 @@ def check(machine, sheet, tolerance, thoroughly):
     return True
 
 
-@pytest.mark.parametrize("seeds", blocks(1000, daily=BLOCK))
+@pytest.mark.parametrize("seeds", blocks(1000, daily=10))
 def test_random_dyads(seeds):
     kept = 0
     for seed in seeds:

@@ -132,13 +132,13 @@ def test_two_groups_one_after_the_other():
         H, K, M = Pin(at=(0.28, 0.15)), Pin(at=(0.345, 0.14)), Pin(at=(0.325, 0.20))
 
     assert [set(group.pins) for group in Double.plan.groups.values()] == [set("BFG"), set("HKM")]
-    span = np.radians(60) + np.linspace(-0.02, 0.02, 9)
+    span = np.radians(60) + np.linspace(-0.02, 0.02, 5)
     motion = Double().at(phi=span)
     assert_allclose(motion["G"], StephensonTwo().at(phi=span)["G"], rtol=0, atol=1e-12)
-    assert_allclose(motion["H"][:, 4], [0.28, 0.15], rtol=0, atol=1e-10)
+    assert_allclose(motion["H"][:, 2], [0.28, 0.15], rtol=0, atol=1e-10)
     assert_allclose(motion.distance("H0", "K"), np.hypot(0.015, 0.12), rtol=1e-11)
     for P, Q in ("GH", ("K0", "M"), "HK", "HM", "KM"):
-        assert_allclose(motion.distance(P, Q), motion.distance(P, Q)[4], rtol=1e-11)
+        assert_allclose(motion.distance(P, Q), motion.distance(P, Q)[2], rtol=1e-11)
     assert_allclose(motion.ratio("M"), motion.ratio("M", method="central"), rtol=1e-7, atol=1e-9)
 
 

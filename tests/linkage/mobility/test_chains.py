@@ -45,8 +45,8 @@ def last_ratio(dyads):
 
 def test_class_positions_and_ratios_grow_with_the_length():
     last_ratio(5)  # what is done once for all
-    ten, twenty, forty = map(last_ratio, (10, 20, 40))
-    growth = (forty - twenty) / (2.0 * (twenty - ten))
+    short, middle, long = map(last_ratio, (8, 16, 32))
+    growth = (long - middle) / (2.0 * (middle - short))
     assert np.all(growth < 1.05), growth
 
 

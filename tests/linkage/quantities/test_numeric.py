@@ -113,13 +113,13 @@ def tried_at_random(seeds, count):
 
 
 def test_any_step_of_random_mechanisms_tells_what_it_loses():
-    tried, refused = tried_at_random(range(4), 5)
+    tried, refused = tried_at_random(range(2), 5)
     assert 0.1 * tried < refused < 0.9 * tried
 
 
 @pytest.mark.slow
 def test_any_step_of_many_random_mechanisms_tells_what_it_loses():
-    tried, refused = tried_at_random(range(1000, 1100), 20)
+    tried, refused = tried_at_random([2, 3, *range(1000, 1100)], 20)
     assert 0.2 * tried < refused < 0.8 * tried
 
 

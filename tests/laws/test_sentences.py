@@ -124,7 +124,7 @@ LATIN = re.compile(r"[A-Za-z][\w/.]*")
 SIGNS = {"ISO", "n", "mu", "rho", PLAIN_CASE}
 
 
-@pytest.mark.parametrize("name", SPEAKING)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow if name == LONG else ()) for name in SPEAKING])
 def test_verdicts_are_russian_in_whole(name):
     """What is Latin are names: members of the machine and what may be written in its place."""
     known = set(SHIPPED[name]().plan.members) | SIGNS

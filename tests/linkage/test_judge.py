@@ -402,7 +402,6 @@ def answered(machine, questions):
 
 
 def test_an_equal_machine_is_not_searched_again(monkeypatch):
-    """Nor does an answer depend on what was asked before: another design, other questions beside it."""
     questions = [least(reserve("lift")) >= 1.0, most(pressure("tilt")), reachable]
     first = answered(Rubbing(OB=0.36), questions)
     calls = []
@@ -413,10 +412,17 @@ def test_an_equal_machine_is_not_searched_again(monkeypatch):
     other = answered(Rubbing(OB=0.37), questions)
     assert len(calls) > 10 and other[0][0] != first[0][0]
 
-    class Afresh(Rubbing):
+
+@pytest.mark.parametrize("kind", [Loader, pytest.param(Rubbing, marks=pytest.mark.slow)])
+def test_an_answer_does_not_hang_on_what_was_asked_before(kind):
+    """Another design, other questions beside it; a class of its own has been asked nothing."""
+    questions = [least(reserve("lift")) >= 1.0, most(pressure("tilt")), reachable]
+
+    class Afresh(kind):
         pass
 
-    alone = [answered(Rubbing(OB=0.36), [each])[0] for each in questions]
+    kind(OB=0.37).answers(questions)
+    alone = [answered(kind(OB=0.36), [each])[0] for each in questions]
     assert alone == [answered(Afresh(OB=0.36), [each])[0] for each in questions]
 
 

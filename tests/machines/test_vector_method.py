@@ -173,7 +173,12 @@ OUT_OF_REACH = (4, 8, 11, 26, 28, 29, 38)
 """Seeds whose machines, in steps as well, cannot be assembled all over their strokes or pass a singular pose."""
 
 
-@pytest.mark.parametrize("seed", [seed for seed in range(47) if seed not in OUT_OF_REACH])
+LARGE = 20
+"""The seed of the machine that takes as long as all others together."""
+DRAWN = [pytest.param(seed, marks=pytest.mark.slow if seed == LARGE else ()) for seed in range(47) if seed not in OUT_OF_REACH]
+
+
+@pytest.mark.parametrize("seed", DRAWN)
 def test_machines_drawn_by_a_seed(seed):
     """Random cranks, corners and offsets, in random spellings: the same machine as in steps; equilibrium agrees with virtual work."""
     vectors, steps = machines(seed)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import struct
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -154,12 +155,12 @@ def catalogue_faults(package: str, language: str) -> Iterator[str]:
     """Yield what is wrong with a catalogue, beside the source and beside its compiled form."""
     path = catalogue_path(package, language)
     found = entries(path.read_text(encoding="utf-8"))
-    said, listed = source_messages(package), [each.message for each in found[1:]]
+    said, listed = source_messages(package), Counter(each.message for each in found[1:])
     known = {each.message for other in BELOW[package] for each in entries(catalogue_path(other, language).read_text(encoding="utf-8"))}
     yield from (f"{path}: {fault}" for entry in found[1:] for fault in entry_faults(entry))
     yield from (f"{path}: {each.text!r} ({said[each]}) is missing" for each in said if each not in known and each not in listed)
     yield from (f"{path}: {each.text!r} is said nowhere" for each in listed if each not in said)
-    yield from (f"{path}: {each.text!r} stands twice" for each in set(listed) if listed.count(each) > 1)
+    yield from (f"{path}: {each.text!r} stands twice" for each, times in listed.items() if times > 1)
     yield from (f"{path}: {each.text!r} stands in a catalogue below" for each in listed if each in known)
     if path.with_suffix(".mo").read_bytes() != compiled(found):
         yield f"{path}: the .mo beside it is of another one; run python -m tests.tools.catalogues"

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, TypeAlias, final
+from typing import Any, Generic, Self, TypeAlias, TypeVar, final
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +16,59 @@ Numbers: TypeAlias = float | FloatArray
 """One number, or one for each design or pose."""
 Scalar: TypeAlias = Any
 """A number, an array or a traced node: whatever the reading at hand works on."""
+
+
+Given = TypeVar("Given")
+Result = TypeVar("Result")
+
+
+class Operators(Generic[Given, Result]):
+    """The base of what calculates: each of Python's operators is `applied`, by the name of NumPy's function, to its operands in order."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def applied(self, function: str, *operands: Any) -> Result:
+        """Return what NumPy's function of that name makes of operands, this one among them; NotImplemented to leave it to another one."""
+
+    def __add__(self, other: Given) -> Result:
+        return self.applied("add", self, other)
+
+    def __radd__(self, other: Given) -> Result:
+        return self.applied("add", other, self)
+
+    def __sub__(self, other: Given) -> Result:
+        return self.applied("subtract", self, other)
+
+    def __rsub__(self, other: Given) -> Result:
+        return self.applied("subtract", other, self)
+
+    def __mul__(self, other: Given) -> Result:
+        return self.applied("multiply", self, other)
+
+    def __rmul__(self, other: Given) -> Result:
+        return self.applied("multiply", other, self)
+
+    def __truediv__(self, other: Given) -> Result:
+        return self.applied("divide", self, other)
+
+    def __rtruediv__(self, other: Given) -> Result:
+        return self.applied("divide", other, self)
+
+    def __pow__(self, other: Given) -> Result:
+        return self.applied("power", self, other)
+
+    def __rpow__(self, other: Given) -> Result:
+        return self.applied("power", other, self)
+
+    def __neg__(self) -> Result:
+        return self.applied("negative", self)
+
+    def __pos__(self) -> Self:
+        return self
+
+    def __abs__(self) -> Result:
+        return self.applied("absolute", self)
 
 
 def pick(a: Scalar, b: Scalar, x: Scalar, y: Scalar) -> Scalar:

@@ -41,7 +41,7 @@ class LineDerivatives:
             if rate in (sympy.S.Zero, STILL) or getattr(rate, "is_zero_matrix", False):
                 continue
             self.known[line.lhs] = self.names.derivative(line.lhs, self.stroke)
-            self._found.append(ListingLine(self.known[line.lhs], rate, line.unit * self.unit**-1))
+            self._found.append(ListingLine(self.known[line.lhs], rate, line.unit.times(self.unit.to_the(-1))))
         return self._found
 
     # -- scalars ---------------------------------------------------------------------------------------
@@ -99,7 +99,7 @@ class LineDerivatives:
             return Dot(vector, rate) / Norm(vector)
         if Norm(vector) not in self.known:
             symbol = self.known[Norm(vector)] = self.names.stretching(vector, self.stroke)
-            self._found.append(ListingLine(symbol, Dot(vector, rate) / Norm(vector), LENGTH * self.unit**-1))
+            self._found.append(ListingLine(symbol, Dot(vector, rate) / Norm(vector), LENGTH.times(self.unit.to_the(-1))))
         return self.known[Norm(vector)]
 
     # -- vectors ---------------------------------------------------------------------------------------

@@ -20,7 +20,7 @@ from ..plan import Plan
 from ..program.traced import elementwise
 from ..quantities import Quantity, Tabulated, unnamed
 from ..units import SI, UNITS, deg, unit_or_none
-from ..vectors import Vec
+from ..vectors import Operators, Vec
 from .words import Cross, Deg, Dot, Norm, TurnV
 
 # What an expression measures: lengths, angles, and products of them.
@@ -36,10 +36,12 @@ class Unit:
     known: bool = True
     named: str = ""
 
-    def __mul__(self, other: Unit) -> Unit:
+    def times(self, other: Unit) -> Unit:
+        """Return the unit of a product."""
         return Unit(self.length + other.length, self.angle + other.angle, self.plain and other.plain)
 
-    def __pow__(self, power: Fraction | int) -> Unit:
+    def to_the(self, power: Fraction | int) -> Unit:
+        """Return the unit of a power."""
         return Unit(self.length * power, self.angle * power, self.plain)
 
     @property
@@ -129,7 +131,7 @@ def degrees(value: float) -> Any:
 
 
 @final
-class Term:
+class Term(Operators[Any, "Term"]):
     """An expression and its unit; adds, multiplies and takes NumPy's functions, as the rules of quantities ask."""
 
     def __init__(self, expr: Any, unit: Unit = NUMBER) -> None:
@@ -141,60 +143,14 @@ class Term:
             return Term(degrees(float(self.expr)), ANGLE)
         return self
 
-    def _plus(self, other: Any, sign: int) -> Term:
-        a, b = self, term(other)
-        if ANGLE in (a.unit, b.unit):
-            a, b = a.as_angle(), b.as_angle()
-        return Term(a.expr + sign * b.expr, b.unit if a.unit == NUMBER else a.unit)
-
-    def __add__(self, other: Any) -> Term:
-        return self._plus(other, 1)
-
-    def __radd__(self, other: Any) -> Term:
-        return term(other)._plus(self, 1)
-
-    def __sub__(self, other: Any) -> Term:
-        return self._plus(other, -1)
-
-    def __rsub__(self, other: Any) -> Term:
-        return term(other)._plus(self, -1)
-
-    def __mul__(self, other: Any) -> Term:
-        b = term(other)
-        return Term(self.expr * b.expr, self.unit * b.unit)
-
-    def __rmul__(self, other: Any) -> Term:
-        return term(other) * self
-
-    def __truediv__(self, other: Any) -> Term:
-        b = term(other)
-        return Term(self.expr / b.expr, self.unit * b.unit**-1)
-
-    def __rtruediv__(self, other: Any) -> Term:
-        return term(other) / self
-
-    def __pow__(self, other: Any) -> Term:
-        b = term(other)
-        power = Fraction(str(b.expr)) if b.expr.is_Integer or b.expr.is_Float else Fraction(0)
-        exact = sympy.Rational(1, 2) if b.expr == sympy.Float(0.5) else b.expr
-        return Term(self.expr**exact, self.unit**power)
-
-    def __rpow__(self, other: Any) -> Term:
-        return term(other) ** self
-
-    def __neg__(self) -> Term:
-        return Term(-self.expr, self.unit)
-
-    def __pos__(self) -> Term:
-        return self
-
-    def __abs__(self) -> Term:
-        return Term(sympy.Abs(self.expr), self.unit)
+    def applied(self, function: str, *operands: Any) -> Term:
+        """Return what NumPy's function of that name makes of terms and numbers."""
+        return FUNCTIONS[function](*map(term, operands))
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Term:
         if method != "__call__" or options or ufunc.__name__ not in FUNCTIONS:
             raise DefinitionError(f"{ufunc.__name__} has no symbolic form; use one of: {', '.join(FUNCTIONS)}.")
-        found: Term = elementwise(lambda *numbers: FUNCTIONS[ufunc.__name__](*map(term, numbers)), inputs)
+        found: Term = elementwise(lambda *numbers: self.applied(ufunc.__name__, *numbers), inputs)
         return found
 
     def __lt__(self, other: Any) -> Relation:
@@ -259,15 +215,41 @@ def keeping_unit(function: Any) -> Callable[..., Term]:
     return lambda *terms: Term(function(*(each.expr for each in terms)), max(terms, key=lambda each: each.unit != NUMBER).unit)
 
 
+def sum_of(a: Term, b: Term) -> Term:
+    """Return a sum; a plain number beside an angle is one in degrees."""
+    if ANGLE in (a.unit, b.unit):
+        a, b = a.as_angle(), b.as_angle()
+    return Term(a.expr + b.expr, b.unit if a.unit == NUMBER else a.unit)
+
+
+def difference_of(a: Term, b: Term) -> Term:
+    """Return a difference; a plain number beside an angle is one in degrees."""
+    if ANGLE in (a.unit, b.unit):
+        a, b = a.as_angle(), b.as_angle()
+    return Term(a.expr - b.expr, b.unit if a.unit == NUMBER else a.unit)
+
+
+def power_of(a: Term, b: Term) -> Term:
+    """Return a power; of an exponent that is no number the unit is not known."""
+    power = Fraction(str(b.expr)) if b.expr.is_Integer or b.expr.is_Float else Fraction(0)
+    exact = sympy.Rational(1, 2) if b.expr == sympy.Float(0.5) else b.expr
+    return Term(a.expr**exact, a.unit.to_the(power))
+
+
+def quotient_of(a: Term, b: Term) -> Term:
+    """Return a quotient."""
+    return Term(a.expr / b.expr, a.unit.times(b.unit.to_the(-1)))
+
+
 FUNCTIONS: dict[str, Callable[..., Term]] = {
-    "add": lambda a, b: a + b,
-    "subtract": lambda a, b: a - b,
-    "multiply": lambda a, b: a * b,
-    "divide": lambda a, b: a / b,
-    "true_divide": lambda a, b: a / b,
-    "power": lambda a, b: a**b,
-    "negative": lambda a: -a,
-    "sqrt": lambda a: Term(sympy.sqrt(a.expr), a.unit ** Fraction(1, 2)),
+    "add": sum_of,
+    "subtract": difference_of,
+    "multiply": lambda a, b: Term(a.expr * b.expr, a.unit.times(b.unit)),
+    "divide": quotient_of,
+    "true_divide": quotient_of,
+    "power": power_of,
+    "negative": lambda a: Term(-a.expr, a.unit),
+    "sqrt": lambda a: Term(sympy.sqrt(a.expr), a.unit.to_the(Fraction(1, 2))),
     "square": lambda a: a**2,
     "hypot": lambda a, b: (a**2 + b**2) ** 0.5,
     "sin": as_number(sympy.sin),
@@ -361,15 +343,15 @@ class Place:
 
     def __mul__(self, factor: Any) -> Place:
         scale = term(factor)
-        return self._like(lambda: self.expr if scale.expr == 1 else MatMul(scale.expr, self.expr), self.unit * scale.unit)
+        return self._like(lambda: self.expr if scale.expr == 1 else MatMul(scale.expr, self.expr), self.unit.times(scale.unit))
 
     def dot(self, other: Place | Vec) -> Term:
         """Return the scalar product."""
-        return Term(Dot(self.expr, vector_expr(other)), self.unit * vector_unit(other))
+        return Term(Dot(self.expr, vector_expr(other)), self.unit.times(vector_unit(other)))
 
     def cross(self, other: Place | Vec) -> Term:
         """Return the z component of the vector product."""
-        return Term(Cross(self.expr, vector_expr(other)), self.unit * vector_unit(other))
+        return Term(Cross(self.expr, vector_expr(other)), self.unit.times(vector_unit(other)))
 
     def left(self) -> Place:
         """Return this vector turned by +90 degrees."""

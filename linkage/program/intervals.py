@@ -14,6 +14,7 @@ from typing import final
 
 import numpy as np
 
+from ..vectors import Operators
 from .node import Node
 from .schedule import ancestors
 
@@ -23,7 +24,7 @@ OUTWARDS = 1e-14
 
 @final
 @dataclass(frozen=True)
-class Enclosure:
+class Enclosure(Operators["Enclosure | float", "Enclosure"]):
     """What lies between two values, these included."""
 
     low: float
@@ -42,51 +43,9 @@ class Enclosure:
         low, high = min(ends), max(ends)
         return cls(low - OUTWARDS * abs(low), high + OUTWARDS * abs(high))
 
-    def __add__(self, other: Enclosure | float) -> Enclosure:
-        other = Enclosure.of(other)
-        return Enclosure.around([self.low + other.low, self.high + other.high])
-
-    __radd__ = __add__
-
-    def __neg__(self) -> Enclosure:
-        return Enclosure(-self.high, -self.low)
-
-    def __sub__(self, other: Enclosure | float) -> Enclosure:
-        return self + -Enclosure.of(other)
-
-    def __rsub__(self, other: Enclosure | float) -> Enclosure:
-        return Enclosure.of(other) - self
-
-    def __mul__(self, other: Enclosure | float) -> Enclosure:
-        other = Enclosure.of(other)
-        return Enclosure.around([bounded_product(a, b) for a in (self.low, self.high) for b in (other.low, other.high)])
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Enclosure | float) -> Enclosure:
-        other = Enclosure.of(other)
-        if other.low <= 0.0 <= other.high:
-            return ANYTHING
-        return self * Enclosure.around([1.0 / other.low, 1.0 / other.high])
-
-    def __rtruediv__(self, other: Enclosure | float) -> Enclosure:
-        return Enclosure.of(other) / self
-
-    def __pow__(self, other: Enclosure | float) -> Enclosure:
-        exponent = Enclosure.of(other)
-        if exponent.low != exponent.high:
-            return (
-                ANYTHING
-                if self.low <= 0.0
-                else Enclosure.around([a**b for a in (self.low, self.high) for b in (exponent.low, exponent.high)])
-            )
-        power = exponent.low
-        if self.low > 0.0 or (self.low >= 0.0 and power > 0.0):
-            return Enclosure.around([self.low**power, self.high**power])
-        if power == int(power) and power > 0.0:
-            ends = [self.low**power, self.high**power]
-            return Enclosure.around([*ends, 0.0] if self.low < 0.0 < self.high and power % 2.0 == 0.0 else ends)
-        return ANYTHING
+    def applied(self, function: str, *operands: Enclosure | float) -> Enclosure:
+        """Return what a function of RULES makes of enclosures and numbers."""
+        return RULES[function](*map(Enclosure.of, operands))
 
 
 ANYTHING = Enclosure(-inf, inf)
@@ -97,9 +56,28 @@ def bounded_product(a: float, b: float) -> float:
     return 0.0 if a == 0.0 or b == 0.0 else a * b
 
 
-def squared(a: Enclosure) -> Enclosure:
-    """Return what squares lie between."""
-    return a**2.0
+def enclosed_product(a: Enclosure, b: Enclosure) -> Enclosure:
+    """Return what products lie between."""
+    return Enclosure.around([bounded_product(x, y) for x in (a.low, a.high) for y in (b.low, b.high)])
+
+
+def enclosed_quotient(a: Enclosure, b: Enclosure) -> Enclosure:
+    """Return what quotients lie between; anything where the divisor may be zero."""
+    return ANYTHING if b.low <= 0.0 <= b.high else enclosed_product(a, Enclosure.around([1.0 / b.low, 1.0 / b.high]))
+
+
+def enclosed_power(a: Enclosure, exponent: Enclosure) -> Enclosure:
+    """Return what powers lie between."""
+    if exponent.low != exponent.high:
+        powers = [x**y for x in (a.low, a.high) for y in (exponent.low, exponent.high)] if a.low > 0.0 else []
+        return Enclosure.around(powers) if powers else ANYTHING
+    power = exponent.low
+    if a.low > 0.0 or (a.low >= 0.0 and power > 0.0):
+        return Enclosure.around([a.low**power, a.high**power])
+    if power == int(power) and power > 0.0:
+        ends = [a.low**power, a.high**power]
+        return Enclosure.around([*ends, 0.0] if a.low < 0.0 < a.high and power % 2.0 == 0.0 else ends)
+    return ANYTHING
 
 
 def root_of(a: Enclosure) -> Enclosure:
@@ -119,19 +97,19 @@ def logarithm(a: Enclosure) -> Enclosure:
 
 RULES: Mapping[str, Callable[..., Enclosure]] = MappingProxyType(
     {
-        "add": lambda a, b: a + b,
-        "subtract": lambda a, b: a - b,
-        "multiply": lambda a, b: a * b,
-        "negative": lambda a: -a,
-        "divide": lambda a, b: a / b,
-        "reciprocal": lambda a: 1.0 / a,
-        "square": squared,
+        "add": lambda a, b: Enclosure.around([a.low + b.low, a.high + b.high]),
+        "subtract": lambda a, b: Enclosure.around([a.low - b.high, a.high - b.low]),
+        "multiply": enclosed_product,
+        "negative": lambda a: Enclosure(-a.high, -a.low),
+        "divide": enclosed_quotient,
+        "reciprocal": lambda a: enclosed_quotient(Enclosure(1.0, 1.0), a),
+        "square": lambda a: enclosed_power(a, Enclosure(2.0, 2.0)),
         "sqrt": root_of,
         "sin": lambda a: Enclosure(-1.0, 1.0),
         "cos": lambda a: Enclosure(-1.0, 1.0),
         "exp": lambda a: Enclosure.around([float(np.exp(min(a.low, 700.0))), inf if a.high > 700.0 else float(np.exp(a.high))]),
         "log": logarithm,
-        "power": lambda a, b: a**b,
+        "power": enclosed_power,
         "absolute": without_sign,
         "sign": lambda a: Enclosure(-1.0, 1.0),
         "minimum": lambda a, b: Enclosure(min(a.low, b.low), min(a.high, b.high)),

@@ -6,16 +6,17 @@ and each node knows whether it depends on nothing, on the design only, or on the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from enum import IntEnum
 from threading import Lock
+from types import MappingProxyType
 from typing import Any, NoReturn, TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError
-from ..vectors import Scalar
+from ..vectors import Operators, Scalar
 from .operations import OPERATIONS
 
 Operand: TypeAlias = "Node | float"
@@ -31,7 +32,7 @@ class Level(IntEnum):
 
 
 @final
-class Node:
+class Node(Operators["Operand", "Node"]):
     """One scalar of the program: a constant, an input, or an operation on nodes.
 
     `origin` is the node that holds its value: a root or an alias is its value under another name.
@@ -45,44 +46,10 @@ class Node:
         self.origin: Node = args[0].origin if op in ("root", "alias") else self
         self.closure: Closure | None = None
 
-    def __add__(self, other: Operand) -> Node:
-        return self.graph.apply("add", self, other)
-
-    def __radd__(self, other: Operand) -> Node:
-        return self.graph.apply("add", other, self)
-
-    def __sub__(self, other: Operand) -> Node:
-        return self.graph.apply("subtract", self, other)
-
-    def __rsub__(self, other: Operand) -> Node:
-        return self.graph.apply("subtract", other, self)
-
-    def __mul__(self, other: Operand) -> Node:
-        return self.graph.apply("multiply", self, other)
-
-    def __rmul__(self, other: Operand) -> Node:
-        return self.graph.apply("multiply", other, self)
-
-    def __truediv__(self, other: Operand) -> Node:
-        return self * self.graph.apply("reciprocal", other)
-
-    def __rtruediv__(self, other: Operand) -> Node:
-        return self.graph.apply("multiply", other, self.graph.apply("reciprocal", self))
-
-    def __pow__(self, other: Operand) -> Node:
-        return self.graph.power(self, other)
-
-    def __rpow__(self, other: Operand) -> Node:
-        return self.graph.power(self.graph.node(other), self)
-
-    def __neg__(self) -> Node:
-        return self.graph.apply("negative", self)
-
-    def __pos__(self) -> Node:
-        return self
-
-    def __abs__(self) -> Node:
-        return self.graph.apply("absolute", self)
+    def applied(self, function: str, *operands: Operand) -> Node:
+        """Return the node of NumPy's function of that name; of those that no operation is, from others."""
+        rule = COMPOSED.get(function)
+        return self.graph.apply(function, *operands) if rule is None else rule(self.graph, *operands)
 
     def _compared(self, other: object) -> NoReturn:
         """Raise DefinitionError: a rule is read once for all poses."""
@@ -94,20 +61,12 @@ class Node:
     __lt__ = __le__ = __gt__ = __ge__ = _compared
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Operand, **options: object) -> Any:
-        name = {"true_divide": "divide"}.get(ufunc.__name__, ufunc.__name__)
+        name = ufunc.__name__
         if method != "__call__" or options:
             return NotImplemented
-        if name == "divide":
-            return self.graph.node(inputs[0]) / inputs[1]
-        if name == "power":
-            return self.graph.power(self.graph.node(inputs[0]), inputs[1])
-        if name == "square":
-            return self * self
-        if name == "hypot":
-            return self.graph.apply("sqrt", self.graph.node(inputs[0]) ** 2 + self.graph.node(inputs[1]) ** 2)
-        if name not in OPERATIONS:
+        if name not in OPERATIONS and name not in COMPOSED:
             raise DefinitionError(f"{ufunc.__name__} cannot be traced; use one of: {', '.join(OPERATIONS)}.")
-        return self.graph.apply(name, *inputs)
+        return self.applied(name, *inputs)
 
     def __repr__(self) -> str:
         if self.op in ("constant", "input"):
@@ -288,6 +247,23 @@ class Graph:
         for root in roots:
             root.closure = closure
         return unknowns
+
+
+def quotient(graph: Graph, a: Operand, b: Operand) -> Node:
+    """Return a / b: a product with a reciprocal, which others share."""
+    return graph.apply("multiply", a, graph.apply("reciprocal", b))
+
+
+COMPOSED: Mapping[str, Callable[..., Node]] = MappingProxyType(
+    {
+        "divide": quotient,
+        "true_divide": quotient,
+        "power": lambda graph, base, exponent: graph.power(graph.node(base), exponent),
+        "square": lambda graph, a: graph.apply("multiply", a, a),
+        "hypot": lambda graph, a, b: graph.apply("sqrt", graph.node(a) ** 2 + graph.node(b) ** 2),
+    }
+)
+"""The functions that are written by other operations."""
 
 
 def operation_key(op: str, args: tuple[Node, ...]) -> tuple[object, ...]:

@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes, unmasked
 from ..units import deg
-from ..vectors import FloatArray, Scalar, Vec
+from ..vectors import FloatArray, Operators, Scalar, Vec
 from .arithmetic import Arithmetic
 from .member import Member, Reference, Turning, Where
 
@@ -99,19 +99,6 @@ def in_degrees(value: float) -> str:
 
 
 Operand: TypeAlias = "Quantity | float | str"
-Operator: TypeAlias = "Callable[[Quantity, Operand], Quantity]"
-
-
-def both(symbol: str) -> tuple[Operator, Operator]:
-    """Return an operator as a quantity's two methods: with the quantity on its left, and on its right."""
-
-    def left(self: Quantity, other: Operand) -> Any:
-        return NotImplemented if isinstance(other, Arithmetic) else joined(symbol, self, quantity(other))
-
-    def right(self: Quantity, other: Operand) -> Quantity:
-        return joined(symbol, quantity(other), self)
-
-    return left, right
 
 
 def joined(symbol: str, a: Quantity, b: Quantity) -> Quantity:
@@ -163,7 +150,7 @@ class PoseCondition:
     __lt__ = __le__ = __gt__ = __ge__ = _no_number
 
 
-class Quantity(Member):
+class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
     """A scalar member or a part of one. Adds, multiplies and takes NumPy's functions."""
 
     kind = "quantity"
@@ -196,11 +183,14 @@ class Quantity(Member):
         """Return this as it is written where it stands for what `measures` says: numbers of an `angle` are in degrees."""
         return str(self)
 
-    __add__, __radd__ = both("+")
-    __sub__, __rsub__ = both("-")
-    __mul__, __rmul__ = both("*")
-    __truediv__, __rtruediv__ = both("/")
-    __pow__, __rpow__ = both("**")
+    def applied(self, function: str, *operands: Operand) -> Quantity:
+        """Return what NumPy's function of that name makes of quantities; NotImplemented beside what calculates with quantities."""
+        if any(isinstance(each, Arithmetic) for each in operands):
+            return NotImplemented  # type: ignore[no-any-return]
+        given = [quantity(each) for each in operands]
+        if function == "negative":
+            return Negative(*given)
+        return joined(UFUNCS[function], *given) if function in UFUNCS else Function(function, *given)
 
     def __bool__(self) -> NoReturn:
         raise DefinitionError(f"{self}: a quantity has no value in a class, so that `if`, `and`, `or` cannot choose by it; {CHOICE}.")
@@ -221,15 +211,6 @@ class Quantity(Member):
 
     __mod__ = __rmod__ = __floordiv__ = __rfloordiv__ = __matmul__ = __rmatmul__ = __divmod__ = __rdivmod__ = __round__ = _not_provided
 
-    def __neg__(self) -> Quantity:
-        return Negative(self)
-
-    def __pos__(self) -> Quantity:
-        return self
-
-    def __abs__(self) -> Quantity:
-        return Function("absolute", self)
-
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Operand, **options: object) -> Quantity:
         """Return what NumPy's numbers and functions make of quantities: np.sqrt(L), np.float64(2) * L."""
         name = ufunc.__name__
@@ -239,8 +220,7 @@ class Quantity(Member):
             raise DefinitionError(f"{name} of a quantity is not provided in this form.")
         if name not in UFUNCS and name not in FUNCTIONS:
             raise DefinitionError(f"{name} of a quantity is not provided; use one of: {', '.join(FUNCTIONS)}.")
-        given = [quantity(each) for each in inputs]
-        return joined(UFUNCS[name], *given) if name in UFUNCS else Function(name, *given)
+        return self.applied(name, *inputs)
 
 
 def identity_of_parts(whole: Quantity, kind: str, *parts: Quantity) -> Hashable:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import final
 
 import numpy as np
@@ -40,7 +40,8 @@ class LinearForm:
     friction: FloatArray
     rest: FloatArray
 
-    def __add__(self, other: LinearForm) -> LinearForm:
+    def plus(self, other: LinearForm) -> LinearForm:
+        """Return the sum of two forms."""
         return LinearForm(self.row + other.row, self.friction + other.friction, self.rest + other.rest)
 
     def times(self, factor: FloatArray) -> LinearForm:
@@ -157,7 +158,7 @@ class System:
                 f"declare it by Dyad(..., AB=... + {stroke}), Crank, OnGuide or OnLink, "
                 "or by the drives in the joints() of a step of one's own."
             )
-        return sum(forms[1:], forms[0])
+        return reduce(LinearForm.plus, forms)
 
     def drives(self, stroke: str) -> Iterator[tuple[FloatArray, LinearForm]]:
         """Yield how each driven quantity follows a stroke, shape (n,), with the force that drives it; those that do not are left out."""
@@ -239,5 +240,5 @@ class System:
             struts = [each for each in self.structure.struts if each.line is line]
             (first, *others) = [(self.thrust(each), area) for each, area in zip(struts, areas(line, self.poses, way), strict=True)]
             none = self.poses.zeros()
-            found += [(form.times(first[1]) + first[0].times(-1.0 * area), none) for form, area in others]
+            found += [(form.times(first[1]).plus(first[0].times(-1.0 * area)), none) for form, area in others]
         return found

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import final
 
 import numpy as np
@@ -75,7 +76,7 @@ class LengthLine:
         """The ends of the line itself."""
         return self.P + self.aside, self.Q + self.aside
 
-    @property
+    @cached_property
     def covered(self) -> FloatArray:
         """Points that it covers, shape (m, 2) [m]: its text counts double."""
         start, end = self.ends
@@ -115,7 +116,7 @@ class AngleArc:
         way = 0.5 * (self.start + self.end)
         return np.asarray(self.corner + self.radius * np.array([np.cos(way), np.sin(way)]))
 
-    @property
+    @cached_property
     def covered(self) -> FloatArray:
         """Points that it covers, shape (m, 2) [m]."""
         ways = np.linspace(self.start, self.end, 15)

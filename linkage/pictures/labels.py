@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
+from ..plan import Mask
 from ..program import FloatArray
 from . import style
 from .scene import Places
@@ -16,8 +17,8 @@ from .style import Look
 from .symbols import MovingPart
 
 REACH = (1.0, 1.4, 2.0, 2.8, 4.0, 5.5, 7.5)
-WAYS = np.radians(np.arange(60.0, 420.0, 15.0))
-"""The places a label tries: distances, as multiples of the nearest, and directions [rad], the preferred one first."""
+WAYS = np.array([[np.cos(way), np.sin(way)] for way in np.radians(np.arange(60.0, 420.0, 15.0))])
+"""The places a label tries: distances, as multiples of the nearest, and directions, the preferred one first."""
 
 LED = 1.9
 """A label that begins farther from its point than so many times the nearest distance is joined to it by a thin line."""
@@ -75,7 +76,7 @@ def offsets(
     taken = [cloud * scale for cloud in clouds]
     anchors = {name: np.array([at[name] for at in poses]).reshape(-1, 2) * scale for name in names}
     halves = {name: half_of(name, font * (MINOR if name in minor else 1.0)) for name in names}
-    tried = {name: np.array(candidates(halves[name], gap, far)) for name in names}
+    tried = {name: candidates(halves[name], gap, far) for name in names}
     alone = {name: own_costs(name, tried[name], halves[name], anchors, taken, gap) for name in names}
     spots: dict[str, FloatArray] = {}
     order = sorted(names, key=lambda each: -float(np.median(alone[each])))
@@ -98,25 +99,24 @@ def half_of(name: str, font: float) -> FloatArray:
     return 0.5 * font * np.array([0.68 * len(name) + 0.15, 0.95])
 
 
-def candidates(half: FloatArray, gap: float, far: float = np.inf) -> list[FloatArray]:
-    """Return the offsets a label of half that width and height tries, the preferred first, none beginning beyond `far`."""
-    ways = [np.array([np.cos(way), np.sin(way)]) for way in WAYS]
-    return [reach * gap * way + half * np.clip(np.sqrt(2.0) * way, -1.0, 1.0) for reach in REACH if reach * gap <= far for way in ways]
+def candidates(half: FloatArray, gap: float, far: float = np.inf) -> FloatArray:
+    """Return the offsets a label of half that width and height tries, shape (c, 2), the preferred first, none beginning beyond `far`."""
+    reaches = np.array([reach * gap for reach in REACH if reach * gap <= far])
+    return np.asarray(reaches[:, None, None] * WAYS + half * np.clip(np.sqrt(2.0) * WAYS, -1.0, 1.0)).reshape(-1, 2)
 
 
 def own_costs(
     name: str, spots: FloatArray, half: FloatArray, anchors: Mapping[str, FloatArray], taken: Sequence[FloatArray], gap: float
 ) -> FloatArray:
     """Return what each place of a label costs by itself, shape (c,): what it covers, a pose, and the other pins that it is nearer to."""
-    poses = max(len(taken), 1)
-    costs = 0.02 * np.arange(len(spots)) + 1.2 * np.maximum(distance_to_box(spots, half) / gap - LED, 0.0)
+    poses, away = max(len(taken), 1), distance_to_box(spots, half)
+    costs = 0.02 * np.arange(len(spots)) + 1.2 * np.maximum(away / gap - LED, 0.0)
     for pose, points in enumerate(taken):
         own = anchors[name][pose]
         if not np.isfinite(own).all():
             continue
-        near = points[(np.abs(points - own) < np.abs(spots).max() + half.max() + 2.0).all(axis=1)] - own
-        costs = costs + (np.abs(near[None] - spots[:, None]) < half + 1.0).all(axis=2).sum(axis=1) / poses
-        away = distance_to_box(spots, half)
+        near = points[is_inside(points - own, np.abs(spots).max() + half.max() + 2.0)] - own
+        costs = costs + np.count_nonzero(is_inside(near - spots[:, None], half + 1.0), axis=1) / poses
         for other, places in anchors.items():
             place = places[pose] - own
             if other != name and np.isfinite(place).all() and np.hypot(*place) > TOGETHER * gap:
@@ -127,7 +127,13 @@ def own_costs(
 
 def distance_to_box(away: FloatArray, half: FloatArray) -> FloatArray:
     """Return how far boxes, whose centres stand at some ways from a point, shape (..., 2), lie from it."""
-    return np.asarray(np.hypot(*np.moveaxis(np.maximum(np.abs(away) - half, 0.0), -1, 0)))
+    return np.asarray(np.hypot(np.maximum(np.abs(away[..., 0]) - half[0], 0.0), np.maximum(np.abs(away[..., 1]) - half[1], 0.0)))
+
+
+def is_inside(away: FloatArray, half: FloatArray) -> Mask:
+    """Return which ways, shape (..., 2), end within a box about their start; `half` its width and height."""
+    wide, high = np.broadcast_to(half, 2)
+    return np.asarray((np.abs(away[..., 0]) < wide) & (np.abs(away[..., 1]) < high))
 
 
 def overlaps(
@@ -135,4 +141,4 @@ def overlaps(
 ) -> FloatArray:
     """Return at which share of the poses a label at each of its places covers another one, shape (c,)."""
     between = (anchors - others)[:, None] + spots - other
-    return np.asarray((np.abs(between) < half + other_half + 0.5).all(axis=2).mean(axis=0))
+    return np.asarray(is_inside(between, half + other_half + 0.5).mean(axis=0))

@@ -150,8 +150,8 @@ def test_over_is_named_or_said_by_its_strokes(said, over):
 
 
 def test_overs_stand_one_after_the_other(said):
-    _, out, _ = said(f"show {DECLARED} --over level --over S2=0.2")
-    assert "S2 = 0 to 0.1 m" in out and "S2 = 0.2 m" in out
+    _, out, _ = said(f"show {DECLARED} --over level --over S2=0.05")
+    assert "S2 = 0 to 0.1 m" in out and "S2 = 0.05 m" in out
 
 
 def test_limits_are_those_of_an_over(said):

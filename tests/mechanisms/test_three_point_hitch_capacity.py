@@ -185,6 +185,7 @@ def test_what_limits_first():
     assert "the pressure comes first" in verdict(ThreePointHitch, "largest implement", vehicle_mass=80e3)
 
 
+@pytest.mark.slow
 def test_unreached_poses_are_told():
     hitch = ThreePointHitch()
     text = hitch.verdicts(hitch.at(S=[0.0, 0.1, 0.45], unreachable="nan"))
@@ -192,6 +193,10 @@ def test_unreached_poses_are_told():
     (share,) = re.findall("FAIL assembly: over S = 0 to 0.45 m ([0-9.]+) % cannot be assembled", text[0])
     assert float(share) == pytest.approx(100 * (0.45 - 0.4083) / 0.45, abs=0.05)
     assert "B = Dyad(A, O)" in text[0] and "what follows holds for the rest" in text[0]
+
+
+def test_poses_of_which_none_is_reached_are_told():
+    hitch = ThreePointHitch()
     nowhere = hitch.at(S=[0.5, 0.6], unreachable="nan")
     (said,) = hitch.verdicts(nowhere)
     assert said.startswith("FAIL assembly: B = Dyad(A, O) cannot be assembled at 2 of 2 strokes")

@@ -128,7 +128,7 @@ def check(machine, designs, n=9):
     [
         *((each, 3) for each in (ThreePointHitch, MowerLift, Grapple)),
         (Grab, 1),
-        *((each, 0) for each in (CorneredOnce, LostOnce)),  # two strokes: Python looks at many poses
+        (CorneredOnce, 0),  # two strokes: Python looks at many poses
         *(pytest.param(each, 3, marks=SLOW) for each in (Grab, CorneredOnce, LostOnce, Cornered, Lost)),
     ],
 )

@@ -163,7 +163,8 @@ def test_an_infinite_derivative_is_no_error(solver):
 
 
 def test_a_bore_that_stands_on_its_rod_is_named():
-    best = optimise(Boom(), minimise=at("lift.bore"), vary={"lift.bore": (50 * mm, 0.12)}, subject_to=[most(buckling("lift")) <= 1.0])
+    holds = most(buckling("lift")) <= 1.0
+    best = optimise(Boom(), minimise=at("lift.bore"), vary={"lift.bore": (50 * mm, 0.12)}, subject_to=[holds], starts=2)
     assert best.value == pytest.approx(63 * mm, abs=1e-6)
     (edge,) = best.edges
     assert "lift.bore = 63 mm stands at an edge" in edge

@@ -35,7 +35,7 @@ class TextMeasures:
     def __call__(self, machine: Mechanism) -> dict[str, Any]:
         """Return a number or a truth value for each design of a machine, shape (m,), by name."""
         said = self.said(machine)
-        look = self.problem(machine, said).look(machine.dimensions)
+        look = self.problem(machine, said).evaluated(machine.dimensions)
         numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
         count = max(np.size(value) for value in machine.dimensions.values())
         found: dict[str, Any] = {}

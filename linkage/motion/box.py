@@ -49,10 +49,10 @@ class SeenBox(Protocol):
     def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
         """Return the values (K, u, n) at places (u, n, k) of a design each (u,), and which poses (u, n) are reached."""
 
-    def own(self, function: int, design: Index, places: FloatArray) -> FloatArray:
+    def one_function(self, function: int, design: Index, places: FloatArray) -> FloatArray:
         """Return the values (u, n) of one function, by its number, at places (u, n, k) of a design each (u,)."""
 
-    def keeps(self, design: Index, places: FloatArray) -> Mask:
+    def is_kept(self, design: Index, places: FloatArray) -> Mask:
         """Return which places (u, n, k) of a design each (u,) are asked for and reached, as `kept` says of the grid; it costs least."""
 
 
@@ -94,12 +94,12 @@ class Climbs:
     axis: Index
     """The stroke along which a border is followed, -1 where the box is searched."""
 
-    def where(self, mask: Mask | Index) -> Self:
+    def subset(self, mask: Mask | Index) -> Self:
         """Return some of them."""
         return type(self)(*(getattr(self, each.name)[mask] for each in fields(self)))
 
     @classmethod
-    def joined(cls, parts: list[Climbs]) -> Climbs:
+    def concatenated(cls, parts: list[Climbs]) -> Climbs:
         """Return all of several."""
         return cls(*(np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(cls)))
 
@@ -351,21 +351,21 @@ def climbed(box: SeenBox) -> tuple[Climbs, Climbs, FloatArray]:
     span = np.fmax.reduce(finite, axis=-1, initial=-np.inf) - np.fmin.reduce(finite, axis=-1, initial=np.inf)
     least = CLOSE * np.maximum(span, 0.0) + ROUNDED * size
     going, seen = starts_of(box)
-    tops: list[Climbs] = [going.where(NONE)]
-    rough: list[Climbs] = [going.where(NONE)]
+    tops: list[Climbs] = [going.subset(NONE)]
+    rough: list[Climbs] = [going.subset(NONE)]
     for _ in range(ROUNDS):
         going, done, stuck = after_round(going, seen, box.k, least[going.function, going.design])
         edge = ~np.isfinite(seen).all(axis=-1)  # next to what has no value: its border is followed on its own
-        tops.append(going.where(done | (stuck & edge)))
-        rough.append(going.where(stuck & ~done & ~edge))
-        known = Climbs.joined([*tops, *rough, going])
+        tops.append(going.subset(done | (stuck & edge)))
+        rough.append(going.subset(stuck & ~done & ~edge))
+        known = Climbs.concatenated([*tops, *rough, going])
         best = known.best(D)[-len(going.value) :] if len(going.value) else going.value
-        going = going.where(~done & ~stuck & ((going.bound >= best) | (going.value >= best)))
+        going = going.subset(~done & ~stuck & ((going.bound >= best) | (going.value >= best)))
         if not len(going.value):
             break
         seen = at_stencils(box, going, stencil_of(box.k))
     rough.append(going)
-    return Climbs.joined(tops), Climbs.joined(rough), least
+    return Climbs.concatenated(tops), Climbs.concatenated(rough), least
 
 
 # -- where it is not smooth: gradients that are sampled ------------------------------------------------------
@@ -387,7 +387,7 @@ def own_values(box: SeenBox, climbs: Climbs, places: FloatArray) -> FloatArray:
     found = np.empty(places.shape[:2])
     for function in np.unique(climbs.function):
         own = climbs.function == function
-        found[own] = box.own(function, climbs.design[own], places[own])
+        found[own] = box.one_function(function, climbs.design[own], places[own])
     return found
 
 
@@ -426,11 +426,11 @@ def ridden(box: SeenBox, climbs: Climbs, least: FloatArray) -> Climbs:
         way = shortest(slopes, np.asarray(np.isfinite(slopes).all(axis=-1)))
         climbs = stepped(box, climbs, way, places, values, least)
         going = climbs.half >= NARROW
-        ended.append(climbs.where(~going))
-        climbs, least = climbs.where(going), least[going]
+        ended.append(climbs.subset(~going))
+        climbs, least = climbs.subset(going), least[going]
         if not len(least):
             break
-    return Climbs.joined([*ended, climbs])
+    return Climbs.concatenated([*ended, climbs])
 
 
 def evenly(k: int, first: int, count: int) -> FloatArray:
@@ -524,13 +524,13 @@ def on_border(box: SeenBox, alike: Index, climbs: Climbs, places: FloatArray) ->
     keys = np.column_stack([alike[climbs.function], climbs.design, climbs.axis, climbs.half, places.reshape(len(places), -1)])
     _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     inverse = inverse.reshape(-1)
-    own, asked = climbs.where(first), places[first]
+    own, asked = climbs.subset(first), places[first]
     shared = (np.isnan(box.seen) == ~box.kept).all(axis=(1, 2))[own.function]
     found, there = np.array(asked), np.zeros(asked.shape[:2], bool)
     for is_shared in (True, False):
         group = shared == is_shared
         if group.any():
-            found[group], there[group] = border_crossings(box, own.where(group), asked[group], is_shared)
+            found[group], there[group] = border_crossings(box, own.subset(group), asked[group], is_shared)
     if len(box.seen) * found[..., 0].size > MANY:
         return found[inverse], np.where(there[inverse], own_values(box, climbs, found[inverse]), np.nan)
     seen, _ = box.at(own.design, found)
@@ -551,10 +551,10 @@ def border_crossings(box: SeenBox, climbs: Climbs, places: FloatArray, shared: b
         return np.where(fixed, along[..., None], places[of, :, None, :]).reshape(len(along), -1, k)
 
     def kept(along: FloatArray) -> Mask:
-        return box.keeps(climbs.design, on(along, every)).reshape(along.shape)
+        return box.is_kept(climbs.design, on(along, every)).reshape(along.shape)
 
     def known(along: FloatArray, of: Index = every) -> Mask:
-        return ~np.isnan(own_values(box, climbs.where(of), on(along, of)).reshape(along.shape))
+        return ~np.isnan(own_values(box, climbs.subset(of), on(along, of)).reshape(along.shape))
 
     holds = kept if shared else known
     along = np.clip(middle[..., None] + climbs.half[:, None, None] * ACROSS, 0.0, 1.0)
@@ -604,7 +604,7 @@ def hopeful_borders(box: SeenBox, alike: Index, known: FloatArray) -> Climbs:
     row = np.sort(row)
     few = min(BORDERS, max(1, ALL_BORDERS // (len(box.seen) * D)))
     order = order[np.arange(len(row)) - np.searchsorted(row, row) < few]
-    return going.where(order)
+    return going.subset(order)
 
 
 def border_stencil(k: int, axis: Index) -> tuple[FloatArray, Index]:
@@ -631,11 +631,11 @@ def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[C
     going = hopeful_borders(box, alike, known)
     K, D, _ = box.seen.shape
     poles = best_of(going, K, D, 1)
-    poles = poles.where(grows_in_box(box, poles))
+    poles = poles.subset(grows_in_box(box, poles))
     endless = np.zeros((K, D), bool)
     endless[poles.function, poles.design] = True
-    going = going.where(~endless[going.function, going.design])
-    tops, ended = [going.where(NONE)], [going.where(NONE)]
+    going = going.subset(~endless[going.function, going.design])
+    tops, ended = [going.subset(NONE)], [going.subset(NONE)]
     begun = box.count
     for _ in range(ROUNDS):
         if not len(going.value) or box.count - begun > BUDGET:
@@ -648,13 +648,13 @@ def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[C
         beaten = going.value <= (known + least)[going.function, going.design]
         stuck = (going.half < FINE) | (beaten & (going.idle > 2 * PATIENCE))
         going = turned(going, np.asarray(~np.isfinite(values).all(axis=-1)), half)
-        tops.append(going.where(done))
-        ended.append(going.where(stuck & ~done))
-        best = Climbs.joined([*tops, *ended, going]).best(box.seen.shape[1])[-len(going.value) :]
+        tops.append(going.subset(done))
+        ended.append(going.subset(stuck & ~done))
+        best = Climbs.concatenated([*tops, *ended, going]).best(box.seen.shape[1])[-len(going.value) :]
         best = np.maximum(best, known[going.function, going.design])
         stay = ~(done | stuck) & ((going.bound >= best) | (going.value >= best))
-        going = going.where(stay)
-    return Climbs.joined(tops), Climbs.joined([*ended, going]), poles
+        going = going.subset(stay)
+    return Climbs.concatenated(tops), Climbs.concatenated([*ended, going]), poles
 
 
 # -- the search ----------------------------------------------------------------------------------------------
@@ -665,23 +665,23 @@ def highest_in(box: SeenBox) -> HighestInBox:
     """Return the highest values in a box."""
     K, D, _ = box.seen.shape
     tops, rough, least = climbed(box)
-    best = best_of(Climbs.joined([tops, rough]), K, D, 1)
+    best = best_of(Climbs.concatenated([tops, rough]), K, D, 1)
     rough = best_of(rough, K, D, ROUGH)
-    rough = rough.where((rough.value > -np.inf) & (rough.bound >= value_of(best, K, D)[rough.function, rough.design]))
+    rough = rough.subset((rough.value > -np.inf) & (rough.bound >= value_of(best, K, D)[rough.function, rough.design]))
     if len(rough.value):
         rough = ridden(box, rough, least[rough.function, rough.design])
     found = [tops, rough, best]
     missing = np.isnan(box.seen)
     if missing.any() and not missing.all():
-        found += along_borders(box, value_of(best_of(Climbs.joined(found), K, D, 1), K, D), least)
-    doubtful = best_of(Climbs.joined([rough, *found[4:]]), K, D, 1)
-    doubtful = doubtful.where(doubtful.value >= value_of(best_of(Climbs.joined(found), K, D, 1), K, D)[doubtful.function, doubtful.design])
-    grows = grows_in_box(box, doubtful)
-    best = best_of(Climbs.joined(found), K, D, 1)
+        found += along_borders(box, value_of(best_of(Climbs.concatenated(found), K, D, 1), K, D), least)
+    doubtful = best_of(Climbs.concatenated([rough, *found[4:]]), K, D, 1)
+    best = best_of(Climbs.concatenated(found), K, D, 1)
     value, unit = value_of(best, K, D), np.zeros((K, D, box.k))
+    doubtful = doubtful.subset(doubtful.value >= value[doubtful.function, doubtful.design])
+    grows = grows_in_box(box, doubtful)
     unit[best.function, best.design] = best.unit
     unbounded = np.isposinf(value)
-    poles = Climbs.joined([doubtful.where(grows), *found[5:]])
+    poles = Climbs.concatenated([doubtful.subset(grows), *found[5:]])
     unbounded[poles.function, poles.design] = True
     unit[poles.function, poles.design] = poles.unit
     endless = np.equal(box.seen, np.inf)  # where the grid itself is infinite no search starts
@@ -699,7 +699,7 @@ def best_of(climbs: Climbs, K: int, D: int, count: int) -> Climbs:
     order = np.lexsort((-climbs.value, row))
     row = row[order]
     rank = np.arange(len(row)) - np.searchsorted(row, row)
-    return climbs.where(order[rank < count])
+    return climbs.subset(order[rank < count])
 
 
 def value_of(best: Climbs, K: int, D: int) -> FloatArray:
@@ -718,7 +718,7 @@ def grows_in_box(box: SeenBox, climbs: Climbs) -> Mask:
     at = climbs.unit[:, None, None, None, :] + ways
     on = ((at >= 0.0) & (at <= 1.0)).all(axis=-1)
     places = np.clip(at, 0.0, 1.0).reshape(len(at), -1, box.k)
-    seen, reached = own_values(box, climbs, places), box.keeps(climbs.design, places)
+    seen, reached = own_values(box, climbs, places), box.is_kept(climbs.design, places)
     seen, reached = np.where(on, seen.reshape(on.shape), np.nan), reached.reshape(on.shape) & on
     poles = is_pole(np.broadcast_to(climbs.value[:, None], on.shape[:-2]), seen, reached, far, BORDER, SEEN)
     return np.asarray(np.isposinf(climbs.value) | poles.any(axis=(-2, -1)))

@@ -166,10 +166,10 @@ class BulkProgram:
     @classmethod
     def of(cls, plan: Plan, requests: Sequence[Request]) -> BulkProgram:
         """Return the program of requests that are bound to a plan, made once; guards watch what they are built from."""
-        return plan.made(("bulk", tuple([each.key for each in requests])), lambda fork: cls.traced(fork, requests))
+        return plan.made(("bulk", tuple([each.key for each in requests])), lambda fork: cls.compiled_on(fork, requests))
 
     @classmethod
-    def traced(cls, plan: Plan, requests: Sequence[Request]) -> BulkProgram:
+    def compiled_on(cls, plan: Plan, requests: Sequence[Request]) -> BulkProgram:
         """Return the same, traced in a plan of its own."""
         nodes = [each.nodes(plan) for each in requests]
         guards = [*assumed_of(plan, requests), *(node for each in requests for node in each.gaps(plan))]

@@ -49,7 +49,7 @@ from .measures import (
 from .motion import Motion
 from .over import ALLOWED, Over
 from .requests import Request, SmoothPiece, identity_of
-from .search import extremum, moving
+from .search import extremum, strokes_moved
 from .strokes import at_values
 
 Question: TypeAlias = "Measure | Condition"
@@ -168,7 +168,7 @@ class Domain:
     @cached_property
     def running(self) -> tuple[str, ...]:
         """The strokes that run."""
-        return moving(self.motion)
+        return strokes_moved(self.motion)
 
     @cached_property
     def sampled(self) -> Motion:
@@ -343,7 +343,7 @@ class Coverage:
         lost, outside = (float(np.asarray(each)[design]) for each in (self.lost_share, self.outside))
         return replace(self, lost_share=lost, outside=outside, deepest=deepest if lost else {}, design=design)
 
-    def joined(self, other: Coverage) -> Coverage:
+    def with_count_of(self, other: Coverage) -> Coverage:
         """Return it with the poses of another look at the same places."""
         return replace(self, count=self.count + other.count)
 
@@ -362,7 +362,7 @@ class Asked:
             if bound is not None:
                 self._bound[k] = bound
 
-    def kept(self, motion: Motion) -> Mask:
+    def asks_for(self, motion: Motion) -> Mask:
         """Return the mask of poses that are asked for."""
         return self.place.over.kept(motion)
 
@@ -374,7 +374,7 @@ class Asked:
         return self._rows[function]
 
     def __call__(self, motion: Motion) -> FloatArray:
-        kept = self.kept(motion)
+        kept = self.asks_for(motion)
         values, unlimited = self.values(motion)
         if not self.seen.count:
             self.note(motion, kept, values, unlimited)
@@ -633,7 +633,7 @@ class Judge:
 
     def answers(self, questions: Sequence[Question]) -> list[Answer]:
         """Return the answers to some questions, the worst over all there is, in one pass for all; what was asked before is known."""
-        held = [(question, self.constraints(question)) for question in questions_of(self.plan, questions)]
+        held = [(question, self.as_constraints(question)) for question in questions_of(self.plan, questions)]
         for _, each in held:
             check_kinds(self.plan, [one for one in each if isinstance(one, Measure)], [one for one in each if isinstance(one, Constraint)])
         leaves = tuple(dict.fromkeys(leaf for _, each in held for one in each for leaf in leaves_of(one)))
@@ -641,7 +641,7 @@ class Judge:
             self.find(number, leaves)
         return [self.reached() if isinstance(question, Reachable) else self.worst(question, each) for question, each in held]
 
-    def constraints(self, question: Question) -> Sequence[Any]:
+    def as_constraints(self, question: Question) -> Sequence[Any]:
         """Return the constraints that a question is, or the bare measure."""
         return [question] if isinstance(question, Measure) else conditions_of([question], self.machine)
 
@@ -649,11 +649,11 @@ class Judge:
         """Look for the worst of some leaves over one `Over`, by its number, in one pass; what was found before is known."""
         place, known = self.places[number], self._found[number]
         asked = {key: leaf for leaf in leaves if (key := leaf_key(self.plan, leaf)) not in known}
-        rows = {key: self.rows(leaf, self.anywhere if isinstance(leaf, At) else place) for key, leaf in asked.items()}
+        rows = {key: self.sought(leaf, self.anywhere if isinstance(leaf, At) else place) for key, leaf in asked.items()}
         sought = [row for key, each in rows.items() if not isinstance(asked[key], (At, Integral)) for row in each]
         if sought or not self._seen[number].count:
             each_of, seen = place.extremes(sought or [Sought(Least(nothing), SmoothPiece(nothing), Situation(), -1.0)])
-            self._seen[number] = seen if not self._seen[number].count else self._seen[number].joined(seen)
+            self._seen[number] = seen if not self._seen[number].count else self._seen[number].with_count_of(seen)
             found = dict(zip(map(id, sought), each_of, strict=False))
         for key, leaf in asked.items():
             if isinstance(leaf, At):
@@ -663,7 +663,7 @@ class Judge:
             else:
                 known[key] = leaf, [found[id(row)] for row in rows[key]]
 
-    def rows(self, leaf: Leaf, place: Domain) -> list[Sought]:
+    def sought(self, leaf: Leaf, place: Domain) -> list[Sought]:
         """Return the pieces of a leaf over one `Over`, each once."""
         quantity = leaf.quantity
         request = quantity.under(self.acting) if isinstance(quantity, Request) else quantity
@@ -687,7 +687,7 @@ class Judge:
         bounds_worst = (isinstance(leaf, Least) and constraint.symbol == ">=") or (isinstance(leaf, Most) and constraint.symbol == "<=")
         if not (bounds_worst and isinstance(leaf, Leaf) and isinstance(leaf.quantity, Request)) or constraint.right.leaves:
             return [constraint]
-        rows = [row for place in self.places for row in self.rows(leaf, place)]
+        rows = [row for place in self.places for row in self.sought(leaf, place)]
         if len(rows) == 1:
             return [constraint]
         return [replace(constraint, left=replace(leaf, quantity=row.piece.request)) for row in rows]
@@ -790,7 +790,7 @@ class Judge:
         if not known:
             status = LOST if fatal or any(each.lawless for each in candidates) else NOTHING_LEFT
             ok = None if is_bare or status == NOTHING_LEFT else False
-            return self.made(question, candidates[0], np.nan, ok, status, {}, candidates, lost)
+            return self.named_answer(question, candidates[0], np.nan, ok, status, {}, candidates, lost)
         worst = candidates[min(known, key=lambda k: margins[k])]
         margin = float(min(margins[k] for k in known))
         status = UNBOUNDED if (bool(worst.unbounded) and margin < 0.0) or (is_bare and bool(worst.unbounded)) else OF_VALUE
@@ -798,9 +798,9 @@ class Judge:
         if not is_bare and fatal and margin >= 0.0:
             status = LOST
         strokes = {name: float(value) for name, value in worst.strokes.items()}
-        return self.made(question, worst, float(worst.value), ok, status, strokes, candidates, lost)
+        return self.named_answer(question, worst, float(worst.value), ok, status, strokes, candidates, lost)
 
-    def made(
+    def named_answer(
         self, question: Any, worst: Candidate, value: float, ok: bool | None, status: str, strokes: Mapping[str, float],
         candidates: Sequence[Candidate], lost: Lost,
     ) -> Answer:  # fmt: skip

@@ -74,11 +74,11 @@ class Tops:
         order = np.argsort(-rank, axis=-1, kind="stable")[..., : min(most, count)]
         return Tops(*(np.take_along_axis(getattr(self, name), order, axis=-1) for name in self.__dataclass_fields__))
 
-    def where(self, mask: Mask) -> Tops:
+    def subset(self, mask: Mask) -> Tops:
         """Return some of them as one row."""
         return Tops(*(getattr(self, name)[mask][None, None] for name in self.__dataclass_fields__))
 
-    def joined(self, other: Tops) -> Tops:
+    def concatenated(self, other: Tops) -> Tops:
         """Return the places of both."""
         return Tops(*(np.concatenate([getattr(each, name) for each in (self, other)], axis=-1) for name in self.__dataclass_fields__))
 
@@ -97,12 +97,12 @@ def highest(look: Look, counts: Sequence[int]) -> Highest:
     values = missing_lowest(seen)
     tops = narrowed(look, peaks(values, leg, t, counts))
     edges = borders(look, np.isnan(seen), values, leg, t)
-    tops = tops if edges is None else tops.joined(steps_to_borders(look, edges))
+    tops = tops if edges is None else tops.concatenated(steps_to_borders(look, edges))
     rounds = 1
     while tops.half.max() > CLOSE:
         tops = narrowed(look, tops.best(MANY if rounds < PATIENCE else LAST))
         rounds += 1
-    ends = tops if edges is None else tops.joined(edges)
+    ends = tops if edges is None else tops.concatenated(edges)
     return best_of_rows(ends, grows_along_leg(look, ends), np.asarray(np.isnan(seen).all(axis=-1)))
 
 

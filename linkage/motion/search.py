@@ -88,7 +88,7 @@ def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
 def searched(motion: Motion, f: Function, sense: float, *, everywhere: bool = False) -> Extremum:
     """Return the same of poses that are reached only, or `everywhere`."""
     units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
-    if len(motion._stroke_shape) > 1 and len(moving(motion)) > 1:
+    if len(motion._stroke_shape) > 1 and len(strokes_moved(motion)) > 1:
         box = InBox(motion, f, sense, everywhere=everywhere)
         top, shape = highest_in(box), (*box.front, *motion._design_shape)
         strokes = {name: in_shape(value, shape) for name, value in box.strokes(top.unit).items()}
@@ -104,7 +104,7 @@ def in_shape(values: Any, shape: tuple[int, ...]) -> Any:
     return values.reshape(shape) if shape else values.item()
 
 
-def moving(motion: Motion) -> tuple[str, ...]:
+def strokes_moved(motion: Motion) -> tuple[str, ...]:
     """Return the strokes that a motion moves."""
     return tuple(name for name, value in motion.strokes.items() if np.ptp(value) > 0.0)
 
@@ -191,7 +191,7 @@ def dips(between: OnLegs, sense: float, among: Mask) -> list[tuple[Index, FloatA
         crossed = tops.value > 0.0
         found.append((tops.leg[crossed], tops.t[crossed], -sense * tops.value[crossed]))
         going = ~crossed & (tops.bound > 0.0) & (tops.half > CLOSE)
-        tops = tops.where(going)
+        tops = tops.subset(going)
         tops = zoomed(look, tops) if tops.value.size else tops
     return found
 
@@ -371,7 +371,7 @@ def nearest_reached(reached: Mask) -> Index:
 class Bounded(Protocol):
     """Functions of a motion that are asked for at some of the poses only, and each by itself."""
 
-    def kept(self, motion: Motion) -> Mask:
+    def asks_for(self, motion: Motion) -> Mask:
         """Return the mask of these poses."""
 
     def row(self, function: int) -> Function:
@@ -383,7 +383,7 @@ class InBox:
     """A function of the poses in the box from the least to the greatest value of k strokes that a motion moves; others stand still."""
 
     def __init__(self, motion: Motion, f: Function, sense: float = 1.0, *, everywhere: bool = False) -> None:
-        self.f, self.sense, self.names, self.everywhere = f, sense, moving(motion), everywhere
+        self.f, self.sense, self.names, self.everywhere = f, sense, strokes_moved(motion), everywhere
         self.low = {name: float(np.min(value)) for name, value in motion.strokes.items()}
         self.high = {name: float(np.max(value)) for name, value in motion.strokes.items()}
         self.k = len(self.names)
@@ -412,7 +412,7 @@ class InBox:
         self.count += motion.reached.size
         return seen.reshape(-1, *shape)[:, design, slot], motion.reached.reshape(shape)[design, slot]
 
-    def own(self, function: int, design: Index, places: FloatArray) -> FloatArray:
+    def one_function(self, function: int, design: Index, places: FloatArray) -> FloatArray:
         """Return the values (u, n) of one function at places (u, n, k) of a design each (u,)."""
         f: object = self.f
         if not isinstance(f, Bounded):
@@ -422,7 +422,7 @@ class InBox:
         self.count += motion.reached.size
         return np.asarray(seen.reshape(shape)[design, slot])
 
-    def keeps(self, design: Index, places: FloatArray) -> Mask:
+    def is_kept(self, design: Index, places: FloatArray) -> Mask:
         """Return which places (u, n, k) of a design each (u,) are asked for and reached."""
         motion, slot, shape = self._poses(design, places)
         return self._kept(motion).reshape(shape)[design, slot]
@@ -430,7 +430,7 @@ class InBox:
     def _kept(self, motion: Motion) -> Mask:
         """Return which poses a function is asked for: those reached, and of a judge's those of its domain."""
         with unwarned(), np.errstate(all="ignore"):
-            return motion.reached & self.f.kept(motion) if isinstance(self.f, Bounded) else motion.reached
+            return motion.reached & self.f.asks_for(motion) if isinstance(self.f, Bounded) else motion.reached
 
     def _poses(self, design: Index, places: FloatArray) -> tuple[Motion, Index, tuple[int, ...]]:
         """Return the poses (D, c, n) at places (u, n, k) of a design each (u,), which of the c (u,) each is, and this shape."""

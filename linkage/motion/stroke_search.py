@@ -59,7 +59,7 @@ def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> S
     turn = max(0.0, np.pi - 0.5 * span)
     low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
     between = StrokeClearance(motion.plan, motion._grid.flat, name, held).interruptions(low, high)
-    found = reachable_ranges(along(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
+    found = reachable_ranges(moved_along(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
     crossings = tuple((each.deepest, called(motion.plan, each.step)) for each in between if not each.is_gap)
     others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
     least = least_transmission(motion, name, held, found)
@@ -68,7 +68,7 @@ def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> S
     return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns, tuple(still))
 
 
-def along(moved: Moved, name: str, held: Mapping[str, float]) -> Scan:
+def moved_along(moved: Moved, name: str, held: Mapping[str, float]) -> Scan:
     """Return the motion at values of one stroke (n,), the others held."""
     return lambda at: moved({**held, name: at})
 
@@ -312,7 +312,7 @@ def stop_words(motion: MotionLike) -> str:
         return ""
     ((name, values),) = motion.strokes.items()
     order = np.argsort(values, kind="stable")
-    found = ranges_among(along(motion.moved, name, {}), values[order], motion.reached[order])
+    found = ranges_among(moved_along(motion.moved, name, {}), values[order], motion.reached[order])
     unit = stroke_unit(motion.plan, name)
     spans = [f"from {name} = {each.low:.6g} to {each.high:.6g} {unit}" for each in found]
     return f" It goes {', and '.join(spans)}."

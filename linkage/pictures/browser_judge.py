@@ -90,7 +90,7 @@ class LiveQuestions:
         for number, place in enumerate(self.judge.places[:1] if isinstance(leaf, At) else self.judge.places):
             if is_column(leaf.quantity) and PLAIN_CASE not in place.cases(self.judge.acting):
                 continue  # a table's own column is under the machine's own loads, which do not occur here
-            for row in self.judge.rows(leaf, place):
+            for row in self.judge.sought(leaf, place):
                 found.append((number, row, self.row(row.request)))
         return found
 

@@ -63,7 +63,7 @@ class Designs:
                     where = f"{name} of design {start + bad[0]} is {np.ravel(array_part(part, start, stop))[bad[0]]}"
                     raise DefinitionError(f"{machine.plan.title}: {where}; a finite number is expected.")
         try:
-            machine.replaced(**self.rows(start, stop))
+            machine.replaced(**self.dimensions(start, stop))
         except DefinitionError as error:
             raise DefinitionError(f"Designs {start} to {stop - 1}: {error}") from None
 
@@ -72,7 +72,7 @@ class Designs:
         for start in range(0, self.count, size):
             yield start, min(start + size, self.count)
 
-    def rows(self, start: int, stop: int) -> Rows:
+    def dimensions(self, start: int, stop: int) -> Rows:
         """Return the dimensions of the designs from start to before stop."""
         found = {name: tuple(array_part(part, start, stop) for part in parts) for name, parts in self.columns.items()}
         return {name: parts if len(parts) > 1 else parts[0] for name, parts in found.items()}

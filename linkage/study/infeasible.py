@@ -101,7 +101,7 @@ def shown(problem: Problem, constraint: Constraint) -> str:
 
 def is_lost(problem: Problem, constraint: Constraint, end: tuple[tuple[int, ...], SearchEnd]) -> bool:
     """Return whether a condition's numbers have no value of the design that a local search came to."""
-    look = problem.look(problem.designs(end[1].unit, end[0]))
+    look = problem.evaluated(problem.dimensions_at(end[1].unit, end[0]))
     return any(bool(look.rows[leaf].lost[0]) for leaf in constraint.margin.leaves)
 
 
@@ -139,7 +139,7 @@ def given_way(
     values = true_values(problem, machine, quick=True) if is_line else local.numbers(found.unit)
     prices = multipliers(local, found.unit).constraints if problem.space.variables else np.zeros(len(problem.constraints))
     relaxations, pulling, total = [], [], 0.0
-    scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
+    scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
     for each, price, scale in zip(problem.constraints, prices, scales, strict=True):
         left, right = (float(side.of(lambda leaf: values[leaf])) for side in (each.left, each.right))
         short = abs(left - right) if each.symbol == "==" else (left - right if each.symbol == "<=" else right - left)

@@ -80,50 +80,45 @@ class StudyPoses:
         return cls(base)
 
     @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of the strokes."""
-        return self.base.shape
-
-    @property
-    def count(self) -> int:
+    def pose_count(self) -> int:
         """The number of poses."""
         return self.base.reached.size
 
     @cached_property
-    def flat(self) -> dict[str, FloatArray]:
+    def stroke_values(self) -> dict[str, FloatArray]:
         """The strokes (n,)."""
         return {name: value.ravel() for name, value in self.base.strokes.items()}
 
     def words(self) -> str:
         """Return where the poses are: `S = 50 mm`, `S = 0 mm to 250 mm, 21 poses`."""
         said = []
-        for name, value in self.flat.items():
+        for name, value in self.stroke_values.items():
             unit = stroke_display_unit(self.base.plan, name, "mm")
             ends = [show(float(end), unit) for end in (value.min(), value.max())]
             said.append(f"{name} = {' to '.join(dict.fromkeys(ends))}")
-        return ", ".join(said) + (f", {self.count} poses" if self.count > 1 else "")
+        return ", ".join(said) + (f", {self.pose_count} poses" if self.pose_count > 1 else "")
 
-    def traced(self, machine: Mechanism, requests: Sequence[Any], way: RunOptions, poses: slice = slice(None)) -> list[FloatArray]:
+    def of_requests(self, machine: Mechanism, requests: Sequence[Any], way: RunOptions, poses: slice = slice(None)) -> list[FloatArray]:
         """Return requests of m designs at n of the poses, an array (m, n) each, NaN where they have no value."""
         found = evaluate_grid(self.grid(machine, poses), requests, None, way, "nan")
         return [each.reshape(-1, each.shape[-1]) for each in found]
 
-    def motion(self, machine: Mechanism) -> Motion:
+    def of_all(self, machine: Mechanism) -> Motion:
         """Return the motion of m designs at all poses, NaN out of reach."""
         base = self.base
-        joining = JoinedTo(base._grid, np.arange(self.count).reshape(self.shape))
+        joining = JoinedTo(base._grid, np.arange(self.pose_count).reshape(self.base.shape))
         return Motion(base.plan, machine.dimensions, base.strokes, "nan", joining=joining)
 
     def of_each(self, machine: Mechanism, place: Index) -> Motion:
         """Return the motion of m designs, each at one of the poses, by its place (m,); NaN out of reach."""
-        strokes = {name: value[place] for name, value in self.flat.items()}
+        strokes = {name: value[place] for name, value in self.stroke_values.items()}
         return each_at_its_stroke(self.base.plan, machine.dimensions, strokes, self.base, place)
 
     def of_function(self, machine: Mechanism, quantity: Any) -> FloatArray:
         """Return what a function of a motion, or a request without a program, gives of m designs: (m, n), or a number each, (m, 1)."""
-        motion = self.motion(machine)
+        motion = self.of_all(machine)
         if isinstance(quantity, Request):
-            return eager(motion, quantity).reshape(-1, self.count)
+            return eager(motion, quantity).reshape(-1, self.pose_count)
         return function_array(quantity, motion)
 
     def of_measure(self, machine: Mechanism, measure: Measure, way: RunOptions) -> FloatArray:
@@ -143,24 +138,24 @@ class StudyPoses:
     def at(self, leaf: At) -> StudyPoses:
         """Return the pose of a value at one pose; DefinitionError where a stroke is not said."""
         plan = self.base.plan
-        only = next(iter(self.flat)) if len(self.flat) == 1 else ""
-        missing = [name for name in self.flat if name not in leaf.strokes and name != only]
+        only = next(iter(self.stroke_values)) if len(self.stroke_values) == 1 else ""
+        missing = [name for name in self.stroke_values if name not in leaf.strokes and name != only]
         if missing or (only and not leaf.strokes and only in strokes_behind(plan, leaf.quantity)):
             raise DefinitionError(f"{plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing or [only])}.")
-        strokes = {name: leaf.strokes.get(name, float(value[0])) for name, value in self.flat.items()}
+        strokes = {name: leaf.strokes.get(name, float(value[0])) for name, value in self.stroke_values.items()}
         return StudyPoses(Motion(plan, self.base.designs, at_values(strokes, plan), "raise"))
 
     def weight(self, leaf: Leaf, place: int) -> float:
         """Return what one pose counts in an integral over a row of poses, by trapezia; 1 of anything else."""
         if not isinstance(leaf, Integral):
             return 1.0
-        by = leaf.by or (next(iter(self.flat)) if len(self.flat) == 1 else "")
-        if by not in self.flat or len(self.shape) != 1:
+        by = leaf.by or (next(iter(self.stroke_values)) if len(self.stroke_values) == 1 else "")
+        if by not in self.stroke_values or len(self.base.shape) != 1:
             raise DefinitionError(
-                f"{self.base.plan.title}: {leaf}: give one row of strokes, and say by which, by= one of {', '.join(self.flat)}."
+                f"{self.base.plan.title}: {leaf}: give one row of strokes, and say by which, by= one of {', '.join(self.stroke_values)}."
             )
-        values = self.flat[by]
-        return float(0.5 * (values[min(place + 1, self.count - 1)] - values[max(place - 1, 0)]))
+        values = self.stroke_values[by]
+        return float(0.5 * (values[min(place + 1, self.pose_count - 1)] - values[max(place - 1, 0)]))
 
     def values(self, machine: Mechanism, quantity: Any, way: RunOptions) -> FloatArray:
         """Return a quantity of m designs at the poses, shape (m, n), or (m, 1) of one number for each design."""
@@ -168,17 +163,17 @@ class StudyPoses:
             if isinstance(quantity, Measure):
                 return self.of_measure(machine, quantity, way)
             if number_bound(self.base.plan, quantity) is not None:
-                return self.traced(machine, [quantity], way)[0]
+                return self.of_requests(machine, [quantity], way)[0]
             return self.of_function(machine, quantity)
 
     def shaped(self, values: FloatArray) -> FloatArray:
         """Return values (..., n) in the shape of the strokes; numbers for each design, (..., 1), without it."""
-        return values.reshape((*values.shape[:-1], *(self.shape if values.shape[-1] == self.count else ())))
+        return values.reshape((*values.shape[:-1], *(self.base.shape if values.shape[-1] == self.pose_count else ())))
 
     def grid(self, machine: Mechanism, poses: slice = slice(None)) -> Grid:
         """Return m designs at n of the poses."""
-        places = np.arange(self.count)[poses]
-        strokes = {name: value[poses] for name, value in self.flat.items()}
+        places = np.arange(self.pose_count)[poses]
+        strokes = {name: value[poses] for name, value in self.stroke_values.items()}
         return Grid(self.base.plan, machine.dimensions, strokes, joining=JoinedTo(self.base._grid, places))
 
 
@@ -259,7 +254,7 @@ def eager(motion: Motion, quantity: Any) -> FloatArray:
     return np.asarray(np.broadcast_to(found, motion.shape))
 
 
-def unlimited(motion: Motion, quantity: Any) -> Mask | None:
+def nothing_limits(motion: Motion, quantity: Any) -> Mask | None:
     """Return the mask of poses at which nothing limits a quantity, so that it has no value there; None of one that always has."""
     if not isinstance(quantity, Request):
         return None

@@ -19,7 +19,7 @@ from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import is_number
 from ..units import display_unit
-from .measured import Measured, StudyPoses, fold, fold_start, measured_title, number_bound, unlimited
+from .measured import Measured, StudyPoses, fold, fold_start, measured_title, nothing_limits, number_bound
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, shifted_designs, tolerance_words, tolerances_of
 
 Task = TypeVar("Task")
@@ -238,17 +238,17 @@ class MonteCarloRun:
         bound = [key for key, each in quantities.items() if number_bound(self.poses.base.plan, each) is not None]
         found: Stored = {key: [] for key in quantities}
         if bound:
-            width = min(max(1, MEMORY // (8 * len(bound) * self.count)), self.poses.count)
+            width = min(max(1, MEMORY // (8 * len(bound) * self.count)), self.poses.pose_count)
             store = np.empty((len(bound), width, self.count))
-            for first in range(0, self.poses.count, width):
-                part = slice(first, min(first + width, self.poses.count))
+            for first in range(0, self.poses.pose_count, width):
+                part = slice(first, min(first + width, self.poses.pose_count))
                 self._take(bound, self._traced([quantities[key] for key in bound], part, store), first, found)
         for key, quantity in quantities.items():
             if key not in bound:
                 self._take([key], self._of_function(quantity)[None], 0, found)
         self._leaves |= {leaf: self._at(leaf) for leaf in leaves if isinstance(leaf, At)}
         for leaf, places in self._unlimited.items():
-            self._leaves[leaf] = np.where(places == (1 if isinstance(leaf, At) else self.poses.count), np.nan, self._leaves[leaf])
+            self._leaves[leaf] = np.where(places == (1 if isinstance(leaf, At) else self.poses.pose_count), np.nan, self._leaves[leaf])
         self.kept = [self._keeps(each) for each in conditions]
         for title, each in asked.items():
             if isinstance(each, Measure):
@@ -268,7 +268,7 @@ class MonteCarloRun:
 
         def fill(block: slice) -> None:
             with np.errstate(all="ignore"):
-                for row, found in zip(place, self.poses.traced(self._block(block), traced, self.way, part), strict=True):
+                for row, found in zip(place, self.poses.of_requests(self._block(block), traced, self.way, part), strict=True):
                     row[:, block] = found.T
 
         self._on_threads(fill, blocks(self.count, part.stop - part.start))
@@ -276,7 +276,7 @@ class MonteCarloRun:
 
     def _of_function(self, quantity: Any) -> FloatArray:
         """Return a function of motions, shape (poses, designs), or (1, designs)."""
-        found = [self.poses.of_function(self._block(block), quantity).T for block in blocks(self.count, self.poses.count)]
+        found = [self.poses.of_function(self._block(block), quantity).T for block in blocks(self.count, self.poses.pose_count)]
         return np.concatenate(found, axis=1)
 
     def _at(self, leaf: At) -> FloatArray:
@@ -302,12 +302,12 @@ class MonteCarloRun:
         if not isinstance(quantity, Request) or not np.isnan(values).any():
             return None
         found = np.zeros(values.shape, bool)
-        for block in blocks(self.count, poses.count):
+        for block in blocks(self.count, poses.pose_count):
             if np.isnan(values[:, block]).any():
-                free = unlimited(poses.motion(self._block(block)), quantity)
+                free = nothing_limits(poses.of_all(self._block(block)), quantity)
                 if free is None:
                     return None
-                found[:, block] = free.reshape(-1, poses.count).T
+                found[:, block] = free.reshape(-1, poses.pose_count).T
         return found & np.isnan(values)
 
     def _block(self, block: slice) -> Mechanism:
@@ -333,7 +333,7 @@ class MonteCarloRun:
         """Return where nothing limits a quantity among its rows (poses, designs) from a pose on; None where each has a value."""
         if not np.isnan(rows).any():
             return None
-        every = np.zeros((self.poses.count, self.count))
+        every = np.zeros((self.poses.pose_count, self.count))
         every[first : first + len(rows)] = rows
         free = self._free(self.poses, self._asked[key], every)
         return None if free is None else free[first : first + len(rows)]

@@ -315,7 +315,8 @@ def with_spread(problem: Problem, robust: Any, sigmas: Any) -> Problem:
     title = problem.plan.title
     if not is_number(sigmas) or sigmas < 0.0:
         raise DefinitionError(f"{title}: sigmas={cited(sigmas)}: a number is expected, zero or more.")
-    look = problem.look(problem.designs(problem.space.unit(problem.space.present(problem.machine)), [0] * len(problem.space.choices)))
+    present = problem.space.unit(problem.space.present(problem.machine))
+    look = problem.evaluated(problem.dimensions_at(present, [0] * len(problem.space.choices)))
     values = {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
     if not all(map(np.isfinite, values.values())):
         raise DefinitionError(f"{title}: robust= starts from a design that can be assembled over the whole stroke; set the machine so.")
@@ -515,7 +516,7 @@ class DesignSearch:
         screened = sorted((each for each in screened if np.any(each.begins)), key=lambda each: each.best)[:SEARCHED]
         hopeless = self.hopeless(screened)
         if hopeless:
-            with self.problem.count.unlimited():
+            with self.problem.count.without_limit():
                 raise infeasible_error(self.problem, hopeless, self.spread())
         tasks = [(each.combination, number, unit) for each in screened for number, unit in enumerate(self.starts(each, len(screened)))]
         return self.chosen([*self.ends(tasks), *self.best_looked_at(screened)], searched=len(screened))
@@ -540,7 +541,7 @@ class DesignSearch:
         if not self.problem.count.is_spent:
             return []
         problem, found = self.problem.with_counts(SAMPLES), []
-        with problem.count.unlimited():
+        with problem.count.without_limit():
             for each in screened[:KEPT]:
                 for place in each.order[:KEPT]:
                     if each.begins[place]:
@@ -697,7 +698,7 @@ class DesignSearch:
         if problem.space.variables:
             found = local.run(self.plan.solver)
             if self.plan.solver == "slsqp" and found.whole and not found.feasible and found.missing < NEARLY:
-                with problem.count.unlimited():
+                with problem.count.without_limit():
                     near = Local(problem, combination, found.unit)
                 again = near.run("trust-constr")
                 found = min(found, again, key=lambda each: (not each.feasible, each.missing))
@@ -719,7 +720,7 @@ class DesignSearch:
                 lost.append(str(error))
         if lost:
             raise StudyError(f"{self.problem.plan.title}: no design that was found can be kept. {lost[0]}")
-        with self.problem.count.unlimited():
+        with self.problem.count.without_limit():
             raise infeasible_error(self.problem, [(each.combination, each.found) for each in ended], self.spread())
 
     def tried(self, ended: Sequence[Ended]) -> tuple[EvaluatedDesigns, ...]:

@@ -237,7 +237,7 @@ def polished(
     if any(each.step is not None for each in problem.space.variables):
         problem, combination, found = on_steps(problem, combination, found, solver)
     limit = problem.count.limit if problem.count.is_spent else None
-    with problem.count.unlimited():
+    with problem.count.without_limit():
         return described(problem, combination, found, ended, searched, cut, limit)
 
 
@@ -292,7 +292,7 @@ def check_bounded(problem: Problem, now: Numbers) -> None:
     if not asked:
         return
     n, combination = len(problem.space.variables), [0] * len(problem.space.choices)
-    looks = [problem.look(problem.designs(np.full(n, part), combination)) for part in (0.1, 0.5, 0.9)]
+    looks = [problem.evaluated(problem.dimensions_at(np.full(n, part), combination)) for part in (0.1, 0.5, 0.9)]
     sizes = {leaf: max(size_of_rows(look.rows[leaf].values) for look in looks) for leaf in problem.leaves}
     for each in asked:
         small = abs(float(each.of(lambda leaf: now[leaf])))
@@ -327,7 +327,7 @@ def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
     except AssemblyError:
         return float("nan"), float("inf")
     values = true_values(problem, machine)
-    scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
+    scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
     return true_worth(problem, values), missing_of(problem.constraints, scales, values)
 
 
@@ -367,7 +367,7 @@ def multipliers(local: Local, unit: FloatArray) -> Prices:
     z, n = local.first(unit), local.n
     _, slope = local.objective(z)
     columns, owners = [], []
-    for row in local.rows(z):
+    for row in local.solver_lines(z):
         for value, line in zip(row.values, row.slopes, strict=True):
             if (row.equation or value <= ACTIVE) and np.abs(line).max() > STILL:
                 for sign in (1.0, -1.0) if row.equation else (1.0,):
@@ -428,7 +428,7 @@ def stopped_by(problem: Problem, combination: Sequence[int], unit: FloatArray) -
     try:
         machine = problem.machine_of(unit, combination)
         problem.assembled(machine)
-        look = problem.look(machine.dimensions)
+        look = problem.evaluated(machine.dimensions)
     except LinkageError as error:
         return what_of(str(error))
     if not bool(look.whole[0]):
@@ -572,7 +572,7 @@ class StepSearch:
     def _from(self, inner: Problem, whole: tuple[int, ...], unit: FloatArray) -> SearchEnd | None:
         """Return what a search of the variables that are left comes to; where it misses conditions, what misses them least."""
         try:
-            with inner.count.unlimited():
+            with inner.count.without_limit():
                 local = Local(inner, whole, unit)
                 if not self.rest:
                     return local.judged(unit)

@@ -82,7 +82,7 @@ def front(problem: Problem, seed: int, solver: str, tell: Progress) -> Front:
     limit = problem.count.limit if problem.count.is_spent else None
     if not found:
         present = problem.space.unit(problem.space.present(problem.machine))
-        with problem.count.unlimited():
+        with problem.count.without_limit():
             raise infeasible_error(problem, [(each, SearchEnd(present, np.nan, np.inf, True)) for each in combinations])
     best = not_dominated(np.array([values for values, _ in found]))
     shown = [own_sign(each) for each in problem.objectives]
@@ -134,7 +134,7 @@ def evolved_front(problem: Problem, combination: Sequence[int], seed: int, left:
     count, generations = problem.count, GENERATIONS
     if count.limit is not None:
         generations = min(GENERATIONS, max(3 * (count.limit - count.designs) // (4 * POPULATION * left), 1))
-    with count.unlimited():
+    with count.without_limit():
         found = minimize(
             Generation(n_var=n, n_obj=many, n_ieq_constr=2, xl=0.0, xu=1.0), NSGA2(pop_size=POPULATION), ("n_gen", generations), seed=seed
         )
@@ -145,7 +145,7 @@ def exact_points(problem: Problem, combination: Sequence[int], units: FloatArray
     """Return points on the front of one combination: each objective's best, and others spread between; with their machines."""
     if not len(units):
         return []
-    with problem.count.unlimited():
+    with problem.count.without_limit():
         values, _, _ = problem.merits_of_each(combination, units)
     found = [on_front(problem, combination, units[int(np.argmin(values[place]))], place, None, solver) for place in range(len(values))]
     order = np.argsort(values[0])
@@ -163,16 +163,16 @@ def on_front(
     own = [*problem.constraints, *(each for number, each in enumerate(limits) if number != place)]
     one = Problem(problem.machine, [objectives[place]], own, problem.space, 1.0, problem.over, count=problem.count)
     try:
-        with problem.count.unlimited():
+        with problem.count.without_limit():
             local = Local(one, combination, unit)
         result = local.run(solver) if problem.space.variables else local.judged(unit)
         machine = problem.machine_of(result.unit, combination)
         problem.assembled(machine)
     except (AssemblyError, LinkageError):
         return None
-    with problem.count.unlimited():
+    with problem.count.without_limit():
         values = true_values(problem, machine)
-        scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
+        scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
     if missing_of(problem.constraints, scales, values) > MET:
         return None
     found = tuple(float(each.of(lambda leaf: values[leaf])) for each in objectives)

@@ -40,7 +40,7 @@ from ..motion.strokes import check_magnitude
 from ..plan import Mask, Plan
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
-from .measured import eager, motion_of, unlimited
+from .measured import eager, motion_of, nothing_limits
 from .sampling import Samples, Sampling, divisors_of, rows_of_motion, with_values
 from .space import Space
 
@@ -209,7 +209,7 @@ class Count:
             self.limit = kept
 
     @contextmanager
-    def unlimited(self) -> Iterator[None]:
+    def without_limit(self) -> Iterator[None]:
         """Look at designs whatever the limit, as at the best one in the end."""
         kept, self.limit = self.limit, None
         try:
@@ -254,7 +254,7 @@ class WatchedValues:
         found = self._quickly(motion) if self._quickly else np.array([eager(motion, each) for each in self.quantities])
         empty = np.isnan(found) & motion.reached
         for place in np.flatnonzero(empty.reshape(len(found), -1).any(axis=1) & ~self._is_empty):
-            free = unlimited(motion, self.quantities[int(place)])
+            free = nothing_limits(motion, self.quantities[int(place)])
             self._is_empty[place] = bool((empty[place] if free is None else empty[place] & ~free).any())
         if self._divisors:
             values = self._divisors(motion)[:, motion.reached]
@@ -263,7 +263,7 @@ class WatchedValues:
         return np.asarray(found * self.senses.reshape(-1, *(1,) * (found.ndim - 1)))
 
     @property
-    def lost(self) -> Mask:
+    def without_value(self) -> Mask:
         """Which of them are without a value somewhere, shape (k,)."""
         found = np.array(self._is_empty)
         for (place, _), low, high in zip(self._owners, self._low, self._high, strict=True):
@@ -404,11 +404,11 @@ class Problem:
 
     # -- looking -----------------------------------------------------------------------------------------
 
-    def designs(self, unit: FloatArray, combination: Sequence[int]) -> dict[str, Any]:
+    def dimensions_at(self, unit: FloatArray, combination: Sequence[int]) -> dict[str, Any]:
         """Return all dimensions of designs by unit coordinates (n,) or (m, n) and a combination of choices."""
-        return with_values(self.machine.dimensions, self.space.chosen(combination) | self.space.designs(unit))
+        return with_values(self.machine.dimensions, self.space.chosen(combination) | self.space.dimensions_at(unit))
 
-    def look(self, designs: Mapping[str, Any], *, slopes: bool = False) -> Evaluated:
+    def evaluated(self, designs: Mapping[str, Any], *, slopes: bool = False) -> Evaluated:
         """Return what is seen of designs, of one with derivatives by the unit coordinates.
 
         A design that is refused, for a charge below the gas's as an example, counts as one that cannot be assembled; `refusal` says
@@ -425,8 +425,9 @@ class Problem:
             if m == 1:
                 return self._nothing(slopes=slopes)
         self.count.designs -= m
-        with self.count.unlimited():
-            parts = [self.look({name: float(value[k]) if np.ndim(value) else value for name, value in designs.items()}) for k in range(m)]
+        with self.count.without_limit():
+            each_of = [{name: float(value[k]) if np.ndim(value) else value for name, value in designs.items()} for k in range(m)]
+            parts = [self.evaluated(design) for design in each_of]
         rows = {leaf: [each.rows[leaf] for each in parts] for leaf in self.leaves}
         return Evaluated(
             {leaf: Rows(np.concatenate([each.values for each in own]), None, np.concatenate([each.lost for each in own]))
@@ -608,7 +609,7 @@ class Problem:
 
     def merits_of_each(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return of designs (m, n) each objective (k, m), what is missing in parts of the conditions' sizes, and the part reached."""
-        look = self.look(self.designs(unit, combination))
+        look = self.evaluated(self.dimensions_at(unit, combination))
         numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
         shape = look.reached.shape
         with np.errstate(all="ignore"):
@@ -620,7 +621,7 @@ class Problem:
 
     def missing_of_each(self, combination: Sequence[int], unit: FloatArray) -> FloatArray:
         """Return by what part of its size each condition is missed by designs (m, n), shape (conditions, m); infinite out of reach."""
-        look = self.look(self.designs(unit, combination))
+        look = self.evaluated(self.dimensions_at(unit, combination))
         numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
         return np.where(look.whole, self._missing(look, numbers), np.inf)
 
@@ -666,7 +667,7 @@ class Problem:
     def machine_of(self, unit: FloatArray, combination: Sequence[int]) -> Mechanism:
         """Return the machine of unit coordinates (n,)."""
         return self.machine.replaced(
-            **self.space.chosen(combination), **{name: float(each) for name, each in self.space.designs(unit).items()}
+            **self.space.chosen(combination), **{name: float(each) for name, each in self.space.dimensions_at(unit).items()}
         )
 
     def assembled(self, machine: Mechanism) -> Motion:
@@ -699,16 +700,16 @@ class Problem:
         if not names:
             return None
         axis = poses.axes[names[0]]
-        values = alone.look(design).rows[asked].values.reshape(len(axis), -1)
+        values = alone.evaluated(design).rows[asked].values.reshape(len(axis), -1)
         with np.errstate(all="ignore"):
             worst = (np.fmin if kind is Least else np.fmax).reduce(values, axis=1)
-        strokes = alone.where(asked, design, {names[0]: 0.0}), alone.where(asked, design, {names[0]: 1.0})
+        strokes = alone.strokes_at(asked, design, {names[0]: 0.0}), alone.strokes_at(asked, design, {names[0]: 1.0})
         low, high = (each[names[0]] for each in strokes)
         return names[0], low + axis * (high - low), worst
 
     # -- the whole truth ---------------------------------------------------------------------------------
 
-    def motion(self, design: Mapping[str, Any], names: Sequence[str], count: int = 33) -> Motion:
+    def motion_over(self, design: Mapping[str, Any], names: Sequence[str], count: int = 33) -> Motion:
         """Return the motion of one design over some strokes' ranges, the others held."""
         ends = self._ends(design, slopes=False)
         poses = PoseSet({name: np.linspace(0.0, 1.0, count if len(names) == 1 else 5) for name in names})
@@ -730,13 +731,13 @@ class Problem:
                 alone = PoseSet({}, [poses.singles[single]])
                 here = motion_of(self._grid(alone, design, self._ends(design, slopes=False)))
                 value = float(np.ravel(eager(here, leaf.quantity))[0])
-                free = unlimited(here, leaf.quantity) if np.isnan(value) else None
+                free = nothing_limits(here, leaf.quantity) if np.isnan(value) else None
                 found[leaf] = Truth(value, {}, bool(np.isnan(value)) and (free is None or not free.all()))
             else:
                 sampled.append(leaf)
         if sampled:
             self.count.add(len(sampled) - 1)  # as many looks as there are numbers
-            rows = self.look(design).rows
+            rows = self.evaluated(design).rows
             for leaf in sampled:
                 if isinstance(leaf, Integral):
                     value = self.panels(leaf, design)[0] * self.span_of(leaf, design)
@@ -749,7 +750,7 @@ class Problem:
 
     def _extremes(self, leaves: Sequence[Leaf], design: Mapping[str, Any], names: Sequence[str], *, quick: bool) -> dict[Leaf, Truth]:
         """Return the extremes of one design over some strokes, all looked for together."""
-        motion = self.motion(design, names)
+        motion = self.motion_over(design, names)
         senses = [-1.0 if isinstance(leaf, Least) else 1.0 for leaf in leaves]
         watched = WatchedValues(self.plan, [leaf.quantity for leaf in leaves], senses, quick=quick)
         tops = greatest(motion, watched)
@@ -763,7 +764,8 @@ class Problem:
                 own[name] = 1.0 - part if turned else part
         values = np.ravel(tops.value) * senses
         return {
-            leaf: Truth(float(value), own, bool(lost)) for leaf, value, own, lost in zip(leaves, values, parts, watched.lost, strict=True)
+            leaf: Truth(float(value), own, bool(lost))
+            for leaf, value, own, lost in zip(leaves, values, parts, watched.without_value, strict=True)
         }
 
     def tops(self, leaf: Leaf, design: Mapping[str, Any]) -> list[dict[str, float]]:
@@ -853,7 +855,7 @@ class Problem:
                 new = True
         return new
 
-    def where(self, leaf: Leaf, design: Mapping[str, Any], parts: Mapping[str, float]) -> dict[str, float]:
+    def strokes_at(self, leaf: Leaf, design: Mapping[str, Any], parts: Mapping[str, float]) -> dict[str, float]:
         """Return the strokes [SI] at parts of their ranges."""
         ends = self.ends(design)
         return {name: ends[name][0] + part * (ends[name][1] - ends[name][0]) for name, part in parts.items()}

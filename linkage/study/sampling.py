@@ -18,7 +18,7 @@ from ..motion.requests import slope
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node
 from ..quantities import Quantity, Ref
-from .measured import eager, motion_of, unlimited
+from .measured import eager, motion_of, nothing_limits
 
 DIFFERENCE = 6e-6
 """Of a variable's span: the step of a central difference, where nothing better is to be had."""
@@ -61,7 +61,7 @@ class SampleProgram:
     @classmethod
     def of(cls, plan: Plan, requests: tuple[Request, ...], sloped: Sequence[Request], owners: tuple[str, ...]) -> SampleProgram:
         """Return the program of requests, and of derivatives of some by the owners, on a plan that is not traced yet."""
-        bulk = BulkProgram.traced(plan, requests)
+        bulk = BulkProgram.compiled_on(plan, requests)
         own = bulk.kernel
         following = [node for each in requests if each.follows_angles for node in each.nodes(plan)]
         shares = [node for each in sloped for node in slope(each, owners).nodes(plan)] if owners else []
@@ -153,7 +153,7 @@ class Sampling:
         empty: Mask = np.asarray(np.isnan(values) & reached)
         lost: Mask = np.asarray(empty.any(axis=2))
         for place in np.flatnonzero(lost.any(axis=1)):
-            free = unlimited(motion_of(grid), self.quantities[place])
+            free = nothing_limits(motion_of(grid), self.quantities[place])
             if free is not None:
                 lost[place] = (empty[place] & ~free.reshape(reached.shape)).any(axis=1)
         return lost

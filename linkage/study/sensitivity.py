@@ -106,7 +106,7 @@ def tornado(machine: Mechanism, quantity: Measured, tolerances: Mapping[str, Tol
     values = poses.values(machine.replaced(**shifted_designs(machine, named, levels)), quantity, RunOptions())
     if values.shape[1] != 1:
         said = "say one pose, or give a measure such as most(...)"
-        raise DefinitionError(f"{plan.title}: {measured_title(plan, quantity)} at {poses.count} poses; {said}.")
+        raise DefinitionError(f"{plan.title}: {measured_title(plan, quantity)} at {poses.pose_count} poses; {said}.")
     nominal = float(values[0, 0])
     if not np.isfinite(nominal):
         what = f"{plan.title}: {measured_title(plan, quantity)} has no value at {poses.words()}"

@@ -106,7 +106,7 @@ def settings_for(
     kept = [root for root in unique if root not in lost]
     words = SettingWords(name, unit_of(machine.plan, name), words_of(quantity), unit)
     if unique and not kept:
-        return Settings(name, (), words.lost(unique, target, lost[unique[0]]))
+        return Settings(name, (), words.not_assembled(unique, target, lost[unique[0]]))
     return Settings(name, tuple(kept), words.roots(kept, target) if kept else words.none(at, off + target, target))
 
 
@@ -168,7 +168,7 @@ class SettingWords:
         found, wanted = said(" or ").join(show(root, self.unit) for root in roots), show(target, self.shown_in)
         return said("{what} = {target} with {name} = {found}.", what=self.what, target=wanted, name=self.name, found=found)
 
-    def lost(self, roots: Sequence[float], target: float, why: str) -> str:
+    def not_assembled(self, roots: Sequence[float], target: float, why: str) -> str:
         """Return that the settings that give the target are no machines over the whole stroke, and why."""
         found, wanted = said(" or ").join(show(root, self.unit) for root in roots), show(target, self.shown_in)
         return said(

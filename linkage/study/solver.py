@@ -130,7 +130,7 @@ class Local:
         self._signs: tuple[float, ...] | None = None
         self._watch: Watch | None = None
         self._needed = {leaf for each in (*problem.objectives, *equations) for leaf in each.leaves}
-        first = self.look(start)
+        first = self.evaluated_at(start)
         if not bool(first.whole[0]):
             raise DefinitionError("A local search starts from a design that can be assembled.")
         if not self._usable(first):
@@ -178,7 +178,7 @@ class Local:
 
     # -- the solver's view -------------------------------------------------------------------------------
 
-    def look(self, unit: FloatArray) -> Evaluated:
+    def evaluated_at(self, unit: FloatArray) -> Evaluated:
         """Return what is seen of unit coordinates, once."""
         return self._looked_at(unit)[0]
 
@@ -189,7 +189,7 @@ class Local:
         if found is None:
             if len(self._looks) > 4:
                 self._looks.pop(next(iter(self._looks)))
-            look = self.problem.look(self.problem.designs(np.clip(unit, 0.0, 1.0), self.combination), slopes=True)
+            look = self.problem.evaluated(self.problem.dimensions_at(np.clip(unit, 0.0, 1.0), self.combination), slopes=True)
             found = self._looks[key] = look, bool(look.whole[0]) and self._usable(look)
         if found[1]:
             self._good = np.array(unit, float), found[0]
@@ -258,13 +258,13 @@ class Local:
         slope = bounded(factor * found.slope)
         return factor * found.value + float(slope[: self.n] @ way) + loss, slope
 
-    def rows(self, z: FloatArray) -> list[Row]:
+    def solver_lines(self, z: FloatArray) -> list[Row]:
         """Return the lines of the problem: zero or above where they are kept, zero where they are equations."""
         key = z.tobytes()
         if key in self._rows:
             return self._rows[key]
         look, way, loss = self._safe(z)
-        here = self.look(z[: self.n])
+        here = self.evaluated_at(z[: self.n])
         found = [self._margins(look, way, loss, here)]
         for place, each in enumerate(self.problem.constraints):
             found.append(self._constraint(place, each, look, way, loss, z))
@@ -320,7 +320,7 @@ class Local:
                 values, slopes = without_gaps(values, slopes)
             slopes = bounded(slopes)
         values = values + slopes[:, : self.n] @ way - loss
-        column = self._column(each)
+        column = self._slack_column(each)
         if column is not None:
             slopes = np.array(slopes)
             slack = float(z[column])
@@ -346,18 +346,18 @@ class Local:
         values, slopes = without_gaps(values, slopes)
         return Row(owner if isinstance(owner, Constraint) else None, values + slopes[:, : self.n] @ way - loss, slopes)
 
-    def _column(self, constraint: Constraint) -> int | None:
+    def _slack_column(self, constraint: Constraint) -> int | None:
         """Return the variable by which a constraint gives way; None of one that does not."""
         return next((self.width - self.slack + place for place, each in enumerate(self.elastic) if each is constraint), None)
 
     def first(self, unit: FloatArray) -> FloatArray:
         """Return the solver's variables at unit coordinates."""
-        values = self.leaf_values(self.look(unit))
+        values = self.leaf_values(self.evaluated_at(unit))
         worst = [self.problem.sense * float(self.problem.value(lambda leaf: values[leaf])) / self.size] * self.several
         z = np.concatenate([unit, [values[leaf] / self.leaf_scales[leaf] for _, leaf in self.aux], worst, np.zeros(self.slack)])
         if self.elastic:
-            for row in self.rows(z):
-                column = None if row.constraint is None else self._column(row.constraint)
+            for row in self.solver_lines(z):
+                column = None if row.constraint is None else self._slack_column(row.constraint)
                 if column is not None:
                     z[column] = max(z[column], -float(row.values.min()))
         return z
@@ -377,7 +377,7 @@ class Local:
         return self._sequential(z, Bounds(low, high), most)
 
     def _stacked(self, z: FloatArray, equations: bool) -> tuple[FloatArray, FloatArray]:
-        rows = [row for row in self.rows(z) if row.equation is equations]
+        rows = [row for row in self.solver_lines(z) if row.equation is equations]
         if not rows:
             return np.zeros(0), np.zeros((0, self.width))
         return np.concatenate([row.values for row in rows]), np.concatenate([row.slopes for row in rows])
@@ -411,7 +411,8 @@ class Local:
 
     def violation(self, z: FloatArray) -> float:
         """Return by how much the worst line of the problem is missed, in scaled numbers."""
-        return max((float((np.abs(row.values) if row.equation else -row.values).max(initial=0.0)) for row in self.rows(z)), default=0.0)
+        missed = (np.abs(row.values) if row.equation else -row.values for row in self.solver_lines(z))
+        return max((float(values.max(initial=0.0)) for values in missed), default=0.0)
 
     def _held(self, kind: str, equations: bool) -> dict[str, Any]:
         return {"type": kind, "fun": lambda at: self._stacked(at, equations)[0], "jac": lambda at: self._stacked(at, equations)[1]}
@@ -430,7 +431,7 @@ class Local:
 
     def _worst_lines(self, z: FloatArray, equations: bool, known: Any) -> Any:
         """Return the places of the lines that a solver is given: all equations, of each other constraint the worst; those known, too."""
-        rows, first, found = [row for row in self.rows(z) if row.equation is equations], 0, []
+        rows, first, found = [row for row in self.solver_lines(z) if row.equation is equations], 0, []
         for row in rows:
             near = np.argsort(row.values, kind="stable")[: row.values.size if equations else LINES]
             found.append(first + near)
@@ -483,15 +484,15 @@ class Local:
                     return found
             return self.judged(unit)
         except LimitReachedError:
-            with self.problem.count.unlimited():
+            with self.problem.count.without_limit():
                 best = self.start if self._watch is None else self._watch.best[: self.n]
                 return self.judged(self._nearest_good(np.clip(best, 0.0, 1.0)))
 
     def least(self) -> SearchEnd | None:
         """Return what an elastic search comes to by its samples alone; None where that is no design."""
         unit = np.clip(self.solve(self.start)[: self.n], 0.0, 1.0)
-        with self.problem.count.unlimited():
-            look = self.look(unit)
+        with self.problem.count.without_limit():
+            look = self.evaluated_at(unit)
         if not bool(look.whole[0]) or not self._usable(look):
             return None
         values = self.numbers(unit)
@@ -499,7 +500,7 @@ class Local:
 
     def numbers(self, unit: FloatArray) -> Numbers:
         """Return the leaves' numbers at the samples of unit coordinates."""
-        look = self.look(unit)
+        look = self.evaluated_at(unit)
         return Numbers({leaf: Truth(value, {}, bool(look.rows[leaf].lost[0])) for leaf, value in self.leaf_values(look).items()})
 
     def _nearest_good(self, unit: FloatArray) -> FloatArray:
@@ -515,7 +516,7 @@ class Local:
 
     def _rescaled(self, unit: FloatArray) -> bool:
         """Measure the numbers anew where they are much larger or smaller than at the start; return whether they are."""
-        look = self.look(unit)
+        look = self.evaluated_at(unit)
         leaf_scales, scales, size = self._scales(look)
         before = np.array([*self.leaf_scales.values(), *self.scales, self.size])
         with np.errstate(all="ignore"):
@@ -528,8 +529,8 @@ class Local:
 
     def refine(self, unit: FloatArray) -> bool:
         """Add the tops between the samples; return whether one of them is worse than these by what counts."""
-        problem, design = self.problem, self.problem.designs(unit, self.combination)
-        before, added = self.leaf_values(self.look(unit)), False
+        problem, design = self.problem, self.problem.dimensions_at(unit, self.combination)
+        before, added = self.leaf_values(self.evaluated_at(unit)), False
         for leaf in problem.leaves:
             for parts in problem.tops(leaf, design) if isinstance(leaf, (Least, Most)) else ():
                 added = problem.refined(leaf, parts) or added
@@ -538,7 +539,7 @@ class Local:
         if not added:
             return False
         self._forget()
-        after = self.leaf_values(self.look(unit))
+        after = self.leaf_values(self.evaluated_at(unit))
         return any(self._is_worse(leaf, after[leaf], before[leaf]) for leaf in problem.leaves)
 
     def _is_worse(self, leaf: Leaf, value: float, known: float) -> bool:
@@ -550,8 +551,8 @@ class Local:
 
     def _truth(self, unit: FloatArray) -> tuple[SearchEnd, bool]:
         """Return the truth between the samples too, and whether it is worse than what was known; its poses are samples from then on."""
-        problem, design = self.problem, self.problem.designs(unit, self.combination)
-        look = self.look(unit)
+        problem, design = self.problem, self.problem.dimensions_at(unit, self.combination)
+        look = self.evaluated_at(unit)
         if not bool(look.whole[0]):
             return SearchEnd(unit, np.nan, np.inf, False), False
         known, truths, worse = self.leaf_values(look), problem.truths(design, quick=True), False

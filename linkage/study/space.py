@@ -152,7 +152,7 @@ class Space:
         low, span = np.array([(each.low, each.span) for each in self.variables]).reshape(-1, 2).T
         return np.asarray(np.clip((np.asarray(values) - low) / np.where(span > 0.0, span, 1.0), 0.0, 1.0))
 
-    def designs(self, unit: FloatArray) -> dict[str, Any]:
+    def dimensions_at(self, unit: FloatArray) -> dict[str, Any]:
         """Return dimensions by owner from unit coordinates, (n,) or (m, n)."""
         values = self.values(unit)
         return {each.owner: each.sign * values[..., place] for place, each in enumerate(self.variables)}

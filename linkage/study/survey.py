@@ -115,10 +115,11 @@ class SurveyRun:
     def _send(self) -> None:
         """Send batches until as many are under way as the executor has use for."""
         while self.left.ranges and len(self._under_way) < self.sizes.ahead:
-            start, stop = self.left.take(self.sizes.pieces(self.left.pieces))
+            start, stop = self.left.take(self.sizes.next_pieces(self.left.pieces_left))
             submission = Submission(start, stop, self._tries.get(start, 0), perf_counter())
             try:
-                future = self.executor.submit(measure_batch, self.task, start, stop, self.designs.rows(start, stop), submission.attempt)
+                dimensions = self.designs.dimensions(start, stop)
+                future = self.executor.submit(measure_batch, self.task, start, stop, dimensions, submission.attempt)
             except PICKLING_ERRORS as error:
                 raise self._error(CANNOT_SEND, error) from error
             except Exception as error:
@@ -209,7 +210,7 @@ class OpenRanges:
         self.ranges = [(0, count)]
 
     @property
-    def pieces(self) -> int:
+    def pieces_left(self) -> int:
         """How many pieces are left."""
         return sum(-(-(stop - start) // self.piece) for start, stop in self.ranges)
 
@@ -242,7 +243,7 @@ class BatchSizes:
         self.ahead = 1
         self._each: deque[float] = deque(maxlen=8)
 
-    def pieces(self, left: int) -> int:
+    def next_pieces(self, left: int) -> int:
         """Return how many pieces the next batch has when so many are left: one to begin with, then equal parts of what is left.
 
         Towards the end they are smaller than usual, so that all workers finish together.
@@ -335,7 +336,7 @@ class Survey(Mapping[str, Array], Shown):
         if not is_whole(number) or not 0 <= number < self.designs.count:
             last = self.designs.count - 1
             raise DefinitionError(f"{self.machine.plan.title}: there is no design {number!r}; numbers go from 0 to {last}.")
-        rows = self.designs.rows(int(number), int(number) + 1)
+        rows = self.designs.dimensions(int(number), int(number) + 1)
         one = {name: tuple(float(part.flat[0]) for part in value) if isinstance(value, tuple) else value[0] for name, value in rows.items()}
         return self.machine.replaced(**one)
 

@@ -145,7 +145,7 @@ class Aim:
     def misses(self, machine: Mechanism) -> FloatArray:
         """Return how far m designs are off each target, in its units, shape (m, targets); NaN where they have no value."""
         unique = {request.key: each.quantity for request, each in zip(self.bound, self.targets, strict=True)}
-        found = dict(zip(unique, self.poses.traced(machine, list(unique.values()), RunOptions("numpy")), strict=True))
+        found = dict(zip(unique, self.poses.of_requests(machine, list(unique.values()), RunOptions("numpy")), strict=True))
         columns = [found[request.key][:, place] for place, request in enumerate(self.bound)]
         return np.asarray((np.stack(columns, axis=1) - self.wanted) / self.scale)
 
@@ -166,9 +166,9 @@ class Aim:
         """Return a target in words, or a value of it: `tilt = 5 deg at S = 100 mm`."""
         each, request, plan = self.targets[place], self.bound[place], self.machine.plan
         at = ", ".join(f"{name} = {show(float(v), stroke_display_unit(plan, name, 'mm'))}" for name, v in each.strokes.items())
-        return f"{request} = {show(each.value if value is None else value, self.unit(place))} at {at}"
+        return f"{request} = {show(each.value if value is None else value, self.unit_of_target(place))} at {at}"
 
-    def unit(self, place: int) -> str:
+    def unit_of_target(self, place: int) -> str:
         """Return the unit that a target is told in."""
         return self.targets[place].unit or display_unit(measure_of(self.machine.plan, self.targets[place].quantity), "mm")
 
@@ -326,7 +326,7 @@ class Search:
         said = []
         for place, miss in enumerate(off * self.aim.scale):
             name = self.aim.words(place, self.aim.targets[place].value + float(miss))
-            gap = show(abs(float(miss)), self.aim.unit(place), 4)
+            gap = show(abs(float(miss)), self.aim.unit_of_target(place), 4)
             side = "more" if miss > 0.0 else "less"
             said.append(f"{name}, {gap} {side} than wanted" if abs(off[place]) > TOLD else f"{name} as wanted")
         return f"No setting that was found gives all of it. The nearest is {words}: {'; '.join(said)}."

@@ -178,11 +178,11 @@ class SettingsBox:
         values = self.values(design, places)
         return np.stack([-values, values]), np.isfinite(values)
 
-    def own(self, function: int, design: Index, places: FloatArray) -> FloatArray:
+    def one_function(self, function: int, design: Index, places: FloatArray) -> FloatArray:
         """Return one of both (u, n), by its number."""
         return np.asarray((-1.0, 1.0)[function] * self.values(design, places))
 
-    def keeps(self, design: Index, places: FloatArray) -> Mask:
+    def is_kept(self, design: Index, places: FloatArray) -> Mask:
         """Return which settings have a value (u, n)."""
         return np.isfinite(self.values(design, places))
 

@@ -122,7 +122,7 @@ def designs_of(machine, vary, best, rng, count):
         if each.step is not None:
             steps = each.step / each.span
             unit[:, place] = np.minimum(np.round(unit[:, place] / steps), np.floor(1.0 / steps + 1e-9)) * steps
-    return {**space.chosen(rows[int(rng.integers(len(rows)))]), **space.designs(unit)}
+    return {**space.chosen(rows[int(rng.integers(len(rows)))]), **space.dimensions_at(unit)}
 
 
 def check_winner(machine, ask, *, fine=1001, coarse=61, designs=2000):
@@ -360,7 +360,7 @@ def test_the_least_relaxation_is_that_of_brute_force():
     least_sum = sum(each.by / sizes[[each.condition is one for one in limits].index(True)] for each in caught.value.relaxations)
 
     def total(unit):
-        motion = Lift(**Space.of(Lift(), VARY).designs(unit)).sweep(41, unreachable="nan")
+        motion = Lift(**Space.of(Lift(), VARY).dimensions_at(unit)).sweep(41, unreachable="nan")
         heights = motion.y("G")
         parts = [0.9 - (heights[:, -1] - heights[:, 0]), motion[pressure("lift")].max(axis=-1), motion[pin_force("O")].max(axis=-1)]
         short = [parts[0] / 0.9, parts[1] / sizes[1] - 1.0, parts[2] / sizes[2] - 1.0]

@@ -34,10 +34,10 @@ class InUnitBox:
         self.seen = np.array([f(self.grid) for f in functions]).reshape(len(functions), 1, -1)
         self.count, self.kept = self.side**k, np.ones(self.seen.shape[1:], bool)
 
-    def own(self, function, design, places):
+    def one_function(self, function, design, places):
         return self.at(design, places)[0][function]
 
-    def keeps(self, design, places):
+    def is_kept(self, design, places):
         self.count += places[..., 0].size
         return np.ones(places.shape[:-1], bool)
 

@@ -350,7 +350,7 @@ def test_rows_have_the_derivatives_of_central_differences(seed):
     goals = [most(y(point)) - least(x(point)), most(drive_force(next(iter(plan.strokes))))]
     problem = Problem(machine, goals, conditions_of([], machine), space)
     unit = space.unit(space.present(machine))
-    look = problem.look(problem.designs(unit, ()), slopes=True)
+    look = problem.evaluated(problem.dimensions_at(unit, ()), slopes=True)
     if not look.whole[0]:
         pytest.skip("not assembled over its whole stroke")
     for leaf, rows in look.rows.items():
@@ -359,7 +359,7 @@ def test_rows_have_the_derivatives_of_central_differences(seed):
             for sign in (1.0, -1.0):
                 moved = unit.copy()
                 moved[place] += sign * 1e-6
-                ends.append(problem.look(problem.designs(moved, ())).rows[leaf].values[0])
+                ends.append(problem.evaluated(problem.dimensions_at(moved, ())).rows[leaf].values[0])
             by_hand = (ends[0] - ends[1]) / 2e-6
             size = np.max(np.abs(by_hand)) + 1e-3
             assert np.max(np.abs(by_hand - rows.slopes[place])) < 2e-4 * size + 2e-9 * np.max(np.abs(rows.values))
@@ -372,7 +372,7 @@ def test_a_measure_raised_to_a_measure_has_both_derivatives():
 
     def graded(unit):
         local = Local(problem, (), np.array([unit]))
-        return local.graded(problem.objectives[0], local.look(np.array([unit])), local.first(np.array([unit])))
+        return local.graded(problem.objectives[0], local.evaluated_at(np.array([unit])), local.first(np.array([unit])))
 
     def value(unit):
         machine_there = problem.machine_of(np.array([unit]), ())
@@ -389,7 +389,7 @@ def test_a_measure_raised_to_a_measure_has_both_derivatives():
 def leaf_slopes(problem):
     """Return how the scaled greatest pressure changes with the unit coordinate."""
     local = Local(problem, (), np.array([0.5]))
-    look = local.look(np.array([0.5]))
+    look = local.evaluated_at(np.array([0.5]))
     (leaf,) = [each for _, each in local.aux]
     rows = look.rows[leaf]
     return [rows.slopes[0, int(np.argmax(rows.values[0]))] / local.leaf_scales[leaf]]

@@ -317,10 +317,10 @@ def test_values_at_many_poses_are_one_set_and_those_of_each_by_itself():
     together = Problem(machine, quantities, [], space)
     assert len([each for each in together.sets if each.singles]) == 1
     unit = np.array([0.3, 0.6, 0.2])
-    look = together.look(together.designs(unit, ()), slopes=True)
+    look = together.evaluated(together.dimensions_at(unit, ()), slopes=True)
     for each in quantities:
         alone = Problem(machine, [each], [], space)
-        own = alone.look(alone.designs(unit, ()), slopes=True)
+        own = alone.evaluated(alone.dimensions_at(unit, ()), slopes=True)
         assert_allclose(look.rows[each].values, own.rows[each].values, rtol=1e-13)
         assert_allclose(look.rows[each].slopes, own.rows[each].slopes, rtol=1e-10, atol=1e-12)
 
@@ -334,7 +334,7 @@ def test_an_angle_at_many_poses_goes_on_along_the_way_to_each():
 
     places = [0.0, 2.0, 4.0, 6.5]
     problem = Problem(Spun(), [at("turned", phi=each) for each in places], [], Space.of(Spun(), {"OA": (0.4, 0.6)}))
-    look = problem.look(Spun().dimensions)
+    look = problem.evaluated(Spun().dimensions)
     assert_allclose([look.rows[each].values[0, 0] for each in problem.leaves], places, rtol=1e-12)
 
 
@@ -409,12 +409,12 @@ def test_a_design_with_its_derivatives_is_one_call_of_one_kernel(monkeypatch):
     machine = Boom()
     kept = conditions_of([least(transmission("B")) >= 35 * deg], machine)
     problem = Problem(machine, [most(pressure("lift"))], kept, Space.of(machine, {"OB": (0.28, 0.32)}))
-    design = problem.designs(np.array([0.5]), ())
-    problem.look(design, slopes=True)
+    design = problem.dimensions_at(np.array([0.5]), ())
+    problem.evaluated(design, slopes=True)
     calls = []
     own = Kernel.__call__
     monkeypatch.setattr(Kernel, "__call__", lambda self, *given, **options: calls.append(self) or own(self, *given, **options))
-    found = problem.look(design, slopes=True)
+    found = problem.evaluated(design, slopes=True)
     assert len(calls) == len(problem.sets) == 1
     apart = [sampling_at(problem, design, step) for step in (1e-6, -1e-6)]
     by_hand = (apart[0] - apart[1]) / (2e-6 * 0.04)
@@ -425,4 +425,4 @@ def test_a_design_with_its_derivatives_is_one_call_of_one_kernel(monkeypatch):
 def sampling_at(problem, design, by):
     """Return the rows of the objective of a design with one dimension moved by a part of its range."""
     (leaf,) = problem.objectives[0].leaves
-    return problem.look(design | {"OB": design["OB"] + by * 0.04}).rows[leaf].values[0]
+    return problem.evaluated(design | {"OB": design["OB"] + by * 0.04}).rows[leaf].values[0]

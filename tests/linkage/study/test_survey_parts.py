@@ -23,7 +23,7 @@ def test_every_design_is_dealt_out_once_on_the_borders_of_pieces(count, piece, d
     left = OpenRanges(count, piece)
     given_out = np.zeros(count, int)
     while left.ranges:
-        assert left.pieces == sum(-(-(stop - start) // piece) for start, stop in left.ranges)
+        assert left.pieces_left == sum(-(-(stop - start) // piece) for start, stop in left.ranges)
         start, stop = left.take(data.draw(st.integers(1, 9)))
         assert start % piece == 0 and (stop % piece == 0 or stop == count) and start < stop
         if data.draw(st.booleans()) and given_out.sum() < 3 * count:
@@ -35,14 +35,14 @@ def test_every_design_is_dealt_out_once_on_the_borders_of_pieces(count, piece, d
 
 def test_batches_grow_to_their_time_and_shrink_towards_the_end():
     sizes = BatchSizes(1000)
-    assert (sizes.pieces(10_000), sizes.ahead) == (1, 1)
+    assert (sizes.next_pieces(10_000), sizes.ahead) == (1, 1)
     sizes.learn(1, 0.01, waited=0.0)
-    assert (sizes.pieces(10_000), sizes.ahead) == (40, 2)
-    assert sizes.pieces(60) == 30
-    assert sizes.pieces(30) == 30, "what is left over is no batch of its own"
+    assert (sizes.next_pieces(10_000), sizes.ahead) == (40, 2)
+    assert sizes.next_pieces(60) == 30
+    assert sizes.next_pieces(30) == 30, "what is left over is no batch of its own"
     sizes.learn(40, 0.04, waited=1.0)
-    assert (sizes.pieces(10_000), sizes.pieces(100_000), sizes.ahead) == (400, 400, 2)
-    assert BatchSizes(7).pieces(100) == 1
+    assert (sizes.next_pieces(10_000), sizes.next_pieces(100_000), sizes.ahead) == (400, 400, 2)
+    assert BatchSizes(7).next_pieces(100) == 1
 
 
 def test_batches_at_the_bound_of_memory_are_equal():
@@ -50,7 +50,7 @@ def test_batches_at_the_bound_of_memory_are_equal():
     sizes.learn(1, 0.002, waited=0.0)
     left, dealt = 977, []
     while left:
-        dealt.append(sizes.pieces(left))
+        dealt.append(sizes.next_pieces(left))
         left -= dealt[-1]
     assert len(dealt) == 14 and set(dealt) == {69, 70}
 

@@ -393,7 +393,8 @@ def traced(plan: Plan, quantity: Any) -> Request | None:
     if request.rows > 1:
         raise DefinitionError(f"{plan.title}: {words_of(quantity)} has two components; {which_component(plan, quantity)}.")
     try:
-        plan.made(("traced", request.traced_with), lambda twin: len(request.nodes(twin)))
+        if request.traced_with is not None:
+            plan.made(("traced", request.traced_with), lambda twin: len(request.nodes(twin)))
     except (UntracedError, LawError):
         return None
     return request

@@ -127,7 +127,10 @@ class Request(Arithmetic):
 
     @property
     def traced_with(self) -> Hashable:
-        """What tells the requests whose program is traced in one with this one's: where one of them can be, all can."""
+        """What tells the requests whose program is traced in one with this one's: where one of them can be, all can.
+
+        None of one that was traced when it was bound.
+        """
         return self.key
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:

@@ -33,8 +33,8 @@ class TracedLaw:
 class LawInPlan:
     """What a formula is in a plan: what tells it from others, the members that it reads, and those it is differentiated through.
 
-    `trace` gives it on a traced motion of the plan, `traced_with` tells the formulas that are traced in one with it, `sentence` what it is
-    of there.
+    `trace` gives it on a traced motion of the plan, `traced_with` tells the formulas that are traced in one with it, None where it has been
+    traced to know this, `sentence` what it is of there.
     """
 
     key: Hashable
@@ -175,7 +175,7 @@ class LawRequest(Request):
 
     @property
     def traced_with(self) -> Hashable:
-        return self.key if self.in_plan is None else self.in_plan.traced_with or self.key
+        return self.key if self.in_plan is None else self.in_plan.traced_with
 
     def _in(self, plan: Plan) -> LawInPlan:
         """Return what it is in the plan that it is bound to."""

@@ -34,6 +34,7 @@ class FlatPoses:
         self.count = int(self.good.sum())
         self._at: dict[str, FloatArray] = {}
         self._rates: dict[tuple[str, str], FloatArray] = {}
+        self._growths: dict[tuple[str, str, str], FloatArray] = {}
 
     def without(self, lost: Mask) -> FlatPoses:
         """Return the poses that a mask (n,) leaves."""
@@ -41,7 +42,7 @@ class FlatPoses:
         left.good = np.array(self.good)  # of a single pose a number, which takes no item
         left.good[self.good] = ~lost
         left.count = int(left.good.sum())
-        left._at, left._rates = {}, {}
+        left._at, left._rates, left._growths = {}, {}, {}
         return left
 
     @property
@@ -102,10 +103,13 @@ class FlatPoses:
         return np.asarray(arm / over_zero(np.hypot(arm[0], arm[1])))
 
     def growth(self, P: str, Q: str, drive: str) -> FloatArray:
-        """Return how the distance of two points grows with a stroke, shape (n,); 0 where they coincide."""
-        arm = self.at(Q) - self.at(P)
-        rate = self.rate(Q, drive) - self.rate(P, drive)
-        return np.asarray((arm * rate).sum(axis=0) / over_zero(np.hypot(arm[0], arm[1])))
+        """Return how the distance of two points grows with a stroke, shape (n,), worked out once; 0 where they coincide."""
+        key = (P, Q, drive)
+        if key not in self._growths:
+            arm = self.at(Q) - self.at(P)
+            rate = self.rate(Q, drive) - self.rate(P, drive)
+            self._growths[key] = np.asarray((arm * rate).sum(axis=0) / over_zero(np.hypot(arm[0], arm[1])))
+        return self._growths[key]
 
     def pair(self, x: Scalar, y: Scalar) -> FloatArray:
         """Return two parts of a vector as (2, n)."""

@@ -40,6 +40,7 @@ from linkage import (
     y,
 )
 from linkage.program import Kernel
+from linkage.statics.law_requests import LawRequest
 from linkage.units import bar, deg, kN, mm
 
 
@@ -399,6 +400,13 @@ def test_a_machine_without_strokes_is_judged_as_it_stands():
 def answered(machine, questions):
     """Return values and places of the answers of a machine."""
     return [(each.value, each.ok, dict(each.strokes), each.case, each.direction, each.side) for each in machine.answers(questions)]
+
+
+def test_a_law_is_traced_where_it_is_bound_and_for_its_kernel_and_not_a_third_time(monkeypatch):
+    known, trace = [], LawRequest.traced
+    monkeypatch.setattr(LawRequest, "traced", lambda request, motion: known.append(str(request)) or trace(request, motion))
+    Loader().answers([least(reserve("lift")) >= 1], over={"T": 0.1}, acting=Acting(case="carrying", direction="extending"))
+    assert known and max(map(known.count, known)) <= 2
 
 
 def test_an_equal_machine_is_not_searched_again(monkeypatch):

@@ -19,6 +19,7 @@ from ..errors import SingularError, SingularWarning, warn
 from ..plan import ArrayReading, Mask, Plan, called, opening
 from ..program import FloatArray, Iterated, Node, scatter
 from ..steps import Point
+from ..vectors import Numbers
 from .grid import MotionLike
 from .limits import where_words
 
@@ -52,7 +53,7 @@ class Rounding:
         graph = plan.trace.graph
         return cls(tuple(nodes), tuple(map(Iterated.of, closures)), graph.node(plan.trace.extent))
 
-    def at(self, inputs: Mapping[str, Any]) -> PrecisionLeft:
+    def at(self, inputs: Mapping[str, Numbers]) -> PrecisionLeft:
         """Return what is left at poses, inputs as floats or (n,)."""
         values, errors = scatter((*self.nodes, self.extent), inputs, self.iterated)
         return PrecisionLeft(values[:-1], errors[:-1], np.sqrt(values[-1]))

@@ -17,6 +17,7 @@ from ..frozen import FrozenDict, read_only
 from ..plan import ArrayReading, Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node, RunOptions, ancestors, interpret
 from ..quantities import Member, Quantity
+from ..vectors import Numbers
 
 Made = TypeVar("Made")
 
@@ -33,7 +34,7 @@ class Grid:
     def __init__(
         self,
         plan: Plan,
-        designs: Mapping[str, Any],
+        designs: Mapping[str, Numbers],
         strokes: Mapping[str, FloatArray],
         *,
         per_design: bool = False,
@@ -320,7 +321,7 @@ class Angles:
 
 
 def to_rounding(
-    values: FloatArray, at_end: Mask, nodes: Sequence[Node], inputs: Mapping[str, Any], known: Mapping[Node, Any] | None = None
+    values: FloatArray, at_end: Mask, nodes: Sequence[Node], inputs: Mapping[str, Numbers], known: Mapping[Node, Any] | None = None
 ) -> FloatArray:
     """Return the values (nodes, ...) of some nodes with those put right of the poses `at_end`, which stand at a dead point to rounding.
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from ..plan import Loop, Mask, Plan
 from ..program import FloatArray, Kernel, Level, RunOptions
+from ..vectors import Numbers
 from .grid import Grid
 from .limits import stroke_number, stroke_text, stroke_unit
 from .line import last_holding
@@ -93,7 +94,7 @@ class Clearances:
 class StrokeClearance:
     """One design along one stroke, the others held: `seen(x)` are the clearances at values of the stroke, shape (loops, n)."""
 
-    def __init__(self, plan: Plan, designs: Mapping[str, Any], name: str, held: Mapping[str, float]) -> None:
+    def __init__(self, plan: Plan, designs: Mapping[str, Numbers], name: str, held: Mapping[str, float]) -> None:
         self.plan, self.designs, self.name, self.held = plan, designs, name, held
         self.clearances = plan.made("clearances", Clearances.of)
         self.loops, self.unit = self.clearances.loops, stroke_unit(plan, name)

@@ -25,7 +25,7 @@ from ..shown import Shown
 from ..units import deg, display_unit, mm, show
 from .box import unit_points
 from .checks import unit_of
-from .problem import LimitReachedError, Numbers, Problem, size_of_rows, terms_size
+from .problem import LeafNumbers, LimitReachedError, Problem, size_of_rows, terms_size
 from .result_tables import EvaluatedDesigns, ResultRow, result_text, tried_header, tried_names, tried_rows, write_result
 from .sampling import divisors_of
 from .solver import MET, Local, SearchEnd, divisors, missing_of, scale_of, scales_of, true_worth
@@ -286,7 +286,7 @@ def described(
     )  # fmt: skip
 
 
-def check_bounded(problem: Problem, now: Numbers) -> None:
+def check_bounded(problem: Problem, now: LeafNumbers) -> None:
     """Raise StudyError where the objective grows without bounds, because a number that it is divided by comes to zero in the box."""
     asked = divisors(problem.objectives)
     if not asked:
@@ -315,9 +315,9 @@ def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float],
     return Kept(constraint, left, right, spare, by, price * by if price * by > SHOWN else 0.0, unit_of_constraint(problem.plan, constraint))
 
 
-def true_values(problem: Problem, machine: Mechanism, *, quick: bool = False) -> Numbers:
+def true_values(problem: Problem, machine: Mechanism, *, quick: bool = False) -> LeafNumbers:
     """Return the leaves' numbers of a machine, between the poses too: as a motion gives them, or `quick` by the program."""
-    return Numbers(problem.truths(machine.dimensions, quick=quick))
+    return LeafNumbers(problem.truths(machine.dimensions, quick=quick))
 
 
 def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:

@@ -40,6 +40,7 @@ from ..motion.strokes import check_magnitude
 from ..plan import Mask, Plan
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
+from ..vectors import Numbers
 from .measured import eager, motion_of, nothing_limits
 from .sampling import Samples, Sampling, divisors_of, rows_of_motion, with_values
 from .space import Space
@@ -227,7 +228,7 @@ class Truth(NamedTuple):
 
 
 @final
-class Numbers(dict[Leaf, float]):
+class LeafNumbers(dict[Leaf, float]):
     """The leaves' numbers of one design; `lost` are those that have no value at a pose."""
 
     def __init__(self, found: Mapping[Leaf, Truth]) -> None:
@@ -408,7 +409,7 @@ class Problem:
         """Return all dimensions of designs by unit coordinates (n,) or (m, n) and a combination of choices."""
         return with_values(self.machine.dimensions, self.space.chosen(combination) | self.space.dimensions_at(unit))
 
-    def evaluated(self, designs: Mapping[str, Any], *, slopes: bool = False) -> Evaluated:
+    def evaluated(self, designs: Mapping[str, Numbers], *, slopes: bool = False) -> Evaluated:
         """Return what is seen of designs, of one with derivatives by the unit coordinates.
 
         A design that is refused, for a charge below the gas's as an example, counts as one that cannot be assembled; `refusal` says
@@ -426,7 +427,7 @@ class Problem:
                 return self._nothing(slopes=slopes)
         self.count.designs -= m
         with self.count.without_limit():
-            each_of = [{name: float(value[k]) if np.ndim(value) else value for name, value in designs.items()} for k in range(m)]
+            each_of = [{name: float(np.ravel(value)[k]) if np.ndim(value) else value for name, value in designs.items()} for k in range(m)]
             parts = [self.evaluated(design) for design in each_of]
         rows = {leaf: [each.rows[leaf] for each in parts] for leaf in self.leaves}
         return Evaluated(
@@ -456,7 +457,7 @@ class Problem:
             rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)) if slopes else None, np.zeros(1, bool))
         return Evaluated(rows, np.zeros((1, 0)), np.zeros((n, 0)) if slopes else None, np.zeros(1, bool), np.zeros(1))
 
-    def _look(self, designs: Mapping[str, Any], m: int, *, slopes: bool) -> Evaluated:
+    def _look(self, designs: Mapping[str, Numbers], m: int, *, slopes: bool) -> Evaluated:
         """Return what is seen of m designs; DefinitionError where one of them is refused."""
         ends = self._ends(designs, slopes=slopes)
         whole, reached, margins, margin_slopes = np.ones(m, bool), np.ones(m), [], []
@@ -488,7 +489,7 @@ class Problem:
     def _samplings_of_ends(self) -> dict[Any, Sampling]:
         return {end: Sampling(self.plan, [end], self.owners) for end in self.follow}
 
-    def _ends(self, designs: Mapping[str, Any], *, slopes: bool) -> dict[int, tuple[FloatArray, FloatArray | None]]:
+    def _ends(self, designs: Mapping[str, Numbers], *, slopes: bool) -> dict[int, tuple[FloatArray, FloatArray | None]]:
         """Return the values (m,) of the ends that follow the design, with derivatives (p,) by the owners; by their identity."""
         found = {}
         strokes = {name: np.asarray(stroke.start, float) for name, stroke in self.plan.strokes.items()}
@@ -501,7 +502,7 @@ class Problem:
             found[id(end)] = values, (None if samples.value_slopes is None else samples.value_slopes[0, :, 0])
         return found
 
-    def _grid(self, poses: PoseSet, designs: Mapping[str, Any], ends: Mapping[int, tuple[FloatArray, FloatArray | None]]) -> Grid:
+    def _grid(self, poses: PoseSet, designs: Mapping[str, Numbers], ends: Mapping[int, tuple[FloatArray, FloatArray | None]]) -> Grid:
         """Return a pose set's grid."""
         follows = any(self.ranges[name].follows for name in poses.axes)
         parts = poses.parts
@@ -520,7 +521,7 @@ class Problem:
         joining = None if poses.axes else self._joined_on_the_way(poses, designs)
         return Grid(self.plan, designs, strokes, per_design=follows, joining=joining)
 
-    def _joined_on_the_way(self, poses: PoseSet, designs: Mapping[str, Any]) -> JoinedTo | None:
+    def _joined_on_the_way(self, poses: PoseSet, designs: Mapping[str, Numbers]) -> JoinedTo | None:
         """Return how the angles of single poses join those on the way to each from where the ranges begin, as a sweep gives them."""
         if not any(poses.singles):
             return None
@@ -686,7 +687,7 @@ class Problem:
         }
         return machine.at(unreachable="nan", **at)
 
-    def over_stroke(self, leaf: Leaf, design: Mapping[str, Any], count: int) -> tuple[str, FloatArray, FloatArray] | None:
+    def over_stroke(self, leaf: Leaf, design: Mapping[str, Numbers], count: int) -> tuple[str, FloatArray, FloatArray] | None:
         """Return a stroke that a leaf's quantity depends on, its values (n,) and the quantity's (n,) of a design [SI]; None of a constant.
 
         Over further strokes that value is taken which is the worst for the leaf, of others than an extreme the greatest.
@@ -709,13 +710,13 @@ class Problem:
 
     # -- the whole truth ---------------------------------------------------------------------------------
 
-    def motion_over(self, design: Mapping[str, Any], names: Sequence[str], count: int = 33) -> Motion:
+    def motion_over(self, design: Mapping[str, Numbers], names: Sequence[str], count: int = 33) -> Motion:
         """Return the motion of one design over some strokes' ranges, the others held."""
         ends = self._ends(design, slopes=False)
         poses = PoseSet({name: np.linspace(0.0, 1.0, count if len(names) == 1 else 5) for name in names})
         return motion_of(self._grid(poses, design, ends))
 
-    def truths(self, design: Mapping[str, Any], *, quick: bool = False) -> dict[Leaf, Truth]:
+    def truths(self, design: Mapping[str, Numbers], *, quick: bool = False) -> dict[Leaf, Truth]:
         """Return the values of all leaves of one design, between the poses too.
 
         As a motion gives them, or `quick` by the plan's program, which the search itself follows.
@@ -748,7 +749,7 @@ class Problem:
             found |= self._extremes(leaves, design, names, quick=quick)
         return found
 
-    def _extremes(self, leaves: Sequence[Leaf], design: Mapping[str, Any], names: Sequence[str], *, quick: bool) -> dict[Leaf, Truth]:
+    def _extremes(self, leaves: Sequence[Leaf], design: Mapping[str, Numbers], names: Sequence[str], *, quick: bool) -> dict[Leaf, Truth]:
         """Return the extremes of one design over some strokes, all looked for together."""
         motion = self.motion_over(design, names)
         senses = [-1.0 if isinstance(leaf, Least) else 1.0 for leaf in leaves]
@@ -768,7 +769,7 @@ class Problem:
             for leaf, value, own, lost in zip(leaves, values, parts, watched.without_value, strict=True)
         }
 
-    def tops(self, leaf: Leaf, design: Mapping[str, Any]) -> list[dict[str, float]]:
+    def tops(self, leaf: Leaf, design: Mapping[str, Numbers]) -> list[dict[str, float]]:
         """Return where between its samples a leaf of one design has tops that come near its worst value: the part of its stroke's range."""
         poses, place, _ = self._of_leaf[leaf]
         if len(poses.axes) != 1 or poses.inner:
@@ -794,7 +795,7 @@ class Problem:
             found.append({name: 0.5 * (low + high)})
         return found
 
-    def panels(self, leaf: Leaf, design: Mapping[str, Any]) -> tuple[float, FloatArray]:
+    def panels(self, leaf: Leaf, design: Mapping[str, Numbers]) -> tuple[float, FloatArray]:
         """Return an integral of one design over the parts (0 to 1) of its stroke, and the panels that it takes: fine where it has kinks."""
         poses, place, _ = self._of_leaf[leaf]
         (name,) = [each for each in poses.axes if each != poses.inner]
@@ -826,7 +827,7 @@ class Problem:
             edges = finer[keep]
         return float(shares.sum()), edges
 
-    def refined_panels(self, leaf: Leaf, design: Mapping[str, Any]) -> bool:
+    def refined_panels(self, leaf: Leaf, design: Mapping[str, Numbers]) -> bool:
         """Look at an integral in panels that are fine enough for one design; return whether they are others than before."""
         poses, *_ = self._of_leaf[leaf]
         (name,) = [each for each in poses.axes if each != poses.inner]
@@ -837,7 +838,7 @@ class Problem:
         poses.weights = weights
         return True
 
-    def span_of(self, leaf: Leaf, design: Mapping[str, Any]) -> float:
+    def span_of(self, leaf: Leaf, design: Mapping[str, Numbers]) -> float:
         """Return how long the range of an integral's stroke is [SI]."""
         poses, *_ = self._of_leaf[leaf]
         (name,) = [each for each in poses.axes if each != poses.inner]
@@ -855,12 +856,12 @@ class Problem:
                 new = True
         return new
 
-    def strokes_at(self, leaf: Leaf, design: Mapping[str, Any], parts: Mapping[str, float]) -> dict[str, float]:
+    def strokes_at(self, leaf: Leaf, design: Mapping[str, Numbers], parts: Mapping[str, float]) -> dict[str, float]:
         """Return the strokes [SI] at parts of their ranges."""
         ends = self.ends(design)
         return {name: ends[name][0] + part * (ends[name][1] - ends[name][0]) for name, part in parts.items()}
 
-    def ends(self, design: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
+    def ends(self, design: Mapping[str, Numbers]) -> dict[str, tuple[float, float]]:
         """Return from where to where [SI] each stroke of one design is looked at."""
         found = self._ends(design, slopes=False)
 

@@ -18,6 +18,7 @@ from ..motion.requests import slope
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node
 from ..quantities import Quantity, Ref
+from ..vectors import Numbers
 from .measured import eager, motion_of, nothing_limits
 
 DIFFERENCE = 6e-6
@@ -267,6 +268,6 @@ def all_placed() -> NodeRequest:
     return NodeRequest(text="all places", key="placed", nodes_of=nodes, names_of=lambda plan: plan.reaches(*plan.moving))
 
 
-def with_values(designs: Mapping[str, Any], changed: Mapping[str, Any]) -> dict[str, Any]:
+def with_values(designs: Mapping[str, Numbers], changed: Mapping[str, Any]) -> dict[str, Any]:
     """Return dimensions with some of them changed; numbers as floats, and arrays of one number as such."""
     return dict(designs) | {name: float(value) if np.ndim(value) == 0 else np.asarray(value, float) for name, value in changed.items()}

@@ -18,7 +18,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most
 from ..program import FloatArray
-from .problem import Evaluated, LimitReachedError, Numbers, Problem, Truth, reduced, scale_among, size_of_rows, terms_size
+from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Truth, reduced, scale_among, size_of_rows, terms_size
 
 FAR = 10.0
 """The loss for the whole of a box's side towards designs that cannot be assembled, in scaled numbers."""
@@ -34,7 +34,7 @@ SMALL = 1e-6
 CLEAR = 1e-9
 """The least squared sine of a loop that counts as assembled."""
 OTHER_SIZE = 4.0
-"""Numbers so many times larger or smaller than at the start are scaled anew."""
+"""LeafNumbers so many times larger or smaller than at the start are scaled anew."""
 HALVINGS = 40
 STEEP = 1e3
 """What an infinite derivative counts, of scaled numbers by unit coordinates."""
@@ -498,10 +498,10 @@ class Local:
         values = self.numbers(unit)
         return SearchEnd(unit, true_worth(self.problem, values), missing_of(self.problem.constraints, self.scales, values), True)
 
-    def numbers(self, unit: FloatArray) -> Numbers:
+    def numbers(self, unit: FloatArray) -> LeafNumbers:
         """Return the leaves' numbers at the samples of unit coordinates."""
         look = self.evaluated_at(unit)
-        return Numbers({leaf: Truth(value, {}, bool(look.rows[leaf].lost[0])) for leaf, value in self.leaf_values(look).items()})
+        return LeafNumbers({leaf: Truth(value, {}, bool(look.rows[leaf].lost[0])) for leaf, value in self.leaf_values(look).items()})
 
     def _nearest_good(self, unit: FloatArray) -> FloatArray:
         """Return unit coordinates; where these cannot be worked with, the last ones on the way from the good ones to them that can."""
@@ -561,7 +561,7 @@ class Local:
                 worse = True
         if worse:
             self._forget()
-        values = Numbers(truths)
+        values = LeafNumbers(truths)
         value = true_worth(problem, values)
         return SearchEnd(unit, value, missing_of(problem.constraints, self.scales, values), True), worse
 
@@ -676,14 +676,14 @@ def scales_of(problem: Problem, look: Evaluated) -> list[float]:
     return found
 
 
-def true_worth(problem: Problem, values: Numbers) -> float:
+def true_worth(problem: Problem, values: LeafNumbers) -> float:
     """Return the objective [SI] of the leaves' numbers; NaN where one of them is lost."""
     is_lost = any(leaf in values.lost for each in problem.objectives for leaf in each.leaves)
     with np.errstate(all="ignore"):
         return float("nan") if is_lost else float(problem.value(lambda leaf: np.float64(values[leaf])))
 
 
-def missing_of(constraints: Sequence[Constraint], scales: Sequence[float], values: Numbers) -> float:
+def missing_of(constraints: Sequence[Constraint], scales: Sequence[float], values: LeafNumbers) -> float:
     """Return by how much the worst of some constraints is missed, in parts of its size; infinite where one has no value."""
     missing = 0.0
     for each, scale in zip(constraints, scales, strict=True):

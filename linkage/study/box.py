@@ -11,6 +11,7 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, one_word, unknown
 from ..mechanism import Mechanism
+from ..motion.line import Index
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number, is_whole
@@ -51,7 +52,7 @@ class Box:
         check_once(machine, vary)
         return box
 
-    def settings(self, unit: FloatArray, choice: Any) -> dict[str, Any]:
+    def settings(self, unit: FloatArray, choice: Index) -> dict[str, Any]:
         """Return settings (m,) by name, from coordinates (m, k) between 0 and 1 and the number of the choice (m,)."""
         low, high = np.array([*self.ranges.values()], float).reshape(-1, 2).T
         found: dict[str, Any] = {name: value for name, value in zip(self.ranges, (low + unit * (high - low)).T, strict=True)}

@@ -14,11 +14,13 @@ from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import Request
 from ..motion.kinds import measure_of
-from ..motion.measures import At, Condition, Constraint, Leaf, Least, Measure, Most, conditions_of
+from ..motion.line import Index
+from ..motion.measures import At, Condition, Constraint, Leaf, Least, Measure, Most, Worst, conditions_of
 from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import is_number
 from ..units import display_unit
+from ..vectors import Numbers
 from .measured import Measured, StudyPoses, fold, fold_start, measured_title, nothing_limits, number_bound
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, shifted_designs, tolerance_words, tolerances_of
 
@@ -223,9 +225,9 @@ class MonteCarloRun:
         self.moments: dict[str, FloatArray] = {}
         self.lost = np.zeros(count, bool)
         self.kept: list[Mask] = []
-        self._leaves: dict[Leaf, Any] = {}
-        self._asked: dict[Hashable, Any] = {}
-        self._unlimited: dict[Leaf, Any] = {}
+        self._leaves: dict[Leaf, Numbers] = {}
+        self._asked: dict[Hashable, Measured | Worst] = {}
+        self._unlimited: dict[Leaf, Index] = {}
         """At how many poses nothing limits a leaf's quantity, of each design."""
 
     def measure(self, asked: Mapping[str, Measured], conditions: Sequence[Constraint]) -> None:
@@ -257,12 +259,12 @@ class MonteCarloRun:
             else:
                 self.moments[title] = np.concatenate(found[self._key(each)], axis=1)
 
-    def _key(self, quantity: Any) -> Hashable:
+    def _key(self, quantity: Measured | Worst) -> Hashable:
         """Return what tells a quantity from others."""
         found = number_bound(self.poses.base.plan, quantity)
         return id(quantity) if found is None else found.key
 
-    def _traced(self, traced: Sequence[Any], part: slice, store: FloatArray) -> FloatArray:
+    def _traced(self, traced: Sequence[Measured | Worst], part: slice, store: FloatArray) -> FloatArray:
         """Return quantities at some of the poses, shape (quantities, poses, designs), in the array that is there for them."""
         place = store[:, : part.stop - part.start]
 
@@ -274,7 +276,7 @@ class MonteCarloRun:
         self._on_threads(fill, blocks(self.count, part.stop - part.start))
         return place
 
-    def _of_function(self, quantity: Any) -> FloatArray:
+    def _of_function(self, quantity: Measured | Worst) -> FloatArray:
         """Return a function of motions, shape (poses, designs), or (1, designs)."""
         found = [self.poses.of_function(self._block(block), quantity).T for block in blocks(self.count, self.poses.pose_count)]
         return np.concatenate(found, axis=1)
@@ -297,7 +299,7 @@ class MonteCarloRun:
                 kept |= np.isnan(self._leaves[leaf]) & (self._unlimited[leaf] > 0)
         return kept
 
-    def _free(self, poses: StudyPoses, quantity: Any, values: FloatArray) -> Mask | None:
+    def _free(self, poses: StudyPoses, quantity: Measured | Worst, values: FloatArray) -> Mask | None:
         """Return where nothing limits a quantity, so that it has no value (poses, designs) there; None where each has one."""
         if not isinstance(quantity, Request) or not np.isnan(values).any():
             return None

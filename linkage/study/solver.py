@@ -10,12 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, final
+from typing import Any, NamedTuple, TypeAlias, final
 from warnings import catch_warnings, simplefilter
 
 import numpy as np
 
 from ..errors import DefinitionError
+from ..motion.line import Index
 from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most
 from ..program import FloatArray
 from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Truth, reduced, scale_among, size_of_rows, terms_size
@@ -40,6 +41,10 @@ STEEP = 1e3
 """What an infinite derivative counts, of scaled numbers by unit coordinates."""
 LINES, WIDENED = 24, 8
 """Lines of a constraint that trust-constr is given at most, and how often others are added that its end misses."""
+
+
+Lines: TypeAlias = Callable[[FloatArray], FloatArray]
+"""Some lines, or their derivatives, at the solver's variables."""
 
 
 class Graded(NamedTuple):
@@ -419,9 +424,10 @@ class Local:
 
     def _trusted(self, z: FloatArray, bounds: Any, most: int) -> FloatArray:
         """Return what trust-constr comes to: by the lines that stand worst, then with those that its end misses, too."""
-        chosen: list[Any] = [None] * 2
+        known: list[Index | None] = [None] * 2
         for _ in range(WIDENED):
-            chosen = [self._worst_lines(z, equations, known) for equations, known in zip((False, True), chosen, strict=True)]
+            chosen = [self._worst_lines(z, equations, each) for equations, each in zip((False, True), known, strict=True)]
+            known = [*chosen]
             found = self._within(z, bounds, chosen, most)
             values = self._stacked(found, False)[0]
             if not np.any(np.delete(values, chosen[0]) < -MET):
@@ -429,7 +435,7 @@ class Local:
             z = found
         return z
 
-    def _worst_lines(self, z: FloatArray, equations: bool, known: Any) -> Any:
+    def _worst_lines(self, z: FloatArray, equations: bool, known: Index | None) -> Index:
         """Return the places of the lines that a solver is given: all equations, of each other constraint the worst; those known, too."""
         rows, first, found = [row for row in self.solver_lines(z) if row.equation is equations], 0, []
         for row in rows:
@@ -439,7 +445,7 @@ class Local:
         lines = np.concatenate([*found, np.zeros(0, int) if known is None else known]) if found else np.zeros(0, int)
         return np.unique(lines.astype(int))
 
-    def _within(self, z: FloatArray, bounds: Any, chosen: Sequence[Any], most: int) -> FloatArray:
+    def _within(self, z: FloatArray, bounds: Any, chosen: Sequence[Index], most: int) -> FloatArray:
         """Return what trust-constr comes to by some of the lines."""
         from scipy.optimize import NonlinearConstraint, minimize
 
@@ -460,7 +466,7 @@ class Local:
                 return watch.best
         return np.asarray(result.x, float)
 
-    def _chosen(self, equations: bool, lines: Any) -> tuple[Any, Any]:
+    def _chosen(self, equations: bool, lines: Index) -> tuple[Lines, Lines]:
         """Return some lines' values and derivatives as functions of the solver's variables."""
         return (lambda at: self._stacked(at, equations)[0][lines]), (lambda at: self._stacked(at, equations)[1][lines])
 
@@ -653,7 +659,7 @@ def single_extreme(constraint: Constraint) -> tuple[Leaf, float, float] | None:
     return None
 
 
-def scale_of(constraint: Constraint, value: Any) -> float:
+def scale_of(constraint: Constraint, value: Callable[[Leaf], Any]) -> float:
     """Return the larger of a constraint's two sides, in size."""
     sides = [abs(float(side.of(value))) for side in (constraint.left, constraint.right)]
     return max((side for side in sides if np.isfinite(side)), default=0.0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NoReturn, final
 
@@ -13,8 +13,9 @@ from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import Motion, Request, RequestLike, stroke_display_unit
 from ..motion.kinds import measure_of
+from ..motion.line import Index
 from ..motion.requests import dimensions_of, slopes_of
-from ..plan import Plan
+from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import is_number
 from ..units import deg, display_unit, mm, show, unit_or_none
@@ -154,7 +155,7 @@ class Aim:
         plan, dimensions = machine.plan, dimensions_of(machine.plan, names)
         owners, signs = tuple(owner for owner, _ in dimensions), np.array([float(sign) for _, sign in dimensions])
         grid = self.poses.grid(machine)
-        found: dict[Any, FloatArray] = {}
+        found: dict[Hashable, FloatArray] = {}
         for request in self.bound:
             if request.key not in found:
                 kept = plan.made(("gradient", request.key, owners), lambda twin, what=request: slopes_of(twin, what, owners))  # type: ignore[misc]
@@ -218,11 +219,11 @@ class Search:
         """The lengths of the ranges [SI], shape (k,)."""
         return np.array([high - low for low, high in self.box.ranges.values()])
 
-    def at(self, unit: FloatArray, choice: Any) -> Mechanism:
+    def at(self, unit: FloatArray, choice: Index) -> Mechanism:
         """Return the machines at unit coordinates (m, k) with choices (m,)."""
         return self.machine.replaced(**self.box.settings(unit, choice))
 
-    def starts(self, points: int) -> tuple[FloatArray, Any]:
+    def starts(self, points: int) -> tuple[FloatArray, Index]:
         """Return where to start: unit coordinates (m, k) and choices (m,), of every choice the best of a Sobol sequence."""
         k, choices = len(self.box.ranges), len(self.box.choices)
         grid = np.concatenate([unit_points(points, k, "sobol", 0), np.full((1, k), 0.5)]) if k else np.empty((1, 0))
@@ -232,7 +233,7 @@ class Search:
         rows = [np.flatnonzero(best_points(grid, each)) for each in off]
         return np.concatenate([grid[row] for row in rows]), np.repeat(np.arange(choices), [len(row) for row in rows])
 
-    def descend(self, unit: FloatArray, choice: Any) -> tuple[FloatArray, FloatArray]:
+    def descend(self, unit: FloatArray, choice: Index) -> tuple[FloatArray, FloatArray]:
         """Return where the misses are least near each start, unit coordinates (m, k), and the misses there (m, targets).
 
         Source: Nocedal, Wright, Numerical Optimization, 2nd ed., 10.3; a coordinate that a step would take out of the box is held.
@@ -254,7 +255,7 @@ class Search:
             going = going[(moved > 1e-14) & (damping[going] < 1e12)]
         return unit, off
 
-    def settled(self, unit: FloatArray, choice: Any, off: FloatArray) -> Solutions:
+    def settled(self, unit: FloatArray, choice: Index, off: FloatArray) -> Solutions:
         """Return all solutions that a search found, or the nearest setting."""
         size = np.abs(off).max(axis=1)
         met = np.flatnonzero(size <= MET)
@@ -288,10 +289,10 @@ class Search:
         apart = np.abs(one - other).max(initial=0.0)
         if apart <= SAME or apart > NEAR:
             return bool(apart <= SAME)
-        between = self.aim.misses(self.at(0.5 * (one + other)[None], [choice]))
+        between = self.aim.misses(self.at(0.5 * (one + other)[None], np.array([choice])))
         return bool(np.abs(between).max() <= MET)
 
-    def _of_families(self, unit: FloatArray, choice: Any, kept: Sequence[int]) -> dict[int, int]:
+    def _of_families(self, unit: FloatArray, choice: Index, kept: Sequence[int]) -> dict[int, int]:
         """Return the solutions from which settings can change together without effect, each with the first one of its choice."""
         found: dict[int, int] = {}
         for each in kept:
@@ -305,7 +306,7 @@ class Search:
         """Return the direction in which settings have no effect to the first order, shape (k,); None where every one has."""
         if not len(unit):
             return None
-        slopes = self.aim.slopes(self.at(unit[None], [choice]), [*self.box.ranges])[0] * self.sides
+        slopes = self.aim.slopes(self.at(unit[None], np.array([choice])), [*self.box.ranges])[0] * self.sides
         _, sizes, ways = np.linalg.svd(slopes)
         return None if sizes[-1] > FLAT * sizes[0] else ways[-1]
 
@@ -340,7 +341,7 @@ def one_setting(values: Mapping[str, Any], place: int) -> Mapping[str, Any]:
     return FrozenDict(found)
 
 
-def best_points(grid: FloatArray, off: FloatArray) -> Any:
+def best_points(grid: FloatArray, off: FloatArray) -> Mask:
     """Return the mask of the points (m, k) of a grid to start from: the best, and those that none of their neighbours betters."""
     chosen = np.zeros(len(grid), bool)
     order = np.argsort(off, kind="stable")
@@ -363,11 +364,11 @@ def damped_steps(unit: FloatArray, off: FloatArray, slopes: FloatArray, damping:
     pull = np.einsum("mrk,mr->mk", slopes, off)
     matrix = np.einsum("mrk,mrl->mkl", slopes, slopes)
     free = np.ones((m, k), bool)
-    step: Any = np.zeros((m, k))
+    step: FloatArray = np.zeros((m, k))
     for _ in range(k + 1):  # coordinates that would leave the box are held, one round after the other
         both = free[:, :, None] & free[:, None, :]
         system = np.where(both, matrix, 0.0) + np.eye(k) * np.where(free & (size > 0.0), damping[:, None], 1.0)[:, :, None]
-        step = -np.linalg.solve(system, np.where(free, pull, 0.0)[:, :, None])[:, :, 0]
+        step = np.asarray(-np.linalg.solve(system, np.where(free, pull, 0.0)[:, :, None])[:, :, 0], float)
         leaving = free & (((unit <= 0.0) & (step < 0.0)) | ((unit >= 1.0) & (step > 0.0)))
         if not leaving.any():
             break

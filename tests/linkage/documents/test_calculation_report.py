@@ -28,6 +28,7 @@ from linkage import (
     Weight,
     deg,
     equations,
+    least,
     max_table,
     most,
     pin_forces,
@@ -293,6 +294,15 @@ def test_a_rule_that_says_nothing_is_counted_apart():
     assert silent and document.verdict.word.endswith(f", {silent} say nothing" if silent > 1 else ", 1 says nothing")
     (grid,) = grids(document, "what was found")
     assert {row[1].word for row in grid.rows} >= {"says nothing"}
+
+
+def test_members_have_their_ends_over_all_that_the_machine_runs(grab):
+    (grid,) = grids(grab, "member", "least", "greatest")
+    found = {tuple(row[:2]): row for row in grid.rows}
+    assert {member for member, _ in found} >= {"lift", "jib"}
+    lowest, greatest = Grab().answers([least(thrust("lift")), most(thrust("lift"))])
+    (row,) = (each for (member, heading), each in found.items() if member == "lift" and "thrust" in heading)
+    assert [float(row[2].split()[0]), float(row[4].split()[0])] == pytest.approx([lowest.value / 1e3, greatest.value / 1e3], rel=1e-3)
 
 
 def test_worst_places_are_those_of_the_answers(grab):

@@ -6,7 +6,7 @@ from zlib import decompress
 import pytest
 
 from linkage import Crank, Ground, Mechanism, Stroke, Weight
-from linkage.documents.pdf import pdf
+from linkage.documents.pdf import HIGH, Flow, pdf
 from linkage.documents.reporting import report_document
 from linkage.verdict import Verdict
 
@@ -69,3 +69,14 @@ def test_title_text_and_margins(written):
     sizes = [float(each) for each in re.findall(r"/F\d+ ([\d.]+) Tf", drawn)]
     assert (sizes[0], max(sizes)) == (17.0, 17.0)
     assert {8.8, 11.5} <= set(sizes)
+
+
+def test_every_page_has_its_foot_below_all_else_and_off_the_edge():
+    document = report_document(Boom())
+    pages = Flow(document).pages
+    for number, page in enumerate(pages, 1):
+        (drawn,) = page.figure(document, number, len(pages)).artists
+        *_, line, words, of = drawn.ink
+        assert of.text == f"page {number} of {len(pages)}" and words.y == of.y
+        assert 20.0 <= HIGH - of.y <= 40.0  # printers leave a margin of some 6 mm
+        assert all(y < of.y for _, y in line.points)

@@ -39,8 +39,9 @@ from linkage.exports.calculation import Calculation
 from linkage.exports.formula_text import formula
 from linkage.exports.live_results import live_results
 from linkage.exports.names import cell_names
+from linkage.exports.workbook import from_si, to_si
 from linkage.reports import results, run_of
-from linkage.units import deg, kgf_cm2, mm
+from linkage.units import UNITS, deg, kgf_cm2, mm
 from mechanisms.classics.stephenson_two import StephensonTwo
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
@@ -157,6 +158,15 @@ def test_directions_go_on_over_whole_turns(recalculated):
     turned = dict(zip([cell.value for cell in sheet[1]], number_columns(sheet, 4), strict=True))["turned"]
     assert_allclose(turned, Turned().sweep(61)["turned"] / deg, rtol=0, atol=1e-10)
     assert turned[-1] - turned[0] == pytest.approx(720.0)
+
+
+@pytest.mark.parametrize("unit", ["mm", "deg", "kN", "bar", "m", "N", ""])
+def test_a_unit_is_put_on_as_it_is_taken_off_and_one_of_si_is_not_written(unit):
+    written = to_si(unit), from_si(unit)
+    assert (written == ("", "")) is (unit in ("m", "N", ""))
+    there, back = (eval(f"1.0{text}".replace("PI()", "np.pi")) for text in written)
+    assert there * back == pytest.approx(1.0, rel=1e-15)
+    assert there == pytest.approx(UNITS[unit][0] if unit else 1.0, rel=1e-15)
 
 
 def test_no_name_of_a_cell_is_a_place(tmp_path):

@@ -1,12 +1,15 @@
 """What every machine says of a motion: assembly, dead points, transmission, its members; of a batch how many designs fail."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, isothermal, lift_verdicts
 from linkage import RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, Verdict, Weight, most, y
-from linkage.loads import ForceElement
+from linkage.loads import FRICTIONLESS, PLAIN_CASE, ForceElement
 from linkage.motion import HasVerdicts, Tabled
+from linkage.motion.judge import Situation, situation_found
 from linkage.reports import results
 from linkage.units import bar, litre, mm
 
@@ -193,3 +196,16 @@ def test_columns_in_a_load_case_are_asked_of_members_that_know_them():
 @pytest.mark.parametrize("kind", [Cylinder, LiftCircuit, FloatCircuit])
 def test_what_hydraulics_brings_judges_itself(kind):
     assert issubclass(kind, HasVerdicts) and issubclass(kind, ForceElement)
+
+
+@pytest.mark.parametrize(
+    ("pieces", "found"),
+    [
+        ([Situation("shock"), Situation("shock", FRICTIONLESS)], Situation("shock", FRICTIONLESS)),
+        ([Situation("shock", FRICTIONLESS), Situation("shock", "extending", "S")], Situation("shock", "extending", "S")),
+        ([Situation(), Situation(PLAIN_CASE)], Situation(PLAIN_CASE)),
+        ([Situation("", "retracting", "T"), Situation("dig")], Situation("dig", "retracting", "T")),
+    ],
+)
+def test_a_movement_goes_before_one_without_friction_and_that_before_none(pieces, found):
+    assert situation_found([SimpleNamespace(row=SimpleNamespace(situation=each)) for each in pieces]) == found

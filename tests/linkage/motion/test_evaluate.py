@@ -23,6 +23,7 @@ from linkage import (
     ratio,
     x,
 )
+from linkage.motion import evaluation
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.program.test_backends import GROUPED, MACHINES, SHIPPED
@@ -323,3 +324,24 @@ def test_the_root_of_a_plainly_negative_number_has_no_value_in_bulk_either():
             machine.evaluate([name], phi=phi)
         with pytest.raises(SingularError, match="has no finite value"):
             machine.function([name])(3.0)
+
+
+class Folds(Mechanism):
+    """A dyad from a pin beside the origin, which ends where its links are in line."""
+
+    S = Stroke(0.1, 0.5)
+    A, O = Ground(0, 0), Ground(0.3, 0.4)
+    B = Dyad(A, O, AB=S, OB=0.3, side=LEFT)
+
+
+def test_a_place_at_the_very_end_of_reach_is_that_of_a_motion(monkeypatch):
+    """Rounding puts some of these ends out of reach; they are assembled to rounding, here as there."""
+    mended = []
+    run = evaluation.to_rounding
+    monkeypatch.setattr(evaluation, "to_rounding", lambda *given: mended.append(1) or run(*given))
+    for OB in np.random.default_rng(3).uniform(0.1, 0.4, 20):
+        machine = Folds(OB=OB)
+        for end in (0.5 + OB, 0.5 - OB):
+            (found,) = machine.evaluate(["B"], S=[end, 0.5])
+            assert_allclose(found, machine.at(S=[end, 0.5])["B"], rtol=0, atol=1e-15)
+    assert mended

@@ -17,8 +17,10 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, LinkageError, Mechanism, Stroke
 from linkage.program import LANGUAGES, Graph, Kernel, Level, RunOptions, interpret, jacobian, solve_arrays
+from linkage.program import kernel as kernel_module
 from linkage.program.cache import CompiledFile, compiled
 from linkage.program.elimination import expanded
+from linkage.program.interpret import noise
 from linkage.program.loop import numba_text
 from linkage.program.numpy_backend import aligned, cache_size, with_half_angles
 from linkage.program.schedule import ancestors, lowered, schedule
@@ -399,3 +401,19 @@ def test_poses_that_share_a_dead_point_do_not_spoil_each_other():
         warnings.simplefilter("ignore")
         (B,) = Rocker().evaluate(["B"], phi=[0.1, math.pi, 0.2], unreachable="nan")
     assert_array_equal(np.isnan(B), [[False, True, False]] * 2)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_threads_run_where_more_than_one_is_asked_for(monkeypatch, threads):
+    ran = []
+    run = kernel_module.run_threads
+    monkeypatch.setattr(kernel_module, "run_threads", lambda *given: ran.append(given[-1]) or run(*given))
+    ThreePointHitch().evaluate(["G"], S=np.linspace(0.0, 0.2, 11), backend="numpy", threads=threads)
+    assert ran == [threads] * (threads > 1)
+
+
+def test_an_operation_is_shaken_by_one_to_two_of_its_last_digits():
+    """A digit is half an epsilon to one of a number's size: less than that measures nothing, more blames what is right."""
+    changes = np.abs(noise())
+    assert not changes[:, 0].any()
+    assert 0.5 * np.finfo(float).eps < changes.max() < np.finfo(float).eps

@@ -209,7 +209,7 @@ def reserve_request(
     return replace(
         circuit_request("reserve", cylinder, acting, circuit, tried.reserve, after=options),
         directions=partial(driven_or_both, cylinder, True), pieces_in=partial(reserve_pieces, cylinder, tried),
-        unlimited_in=partial(formula_of_cylinder, tried.unlimited, cylinder),
+        unlimited_in=partial(formula_of_cylinder, tried.is_driven, cylinder),
     )  # fmt: skip
 
 
@@ -238,20 +238,20 @@ class Tried:
     def work(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Work:
         """Return what the cylinder has to do, with another bore where one is tried."""
         found = circuit_with(motion.plan, ram, self.circuit, "reserve").work(motion, cylinder=ram, acting=acting)
-        return replace(found, size=self.sized(found.size))
+        return replace(found, size=self.with_bore(found.size))
 
-    def sized(self, size: CylinderSize) -> CylinderSize:
+    def with_bore(self, size: CylinderSize) -> CylinderSize:
         """Return a cylinder's size with the bore that is tried."""
         return CylinderSize(self.bore, size.rod, size.count, size.works) if self.bore else size
 
-    def unlimited(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Mask:
+    def is_driven(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Mask:
         """Return the mask of poses at which the load drives, so that the reserve has no bound."""
         work = self.work(motion, ram, acting)
         return np.asarray(np.isfinite(work.thrust) & ~(self.against(work) > 0.0))
 
     def use(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Array:
         """Return one over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
-        circuit, size = circuit_with(motion.plan, ram, self.circuit, "use"), self.sized(ram.sized(motion))
+        circuit, size = circuit_with(motion.plan, ram, self.circuit, "use"), self.with_bore(ram.sized(motion))
         k_m, thrust = circuit.efficiency(motion, "mechanical"), member_thrust(motion, ram, acting)
         sense = 1.0 if acting.direction == "extending" else -1.0
         most = circuit.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m))
@@ -331,7 +331,7 @@ def capacity_request(
     return replace(
         circuit_request("capacity", cylinder, acting, circuit, lifted.capacity, (point,), options, measures="force"),
         directions=no_direction, examine=partial(lifted.examine, cylinder),
-        unlimited_in=partial(formula_of_cylinder, lifted.unlimited, cylinder),
+        unlimited_in=partial(formula_of_cylinder, lifted.is_driven, cylinder),
     )  # fmt: skip
 
 
@@ -355,7 +355,7 @@ class Lifted:
         circuit = circuit_with(motion.plan, ram, self.circuit, "capacity")
         return circuit.capacity(motion, self.point, along=self.along, share=self.share, cylinder=ram, acting=acting)
 
-    def unlimited(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Mask:
+    def is_driven(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Mask:
         """Return the mask of poses at which the load drives or does nothing, so that the capacity has no bound."""
         thrust = member_thrust(motion, ram, Acting(acting.loads, acting.case))
         return np.asarray(np.isfinite(thrust) & np.isnan(self.capacity(motion, ram, acting)))

@@ -121,11 +121,11 @@ def block_html(block: Block, captions: dict[int, str]) -> str:
     if isinstance(block, TermBlock):
         return f'<dl class="block">{"".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in block.rows)}</dl>'
     if isinstance(block, TableBlock):
-        return table(block, captions.get(id(block), ""))
+        return table_html(block, captions.get(id(block), ""))
     return equality(block) if isinstance(block, Equality) else figure_html(block, captions)
 
 
-def table(grid: TableBlock, caption: str) -> str:
+def table_html(grid: TableBlock, caption: str) -> str:
     """Return a table; it scrolls by itself where it is wider than a screen."""
     heads = "".join(f'<th scope="col" class="{kind}">{escape(text)}</th>' for text, kind in zip(grid.headings, grid.columns, strict=True))
     rows = "\n".join(f"<tr>{''.join(map(cell, row, grid.columns))}</tr>" for row in grid.rows)

@@ -133,7 +133,7 @@ def results_section(subject: ReportSubject, names: Sequence[str] | None, first: 
         caption += said(" Shaded: what its limit excludes.") if bound is not None else ""
         caption += beyond_words(further, whole[name]) if further else ""
         size = (WIDE, 2.6) if name == first else (HALF, 2.15)
-        paint = partial(curve, motion=subject.curve, column=whole[name], bound=bound, beyond=further)
+        paint = partial(draw_column, motion=subject.curve, column=whole[name], bound=bound, beyond=further)
         blocks.append(Illustration(f"curve_{safe(name)}", caption, size, (0.62, 0.12, 0.46, 0.32 if bound is None else 0.48), paint))
     return Section(said("Results"), tuple(blocks))
 
@@ -196,7 +196,7 @@ def beyond_words(answers: Sequence[Answer], column: Column) -> str:
     return said(" Over all that the machine runs: {answers}.", answers="; ".join(parts))
 
 
-def curve(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None, beyond: Sequence[Answer]) -> None:
+def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None, beyond: Sequence[Answer]) -> None:
     """Draw a column over the stroke with its limit, and lines for what lies beyond it elsewhere."""
     panel(ax, motion, column, bound)
     if bound is not None:  # its words stand above the curve, under the heading

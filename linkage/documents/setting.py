@@ -122,7 +122,7 @@ def set_formula(box: Box, size: float) -> SetFormula:
     if isinstance(box, Sign):
         return set_sign(box, size)
     if isinstance(box, BoxRow):
-        return row(box.parts, size)
+        return boxes_in_row(box.parts, size)
     if isinstance(box, Fraction):
         return fraction(set_formula(box.over, 0.92 * size), set_formula(box.under, 0.92 * size), size)
     if isinstance(box, Script):
@@ -142,7 +142,7 @@ def set_sign(box: Sign, size: float) -> SetFormula:
     return SetFormula(width(box.text, size, name), 0.76 * size, 0.2 * size, (GlyphRun(0.0, 0.0, box.text, size, name),))
 
 
-def row(parts: Sequence[Box], size: float) -> SetFormula:
+def boxes_in_row(parts: Sequence[Box], size: float) -> SetFormula:
     """Return boxes beside each other, with space about the signs of operations and behind names of functions."""
     ink: list[Ink] = []
     x, height, depth = 0.0, 0.6 * size, 0.15 * size

@@ -16,7 +16,7 @@ from ..quantities import Member, Number, Quantity, Ref, is_number, label, name_o
 from ..quantities.quantity import plain
 from ..steps import Link, Pin, Step
 from ..units import factor, parse
-from .expression import arrow, expression
+from .expression import arrow_in, expression
 from .names import Names
 
 
@@ -68,11 +68,11 @@ class Design:
 
     def arrow(self, given: Member | str) -> str:
         """Return a vector as text, or its name; DefinitionError unless it reads back as the same."""
-        return self.checked(label(given), form(given), arrow)
+        return self.checked(label(given), form(given), arrow_in)
 
     def own(self, given: Member) -> str:
         """Return the text of a quantity's or a vector's own rule, whatever its name; DefinitionError unless it reads back as the same."""
-        return self.checked(str(given), own_form(given), expression if isinstance(given, Quantity) else arrow)
+        return self.checked(str(given), own_form(given), expression if isinstance(given, Quantity) else arrow_in)
 
     def checked(self, text: str, says: object, read: Callable[[str, Names], Any]) -> str:
         """Return a text; DefinitionError unless it is read as what it says."""
@@ -141,7 +141,7 @@ def settled(name: str, member: Member, machine: Mechanism) -> Member:
     return member
 
 
-def measured(design: Design, members: Mapping[str, Member]) -> dict[str, dict[str, float]]:
+def measured_labels(design: Design, members: Mapping[str, Member]) -> dict[str, dict[str, float]]:
     """Return the labels that the class measured from its drawing, by the link that they belong to [m, rad]."""
     found: dict[str, dict[str, float]] = {}
     for each, entry in design.plan.table.entries.items():

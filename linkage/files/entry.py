@@ -64,14 +64,14 @@ class Argument:
 
     def written(self, member: object, design: Design, owner: str) -> Any:
         """Return the argument that a member has as a file holds it; None where it need not be written. `owner` is the member's name."""
-        value = kept(member, self.name)
+        value = argument_kept(member, self.name)
         if value is None and not self.needed:
             return None
         found = self.kind.write(value, design, f"{owner}.{self.name}" if owner else "")
         return None if self.may_go and repr(found) == repr(self.kind.write(self.default, design, "")) else found
 
 
-def kept(member: object, argument: str) -> Any:
+def argument_kept(member: object, argument: str) -> Any:
     """Return what a member was given for an argument; DefinitionError where it does not keep it."""
     values = [getattr(member, name) for name in (argument, *KEPT_AS.get(argument, ())) if hasattr(member, name)]
     if not values:
@@ -335,7 +335,7 @@ class FileEntry:
 
     def write(self, member: Any, design: Design) -> Any:
         """Return a member as what a file holds: numbers, texts, lists, tables of them; DefinitionError for what it cannot."""
-        values = member.parents if isinstance(member, Step) else [kept(member, each.name) for each in self.built_from]
+        values = member.parents if isinstance(member, Step) else [argument_kept(member, each.name) for each in self.built_from]
         parents = [each.kind.write(value, design, "") for each, value in zip(self.built_from, values, strict=True)]
         if self.word:
             found: dict[str, Any] = {self.word: parents[0] if len(parents) == 1 else parents}

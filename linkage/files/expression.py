@@ -159,7 +159,7 @@ def expression(text: str, names: Names) -> Quantity:
     return found
 
 
-def arrow(text: str, names: Names) -> Arrow | str:
+def arrow_in(text: str, names: Names) -> Arrow | str:
     """Return the vector that a text says, or the name of one; DefinitionError where it says none."""
     found: Arrow | str = Parser(text, names).whole("vector")
     return found

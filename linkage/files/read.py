@@ -57,7 +57,7 @@ def built(data: Any, faults: Faults, trust: Collection[str]) -> type[Mechanism]:
     order = ordered(data, names, faults)
     members = members_read(order, sections, names, title, faults, trust)
     faults.check()
-    return made(title, doc, featured, members, names, faults)
+    return class_made(title, doc, featured, members, names, faults)
 
 
 # -- the tables --------------------------------------------------------------------------------------------
@@ -167,7 +167,9 @@ def check_alone(name: str, member: Member, title: str) -> None:
 # -- the class ---------------------------------------------------------------------------------------------
 
 
-def made(title: str, doc: str | None, featured: Featured, members: Mapping[str, Member], names: Names, faults: Faults) -> type[Mechanism]:
+def class_made(
+    title: str, doc: str | None, featured: Featured, members: Mapping[str, Member], names: Names, faults: Faults
+) -> type[Mechanism]:
     """Return the class with these members; what is wrong with it as a whole comes with the file's name and key."""
     try:
         with np.errstate(all="ignore"):

@@ -67,7 +67,7 @@ def decoded(name: str, raw: bytes, is_json: bool) -> Source:
         raise FileError(f"{name}, line {line}: the file is not UTF-8 text; save it in that encoding.") from None
     parse: Callable[[str], Any] = from_json if is_json else from_toml
     try:
-        return Source(name, parse(text), {} if is_json else lines(text))
+        return Source(name, parse(text), {} if is_json else key_lines(text))
     except RecursionError:
         raise FileError(f"{name}: lists or tables are nested too deeply; a mechanism's file needs three levels.") from None
     except ValueError as error:
@@ -125,7 +125,7 @@ _SPLIT = re.compile(_PART)
 _LONG = re.compile(r'"""|' + r"'''")
 
 
-def lines(text: str) -> Mapping[Key, int]:
+def key_lines(text: str) -> Mapping[Key, int]:
     """Return the line, counted from 1, of every table and key that stands at the start of one."""
     found: dict[Key, int] = {}
     table: Key = ()

@@ -15,7 +15,7 @@ from ..steps import Arrow
 from ..units import SI, UNITS, parse
 from ..vectors import Side
 from .design import Design, degrees_text, option
-from .expression import arrow, expression, one_unit
+from .expression import arrow_in, expression, one_unit
 from .names import Names, shortened
 from .source import Mistakes
 
@@ -155,7 +155,7 @@ def arrow_of(given: object, names: Names) -> Arrow | str:
     """Return a vector, or the name of one."""
     if not isinstance(given, str):
         raise DefinitionError(f'{shortened(given)} is not a vector, such as "Vector(A, O)".')
-    return arrow(given, names)
+    return arrow_in(given, names)
 
 
 def origin_of(given: object, names: Names) -> str | tuple[float, float]:

@@ -14,7 +14,7 @@ from typing import Any
 from ..disk import replacing_text
 from ..errors import DefinitionError, FileError
 from ..mechanism import Mechanism, declared, require_mechanism
-from .design import Design, measured, members_to_write
+from .design import Design, measured_labels, members_to_write
 from .names import Names, shortened
 from .registry import registry
 
@@ -37,7 +37,7 @@ def to_dict(machine: Machine) -> dict[str, Any]:
     for name, member in members.items():
         tables[sections[name]][name] = entry_written(name, entries[name].write, member, design)
     if design.set:
-        for name, labels in measured(design, members).items():
+        for name, labels in measured_labels(design, members).items():
             tables[sections[name]][name] |= labels
     names = [name for table in tables.values() for name in table]
     return head_table(machine, [] if names == list(members) else list(members)) | tables

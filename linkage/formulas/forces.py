@@ -79,7 +79,7 @@ class ForceLines:
         self._members: dict[str, TwoPinned] = {}
         self._chains: Mapping[str, Chain] = {}
 
-    def write(self) -> None:
+    def write_forces(self) -> None:
         """Write all lines; DefinitionError for what has no chain of derivatives, and for cylinders that hold strokes together."""
         elements = self.plan.of_kind(ForceElement)
         for element in elements.values():

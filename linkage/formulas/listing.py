@@ -48,7 +48,7 @@ def _(member: Axis, reading: Any) -> Any:
 @symbolic_value.register
 def _(member: Turn, reading: Any) -> Any:
     length = None if member.scaled_to is None else reading.scaled(member, member.scaled_to)
-    base, angle = reading.arrow(member.base), reading.value(member.angle).as_angle()
+    base, angle = reading.arrow_line(member.base), reading.value(member.angle).as_angle()
     return TurnV(base, angle.expr) if length is None else TurnVL(base, angle.expr, length.expr)
 
 
@@ -65,7 +65,7 @@ def _(member: Guide, reading: Any) -> Any:
 
 @symbolic_value.register
 def _(member: Offset, reading: Any) -> Any:
-    return reading.at(member.P).expr + reading.arrow(member.by)
+    return reading.at(member.P).expr + reading.arrow_line(member.by)
 
 
 @symbolic_value.register
@@ -110,7 +110,7 @@ class Listing:
         self._kept: list[Assignment] = []
         self._lengths: dict[str, Term] = {}
 
-    def write(self, order: Iterable[str]) -> None:
+    def write_members(self, order: Iterable[str]) -> None:
         """Write every member: points and outputs in the order given, vectors and angles where they are first needed."""
         left = [name for name in order if name in self.plan.members]  # of a list of parts the steps made of it come last
         left += [name for name in self.plan.members if name not in left]
@@ -125,7 +125,7 @@ class Listing:
         if isinstance(member, Point):
             self.at(name)
         elif isinstance(member, Arrow):
-            self.arrow(name)
+            self.arrow_line(name)
         elif isinstance(member, Quantity):
             self.value(name)
 
@@ -147,7 +147,7 @@ class Listing:
         for each in assignments:
             self.assign(each)
             if isinstance(each.value, Offset):
-                self._vectors.setdefault((name_of(each.value.P), name), self.arrow(each.value.by))
+                self._vectors.setdefault((name_of(each.value.P), name), self.arrow_line(each.value.by))
 
     def _group(self, group: Group) -> None:
         """Write the conditions of pins that are found together: the lengths of rods, the shapes of links, the slides."""
@@ -189,7 +189,7 @@ class Listing:
             self.define((P, Q), self.names.vector(declared), ends, LENGTH)
         return self._vectors[P, Q]
 
-    def arrow(self, vector: Reference) -> Any:
+    def arrow_line(self, vector: Reference) -> Any:
         """Return a vector member as its symbol; one without a name written out."""
         named = vector if isinstance(vector, str) else vector.name
         member: Any = self.plan.members[named] if named else vector
@@ -204,7 +204,7 @@ class Listing:
 
     def vector(self, vector: Reference) -> Any:
         """Return a vector member."""
-        return Place(lambda: self.arrow(vector), self)
+        return Place(lambda: self.arrow_line(vector), self)
 
     @property
     def fixed_guides(self) -> list[str]:
@@ -220,7 +220,7 @@ class Listing:
         """Return the symbol of a named point, vector or quantity."""
         if isinstance(self.plan.members[name], Quantity):
             return self.names.quantity(name)
-        return self.arrow(name) if isinstance(self.plan.members[name], Arrow) else self.at(name).expr
+        return self.arrow_line(name) if isinstance(self.plan.members[name], Arrow) else self.at(name).expr
 
     # -- quantities ------------------------------------------------------------------------------------
 
@@ -325,4 +325,4 @@ class Listing:
 
     def vector_length(self, vector: Reference) -> Term:
         """Return the length of a vector member."""
-        return Term(Norm(self.arrow(vector)), LENGTH)
+        return Term(Norm(self.arrow_line(vector)), LENGTH)

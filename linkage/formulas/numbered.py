@@ -48,7 +48,7 @@ def equations(
     design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
     check_given(design, start, at, ratio, dict(numbers=numbers, forces=forces))
     listing = Listing(design.plan)
-    listing.write(declared(type(design)))
+    listing.write_members(declared(type(design)))
     lines = list(listing.lines)
     for target in [ratio] if isinstance(ratio, str) else ratio:
         added = differentiated(design, listing, target, wrt)
@@ -56,7 +56,7 @@ def equations(
     written = ForceLines(design, listing) if forces else None
     if written is not None:
         count = len(listing.lines)
-        written.write()
+        written.write_forces()
         lines += [line for line in (*listing.lines[count:], *written.lines) if line.lhs not in {each.lhs for each in lines}]
     return Equations(design, lines, listing, start, {} if numbers and at is None else at if numbers or at else None, written)
 
@@ -145,7 +145,7 @@ class Equation:
         unit = "" if result.endswith(" deg") or not self.unit.si else f" {self.unit.si}"
         steps = [str(self), Text(values).doprint(self.rhs), result]
         kept = [step for place, step in enumerate(steps) if place == 0 or not f" = {steps[place - 1]}".endswith(f" = {step}")]
-        own = shown.get(self.name, "") if self.unit.si_factor != self.unit.factor else ""
+        own = shown.get(self.name, "") if self.unit.si_factor != self.unit.shown_factor else ""
         return " = ".join(kept) + unit + (f" = {own}" if own else "")
 
     def sheet(self, words: Mapping[str, str], values: Mapping[str, str], shown: Mapping[str, str]) -> SheetLine:
@@ -153,7 +153,7 @@ class Equation:
         unit, latex = self.unit, Latex(words)
         arguments = rf"\left({', '.join(map(latex.doprint, self.follows))}\right)" if self.follows else ""
         formula, numbers, result = latex.doprint(self.rhs), Latex(words, values).doprint(self.rhs), number_latex(values[self.name])
-        own = shown.get(self.name, "") if unit.si_factor != unit.factor else ""
+        own = shown.get(self.name, "") if unit.si_factor != unit.shown_factor else ""
         results = [f"{result}{'' if unit.text == 'deg' or not unit.si else f' {unit_latex(unit.si)}'}"]
         results += [shown_latex(own)] if own else []
         return SheetLine(
@@ -210,8 +210,8 @@ def value_in_equation(value: Any, unit: Unit) -> str:
 def value_shown(value: Any, unit: Unit) -> str:
     """Return a value in the unit it is shown in, with that unit."""
     if np.ndim(value):
-        return f"({', '.join(plain_number(float(part) / unit.factor) for part in value)}) {unit.text}".rstrip()
-    return f"{plain_number(float(value) / unit.factor)} {unit.text}".rstrip()
+        return f"({', '.join(plain_number(float(part) / unit.shown_factor) for part in value)}) {unit.text}".rstrip()
+    return f"{plain_number(float(value) / unit.shown_factor)} {unit.text}".rstrip()
 
 
 @final

@@ -50,7 +50,7 @@ class Unit:
         return self.known and not self.named
 
     @property
-    def factor(self) -> float:
+    def shown_factor(self) -> float:
         """The unit it is shown in, in SI: degrees for an angle."""
         if self == ANGLE:
             return deg

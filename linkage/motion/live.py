@@ -172,7 +172,7 @@ def clipped(plan: Plan, nodes: Sequence[Node]) -> list[Node]:
         if root is not None and root not in roots:
             radicand, size = replaced((loop.terms[0], loop.terms[2]), roots)
             inside = graph.pick(size * -ArrayReading.ROUNDING, radicand, graph.apply("maximum", radicand, 0.0), radicand)
-            roots[root] = graph.made("sqrt", (inside,))
+            roots[root] = graph.as_written("sqrt", (inside,))
     return replaced(nodes, roots)
 
 

@@ -17,7 +17,7 @@ from ..errors import DefinitionError
 from ..language import said
 from ..program import FloatArray
 from . import style
-from .paper import footnote, title
+from .paper import footnote, write_title
 from .sheet import Picture
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def draw_chain(graph: nx.MultiGraph) -> Figure:
         face = COLOURS.get(data["kind"]) or next(colours)
         body(ax, str(name), data, face, at[name])
     bodies, joints = graph.number_of_nodes(), graph.number_of_edges()
-    title(figure, str(graph.name), f"3 ({bodies} - 1) - 2 · {joints} = {3 * (bodies - 1) - 2 * joints}")
+    write_title(figure, str(graph.name), f"3 ({bodies} - 1) - 2 · {joints} = {3 * (bodies - 1) - 2 * joints}")
     footnote(figure, said("round: pin; square: slide; orange: driven by the stroke that is named"))
     return figure
 

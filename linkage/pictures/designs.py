@@ -23,7 +23,7 @@ from . import style
 from .drawing import Drawing
 from .layout import cloud
 from .overlays import sheet_note
-from .paper import empty_page, legend_row, title
+from .paper import empty_page, legend_row, write_title
 from .pose_choice import telling_angles
 from .poses import motions, named_points, trace
 from .scene import Scene
@@ -75,7 +75,7 @@ def draw_designs(machines: Sequence[Mechanism], at: Any, path: Sequence[str], co
             covered.append(cloud(scene, scene.at(pose))[::2])
     keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in looks]
     legend_row(ax, keys, texts, columns)
-    title(figure, first.plan.heading, at_words(shown[0]))
+    write_title(figure, first.plan.heading, at_words(shown[0]))
     lost = [text for text, scene in zip(texts, scenes, strict=True) if not scene.reached]
     sheet_note(ax, [said("Cannot be assembled here: {designs}.", designs="; ".join(lost))] if lost else [])
     return figure

@@ -30,7 +30,7 @@ from .drawing import BodyPart, MarkPart, pin
 from .force_arrows import FRAME, ForceQuestion, ForcesAt, body_layer, drawn_body, forces_at_pose, imbalance
 from .labels import LabelPart, offsets
 from .overlays import sheet_note
-from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, title
+from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, write_title
 from .scene import Bounds, Places, Plate, Scene
 from .shapes import hull, segment
 from .sheet import Picture, fitted_to, points_a_metre, sheet
@@ -61,7 +61,7 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     where = [stroke_words(motion.plan, name, float(values.ravel()[pose])) for name, values in motion.strokes.items()]
     heading = motion.plan.heading
     on_body = said("{machine}: forces on {body}", machine=heading, body=body)
-    title(figure, said("{machine}: forces on the frame", machine=heading) if body == FRAME else on_body, ", ".join(where))
+    write_title(figure, said("{machine}: forces on the frame", machine=heading) if body == FRAME else on_body, ", ".join(where))
     legend_row(ax, *ax.get_legend_handles_labels())
     footnote(figure, closing_words(layer, body))
     return figure
@@ -174,7 +174,7 @@ class FreeBodyPicture:
 
 def draw_polygon(ax: Axes, layer: ArrowLayer) -> None:
     """Draw the forces head to tail, in the order of their directions; they close where the body is in equilibrium."""
-    chain = sorted((each for each in layer.arrows if each.length > 1e-9 * layer.largest), key=direction)
+    chain = sorted((each for each in layer.arrows if each.length > 1e-9 * layer.largest), key=arrow_angle)
     if not chain:
         return
     ends = np.cumsum([np.zeros(2), *(each.vector / layer.factor for each in chain)], axis=0)
@@ -197,6 +197,6 @@ def draw_polygon(ax: Axes, layer: ArrowLayer) -> None:
     ax.text(0.5, 1.0, said("head to tail"), transform=ax.transAxes, fontsize=style.TEXT, color=style.MUTED, ha="center", va="bottom")
 
 
-def direction(arrow: VectorArrow) -> float:
+def arrow_angle(arrow: VectorArrow) -> float:
     """Return the direction of an arrow [rad]."""
     return float(np.arctan2(arrow.vector[1], arrow.vector[0]))

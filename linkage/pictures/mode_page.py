@@ -17,7 +17,7 @@ from ..language import said, said_of
 from ..motion import Motion
 from . import style
 from .drawing import Drawing
-from .paper import footnote, title
+from .paper import footnote, write_title
 from .scene import Scene
 from .sheet import Picture, fitted_to
 from .strokes import stroke_words
@@ -61,7 +61,7 @@ def draw_modes(modes: Sequence[Assembly]) -> Figure:
     count = said_of(len(modes), "{n} assembly mode", "{n} assembly modes")
     if len(modes) > len(shown):
         count = said("{modes}, the first {number} of them", modes=count, number=len(shown))
-    title(figure, f"{plan.heading}: {count}", where)
+    write_title(figure, f"{plan.heading}: {count}", where)
     notes = [said("Each line stands in the class in place of the one that is there.")]
     notes += [said("Modes of pins found together are looked for from places at random, one may be missing.")] if plan.groups else []
     footnote(figure, " ".join(notes))

@@ -127,10 +127,10 @@ def name_points(ax: Axes, scene: Scene, at: Places, moves: Mapping[str, float], 
         middle, height = spots[text].tolist()
         split = middle - 0.5 * CHARACTER * font * len(text) + CHARACTER * font * (len(name) + 0.6)
         look = {"fontstyle": "italic", "fontsize": font, "color": style.INK}
-        write(ax, at[name], name, (split, height), "right" if name in moves else "center", **look)
+        write_beside(ax, at[name], name, (split, height), "right" if name in moves else "center", **look)
         if name in moves:
             far = text.removeprefix(name).strip()
-            write(ax, at[name], far, (split + 0.25 * font, height), "left", fontsize=style.SMALL, color=style.ACCENT)
+            write_beside(ax, at[name], far, (split + 0.25 * font, height), "left", fontsize=style.SMALL, color=style.ACCENT)
 
 
 def millimetres_moved(far: float) -> str:
@@ -142,7 +142,7 @@ CHARACTER = 0.6
 """The width of a character, in sizes of its font."""
 
 
-def write(ax: Axes, place: FloatArray, text: str, offset: tuple[float, float], side: str, **look: Any) -> None:
+def write_beside(ax: Axes, place: FloatArray, text: str, offset: tuple[float, float], side: str, **look: Any) -> None:
     """Write a text at an offset [points] from a place [m]."""
     ax.annotate(
         text, (float(place[0]), float(place[1])), xytext=offset, textcoords="offset points", ha=side, va="center_baseline",

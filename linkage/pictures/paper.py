@@ -38,7 +38,7 @@ def empty_page(box: Bounds, rows: int = 1) -> tuple[Figure, Axes]:
     return figure, ax
 
 
-def title(figure: Figure, text: str, beside: str = "") -> None:
+def write_title(figure: Figure, text: str, beside: str = "") -> None:
     """Write the title, and at its right end what stands beside it."""
     top = 1.0 - 0.24 / float(figure.get_figheight())
     figure.text(LEFT / float(figure.get_figwidth()), top, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")

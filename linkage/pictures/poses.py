@@ -22,7 +22,7 @@ from .drawing import Drawing, mechanism
 from .free_body import draw_free_body
 from .layout import cloud, surrounding_points
 from .overlays import NO_OVERLAYS, Overlays
-from .paper import empty_page, legend_row, remark, title
+from .paper import empty_page, legend_row, remark, write_title
 from .pose_choice import telling_angles
 from .scene import Scene
 from .strokes import is_turn, stroke_words, unreached_words
@@ -75,7 +75,7 @@ def draw_pose(
         figure, own = empty_page(scene.box())
         mechanism(own, motion, pose, faint=faint)
     where = [stroke_words(motion.plan, name, float(values.ravel()[index])) for name, values in motion.strokes.items()]
-    title(figure, motion.plan.heading, ", ".join(where))
+    write_title(figure, motion.plan.heading, ", ".join(where))
     return figure
 
 
@@ -102,7 +102,7 @@ def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, o
         overlays.centrodes(ax, swept)
         at = Scene(shown).at(last)
         laid.draw(ax, whole.size, np.concatenate([cloud(whole, at), surrounding_points(whole, at)]))
-    heading(figure, ax, shown, moving)
+    write_heading(figure, ax, shown, moving)
     remark(figure, ax, unreached_words(swept, moving[0]) if len(moving) == 1 else unreached_on_the_way(swept))
     return figure
 
@@ -201,12 +201,12 @@ def unreached_on_the_way(swept: Motion) -> str:
     return said("not reached at {lost} of {all} poses on the way", lost=lost, all=swept.reached.size) if lost else ""
 
 
-def heading(figure: Figure, ax: Axes, shown: Motion, moving: Sequence[str]) -> None:
+def write_heading(figure: Figure, ax: Axes, shown: Motion, moving: Sequence[str]) -> None:
     """Write the title, and which pose is which."""
     scene = Scene(shown)
     held = {name: float(np.ravel(value)[0]) for name, value in shown.strokes.items() if name not in moving}
     where = ", ".join(stroke_words(shown.plan, name, value) for name, value in held.items())
-    title(figure, shown.plan.heading, said("at {place}", place=where) if held else "")
+    write_title(figure, shown.plan.heading, said("at {place}", place=where) if held else "")
     looks = [FAINT] * (len(scene.reached) - 1) + [STRONG]
     keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in looks]
     texts = [

@@ -12,12 +12,12 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError, unknown
-from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, name_of, needs
+from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, Where, name_of, needs
 from ..steps import Point
 from ..vectors import Line, Scalar, Vec
 
 
-class Reading:
+class Reading(Where):
     """The values of a plan's members for given inputs, each worked out when first asked for."""
 
     def __init__(self, members: Mapping[str, Member], lengths: Mapping[frozenset[str], Quantity], inputs: Mapping[str, Scalar]) -> None:

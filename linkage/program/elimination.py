@@ -54,7 +54,7 @@ def expanded(outputs: Sequence[Node]) -> list[Node]:
 
     def written_out(node: Node, args: tuple[Node, ...]) -> Node | None:
         if node.op == "solve":
-            found[node] = eliminated(*entries(node.graph.made("solve", args)))
+            found[node] = eliminated(*entries(node.graph.as_written("solve", args)))
             return node
         return found[node.args[0].origin][int(node.args[1].value)] if node.op == "component" else None
 

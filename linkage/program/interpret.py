@@ -118,14 +118,14 @@ def scatter(outputs: Sequence[Node], inputs: Mapping[str, Numbers], iterated: It
     given: dict[str, Numbers] = {name: np.asarray(value, float) for name, value in inputs.items()}
     n = max(map(np.size, given.values()), default=1)
     for unknowns in iterated:
-        given |= moved(unknowns, given, n)
+        given |= iterated_again(unknowns, given, n)
     runs = shaken(outputs, given)
     found = np.stack([np.broadcast_to(each, (RUNS + 1, n)) for each in runs]) if runs else np.empty((0, RUNS + 1, n))
     with np.errstate(all="ignore"):
         return found[:, 0], np.abs(found[:, 1:] - found[:, :1]).max(axis=1)
 
 
-def moved(unknowns: Iterated, given: Mapping[str, Numbers], n: int) -> dict[str, Numbers]:
+def iterated_again(unknowns: Iterated, given: Mapping[str, Numbers], n: int) -> dict[str, Numbers]:
     """Return unknowns, shape (runs, n), each run at the solution of its own rounded equations; the first as they are."""
     values = shaken((*unknowns.residuals, *unknowns.rows), given)
     entries = [np.broadcast_to(each, (RUNS + 1, n)) for each in (*values[len(unknowns.residuals) :], *values[: len(unknowns.residuals)])]
@@ -185,12 +185,12 @@ def disturbed(outputs: Sequence[Node]) -> list[Node]:
     """Return nodes like some outputs, worked out from inputs and by sums and roots whose digits are changed by about COARSE."""
 
     def changed(node: Node) -> Node:
-        return node.graph.made("multiply", (node, node.graph.constant(1.0 + COARSE * coarse_noise()[node.number % PERIOD])))
+        return node.graph.as_written("multiply", (node, node.graph.constant(1.0 + COARSE * coarse_noise()[node.number % PERIOD])))
 
     behind = ancestors(outputs)
     read = {arg.origin for node in behind if node.level is Level.POSE for arg in node.args}
     leaves = {node: changed(node) for node in behind if node in read and (node.op == "input" or node.level is Level.DESIGN)}
-    return rewritten(outputs, lambda node, args: changed(node.graph.made(node.op, args)) if node.op in SPREADING else None, leaves)
+    return rewritten(outputs, lambda node, args: changed(node.graph.as_written(node.op, args)) if node.op in SPREADING else None, leaves)
 
 
 @cache

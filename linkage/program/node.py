@@ -182,9 +182,9 @@ class Graph:
                 with np.errstate(all="ignore"):
                     return self.constant(float(OPERATIONS[op].array(*(each.value for each in args))))
         rule = SIMPLIFY.get(op)
-        return (rule(self, *args) if rule is not None else None) or self.made(op, args)
+        return (rule(self, *args) if rule is not None else None) or self.as_written(op, args)
 
-    def made(self, op: str, args: tuple[Node, ...]) -> Node:
+    def as_written(self, op: str, args: tuple[Node, ...]) -> Node:
         """Return the node of an operation as it stands."""
         key = operation_key(op, args)
         number = self._known.get(key)
@@ -314,7 +314,7 @@ def times(graph: Graph, number: float, factor: Node, rest: Node) -> Node:
     if number == 0.0:
         return graph.zero
     if number < 0.0 and (number == -1.0 or not equals(factor, 1.0)):
-        return graph.made("negative", (times(graph, -number, factor, rest),))
+        return graph.as_written("negative", (times(graph, -number, factor, rest),))
     factor = graph.constant(number) if equals(factor, 1.0) else graph.apply("multiply", number, factor)
     return scaled(graph, factor, rest)
 
@@ -328,7 +328,7 @@ def scaled(graph: Graph, factor: Node, node: Node) -> Node:
             known = graph.known("multiply", (factor, half))
             if known is not None:
                 return graph.apply("multiply", known, other)
-    return graph.made("multiply", (factor, node))
+    return graph.as_written("multiply", (factor, node))
 
 
 def simpler_product(graph: Graph, a: Node, b: Node) -> Node | None:

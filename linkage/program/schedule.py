@@ -76,12 +76,12 @@ def lowered(outputs: Sequence[Node]) -> list[Node]:
     def cheaper(node: Node, args: tuple[Node, ...]) -> Node | None:
         if node.op == "multiply":
             if args[0] is args[1]:
-                return node.graph.made("square", args[:1])
+                return node.graph.as_written("square", args[:1])
             for place in (0, 1):  # what is used elsewhere too is not taken apart
                 if args[place].op == "reciprocal" and uses[node.args[place].origin] == 1:
-                    return node.graph.made("divide", (args[1 - place], args[place].args[0]))
+                    return node.graph.as_written("divide", (args[1 - place], args[place].args[0]))
         if node.op == "negative" and args[0].op == "subtract" and uses[node.args[0].origin] == 1:
-            return node.graph.made("subtract", args[0].args[::-1])
+            return node.graph.as_written("subtract", args[0].args[::-1])
         return None
 
     return rewritten(outputs, cheaper)
@@ -98,7 +98,7 @@ def rewritten(
     for node in ancestors(outputs, better):
         if node not in better:
             args = tuple([better[arg.origin] for arg in node.args])
-            better[node] = rule(node, args) or (node if args == node.args else node.graph.made(node.op, args))
+            better[node] = rule(node, args) or (node if args == node.args else node.graph.as_written(node.op, args))
     return [better[each.origin] for each in outputs]
 
 

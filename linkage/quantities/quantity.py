@@ -101,7 +101,7 @@ def in_degrees(value: float) -> str:
 Operand: TypeAlias = "Quantity | float | str"
 
 
-def joined(symbol: str, a: Quantity, b: Quantity) -> Quantity:
+def operation_of(symbol: str, a: Quantity, b: Quantity) -> Quantity:
     """Return two quantities joined by an operator; a difference is a sum with the second one's sign changed."""
     if symbol in ("+", "-"):
         return Sum(a, b if symbol == "+" else Negative(b))
@@ -190,7 +190,7 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
         given = [quantity(each) for each in operands]
         if function == "negative":
             return Negative(*given)
-        return joined(UFUNCS[function], *given) if function in UFUNCS else Function(function, *given)
+        return operation_of(UFUNCS[function], *given) if function in UFUNCS else Function(function, *given)
 
     def __bool__(self) -> NoReturn:
         raise DefinitionError(f"{self}: a quantity has no value in a class, so that `if`, `and`, `or` cannot choose by it; {CHOICE}.")

@@ -96,7 +96,7 @@ def assumed_joints(structure: Structure, poses: FlatPoses) -> list[FloatArray]:
     found, plan = list(slips(structure, poses)), structure.plan
     if not found:
         return []
-    near = NEAR - poses.flat(poses.motion._array(np.asarray(plan.trace.nearness(plan.members), object)))
+    near = NEAR - poses.flattened(poses.motion._array(np.asarray(plan.trace.nearness(plan.members), object)))
     exactly, roughly = ([part * (slip.size + STILL) - slip.miss for slip in found] for part in (AGREES, ROUGHLY))
     return [elementwise(holds_or_near, (a, b, near)) for a, b in zip(exactly, roughly, strict=True)]
 

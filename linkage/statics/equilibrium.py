@@ -44,7 +44,7 @@ class LinearForm:
         """Return the sum of two forms."""
         return LinearForm(self.row + other.row, self.friction + other.friction, self.rest + other.rest)
 
-    def times(self, factor: FloatArray) -> LinearForm:
+    def multiplied(self, factor: FloatArray) -> LinearForm:
         """Return the form times a number at every pose, shape (n,)."""
         return LinearForm(self.row * factor[:, None], self.friction * factor[:, None], self.rest * factor)
 
@@ -65,7 +65,7 @@ class System:
     length: float = 0.0
 
     @cached_property
-    def scale(self) -> float:
+    def unit_length(self) -> float:
         """A length of the mechanism [m], which makes moments comparable with forces: as given, or half its extent."""
         if self.length:
             return self.length
@@ -75,9 +75,10 @@ class System:
         return float(np.max(np.ptp(places, axis=1))) / 2.0 or 1.0
 
     @cached_property
-    def columns(self) -> tuple[UnitWrench, ...]:
+    def unknowns(self) -> tuple[UnitWrench, ...]:
         """The unknowns, contact by contact."""
-        return tuple(UnitWrench(each, wrench) for each in self.structure.contacts for wrench in wrenches(each, self.poses, self.scale))
+        poses, length = self.poses, self.unit_length
+        return tuple(UnitWrench(each, wrench) for each in self.structure.contacts for wrench in wrenches(each, poses, length))
 
     @cached_property
     def first(self) -> dict[Contact, int]:
@@ -99,7 +100,7 @@ class System:
     @cached_property
     def A(self) -> FloatArray:
         """The rows of the joint forces, shape (n, rows, columns)."""
-        return self.rows_of(self.columns)
+        return self.rows_of(self.unknowns)
 
     @cached_property
     def B(self) -> FloatArray:
@@ -120,7 +121,8 @@ class System:
         """The loads as wrenches, with the body each acts on."""
         poses, none = self.poses, np.zeros(self.poses.count)
         return tuple(
-            (self.structure.bearer(each.load), each, Wrench(poses.at(each.load.point), poses.flat(each.force), none)) for each in self.loads
+            (self.structure.bearer(each.load), each, Wrench(poses.at(each.load.point), poses.flattened(each.force), none))
+            for each in self.loads
         )
 
     def rows_of(self, columns: Sequence[UnitWrench]) -> FloatArray:
@@ -145,13 +147,13 @@ class System:
         yield start + 1, sign * wrench.force[1]
         if body < len(self.structure.bodies):
             arm = wrench.at - self.poses.at(self.structure.bodies[body].points[0])
-            yield start + 2, sign * (cross(arm, wrench.force) + wrench.couple) / self.scale
+            yield start + 2, sign * (cross(arm, wrench.force) + wrench.couple) / self.unit_length
 
     # -- what is read off ----------------------------------------------------------------------------------
 
     def drive(self, stroke: str) -> LinearForm:
         """Return the generalised force of a stroke [N or Nm]: each drive's force times how it follows the stroke."""
-        forms = [force.times(ratio) for ratio, force in self.drives(stroke)]
+        forms = [force.multiplied(ratio) for ratio, force in self.drives(stroke)]
         if not forms:
             raise DefinitionError(
                 f"{self.structure.plan.title}: the joints know no drive of {stroke}; "
@@ -205,8 +207,8 @@ class System:
 
     def unknown(self, contact: Contact, letter: str, sign: float) -> LinearForm:
         """Return an unknown of a contact, signed; a couple in Nm."""
-        factor = sign * (self.scale if letter == "c" else 1.0)
-        row = self.poses.zeros(len(self.columns))
+        factor = sign * (self.unit_length if letter == "c" else 1.0)
+        row = self.poses.zeros(len(self.unknowns))
         row[:, self.first[contact] + contact.holds.index(letter)] = self.poses.motion._array(factor)
         return LinearForm(row, self.poses.zeros(len(self.frictions)), self.poses.zeros())
 
@@ -221,8 +223,8 @@ class System:
 
     def cut(self, body: int, is_joint: Callable[[Contact], bool], is_point: Callable[[str], bool], along: FloatArray) -> LinearForm:
         """Return minus the forces on one side of a body along a direction, shape (2, n): what a cut there transmits."""
-        row, friction = (self.poses.zeros(len(columns)) for columns in (self.columns, self.frictions))
-        for values, columns in ((row, self.columns), (friction, self.frictions)):
+        row, friction = (self.poses.zeros(len(columns)) for columns in (self.unknowns, self.frictions))
+        for values, columns in ((row, self.unknowns), (friction, self.frictions)):
             for index, column in enumerate(columns):
                 sign = float(column.contact.on == body) - float(column.contact.by == body)
                 if sign and is_joint(column.contact):
@@ -235,10 +237,10 @@ class System:
 
         `way` is 1 where the first cylinder of a line pushes, -1 where it pulls: it tells which side's area a cylinder works with.
         """
-        found = [(self.thrust(each), self.poses.flat(each.known.thrust)) for each in self.structure.struts if each.known is not None]
+        found = [(self.thrust(each), self.poses.flattened(each.known.thrust)) for each in self.structure.struts if each.known is not None]
         for line in self.structure.holders.lines:
             struts = [each for each in self.structure.struts if each.line is line]
             (first, *others) = [(self.thrust(each), area) for each, area in zip(struts, areas(line, self.poses, way), strict=True)]
             none = self.poses.zeros()
-            found += [(form.times(first[1]).plus(first[0].times(-1.0 * area)), none) for form, area in others]
+            found += [(form.multiplied(first[1]).plus(first[0].multiplied(-1.0 * area)), none) for form, area in others]
         return found

@@ -111,13 +111,13 @@ class JointPart:
     by: str
     component: str
 
-    def over(self, motion: AnyMotion, acting: Acting) -> FloatArray:
+    def force_over(self, motion: AnyMotion, acting: Acting) -> FloatArray:
         """Return it over a motion's poses [N], shape (...)."""
-        self.check(motion.plan)
+        self.check_component(motion.plan)
         force = pin_forces_under(require_motion(motion), acting).force(self.point, self.on, self.by)
         return np.asarray(COMPONENTS[self.component](force[0], force[1]))
 
-    def check(self, plan: Plan) -> None:
+    def check_component(self, plan: Plan) -> None:
         """Raise DefinitionError for a part that a force has not."""
         known_name("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
 
@@ -130,7 +130,7 @@ class JointPart:
     def in_plan(self, request: LawRequest, motion: TracedMotion) -> LawInPlan:
         """Return what it is in the plan of a traced motion, where its bodies have their full names."""
         require_rest(request, motion.plan)
-        self.check(motion.plan)
+        self.check_component(motion.plan)
         applied, plan = traced_loads(motion, request.situation, AT_REST), motion.plan
         structure = Structure(plan, applied.elements, applied.thrusts)
         full = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))
@@ -141,10 +141,10 @@ class JointPart:
         acts = motion._reading.graph, *loads, *thrusts, *motion.notes.assumed, None, *motion.notes.switches, *struts
         what = "the size" if self.component == "size" else f"the {self.component} component"
         every, shared = frozenset(plan.members), ("pin forces", acts)
-        trace = partial(full.traced, request.situation, shared)
+        trace = partial(full.traced_part, request.situation, shared)
         return LawInPlan(("pin force", full, acts), every, every, trace, shared, f"{what} of the force at {joint}")
 
-    def traced(self, acting: Acting, shared: Hashable, motion: TracedMotion) -> TracedLaw:
+    def traced_part(self, acting: Acting, shared: Hashable, motion: TracedMotion) -> TracedLaw:
         """Return it on a program, on which all joint forces are traced once for all that are asked for: they are kept as `shared`."""
         kept = motion.plan.trace.kept
         if shared not in kept:
@@ -172,7 +172,7 @@ def pin_force(
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
     given, joint = situation_of("pin_force", acting, loads=loads, case=case), JointPart(point, on, by, component)
     shown = [each for each in (on, by and f"by={by}", "" if component == "size" else f"component={component}") if each]
-    return force_request("pin_force", [point, *shown], joint, given, joint.over, joint.in_plan)
+    return force_request("pin_force", [point, *shown], joint, given, joint.force_over, joint.in_plan)
 
 
 def traced_equilibrium(motion: TracedMotion, acting: Acting) -> tuple[TracedMotion, Solution]:

@@ -22,7 +22,7 @@ from ..program import FloatArray
 from .bodies import FRAME
 from .equilibrium import UnitWrench
 from .joints import Contact, Structure, Wrench, force_direction
-from .poses import FlatPoses, cross, left
+from .poses import FlatPoses, cross, quarter_turned
 
 STEPS = 16
 ROUNDS = 40
@@ -196,11 +196,11 @@ def friction_in(contact: Contact, friction: Friction, speeds: Speeds) -> JointFr
     """Return the friction of a joint: of a pin a couple against the turning of its bodies, of a guide a force against the sliding."""
     poses = speeds.poses
     place, none = poses.at(contact.point), np.zeros((2, poses.count))
-    coefficient = poses.flat(friction.coefficient)
+    coefficient = poses.flattened(friction.coefficient)
     if friction.radius is not None:
         rate = speeds.spin(contact.on) - speeds.spin(contact.by)
         sign = np.where(np.abs(rate) > SLOWEST * speeds.fastest, np.sign(rate), 0.0)
-        radius = poses.flat(friction.radius)
+        radius = poses.flattened(friction.radius)
         wrench = Wrench(place, none, -sign * radius)
         return JointFriction(UnitWrench(contact, wrench), coefficient, radius * np.abs(rate), wrench.couple)
     t = force_direction(contact, "t", poses)
@@ -227,7 +227,7 @@ class Speeds:
 
     def __init__(self, structure: Structure, poses: FlatPoses, rates: Rates) -> None:
         self.structure, self.poses = structure, poses
-        self.rates = {name: poses.flat(rate) for name, rate in rates.items()}
+        self.rates = {name: poses.flattened(rate) for name, rate in rates.items()}
         self._points: dict[str, FloatArray] = {}
         self._spins: dict[int, FloatArray] = {}
 
@@ -246,7 +246,7 @@ class Speeds:
         start = self.structure.bodies[body].points[0] if body < bodies else self.structure.lone[body - bodies]
         if any(each.host and self.structure.body_of(each) == body for each in self.structure.struts):
             start = self.structure.seat(contact, body)
-        return self.point(start) + left(place - self.poses.at(start)) * self.spin(body)
+        return self.point(start) + quarter_turned(place - self.poses.at(start)) * self.spin(body)
 
     def spin(self, body: int) -> FloatArray:
         """Return a body's turning, shape (n,) [rad/s, or per unit of what moves]."""

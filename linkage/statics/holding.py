@@ -299,10 +299,10 @@ def areas(line: PressureLine, poses: FlatPoses, way: int) -> list[FloatArray]:
     if len(line.cylinders) == 1:
         return [np.ones(poses.count)]
     if not any(each.works_both for each in line.cylinders):
-        return [poses.flat(each.area_in(poses.motion, np.ones(()))) for each in line.cylinders]
+        return [poses.flattened(each.area_in(poses.motion, np.ones(()))) for each in line.cylinders]
     growth = [poses.growth(*each.ends, line.stroke) for each in line.cylinders]
     senses = [poses.full(elementwise(np.sign, (rate * growth[0],)) * way) for rate in growth]
-    return [poses.flat(each.area_in(poses.motion, sense)) for each, sense in zip(line.cylinders, senses, strict=True)]
+    return [poses.flattened(each.area_in(poses.motion, sense)) for each, sense in zip(line.cylinders, senses, strict=True)]
 
 
 def lever_of(poses: FlatPoses, cylinder: TwoPoint, stroke: str) -> tuple[FloatArray, FloatArray]:

@@ -279,7 +279,7 @@ def lift_off_words(found: PoseForces) -> list[str]:
     for contact, (force, _) in zip(structure.contacts, found.contacts, strict=True):
         if contact.joint is None or not contact.joint.pushes:
             continue
-        push = (poses.flat(force) * force_direction(contact, "n", poses)).sum(axis=0)
+        push = (poses.flattened(force) * force_direction(contact, "n", poses)).sum(axis=0)
         mask = poses.mask(push < 0.0)
         if mask.any():
             bodies = f"{structure.name(contact.on)} from {structure.name(contact.by)}"

@@ -21,7 +21,7 @@ from ..steps import Guide, Link, Point
 from .applied import AppliedThrust
 from .bodies import FRAME, FRAME_NAME, Strut, frame_points, free_bodies, refuse_driven, sliding_blocks
 from .holding import Holders, holders_of
-from .poses import FlatPoses, left
+from .poses import FlatPoses, quarter_turned
 
 
 @final
@@ -377,7 +377,7 @@ def acting_place(contact: Contact, poses: FlatPoses) -> FloatArray:
         return point
     with np.errstate(all="ignore"):
         origin = joint.line(poses.reading).origin
-    place = poses.pair(origin.x, origin.y)
+    place = poses.stacked(origin.x, origin.y)
     if place.dtype == object:
         return place
     return point if np.all(np.abs(place - point) <= SAME * np.max(np.abs(point), initial=0.0)) else place
@@ -391,6 +391,6 @@ def force_direction(contact: Contact, letter: str, poses: FlatPoses) -> FloatArr
     else:
         with np.errstate(all="ignore"):
             way = line(poses.reading).direction
-        vector = poses.pair(way.x, way.y)
+        vector = poses.stacked(way.x, way.y)
         along = np.asarray(vector / np.hypot(vector[0], vector[1]))
-    return left(along) if letter in "yn" else along
+    return quarter_turned(along) if letter in "yn" else along

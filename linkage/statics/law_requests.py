@@ -145,10 +145,10 @@ class LawRequest(Request):
     def _bound(self, plan: Plan) -> LawRequest:
         if self.examine is not None:
             self.examine(plan)
-        look_up = partial(law_in_plan, trace=self.traced) if self.look_up is None else partial(self.look_up, self)
+        look_up = partial(law_in_plan, trace=self.traced_law) if self.look_up is None else partial(self.look_up, self)
         return replace(self, in_plan=traced_apart(plan, look_up))
 
-    def traced(self, motion: TracedMotion) -> TracedLaw:
+    def traced_law(self, motion: TracedMotion) -> TracedLaw:
         """Return the formula on the nodes of a program; UntracedError where it has none."""
         motion.notes.owner, motion.notes.tests = str(self), 0
         try:

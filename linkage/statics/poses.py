@@ -59,7 +59,7 @@ class FlatPoses:
         """Return zeros to write results into, shape (n, *shape)."""
         return self.motion._array(np.zeros((self.count, *shape)))
 
-    def flat(self, values: ArrayLike) -> FloatArray:
+    def flattened(self, values: ArrayLike) -> FloatArray:
         """Return values over the motion, shape (..., *shape) or broadcast to it, as (..., n)."""
         array = self.motion._array(values)
         lead = array.shape[: max(0, array.ndim - len(self.motion.shape))]
@@ -82,13 +82,13 @@ class FlatPoses:
         """Return a point's position, shape (2, n) [m]."""
         if point not in self._at:
             place = self.reading.at(self.plan.points[point]) if point in self.plan.ground else None
-            self._at[point] = self.flat(self.motion[point]) if place is None else self.pair(place.x, place.y)
+            self._at[point] = self.flattened(self.motion[point]) if place is None else self.stacked(place.x, place.y)
         return self._at[point]
 
     def ratio(self, target: Reference, drive: str) -> FloatArray:
         """Return the ratio of a point (2, n) or a quantity (n,); what is near singular has been told already."""
         with unwarned():
-            return self.flat(self.motion.ratio(target, wrt=drive))
+            return self.flattened(self.motion.ratio(target, wrt=drive))
 
     def rate(self, point: str, drive: str) -> FloatArray:
         """Return a point's transfer ratio, shape (2, n), worked out once."""
@@ -111,9 +111,9 @@ class FlatPoses:
             self._growths[key] = np.asarray((arm * rate).sum(axis=0) / over_zero(np.hypot(arm[0], arm[1])))
         return self._growths[key]
 
-    def pair(self, x: Scalar, y: Scalar) -> FloatArray:
+    def stacked(self, x: Scalar, y: Scalar) -> FloatArray:
         """Return two parts of a vector as (2, n)."""
-        return np.stack([self.flat(x), self.flat(y)])
+        return np.stack([self.flattened(x), self.flattened(y)])
 
 
 class AnyMotion(Poses, Protocol):
@@ -162,7 +162,7 @@ def over_zero(length: FloatArray) -> FloatArray:
     return length if length.dtype == object else np.where(length == 0.0, 1.0, length)
 
 
-def left(vector: FloatArray) -> FloatArray:
+def quarter_turned(vector: FloatArray) -> FloatArray:
     """Return a vector turned by +90 degrees, shape (2, n)."""
     return np.stack([-vector[1], vector[0]])
 

@@ -95,13 +95,13 @@ class Solution:
 
     def value(self, form: LinearForm) -> FloatArray:
         """Return a linear form of the forces, shape (n,)."""
-        return form.at(self.u[:, : len(self.system.columns)], self.q)
+        return form.at(self.u[:, : len(self.system.unknowns)], self.q)
 
     def transmitted(self, contact: Contact) -> tuple[FloatArray, FloatArray]:
         """Return the force (2, n) [N] and the couple (n,) [Nm] of a joint on its body, friction included."""
         force, couple = np.zeros((2, self.system.poses.count)), np.zeros(self.system.poses.count)
         first = self.system.first[contact]
-        pairs = [(column, self.u[:, first + k]) for k, column in enumerate(self.system.columns[first : first + len(contact.holds)])]
+        pairs = [(column, self.u[:, first + k]) for k, column in enumerate(self.system.unknowns[first : first + len(contact.holds)])]
         pairs += [(each.unit, self.q[:, k]) for k, each in enumerate(self.frictions) if each.contact == contact]
         for column, size in pairs:
             force, couple = force + column.wrench.force * size, couple + column.wrench.couple * size
@@ -220,7 +220,7 @@ class Equilibrium:
         """Return which links hold twice what is held already: those without which the rest is still held."""
         system, structure, spare = self.system, self.system.structure, []
         for body, part in enumerate(structure.bodies):
-            gone = [index for index, column in enumerate(system.columns) if body in (column.contact.on, column.contact.by)]
+            gone = [index for index, column in enumerate(system.unknowns) if body in (column.contact.on, column.contact.by)]
             rows = list(range(system.starts[body], system.starts[body + 1]))
             left = np.delete(np.delete(self.sample, gone, axis=2), rows, axis=1)
             if left.size > 0 and rank_of(left) == left.shape[1]:

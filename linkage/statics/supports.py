@@ -46,7 +46,7 @@ def reaction(
     stroke = stroke_of(motion.plan, drive, "drive")
     applied = applied_loads(motion, acting, rates_in(motion, acting, stroke), without=name)
     poses = FlatPoses(motion, f"The reaction of {name}")
-    known = poses.flat(known_force(motion, drive_force))
+    known = poses.flattened(known_force(motion, drive_force))
     lever = way_along(poses, element, stroke, name)
     if not applied.frictions:
         return poses.full((by_work(poses, applied, stroke) - known) / lever)

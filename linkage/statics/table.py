@@ -110,7 +110,7 @@ def max_table(
     best: dict[tuple[str, str, str, str], PinLoad] = {}
     for one in each_of:
         with unwarned():  # what comes of a dead point is said by the row
-            rows = largest(one)
+            rows = largest_loads(one)
         for row in rows:
             key = (row.point, row.on, row.by, row.kind)
             if key not in best or row.force > best[key].force:
@@ -163,7 +163,7 @@ def results_of(given: PinForces | Iterable[PinForces]) -> list[PinForces]:
     return [each for each in found if isinstance(each, PinForces)]
 
 
-def largest(result: PinForces) -> list[PinLoad]:
+def largest_loads(result: PinForces) -> list[PinLoad]:
     """Return the largest force of each joint of a result."""
     joints = [joint for joint in result.joints if joint.has_force]
     if not joints:

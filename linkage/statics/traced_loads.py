@@ -222,9 +222,9 @@ def elimination(system: System, motion: TracedMotion, sizes: Sequence[Node]) -> 
     zero = motion._reading.graph.constant(0.0)
     bound = system.known()
     rows: list[dict[int, Node]] = [{} for _ in range(system.height + len(bound))]
-    if len(rows) != len(system.columns):
+    if len(rows) != len(system.unknowns):
         return None
-    for place, column in enumerate(system.columns):
+    for place, column in enumerate(system.unknowns):
         for row, value in system.entries(column):
             rows[row][place] = rows[row].get(place, zero) + motion.node(value[0])
     right = [-motion.node(each) for each in system.load_rows[0]]

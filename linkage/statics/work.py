@@ -57,7 +57,7 @@ def stroke_force(motion: Motion, acting: Acting, drive: str | None, efficiency: 
             lost = (each * joint.rate for each, joint in zip(found.q, found.frictions, strict=True))  # never negative
             force = force + rates.sense * sum(lost, np.zeros(poses.count))
         else:
-            force = poses.flat(found.drives[stroke])
+            force = poses.flattened(found.drives[stroke])
     return poses.full(with_losses(force, efficiency, rates.sense))
 
 
@@ -78,11 +78,11 @@ def by_work(poses: FlatPoses, applied: AppliedLoads, drive: str) -> FloatArray:
     moving, work = poses.plan.moving, np.zeros(poses.count)
     for load in applied.loads:
         if load.load.point in moving:
-            work = work + (poses.flat(load.force) * poses.rate(load.load.point, drive)).sum(axis=0)
+            work = work + (poses.flattened(load.force) * poses.rate(load.load.point, drive)).sum(axis=0)
     for push in applied.thrusts:
         P, Q = push.ends
         if {P, Q} & set(moving):
-            work = work + poses.flat(push.thrust) * poses.growth(P, Q, drive)
+            work = work + poses.flattened(push.thrust) * poses.growth(P, Q, drive)
     return np.asarray(0.0 - work)
 
 
@@ -103,11 +103,11 @@ def work_misses(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, Fl
     A load's power counts as force times way, whatever the angle between them: where loads balance each other, as counterweights do, or
     do no work, the drive's own force is nearly nothing.
     """
-    sizes = [(each.load.point, np.hypot(*poses.flat(each.force))) for each in applied.loads]
-    sizes += [(end, np.abs(poses.flat(push.thrust))) for push in applied.thrusts for end in push.ends]
+    sizes = [(each.load.point, np.hypot(*poses.flattened(each.force))) for each in applied.loads]
+    sizes += [(end, np.abs(poses.flattened(push.thrust))) for push in applied.thrusts for end in push.ends]
     for name, force in drives.items():
         powers = sum((size * np.hypot(*poses.rate(point, name)) for point, size in sizes), np.zeros(poses.count))
-        yield name, np.abs(poses.flat(force) - by_work(poses, applied, name)), float(np.max(powers, initial=0.0))
+        yield name, np.abs(poses.flattened(force) - by_work(poses, applied, name)), float(np.max(powers, initial=0.0))
 
 
 def without_work(found: PoseForces) -> tuple[Mask, str]:
@@ -123,7 +123,7 @@ def without_work(found: PoseForces) -> tuple[Mask, str]:
         bad = disagreeing(poses, missed, AGREES * size + LEAST, size)
         if bad.any() and not words:
             worst = int(np.argmax(np.where(bad, missed, -1.0)))
-            ours, theirs = poses.flat(found.drives[name])[worst], by_work(poses, applied, name)[worst]
+            ours, theirs = poses.flattened(found.drives[name])[worst], by_work(poses, applied, name)[worst]
             words = f"the force of {name} is {ours:.6g} by the equilibrium of the joints and {theirs:.6g} by virtual work"
         lost |= bad
     return lost, words
@@ -169,7 +169,7 @@ def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:
     applied = traced_loads(motion, acting, rates)
     if rates and len(motion.plan.strokes) > 1:
         still = traced_loads(motion, acting, AT_REST)
-        if [motion.node(each) for each in numbers(applied)] != [motion.node(each) for each in numbers(still)]:
+        if [motion.node(each) for each in all_numbers(applied)] != [motion.node(each) for each in all_numbers(still)]:
             raise UntracedError(
                 f"{motion.plan.title}: what rubs acts along the path of several strokes, so that no program gives it pose by pose; ask a "
                 "motion, or while nothing rubs."
@@ -177,7 +177,7 @@ def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:
     return applied
 
 
-def numbers(applied: AppliedLoads) -> list[FloatArray]:
+def all_numbers(applied: AppliedLoads) -> list[FloatArray]:
     """Return all numbers of what acts."""
     return [*(part for each in applied.loads for part in each.force), *(each.thrust for each in applied.thrusts)]
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from linkage import DefinitionError, FileError
 from linkage.files import from_dict, load, to_dict, to_json, to_toml
-from linkage.files.expression import arrow, expression
+from linkage.files.expression import arrow_in, expression
 from linkage.files.names import Names
 from tests.linkage.files.file_machines import changed
 
@@ -72,7 +72,7 @@ def test_expression_is_written_as_it_is_read(text):
 
 @pytest.mark.parametrize("text", ["AO", "Vector(A, O)", "Turn(AO, -S)", "Turn(Turn(AO, S), S + 0.5, length=L * 2.0)"])
 def test_vector_is_written_as_it_is_read(text):
-    assert str(arrow(text, NAMES)) == text
+    assert str(arrow_in(text, NAMES)) == text
 
 
 @pytest.mark.parametrize("text", [*PYTHON, *WRONG, *NOT_FINITE, *UNREADABLE, *LARGE])
@@ -87,7 +87,7 @@ def test_hostile_expression_is_refused_in_words(text):
 @pytest.mark.parametrize("text", ["S", "angle(A, O)", "L * AO", "Turn(AO)", "Turn(A, S)", "Vector(AO, A)", "AO + AO", "Q", "", "eval(AO)"])
 def test_what_is_no_vector_is_refused(text):
     with pytest.raises(DefinitionError):
-        arrow(text, NAMES)
+        arrow_in(text, NAMES)
 
 
 def test_a_name_of_the_file_stands_before_a_unit():

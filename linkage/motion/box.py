@@ -21,13 +21,13 @@ import numpy as np
 
 from ..plan import Mask
 from ..program import FloatArray
-from .line import LOWEST, Index, is_pole, last_holding, missing_lowest
+from .line import CLOSE, LOWEST, Index, is_pole, last_holding, missing_lowest
 
 SIDES = {2: 129, 3: 33, 4: 13, 5: 8, 6: 6}  # values a stroke, by the number of strokes
 MORE, MOST_POSES = 5, 1 << 20  # values a stroke of more strokes; grid poses of all designs together
 STARTS, ROUGH = 24, 3  # of each function and design; of these, how many go on where it is not smooth
 ROUNDS, PATIENCE = 40, 3  # of stencils; rounds that gain nothing before a start counts as not smooth
-CLOSE, ROUNDED = 1e-12, 16.0 * float(np.finfo(float).eps)  # of the range of the values, and of their size: what is no gain
+NO_GAIN, ROUNDED = 1e-12, 16.0 * float(np.finfo(float).eps)  # of the range of the values, and of their size: what is no gain
 TRUST = 1.5  # of a stencil's half: how far a quadratic is believed
 NARROW = 1e-9  # of the box: how narrow a stencil gets
 NONE = np.zeros(0, int)
@@ -349,7 +349,7 @@ def climbed(box: SeenBox) -> tuple[Climbs, Climbs, FloatArray]:
     finite = np.where(np.abs(box.seen) < -LOWEST, box.seen, np.nan)
     size = np.fmax.reduce(np.abs(finite), axis=-1, initial=0.0)
     span = np.fmax.reduce(finite, axis=-1, initial=-np.inf) - np.fmin.reduce(finite, axis=-1, initial=np.inf)
-    least = CLOSE * np.maximum(span, 0.0) + ROUNDED * size
+    least = NO_GAIN * np.maximum(span, 0.0) + ROUNDED * size
     going, seen = starts_of(box)
     tops: list[Climbs] = [going.subset(NONE)]
     rough: list[Climbs] = [going.subset(NONE)]
@@ -476,7 +476,6 @@ def stepped(box: SeenBox, climbs: Climbs, way: FloatArray, near: FloatArray, see
 
 FINE = 2e-7  # of the box: how narrow a stencil on a border gets
 EDGES, BORDERS, CUTS = 4, 4, 16  # borders of each function and design, along each stroke and in all; parts of a bisection
-CLOSEST = 1e-13  # of the box: how near a border is found
 ALL_BORDERS = 128  # searches along borders of all functions and designs together
 BUDGET = 400_000  # poses that they look at: where they are more, each stands where it has come to
 ACROSS = np.linspace(-6.0, 6.0, 13)  # where a border is looked for, in halves of the stencil
@@ -566,10 +565,10 @@ def border_crossings(box: SeenBox, climbs: Climbs, places: FloatArray, shared: b
     first, last = (np.take_along_axis(along, pick + step, axis=-1)[..., 0] for step in (0, 1))
     forth = np.take_along_axis(has, pick, axis=-1)[..., 0]
     start, outside = np.where(forth, first, last), np.where(forth, last, first)
-    inside, _ = last_holding(holds, start, np.where(there, outside, start), CLOSEST, CUTS)
+    inside, _ = last_holding(holds, start, np.where(there, outside, start), CLOSE, CUTS)
     if shared:
         leg = start - inside
-        steps = np.minimum(np.abs(leg)[..., None], np.append(0.0, CLOSEST * np.ldexp(1.0, np.arange(0, 44, 4))))
+        steps = np.minimum(np.abs(leg)[..., None], np.append(0.0, CLOSE * np.ldexp(1.0, np.arange(0, 44, 4))))
         behind = inside[..., None] + np.sign(leg)[..., None] * steps
         seen = known(behind)
         there &= seen.any(axis=-1)
@@ -578,7 +577,7 @@ def border_crossings(box: SeenBox, climbs: Climbs, places: FloatArray, shared: b
         of = np.flatnonzero((pick > 0).any(axis=-1))
         if of.size:
             beyond = np.take_along_axis(behind, np.maximum(pick - 1, 0)[..., None], axis=-1)[..., 0]
-            inside[of], _ = last_holding(lambda along: known(along, of), inside[of], beyond[of], CLOSEST, CUTS)
+            inside[of], _ = last_holding(lambda along: known(along, of), inside[of], beyond[of], CLOSE, CUTS)
     return on(inside[..., None], every).reshape(places.shape), there
 
 

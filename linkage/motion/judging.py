@@ -8,7 +8,6 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..errors import LinkageError
 from ..language import said
 from ..quantities import Member
 from ..units import deg, show
@@ -58,11 +57,6 @@ def judge_verdicts(judge: Judge) -> list[str]:
     return [*geometry_verdicts(judge), *member_verdicts(judge.lost_allowed() if lost else judge)]
 
 
-def one_line(error: LinkageError) -> str:
-    """Return what an error says, in one line."""
-    return " ".join(str(error).split())
-
-
 # -- geometry ----------------------------------------------------------------------------------------------
 
 
@@ -102,7 +96,7 @@ def assembly_verdicts(judge: Judge) -> list[str]:
     if not answer.lost:
         return [Verdict("assembly", True, said("it is assembled over {spans}.", spans="; ".join(named)), answer=answer)]
     if not judge.is_reached:
-        return [Verdict("assembly", False, one_line(out_of_reach(judge.places[0].motion)), answer=answer)]
+        return [Verdict("assembly", False, " ".join(str(out_of_reach(judge.places[0].motion)).split()), answer=answer)]
     text = said(
         "over {spans} {share} cannot be assembled, deepest {place}: {why}", spans="; ".join(named), share=share_text(answer.lost.share),
         place=answer.place, why=answer.lost.sentence,

@@ -13,7 +13,7 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import AssemblyError
-from ..plan import Loop, Mask, Plan
+from ..plan import Mask, Plan
 from ..program import FloatArray
 from .grid import recalled
 from .interruptions import ON_ARRAYS, ROUNDING, Clearances
@@ -86,14 +86,9 @@ def margins(motion: Motion, known: Clearances) -> FloatArray:
     values = known.kernel(grid.flat, way=ON_ARRAYS, size=grid.size).values
     found = np.array(grid.full(values))
     for row, loop in enumerate(known.loops):
-        if is_squared(loop):
+        if loop.kind in ("guides", "meeting"):  # the sign says which side it is assembled on
             found[row] *= found[row]
     return found
-
-
-def is_squared(loop: Loop) -> bool:
-    """Return whether a loop's margin has a sign that says which side it is assembled on, and is none."""
-    return loop.kind in ("guides", "meeting")
 
 
 def rounding_at(motion: Motion, known: Clearances, strokes: Mapping[str, Any]) -> FloatArray:

@@ -247,7 +247,8 @@ class MonteCarloRun:
                 self._take(bound, self._traced([quantities[key] for key in bound], part, store), first, found)
         for key, quantity in quantities.items():
             if key not in bound:
-                self._take([key], self._of_function(quantity)[None], 0, found)
+                parts = [self.poses.of_function(self._block(block), quantity).T for block in blocks(self.count, self.poses.pose_count)]
+                self._take([key], np.concatenate(parts, axis=1)[None], 0, found)
         self._leaves |= {leaf: self._at(leaf) for leaf in leaves if isinstance(leaf, At)}
         for leaf, places in self._unlimited.items():
             self._leaves[leaf] = np.where(places == (1 if isinstance(leaf, At) else self.poses.pose_count), np.nan, self._leaves[leaf])
@@ -275,11 +276,6 @@ class MonteCarloRun:
 
         self._on_threads(fill, blocks(self.count, part.stop - part.start))
         return place
-
-    def _of_function(self, quantity: Measured | Worst) -> FloatArray:
-        """Return a function of motions, shape (poses, designs), or (1, designs)."""
-        found = [self.poses.of_function(self._block(block), quantity).T for block in blocks(self.count, self.poses.pose_count)]
-        return np.concatenate(found, axis=1)
 
     def _at(self, leaf: At) -> FloatArray:
         """Return a quantity at its own pose, shape (designs,)."""

@@ -267,22 +267,18 @@ class Search:
         family = self._of_families(unit, choice, kept) if len(met) else {}
         kept = [each for each in kept if family.get(each, each) == each]
         kept.sort(key=lambda each: (int(choice[each]), *unit[each]))
-        lost = {each: why for each in kept if len(met) and (why := why_not_assembled(self._machine(unit[each], choice[each])))}
+        values = self.box.settings(unit, choice)
+        lost = {each: why for each in kept if len(met) and (why := why_not_assembled(self.machine.replaced(**one_setting(values, each))))}
         is_met = bool(len(met)) and len(lost) < len(kept)
         kept = [each for each in kept if each not in lost] if is_met else kept
-        values = self.box.settings(unit[kept], choice[kept])
-        settings = tuple(one_setting(values, place) for place in range(len(kept)))
+        settings = tuple(one_setting(values, each) for each in kept)
         misses = tuple(tuple((off[each] * self.aim.scale).tolist()) for each in kept)
-        words = [setting_words(self.machine.plan, values, place) for place in range(len(kept))]
+        words = [setting_words(self.machine.plan, values, each) for each in kept]
         if lost and not is_met:
             sentence = self._met_words(words, bool(family)) + f" It cannot be assembled over the whole stroke: {lost[kept[0]]}"
         else:
             sentence = self._met_words(words, bool(family)) if is_met else self._near_words(words[0], off[kept[0]])
         return Solutions(self.machine, settings, is_met, misses, bool(family), sentence)
-
-    def _machine(self, unit: FloatArray, choice: int) -> Mechanism:
-        """Return the machine at unit coordinates (k,) with a choice."""
-        return self.machine.replaced(**one_setting(self.box.settings(unit[None], np.array([choice])), 0))
 
     def _is_same(self, one: FloatArray, other: FloatArray, choice: int) -> bool:
         """Return whether two solutions are one: to rounding, or, at a double one, as near as what lies between is a solution too."""

@@ -161,7 +161,7 @@ class Flow:
         self.words(document.title, 17.0, "bold", after=0.0)
         self.words(f"{said('Calculation report')}. {document.subtitle}", TEXT, colour=MUTED, after=7.0)
         rows = tuple((name, document.verdict if value == document.verdict.word else value) for name, value in document.facts)
-        self.table(TableBlock("", ("", ""), rows, "lm"), "", headed=False)
+        self.draw_table(TableBlock("", ("", ""), rows, "lm"), "", headed=False)
 
     def section(self, number: int, section: Section) -> None:
         """Draw a section; small pictures stand in pairs."""
@@ -192,7 +192,7 @@ class Flow:
         if isinstance(block, Paragraph):
             self.words(block.text)
         elif isinstance(block, TableBlock):
-            self.table(block, self.captions.get(id(block), ""))
+            self.draw_table(block, self.captions.get(id(block), ""))
         elif isinstance(block, Equality):
             self.equality(block)
         elif isinstance(block, Illustration):
@@ -234,7 +234,7 @@ class Flow:
 
     # -- tables ----------------------------------------------------------------------------------------
 
-    def table(self, grid: TableBlock, caption: str, headed: bool = True) -> None:
+    def draw_table(self, grid: TableBlock, caption: str, headed: bool = True) -> None:
         """Draw a table; its head is repeated on every page."""
         widths = column_widths(grid)
         body = [row_lines(row, widths, grid.columns) for row in grid.rows]
@@ -254,7 +254,7 @@ class Flow:
                 self.y = y
                 self.table_head(head, widths, grid.columns, head_high)
                 y = self.take(high)
-            self.row(row, cells, widths, grid.columns, y, high)
+            self.table_row(row, cells, widths, grid.columns, y, high)
         self.y += 7.0
 
     def table_head(self, head: Sequence[Sequence[str]], widths: Sequence[float], columns: str, high: float) -> None:
@@ -269,7 +269,7 @@ class Flow:
         for level in (y, y + high):
             self.put(InkLine(((LEFT, level), (end, level)), 0.6, INK))
 
-    def row(self, row: Sequence[Cell], cells: Sequence[Any], widths: Sequence[float], columns: str, y: float, high: float) -> None:
+    def table_row(self, row: Sequence[Cell], cells: Sequence[Any], widths: Sequence[float], columns: str, y: float, high: float) -> None:
         """Draw a row of a table."""
         x = LEFT
         for value, lines, wide, kind in zip(row, cells, widths, columns, strict=True):

@@ -44,7 +44,7 @@ def workbook(calculation: Calculation, name: str) -> bytes:
     with xlsxwriter.Workbook(stream, options) as book:
         book.set_properties({"title": calculation.design.plan.heading, "comments": f"hydrolinkage: {name}", "created": MADE})
         book.set_calc_mode("auto")
-        Sheets(book, calculation).write()
+        Sheets(book, calculation).write_sheets()
     return stream.getvalue()
 
 
@@ -73,7 +73,7 @@ class Sheets:
         self.warning = book.add_format({"bold": True, "font_color": "#C0392B"})
         self._formats: dict[tuple[str, bool], Any] = {}
 
-    def write(self) -> None:
+    def write_sheets(self) -> None:
         """Write all sheets, in the order in which they are read."""
         titles = ("Dimensions", "Strokes", "Calculation", "Results", "Chart")
         first, strokes, middle, last, chart = (self.book.add_worksheet(title) for title in titles)
@@ -96,7 +96,7 @@ class Sheets:
     # -- what is given ---------------------------------------------------------------------------------
 
     @cached_property
-    def names(self) -> dict[Any, str]:
+    def defined_names(self) -> dict[Any, str]:
         """The names of the cells of dimensions, by the dimension, and of the ends of strokes, by (stroke, "from" or "to")."""
         calculation = self.calculation
         shown = {name: calculation.equations._listing.names.quantity(name).name for name in calculation.design.dimensions}
@@ -129,9 +129,9 @@ class Sheets:
             sheet.write_number(row, 1, tidy(value / factor(unit)), self.input)
             sheet.write_string(row, 2, unit, self.muted)
             sheet.write_formula(row, 3, f"=B{row + 1}{to_si(unit)}", self.plain, float(value))
-            sheet.write_string(row, 4, self.names[name], self.muted)
+            sheet.write_string(row, 4, self.defined_names[name], self.muted)
             sheet.write_string(row, 5, self._note(name, entry.where), self.muted)
-            self.book.define_name(self.names[name], f"=Dimensions!$D${row + 1}")
+            self.book.define_name(self.defined_names[name], f"=Dimensions!$D${row + 1}")
         sheet.freeze_panes(5, 1)
         self._check(sheet, row + 2)
         for place, text in enumerate(self._remarks()):
@@ -150,7 +150,7 @@ class Sheets:
         places = [place for place, column in enumerate(self.calculation.columns) if column.checks]
         if not places:
             return
-        ranges = [self._range("Calculation", self._place(place), ROWS_ABOVE) for place in places]
+        ranges = [self._range("Calculation", self._sheet_column(place), ROWS_ABOVE) for place in places]
         worst = ",".join(f"MAX({each}),-MIN({each})" for each in ranges)
         pins = " ".join(self.calculation.equations._listing.unknowns)
         text = f"The pins {pins} were found by iteration and do not fit these dimensions: export the changed design again."
@@ -188,7 +188,7 @@ class Sheets:
             for column, (end, value) in enumerate(stroke_ends_of(run, name).items()):
                 sheet.write_number(row, 1 + column, tidy(value / factor(unit)), self.input)
                 sheet.write_formula(row, 4 + column, f"={'BC'[column]}{row + 1}{to_si(unit)}", self.plain, value)
-                self.book.define_name(self.names[name, end], f"=Strokes!${'EF'[column]}${row + 1}")
+                self.book.define_name(self.defined_names[name, end], f"=Strokes!${'EF'[column]}${row + 1}")
             sheet.write_string(row, 3, unit, self.muted)
             sheet.write_string(row, 6, f"{self.count} poses from one end to the other" if runs else "held", self.muted)
         top = self._stroke_head
@@ -201,10 +201,10 @@ class Sheets:
                 sheet.write_formula(top + pose, column, f"={self._stroke_text(name, top + pose + 1)}", self.plain, value)
 
     def _stroke_text(self, name: str, row: int) -> str:
-        start = self.names[name, "from"]
+        start = self.defined_names[name, "from"]
         if name not in self.calculation.run.ways or self.count == 1:
             return start
-        return f"{start}+({self.names[name, 'to']}-{start})*A{row}/{self.count - 1}"
+        return f"{start}+({self.defined_names[name, 'to']}-{start})*A{row}/{self.count - 1}"
 
     @property
     def _stroke_head(self) -> int:
@@ -213,7 +213,7 @@ class Sheets:
 
     # -- the equations ---------------------------------------------------------------------------------
 
-    def _place(self, column: int) -> int:
+    def _sheet_column(self, column: int) -> int:
         """Return where a column of the calculation stands in its sheet: behind the pose and the strokes."""
         return 1 + len(self.calculation.design.strokes) + column
 
@@ -225,7 +225,7 @@ class Sheets:
         symbols = [*self.calculation.stroke_symbols.values(), *(each.symbol for each in self.calculation.columns)]
         return {symbol: str(xl_col_to_name(1 + place)) for place, symbol in enumerate(symbols)}
 
-    def _text(self, expr: Any, sheet: str = "") -> str | None:
+    def _cell_formula(self, expr: Any, sheet: str = "") -> str | None:
         """Return an expression as a formula with ROW_MARK where the row's number goes; None for one that is too long.
 
         A symbol is a cell of the calculation in the same row, or a dimension by its name.
@@ -234,7 +234,7 @@ class Sheets:
 
         def read(symbol: Any) -> str:
             letter = self._letters.get(symbol)
-            return f"{sheet}{letter}{ROW_MARK}" if letter is not None else self.names[dimensions[symbol]]
+            return f"{sheet}{letter}{ROW_MARK}" if letter is not None else self.defined_names[dimensions[symbol]]
 
         return formula(expr, read)
 
@@ -243,7 +243,7 @@ class Sheets:
         plan, strokes = self.calculation.design.plan, list(self.calculation.design.strokes)
         sheet.set_row(3, 75)
         sheet.set_column(0, 0, 7)
-        sheet.set_column(1, self._place(len(self.calculation.columns)), 16)
+        sheet.set_column(1, self._sheet_column(len(self.calculation.columns)), 16)
         given = [("", "pose", "", "number of the pose"), *(("", name, stroke_unit(plan, name), "stroke") for name in strokes)]
         for column, texts in enumerate(given):
             self._heading(sheet, column, texts)
@@ -255,8 +255,8 @@ class Sheets:
                 text = f"=Strokes!{'ABCDEFGHIJKLMNOPQRSTUVWXYZ'[column]}{self._stroke_head + pose + 1}"
                 sheet.write_formula(row, column, text, self._format(1.0, False), value)
         for place, each in enumerate(self.calculation.columns):
-            self._heading(sheet, self._place(place), (each.number, each.name, each.unit, each.meaning), dead=each.expr is None)
-            self._column(sheet, self._place(place), each)
+            self._heading(sheet, self._sheet_column(place), (each.number, each.name, each.unit, each.meaning), dead=each.expr is None)
+            self._write_column(sheet, self._sheet_column(place), each)
         sheet.freeze_panes(ROWS_ABOVE, 1 + len(strokes))
 
     def _heading(self, sheet: Any, column: int, texts: Sequence[str], dead: bool = False) -> None:
@@ -264,10 +264,10 @@ class Sheets:
             upper, lower = (self.dead_head, self.dead_wrapped) if dead else (self.head, self.wrapped)
             sheet.write_string(row, column, text, lower if row == 3 else upper)
 
-    def _column(self, sheet: Any, place: int, each: CalculatedColumn) -> None:
+    def _write_column(self, sheet: Any, place: int, each: CalculatedColumn) -> None:
         """Write one column's formulas with their values, or its values alone."""
         look = self._format(float(np.nanmax(np.abs(each.values), initial=0.0)), each.expr is None)
-        template = None if each.expr is None else self._text(each.expr)
+        template = None if each.expr is None else self._cell_formula(each.expr)
         for pose, value in enumerate(each.values.tolist()):
             row = ROWS_ABOVE + pose
             text = None if template is None else template.replace(ROW_MARK, str(row + 1))
@@ -315,7 +315,7 @@ class Sheets:
         return f"while {', '.join(f'{name} = {own[name]:g}' for name in result.kept)}" if result.kept else ""
 
     def _result_text(self, result: LiveResult) -> str | None:
-        text = None if result.expr is None else self._text(result.expr, "Calculation!")
+        text = None if result.expr is None else self._cell_formula(result.expr, "Calculation!")
         if text is None:
             return None
         body = text[1:] if result.expr.is_Symbol else f"({text[1:]})"
@@ -323,7 +323,7 @@ class Sheets:
         if not result.kept:
             return f"={shown}"
         own = self.calculation.design.dimensions
-        tests = ",".join(f"{self.names[name]}={own[name]:g}" for name in result.kept)
+        tests = ",".join(f"{self.defined_names[name]}={own[name]:g}" for name in result.kept)
         return f"=IF(AND({tests}),{shown},NA())"
 
     def _result_format(self, result: LiveResult) -> Any:

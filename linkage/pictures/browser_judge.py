@@ -91,10 +91,10 @@ class LiveQuestions:
             if is_column(leaf.quantity) and PLAIN_CASE not in place.cases(self.judge.acting):
                 continue  # a table's own column is under the machine's own loads, which do not occur here
             for row in self.judge.sought(leaf, place):
-                found.append((number, row, self.row(row.request)))
+                found.append((number, row, self.named_row(row.request)))
         return found
 
-    def row(self, request: Any) -> str:
+    def named_row(self, request: Any) -> str:
         """Return the name of a request's row; those beside it tell where it has a bound, and where its program is true."""
         name = f"judge {len(self.by_name)}"
         self.by_name[name] = request

@@ -550,3 +550,10 @@ def test_equations_have_no_number_where_there_is_none_with_any_digits():
         assert not np.isfinite(rough[name])
         assert not np.isfinite(float(exact[name]))
     assert float(exact["Fmax_ram"]) == pytest.approx(rough["Fmax_ram"], rel=1e-14)
+
+
+def test_places_that_are_judged_are_named_where_there_are_several():
+    class Twice(Lifter):
+        low, high = Over(S=(0.0, 0.02)), Over(S=(0.08, 0.1))
+
+    assert dict(report_document(Twice()).facts)["Judged over"] == "low: S = 0 to 0.02 m; high: S = 0.08 to 0.1 m"

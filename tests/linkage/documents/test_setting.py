@@ -1,9 +1,14 @@
 """How formulas are set: ink stays within what a box says of itself, goes with the size, and covers what it is over."""
 
-import pytest
+import re
 
+import pytest
+from matplotlib.figure import Figure
+
+from linkage.documents.content import Illustration
+from linkage.documents.pictures import painted, picture_svg
 from linkage.documents.setting import GlyphRun, InkLine, set_formula, width
-from linkage.formulas.typeset import boxes
+from linkage.formulas.typeset import Fenced, Lines, boxes
 
 FORMULAS = [
     "x", r"x + y", r"a, b", r"\sqrt{x + y}", r"\frac{a + b}{c}", r"x_{OB}", r"x^{2}", r"x_{1}^{2}", r"\left(\frac{a}{b}\right)",
@@ -55,3 +60,22 @@ def test_an_operation_has_space_on_both_sides_and_a_sign_before_a_number_has_non
     assert left == pytest.approx(right) and left > 1.0
     alone = set_formula(boxes("-x"), 10.0).width
     assert alone == pytest.approx(set_formula(boxes("-"), 10.0).width + set_formula(boxes("x"), 10.0).width)
+
+
+@pytest.mark.parametrize("kind", ["pmatrix", "cases"])
+def test_a_table_of_boxes_has_its_rows_and_columns(kind):
+    found = boxes(rf"\begin{{{kind}}} a & b \\ c & d \\ e & f \end{{{kind}}}")
+    assert isinstance(found, Fenced) and isinstance(found.body, Lines)
+    assert [[cell.text for cell in row] for row in found.body.rows] == [["a", "b"], ["c", "d"], ["e", "f"]]
+
+
+def test_a_picture_stands_in_the_room_it_has():
+    """Its axes are as far from the picture's edges as it says, wherever on a page it stands."""
+    picture = Illustration("p", "", (4.0, 3.0), (0.5, 0.25, 0.4, 0.1), lambda ax: ax.plot([0.0, 1.0], [0.0, 1.0]))
+    figure = Figure(figsize=(8.0, 6.0))
+    for x, y in ((0.0, 0.0), (1.5, 2.0)):
+        place = painted(figure, picture, (x, y)).get_position().bounds
+        assert place == pytest.approx(((x + 0.5) / 8.0, (y + 0.4) / 6.0, 3.25 / 8.0, 2.5 / 6.0))
+    drawn = picture_svg(picture)
+    (patch,) = re.findall(r'<g id="patch_2">\s*<path d="M ([\d.]+) ([\d.]+)', drawn)
+    assert [float(each) for each in patch] == pytest.approx([0.5 * 72.0, (3.0 - 0.4) * 72.0], abs=1e-3)

@@ -459,3 +459,10 @@ def test_a_table_of_a_million_rows_is_refused_with_what_it_would_take(tmp_path):
     with pytest.raises(DefinitionError, match=words):
         export(Three(), tmp_path / "a.csv")
     assert len(export(Three(), tmp_path / "a.csv", count=3).read_text().splitlines()) == 28
+
+
+@pytest.mark.parametrize("suffix", [".xlsx", ".csv", ".dxf"])
+def test_a_machine_that_is_assembled_nowhere_is_not_written(suffix, tmp_path):
+    with pytest.raises(AssemblyError, match="cannot be assembled"):
+        export(ThreePointHitch(OB=0.01), tmp_path / f"nowhere{suffix}")
+    assert not list(tmp_path.iterdir())

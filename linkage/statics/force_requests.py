@@ -131,16 +131,11 @@ class JointPart:
         """Return what it is in the plan of a traced motion, where its bodies have their full names."""
         require_rest(request, motion.plan)
         self.check_component(motion.plan)
-        applied, plan = traced_loads(motion, request.situation, AT_REST), motion.plan
-        structure = Structure(plan, applied.elements, applied.thrusts)
+        structure, acts = structure_in_plan(motion, request.situation)
         full = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))
         _, joint, _ = full.contact(structure)
-        loads = ((each.load.point, each.load.on, *(motion.node(part).number for part in each.force)) for each in applied.loads)
-        thrusts = ((each.name, each.ends, motion.node(each.thrust).number) for each in applied.thrusts)
-        struts = ((strut.name, strut.P, strut.Q) for strut in structure.struts)
-        acts = motion._reading.graph, *loads, *thrusts, *motion.notes.assumed, None, *motion.notes.switches, *struts
         what = "the size" if self.component == "size" else f"the {self.component} component"
-        every, shared = frozenset(plan.members), ("pin forces", acts)
+        every, shared = frozenset(motion.plan.members), ("pin forces", acts)
         trace = partial(full.traced_part, request.situation, shared)
         return LawInPlan(("pin force", full, acts), every, every, trace, shared, f"{what} of the force at {joint}")
 
@@ -153,6 +148,25 @@ class JointPart:
         contact, _, sign = self.contact(solution.system.structure)
         force, _ = solution.transmitted(contact)
         return TracedLaw(motion, motion.node(COMPONENTS[self.component](*(sign * force[:, 0]))))
+
+
+def structure_in_plan(motion: TracedMotion, acting: Acting) -> tuple[Structure, tuple[Hashable, ...]]:
+    """Return the bodies and joints in a situation, and what tells what acts there from what acts in others, by a traced motion.
+
+    Of the machine's own loads it is worked out once for all joints; given loads are not kept alive.
+    """
+    kept, key = motion._reading.kept, ("acts", situation_identity(acting))
+    if key in kept:
+        return cast("tuple[Structure, tuple[Hashable, ...]]", kept[key])
+    applied = traced_loads(motion, acting, AT_REST)
+    structure = Structure(motion.plan, applied.elements, applied.thrusts)
+    loads = ((each.load.point, each.load.on, *(motion.node(part).number for part in each.force)) for each in applied.loads)
+    thrusts = ((each.name, each.ends, motion.node(each.thrust).number) for each in applied.thrusts)
+    struts = ((strut.name, strut.P, strut.Q) for strut in structure.struts)
+    found = structure, (motion._reading.graph, *loads, *thrusts, *motion.notes.assumed, None, *motion.notes.switches, *struts)
+    if acting.loads is None and situation_identity(acting) is not None:
+        kept[key] = found
+    return found
 
 
 def pin_force(

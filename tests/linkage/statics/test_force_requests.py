@@ -37,6 +37,8 @@ from linkage import (
     ratio,
 )
 from linkage.loads import Load
+from linkage.motion.requests import bound
+from linkage.statics import force_requests
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.laws.test_statics_laws import RANDOM, SHIPPED, moved, of_each_structure, weights
 from tests.linkage.assembly.test_groups import Platform
@@ -115,6 +117,16 @@ def test_load_cases_and_chosen_loads_count():
         found = Hitch().evaluate([drive_force(loads=loads, case=case), pin_force("E", component="y", loads=loads, case=case)], S=STROKE)
         assert_allclose(found[0], driving_force(motion, loads, case=case), rtol=1e-12)
         assert_allclose(found[1], pin_forces(motion, loads, case=case).force("E")[1], rtol=1e-10)
+
+
+def test_what_acts_is_looked_up_once_for_all_joints_and_anew_for_given_loads(monkeypatch):
+    known, look = [], force_requests.traced_loads
+    monkeypatch.setattr(force_requests, "traced_loads", lambda motion, acting, rates: known.append(acting) or look(motion, acting, rates))
+    plan = type("Own", (Hitch,), {}).plan
+    first = [bound(plan, pin_force(point)) for point in "BDE"]
+    assert len(known) == 1 and len({each.key for each in first}) == 3
+    given = [bound(plan, pin_force(point, loads=[Weight("G", mass=80.0)])) for point in "BD"]
+    assert len(known) == 3 and given[0].traced_with == given[1].traced_with != first[0].traced_with
 
 
 def test_without_loads_there_is_no_force_and_no_slope():

@@ -112,6 +112,11 @@ class FloatCircuit(Circuit):
     def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
         return self.pressure(motion)
 
+    def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
+        """Return the gas's force twice: its cylinder has no other [N]."""
+        thrust = self.thrust(motion)
+        return thrust, thrust
+
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the range of the line's pressure wherever it runs, whether fluid is left everywhere, and what its accumulators bear."""
         def pressure(motion: Motion) -> Array:

@@ -285,10 +285,26 @@ class LiftCircuit(LiftLine):
             raise DefinitionError(f"{self}: the back pressure eats up the pump's; lower it or raise the pressure.")
         return force
 
-    def _given(self, motion: AnyMotion, work: Work, share: float) -> Array:
+    def _given(self, motion: Poses, work: Work, share: float) -> Array:
         """Return what the pressures on both sides give with the areas of a work [N], below zero where the back pressure is the stronger."""
         pushes = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * work.area
         return np.asarray(pushes - self.back(motion) * work.other_area)[()]
+
+    def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
+        """Return between which two thrusts one of its cylinders lifts, at a `share` of the pump's pressure, or holds [N].
+
+        Lifting takes both efficiencies and the back pressure off, and the side that does not work gives nothing; holding takes none of
+        them, and oil stands on both sides, each up to the relief valve's pressure.
+        """
+        proper_share(share)
+        ram = self.one(motion, cylinder)
+        size = ram.sized(motion)
+        if not lifting:
+            held = self.held(motion)
+            return np.asarray(-held * size.pull_area), np.asarray(held * size.push_area)
+        k_m, nothing = self.efficiency(motion, "mechanical"), np.zeros(())
+        pull, push = (self._given(motion, Work(way, way, size, k_m), share) * k_m for way in (np.asarray(-1.0), np.asarray(1.0)))
+        return (nothing if size.works == "piston" else -pull), (nothing if size.works == "rod" else push)
 
     def reserve(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder.
@@ -325,11 +341,12 @@ class LiftCircuit(LiftLine):
 
     def _capacity(self, motion: AnyMotion, point: str, unit: Array, share: float, ram: Cylinder, acting: Acting) -> Array:
         own = [element for _, element in elements_of(motion.plan, acting.loads)]
-        size, k_m = ram.sized(motion), self.efficiency(motion, "mechanical")
+        size = ram.sized(motion)
         lever = member_thrust(motion, ram, Acting([Force(point, (-unit[0], -unit[1]))]))  # what one newton there asks of it
         sense = np.sign(lever) if size.works == "both" else np.full(np.shape(lever), float(size.sense))
         lifts, lever = lever * sense > IDLE, lever * sense
-        force = self._given(motion, Work(sense, sense, size, k_m), share)
+        low, high = self.bounds_of(ram, motion, True, share=share)
+        most = np.where(sense < 0.0, -low, high)
 
         def carried(load: Array) -> Array:
             """Return the thrust that the machine and a load there need, in the direction in which it lifts."""
@@ -338,12 +355,12 @@ class LiftCircuit(LiftLine):
             return np.where(sense > 0.0, out, -back)
 
         alone, safe = carried(np.zeros(motion.shape)), np.where(lifts, lever, 1.0)
-        found = (force * k_m - alone) / safe
+        found = (most - alone) / safe
         if any(each.frictions(motion) for each in own):
             for _ in range(ROUNDS):  # friction grows with the load: a line through two states, again until it stays
                 guess = np.where(lifts & (found > 0.0), found, 1.0)
                 slope = (carried(guess) - alone) / guess
-                found = (force * k_m - alone) / np.where(slope > 0.0, slope, safe)
+                found = (most - alone) / np.where(slope > 0.0, slope, safe)
         return only_where(lifts, np.maximum(found, 0.0))
 
     # -- oil and time --------------------------------------------------------------------------------------

@@ -43,7 +43,7 @@ from linkage.loads import (
     situation_of,
     takes_situation,
 )
-from linkage.loads.element import Formulas
+from linkage.loads.element import UNBOUNDED, Formulas
 from linkage.motion import (
     Column,
     Condition,
@@ -223,6 +223,17 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
         `circuit.pressure_for(motion)`.
         """
         return pressure_of(self, motion, situation_of("pressure", loads=loads, **situation))
+
+    def bounds(self, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
+        """Return between which two thrusts [N] its circuit lets it stand, where it lifts or where it holds; unbounded without a circuit.
+
+        A LiftCircuit gives what its pump lifts with the sides that work, at a `share` of its pressure, or what its relief valve holds with
+        both: the piston up to the highest, the annulus down to the lowest. A FloatCircuit gives the gas's force and no other.
+        DefinitionError where it is on several circuits: ask one, `circuit.bounds_of(lift, motion, lifting)`.
+        """
+        require_poses(motion)
+        circuit = circuit_having(self, motion.plan)
+        return UNBOUNDED if circuit is None else circuit.bounds_of(self, motion, lifting, share=share)
 
     @property
     def driven(self) -> tuple[str, ...]:
@@ -639,6 +650,10 @@ class Circuit(ForceElement, HasVerdicts):
     @abstractmethod
     def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
         """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
+
+    def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
+        """Return between which two thrusts [N] it lets one of its cylinders stand; unbounded unless it says so."""
+        return UNBOUNDED
 
     def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array | None:
         """Return the greatest rod force of one of its cylinders over the needed one, shape (...); None where no pump feeds it."""

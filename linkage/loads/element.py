@@ -236,6 +236,8 @@ class Rates(dict[str, Rate]):
 
 
 AT_REST = Rates()
+UNBOUNDED: tuple[Array, Array] = np.asarray(-np.inf), np.asarray(np.inf)
+"""The bounds of what carries whatever the others need [N]."""
 
 
 class ForceElement(Jointed):
@@ -310,6 +312,14 @@ class ForceElement(Jointed):
     def holds(self) -> bool:
         """Whether it holds what the mechanism needs, as a cylinder does, and takes over the drive of a stroke."""
         return False
+
+    def bounds(self, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
+        """Return between which two forces it stands, lowest and highest [N], to broadcast against it; unbounded unless it says so.
+
+        Of a two-point member it is the thrust, positive where it pushes its ends apart; of a support its reaction. `lifting`: whether it
+        moves the load, at a `share` of what it is driven with, or holds it.
+        """
+        return UNBOUNDED
 
     def formulas(self, written: Formulas) -> None:
         """Write what the equations of forces say of this element beyond its loads: nothing, unless it has something to say.

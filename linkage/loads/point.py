@@ -144,6 +144,10 @@ class Support(ForceElement):
         direction = np.asarray(self.direction, float)
         return np.asarray(direction / np.hypot(*direction))
 
+    def bounds(self, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
+        """Return what its reaction can be [N]: it pushes, and never pulls."""
+        return np.zeros(()), np.asarray(np.inf)
+
     def loads(self, motion: Poses) -> list[Load]:
         return [Load(name_of(self.point), vector(self.number(motion, "force"), (self.unit[0], self.unit[1])))]
 

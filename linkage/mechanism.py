@@ -39,7 +39,7 @@ from .motion import (
     source_of,
     sweep_values,
 )
-from .plan import Body, Plan
+from .plan import Body, Part, Plan, with_parts
 from .program import FloatArray, RunOptions
 from .quantities import Member, Stroke, is_name, needs
 from .shown import Shown, ShownList
@@ -114,6 +114,8 @@ class ClassBody(dict[str, object]):
         if isinstance(first, Member) and value is not first:
             both = f"{name} = {as_line(first)} stands there already, and {name} = {as_line(value)} would take its place without a word"
             raise DefinitionError(f"{self.title}: {both}; give one of them another name, or take one out.", member=name)
+        if isinstance(value, Part) and not value.name:
+            object.__setattr__(value, "_name", name)  # so that the next lines can say lower.B
         super().__setitem__(name, value)
 
 
@@ -174,7 +176,8 @@ class Mechanism(Shown, metaclass=MechanismType):
             if isfunction(vars(cls).get(name)):
                 type.__setattr__(cls, name, of_a_design(of_own_motion(vars(cls)[name])))
         members = declared(cls)
-        type.__setattr__(cls, "plan", Plan(assembled(members, cls.__name__), cls.__name__))
+        with_members = with_parts(members, cls.__name__)
+        type.__setattr__(cls, "plan", Plan(assembled(with_members, cls.__name__), cls.__name__))
         for name in cls.plan.of_kind(LoadCase):
             if name == PLAIN_CASE:
                 text = f'{cls.__name__}: a load case cannot be named {name}: that is what the machine\'s own loads are called; rename it.'
@@ -426,7 +429,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         pose = self.at(unreachable="nan", **{name: stroke.start for name, stroke in self.strokes.items()} | strokes)
         if pose.shape:
             raise DefinitionError(f"{self.plan.title}: assembly modes are listed for one design at one pose.")
-        return ShownList(assemblies(self.plan, pose.inputs, declared(type(self))))
+        return ShownList(assemblies(self.plan, pose.inputs, with_parts(declared(type(self)), self.plan.title)))
 
     @property
     def four_bars(self) -> list[FourBar]:
@@ -519,6 +522,9 @@ def check_no_member(title: str, name: str, value: object) -> None:
     """Raise DefinitionError for what was meant as a member and is none: its class, or members in a list or behind a comma too many."""
     if isinstance(value, type) and issubclass(value, Member):
         raise DefinitionError(f"{title}.{name} = {value.__name__} is the class, no member; write {name} = {value.__name__}(...).")
+    if isinstance(value, Mechanism) and name != "plan":
+        text = f"{title}.{name} = {type(value).__name__}(...) is a design, which stays numbers"
+        raise DefinitionError(f"{text}; as a part of the machine it is {name} = Part({type(value).__name__}).", member=name)
     parts = value.values() if isinstance(value, dict) else value if isinstance(value, (list, tuple, set, frozenset)) else ()
     lost = [each for each in parts if isinstance(each, Member) and not each.name]
     if lost:

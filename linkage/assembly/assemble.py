@@ -215,10 +215,20 @@ def assembled(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     Members that need nothing of this come back as they are. Raises DefinitionError for parts that hold a pin
     too little, AssemblyError for a sketch that cannot be assembled.
     """
-    if not any(isinstance(member, Pin) or sketched(member) for member in members.values()):
+    if not any(is_loose(member) or sketched(member) for member in members.values()):
         return dict(members)
     check_names(members, title)
     return Assembler(members, title).run()
+
+
+def is_loose(member: Member) -> bool:
+    """Return whether a member is a pin that nothing places yet; those of a part belong to its groups."""
+    return isinstance(member, Pin) and member.group is None
+
+
+def is_open(member: Member) -> bool:
+    """Return whether a member is a group as it is written, without its equations."""
+    return isinstance(member, Group) and not (member.given or member.attached or member.slides)
 
 
 def sketched(member: Member) -> bool:
@@ -233,10 +243,10 @@ class Assembler:
     def __init__(self, members: Mapping[str, Member], title: str) -> None:
         self.title = title
         self.settled: dict[str, Member] = {}
-        self.pending = {name: member for name, member in members.items() if not isinstance(member, (Pin, Group))}
+        self.pending = {name: member for name, member in members.items() if not (is_loose(member) or is_open(member))}
         self.parts = Parts(
             placed=set(),
-            pins={name: member for name, member in members.items() if isinstance(member, Pin)},
+            pins={name: member for name, member in members.items() if isinstance(member, Pin) and is_loose(member)},
             links={name: member for name, member in members.items() if isinstance(member, Link)},
             slides={name: member for name, member in members.items() if isinstance(member, Slide)},
             guides={name: member for name, member in members.items() if isinstance(member, Guide)},

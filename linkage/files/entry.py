@@ -15,6 +15,7 @@ from typing import Any, final
 from ..errors import DefinitionError, told
 from ..loads import ForceElement
 from ..quantities import Member
+from ..quantities.member import KEPT_AS, annotated_kind, kinds_said
 from ..steps import Point, Step
 from .design import Design
 from .names import NAME_LENGTH, Names, shortened
@@ -27,15 +28,6 @@ VALUES = 100
 
 PATH = "kind"
 """The key of the import path of a class that has no name of its own in files."""
-
-KEPT_AS = {"at": ("drawn_at", "along"), "vector": ("by",), "P": ("fixed_at",)}
-"""The attributes in which members keep an argument that is not in the one of its name."""
-
-ANNOTATED = {
-    "str": "word", "Literal": "word", "float": "number", "int": "number", "bool": "switch", "Reference": "member", "Member": "member",
-    "Sequence": "numbers", "list": "numbers", "tuple": "numbers",
-}  # fmt: skip
-"""The kinds of arguments by how their annotation begins, where the class says no other."""
 
 EXAMPLES = {"point": ("A", "O"), "guide": ("rail", "post"), "vector": ("AB",), "load": ("lift",), "loads": ("lift",), "body": ("O B",)}
 
@@ -86,7 +78,7 @@ def parameters_of(cls: type[Any]) -> list[Parameter]:
 
 def arguments_of(cls: type[Any]) -> tuple[Argument, ...]:
     """Return the arguments that a class takes by name, in order."""
-    said = kinds_said(cls)
+    said = kinds_of_arguments(cls)
     factories = {each.name: each.default_factory for each in fields(cls)} if is_dataclass(cls) else {}
     found = []
     for each in parameters_of(cls):
@@ -100,12 +92,9 @@ def arguments_of(cls: type[Any]) -> tuple[Argument, ...]:
     return tuple(found)
 
 
-def kinds_said(cls: type[Any]) -> dict[str, Any]:
-    """Return the kinds of arguments as a class and its bases say them."""
-    said: dict[str, Any] = {}
-    for base in reversed(cls.__mro__):
-        said |= dict(vars(base).get("expects", ())) | dict.fromkeys(vars(base).get("places", ()), "point")
-        said |= {name: amount(unit) for name, unit in vars(base).get("parameters", {}).items()} | dict(vars(base).get("argument_kinds", {}))
+def kinds_of_arguments(cls: type[Any]) -> dict[str, Any]:
+    """Return the kinds of arguments as a class and its bases say them, those of a step's parents included."""
+    said = kinds_said(cls, amount)
     if issubclass(cls, Step):
         parents = [each.name for each in parameters_of(cls) if each.kind is Parameter.POSITIONAL_OR_KEYWORD]
         said = {own: said.get(letter, "point") for own, letter in zip(parents, cls.parent_letters, strict=False)} | said
@@ -116,8 +105,7 @@ def kind_of(cls: type[Any], parameter: Parameter, said: Mapping[str, Any]) -> Ki
     """Return the kind of an argument: as the class says it, else by its annotation; else a quantity of a point, an option of a load."""
     kind, annotation = said.get(parameter.name), parameter.annotation
     if kind is None:
-        text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", str(annotation))
-        kind = ANNOTATED.get(text.replace("[", " ").partition(" ")[0], "quantity" if issubclass(cls, Point) else "option")
+        kind = annotated_kind(annotation) or ("quantity" if issubclass(cls, Point) else "option")
     if kind == "quantity" and parameter.name.endswith("angle"):
         kind = "direction"
     if isinstance(kind, type):

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, unknown
 from ..frozen import refuses_changes, unmasked
-from ..quantities import Member, Reference, is_number, label, name_of, real
+from ..quantities import Axes, Member, Reference, is_number, label, name_of, real
 from ..quantities.quantity import plain
 from ..steps import Link, Point
 from ..units import g0
@@ -78,6 +78,7 @@ class Force(ForceElement):
 
     point: Reference
     vector: tuple[Parameter, Parameter]
+    axes: ClassVar[Axes | None] = None
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"x": "N", "y": "N"})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"vector": "force vector"})
 
@@ -95,6 +96,12 @@ class Force(ForceElement):
         """The force's part upwards [N]."""
         return two_parts(self.vector, "Force")[1]
 
+    def in_axes(self, axes: Axes) -> Force:
+        return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
+
+    def parts(self) -> tuple[Reference, ...]:
+        return super().parts() if self.axes is None else (*super().parts(), *self.axes.parts())
+
     def having(self, values: Mapping[str, float]) -> Force:
         return self.renewed(vector=(values.get(f"{self.name}.x", self.x), values.get(f"{self.name}.y", self.y)))
 
@@ -102,7 +109,7 @@ class Force(ForceElement):
         return (Glyph("force", (name_of(self.point),)),)
 
     def loads(self, motion: Poses) -> list[Load]:
-        return [Load(name_of(self.point), vector(1.0, (self.number(motion, "x"), self.number(motion, "y"))))]
+        return [Load(name_of(self.point), in_the_whole(motion, self.axes, (self.number(motion, "x"), self.number(motion, "y"))))]
 
     def __str__(self) -> str:
         return f"Force({label(self.point)}, ({value_text(self.x)}, {value_text(self.y)}))"
@@ -121,6 +128,7 @@ class Support(ForceElement):
     point: Reference
     direction: tuple[float, float]
     force: Parameter = 0.0
+    axes: ClassVar[Axes | None] = None
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"force": "N"})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"direction": "pair"})
 
@@ -149,11 +157,35 @@ class Support(ForceElement):
         return np.zeros(()), np.asarray(np.inf)
 
     def loads(self, motion: Poses) -> list[Load]:
-        return [Load(name_of(self.point), vector(self.number(motion, "force"), (self.unit[0], self.unit[1])))]
+        way = in_the_whole(motion, self.axes, (self.unit[0], self.unit[1]))
+        return [Load(name_of(self.point), vector(self.number(motion, "force"), (way[0], way[1])))]
+
+    def in_axes(self, axes: Axes) -> Support:
+        return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
+
+    def parts(self) -> tuple[Reference, ...]:
+        return super().parts() if self.axes is None else (*super().parts(), *self.axes.parts())
 
     def __str__(self) -> str:
         x, y = two_parts(self.direction, "Support")
         return f"Support({label(self.point)}, ({value_text(x)}, {value_text(y)}), {', '.join(self.words())})"
+
+
+def in_the_whole(motion: Poses, axes: Axes | None, given: tuple[Array | float, Array | float]) -> Array:
+    """Return a vector that is given in the axes of a part in those of the frame, shape (2, ...)."""
+    if axes is None:
+        return vector(1.0, given)
+    x, y = given
+    x = -np.asarray(x) if axes.mirrored else x
+    if not axes.is_level:
+        way = motion.value(axes.angle)
+        cos, sin = np.cos(way), np.sin(way)
+        x, y = x * cos - y * sin, x * sin + y * cos
+    if axes.carrier:
+        P, Q = axes.carrier
+        along = (motion[Q] - motion[P]) / motion.distance(P, Q)
+        x, y = x * along[0] - y * along[1], x * along[1] + y * along[0]
+    return vector(1.0, (x, y))
 
 
 def vector(size: Array | float, direction: tuple[Array | float, Array | float]) -> Array:
@@ -242,11 +274,17 @@ class Moment(OnBody):
     M: Parameter
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"M": "Nm"})
 
+    sense: ClassVar[float] = 1.0
+    """Whether it is counted counter-clockwise, 1, or in a part that is mirrored clockwise, -1."""
+
+    def in_axes(self, axes: Axes) -> Moment:
+        return self.renewed(sense=-self.sense) if axes.mirrored else self
+
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
         return (Glyph("moment", self.points(members, "")),)
 
     def loads(self, motion: Poses) -> list[Load]:
-        return couple(*self.axis(motion), self.number(motion, "M"))
+        return couple(*self.axis(motion), self.sense * self.number(motion, "M"))
 
 
 @final
@@ -286,6 +324,9 @@ class LinkMass(OnBody):
         along = arm / np.hypot(arm[0], arm[1])
         r = along * float(self.at[0]) + np.stack([-along[1], along[0]]) * float(self.at[1])
         return [Load(P, weight, (P, Q)), *couple(P, Q, arm, r[0] * weight[1] - r[1] * weight[0])]
+
+    def in_axes(self, axes: Axes) -> LinkMass:
+        return self.renewed(at=(self.at[0], -self.at[1])) if axes.mirrored and self.at is not None else self
 
     def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> LinkMass:
         return self.renewed(gravity=on_slope(self.gravity if gravity is None else gravity, slope))

@@ -51,6 +51,7 @@ class Members:
 
     def __init__(self, members: Mapping[str, Member], title: str) -> None:
         self.title = title
+        self.unbound: Mapping[str, Member] = FrozenDict(members)
         self._behind: dict[str, frozenset[str]] = {}
         order = construction_order({name: needed_names(name, member, title) for name, member in members.items()}, title)
         self.table = Table(title)
@@ -72,6 +73,14 @@ class Members:
             self.table.add(variable, default, kind, f"{name} = {member}", unit)
         member.enter(self.table)
         return member.bind(name, self.table) if isinstance(member, Point) else member
+
+    @cached_property
+    def aliases(self) -> Mapping[str, str]:
+        """The names that members of parts have beside their own, such as that of a fixed point that is fused with a point of the whole."""
+        found = {alias: name for part in self.members.values() if part.kind == "part" for alias, name in part.aliases.items()}
+        while any(name in found for name in found.values()):
+            found = {alias: found.get(name, name) for alias, name in found.items()}
+        return FrozenDict(found)
 
     def of_kind(self, kind: type[Kind]) -> dict[str, Kind]:
         """Return the members of a kind by name, in order."""

@@ -1,6 +1,7 @@
 """Scalars of a mechanism: strokes, dimensions, outputs, and arithmetic of them."""
 
 from .arithmetic import TAKEN, Arithmetic
+from .axes import Axes
 from .curve import Curve, CurveValue
 from .inputs import Dimension, Stroke, Variable
 from .joint import FRAME_SIDE, Driven, Joint, Jointed, JointSide, guided, pinned

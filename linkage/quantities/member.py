@@ -15,6 +15,9 @@ from ..errors import DefinitionError, cited
 from ..frozen import FrozenDict
 from ..vectors import Line, Scalar, Vec
 
+if TYPE_CHECKING:
+    from .axes import Axes
+
 
 class Member:
     """Anything that a mechanism's class declares.
@@ -121,6 +124,10 @@ class Member:
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         """Raise DefinitionError for what only the whole class tells to be wrong: its members by name, its title."""
 
+    def in_axes(self, axes: Axes) -> Self:
+        """Return this member of a part as it stands in the machine that has the part; itself, where it speaks of no axes and no side."""
+        return self
+
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
         """Return the triangle this member closes, as labelled lengths [m]; empty where it closes none."""
         return ()
@@ -168,6 +175,11 @@ def check_arguments(kind: type[Member], given: tuple[object, ...], options: Mapp
 def is_name(name: object) -> bool:
     """Return whether a line of a class could bind a name: letters, digits and _, no word of Python, spelled as Python spells it."""
     return isinstance(name, str) and name.isidentifier() and not iskeyword(name) and normalize("NFKC", name) == name
+
+
+def is_reference(text: object) -> bool:
+    """Return whether a text may be the name of a member, or of one of a part: `B`, `lower.B`."""
+    return isinstance(text, str) and all(map(str.isidentifier, text.split(".")))
 
 
 def name_of(reference: Reference) -> str:
@@ -285,3 +297,46 @@ class Where(Protocol):
 
     def close_angle(self, cos: Scalar, sin: Scalar) -> Turning:
         """Return an angle that closes a loop, as its cosine and sine."""
+
+
+# What the arguments of a class of members are, as the class says it.
+
+ANNOTATED = {
+    "str": "word", "Literal": "word", "float": "number", "int": "number", "bool": "switch", "Reference": "member", "Member": "member",
+    "Sequence": "numbers", "list": "numbers", "tuple": "numbers",
+}  # fmt: skip
+"""The kinds of arguments by how their annotation begins, where the class says no other."""
+PLAIN = frozenset(
+    {"word", "switch", "number", "numbers", "side", "place", "pair", "gravity", "path", "words", "option", "angle"}
+)
+"""The kinds of arguments whose texts are no names."""
+KEPT_AS = {"at": ("drawn_at", "along"), "vector": ("by",), "P": ("fixed_at",)}
+"""The attributes in which members keep an argument that is not in the one of its name."""
+
+
+def annotated_kind(annotation: object) -> str | None:
+    """Return the kind of an argument by how its annotation begins; None where that says nothing."""
+    text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", str(annotation))
+    return ANNOTATED.get(text.replace("[", " ").partition(" ")[0])
+
+
+def kinds_said(cls: type[Any], amount: Callable[[str], Any] = lambda unit: "quantity") -> dict[str, Any]:
+    """Return the kinds of arguments as a class and its bases say them; `amount(unit)` is that of a number with a unit."""
+    said: dict[str, Any] = {}
+    for base in reversed(cls.__mro__):
+        said |= dict(vars(base).get("expects", ())) | dict.fromkeys(vars(base).get("places", ()), "point")
+        said |= {name: amount(unit) for name, unit in vars(base).get("parameters", {}).items()} | dict(vars(base).get("argument_kinds", {}))
+    return said
+
+
+@lru_cache(maxsize=1024)
+def word_arguments(cls: type[Any]) -> frozenset[str]:
+    """Return the attributes of a class whose texts are words and no names of members: `works="rod"`."""
+    said = kinds_said(cls)
+    found: set[str] = set()
+    if cls.__init__ is not object.__init__:
+        for each in list(signature(cls.__init__).parameters.values())[1:]:
+            kind = said.get(each.name) or annotated_kind(each.annotation)
+            if isinstance(kind, str) and kind in PLAIN:
+                found |= {each.name, *KEPT_AS.get(each.name, ())}
+    return frozenset(found)

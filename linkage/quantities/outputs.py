@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..frozen import refuses_changes
 from ..vectors import Scalar
+from .axes import Axes
 from .member import Member, Reference, Turning, Where, name_of
 from .quantity import Quantity
 
@@ -28,6 +29,7 @@ class Angle(Quantity):
 
     P: Reference
     Q: Reference
+    axes: Axes | None = None
     expects = (("P", "point"), ("Q", "point"))
 
     def __post_init__(self) -> None:
@@ -40,23 +42,29 @@ class Angle(Quantity):
 
     @property
     def identity(self) -> Hashable:
-        return self.name or ("angle", name_of(self.P), name_of(self.Q))
+        own = ("angle", name_of(self.P), name_of(self.Q))
+        return self.name or (own if self.axes is None else (*own, self.axes.identity))
 
     def parts(self) -> tuple[Reference, ...]:
-        return self.P, self.Q
+        return (self.P, self.Q) if self.axes is None else (self.P, self.Q, *self.axes.parts())
+
+    def in_axes(self, axes: Axes) -> Angle:
+        return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
 
     def rule(self, where: Where) -> Scalar:
         v = where.direction(name_of(self.P), name_of(self.Q))
+        v = v if self.axes is None else self.axes.read_vector(where, v)
         found = where.followed(str(self), v)
         return where.angle_of(v) if found is None else found
 
     def turning(self, where: Where) -> Turning:
         v = where.at(self.Q) - where.at(self.P)
+        v = v if self.axes is None else self.axes.read_vector(where, v)
         scale = 1.0 / where.link_length(name_of(self.P), name_of(self.Q))
         return v.x * scale, v.y * scale
 
     def __str__(self) -> str:
-        return f"angle({label(self.P)}, {label(self.Q)})"
+        return f"angle({label(self.P)}, {label(self.Q)}{axes_text(self.axes)})"
 
 
 @final
@@ -95,6 +103,7 @@ class Coordinate(Quantity):
 
     P: Reference
     axis: str
+    axes: Axes | None = None
     expects = (("P", "point"),)
 
     @property
@@ -103,17 +112,22 @@ class Coordinate(Quantity):
 
     @property
     def identity(self) -> Hashable:
-        return self.name or (self.axis, name_of(self.P))
+        own = (self.axis, name_of(self.P))
+        return self.name or (own if self.axes is None else (*own, self.axes.identity))
 
     def parts(self) -> tuple[Reference, ...]:
-        return (self.P,)
+        return (self.P,) if self.axes is None else (self.P, *self.axes.parts())
+
+    def in_axes(self, axes: Axes) -> Coordinate:
+        return self.renewed(axes=axes.within(self.axes))
 
     def rule(self, where: Where) -> Scalar:
         P = where.at(self.P)
+        P = P if self.axes is None else self.axes.read_place(where, P)
         return P.x if self.axis == "x" else P.y
 
     def __str__(self) -> str:
-        return f"{self.axis}({label(self.P)})"
+        return f"{self.axis}({label(self.P)}{axes_text(self.axes)})"
 
 
 @final
@@ -137,6 +151,11 @@ class Length(Quantity):
 
     def __str__(self) -> str:
         return f"abs({label(self.vector)})"
+
+
+def axes_text(axes: Axes | None) -> str:
+    """Return in which axes something is read, as it is written behind its points; "" for the frame's."""
+    return "" if axes is None else f", {axes}"
 
 
 def angle(P: Reference, Q: Reference) -> Quantity:

@@ -19,7 +19,7 @@ from ..frozen import refuses_changes, unmasked
 from ..units import deg
 from ..vectors import FloatArray, Operators, Scalar, Vec
 from .arithmetic import Arithmetic
-from .member import Member, Reference, Turning, Where
+from .member import Member, Reference, Turning, Where, is_reference
 
 # The operators and functions that quantities know: what they compute, and how they are written.
 
@@ -236,7 +236,7 @@ def quantity(value: Operand) -> Quantity:
     """Return a value as a quantity: a number, a quantity, or the name of one."""
     if isinstance(value, Quantity):
         return value
-    if isinstance(value, str) and not value.isidentifier():
+    if isinstance(value, str) and not is_reference(value):
         raise DefinitionError(f"{value!r} stands where a number, a quantity or its name is expected; write a number without quotes.")
     if isinstance(value, str):
         return ref(value)
@@ -305,7 +305,7 @@ class Ref(Quantity):
 
 def ref(name: str) -> Quantity:
     """Return the quantity of that name, to be bound anywhere in the class: `ref("L0") + S`."""
-    if not isinstance(name, str) or not name.isidentifier():
+    if not is_reference(name):
         raise DefinitionError(f"ref({name!r}): a name is expected, such as ref('L0').")
     return Ref(name)
 

@@ -2,7 +2,7 @@
 
 from .crank import Crank
 from .dyad import Dyad
-from .ground import Ground
+from .ground import Carried, Ground
 from .guide import Guide, OnGuide, Slide
 from .keeping import with_bodies
 from .labels import DimensionTable, Slot, match

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Self
+
 from ..errors import DefinitionError
-from ..quantities import FRAME_SIDE, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
+from ..quantities import FRAME_SIDE, Axes, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Vec
+from .labels import joined_names
 from .primitives import Axis, Offset, Turn
 from .step import UNBOUND, Assignment, Step
 
@@ -19,13 +22,16 @@ class Crank(Step):
     PX: Quantity = UNBOUND
     parent_letters = arms = ("P",)
     expects = (("P", "point"), ("angle", "quantity"))
+    axes: Axes | None = None
+    """The axes that its angle is counted in; None for the frame's."""
 
     def __init__(self, P: Reference, *, angle: Operand, **lengths: Operand) -> None:
         super().__init__(P, labels=lengths)
         self.angle = quantity(angle)
 
     def parts(self) -> tuple[Reference, ...]:
-        return (*super().parts(), self.angle)
+        own = (*super().parts(), self.angle)
+        return own if self.axes is None else (*own, *self.axes.parts())
 
     def in_radians(self) -> tuple[Quantity, ...]:
         return (self.angle,)
@@ -35,18 +41,25 @@ class Crank(Step):
         if self.angle.is_constant:
             raise DefinitionError(f"{self.sentence()}: a crank needs a driven angle; a fixed point is a Ground, one on a body OnLink.")
 
+    def in_axes(self, axes: Axes) -> Self:
+        return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
+
     def place(self, where: Where) -> Vec:
-        cos, sin = where.turn(self.angle)
+        turned = where.turn(self.angle)
+        cos, sin = turned if self.axes is None else self.axes.turn(where, turned)
         arm = Vec(cos, sin) * where.value(self.PX)
         X: Vec = where.at(self.P) + arm
         return X
 
     def joints(self) -> tuple[Joint, ...]:
-        return (Joint("crank", self.P, JointSide((self.P, self.X)), FRAME_SIDE, "c", drives=(Driven(self.angle, "c"),)),)
+        axes = self.axes or Axes()
+        by = JointSide(axes.carrier) if axes.carrier else FRAME_SIDE
+        return (Joint("crank", self.P, JointSide((self.P, self.X)), by, "c", drives=(Driven(self.angle, "c", axes.sign),)),)
 
     def expansion(self) -> tuple[Assignment, ...]:
-        arm = Turn(Axis(), self.angle, length=self.PX)
-        return Assignment(self.P + self.X, self.PX), Assignment(self.P + self.X, arm), Assignment(self.X, Offset(self.P, arm))
+        axes = self.axes or Axes()
+        arm = Turn(Axis(self.axes), -self.angle if axes.mirrored else self.angle, length=self.PX)
+        return Assignment(joined_names(self.P, self.X), self.PX), Assignment(joined_names(self.P, self.X), arm), Assignment(self.X, Offset(self.P, arm))
 
     def arguments(self) -> list[str]:
         return [*super().arguments(), f"angle={spelled(self.angle, 0, 'angle')}"]

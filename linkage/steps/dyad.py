@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from ..quantities import Operand, Quantity, Reference, Where, distance
+from typing import Self
+
+from ..quantities import Axes, Operand, Quantity, Reference, Where, distance
 from ..vectors import Scalar, Side, Vec
+from .labels import joined_names
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
-from .step import UNBOUND, Assignment, Position, Step
+from .step import UNBOUND, Assignment, Position, Step, opposite
 
 
 class Dyad(Step):
@@ -31,6 +34,9 @@ class Dyad(Step):
     ) -> None:
         super().__init__(P, Q, labels=lengths, side=side, near=near, at=at)
 
+    def in_axes(self, axes: Axes) -> Self:
+        return self.renewed(side=opposite(self.side)) if axes.mirrored else self
+
     def place(self, where: Where) -> Vec:
         P, base = where.at(self.P), where.at(self.Q) - where.at(self.P)
         along, height = triangle(where, base.square(), where.value(self.PX), where.value(self.QX))
@@ -40,7 +46,7 @@ class Dyad(Step):
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
         base = (where.at(self.Q) - where.at(self.P)).length()
-        return (self.P + self.Q, base), (self.P + self.X, where.value(self.PX)), (self.Q + self.X, where.value(self.QX))
+        return (joined_names(self.P, self.Q), base), (joined_names(self.P, self.X), where.value(self.PX)), (joined_names(self.Q, self.X), where.value(self.QX))
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
         X, p, q = where.at(self.X), where.value(self.PX), where.value(self.QX)
@@ -59,10 +65,10 @@ class Dyad(Step):
         angle = CosineAngle(distance(self.P, self.Q), self.PX, self.QX)
         arm = Turn(base, angle if self.settled_side is Side.LEFT else -angle, length=self.PX)
         return (
-            Assignment(self.P + self.X, self.PX),
-            Assignment(self.Q + self.X, self.QX),
-            Assignment(self.P + self.Q, base),
-            Assignment(self.Q + self.P + self.X, angle),
-            Assignment(self.P + self.X, arm),
+            Assignment(joined_names(self.P, self.X), self.PX),
+            Assignment(joined_names(self.Q, self.X), self.QX),
+            Assignment(joined_names(self.P, self.Q), base),
+            Assignment(joined_names(self.Q, self.P, self.X), angle),
+            Assignment(joined_names(self.P, self.X), arm),
             Assignment(self.X, Offset(self.P, arm)),
         )

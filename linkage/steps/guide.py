@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
+from typing import Self
 
 from ..errors import DefinitionError
 from ..quantities import (
     FRAME_SIDE,
+    Axes,
     Driven,
     Joint,
     Jointed,
@@ -39,6 +41,8 @@ class Guide(Jointed):
     kind = "guide"
     expects = (("P", "point"), ("Q", "point"))
     argument_kinds = MappingProxyType({"P": "origin", "angle": "direction"})
+    axes: Axes | None = None
+    """The axes that its numbers are counted in; None for the frame's."""
 
     def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Operand | None = None) -> None:
         if P is None or (Q is None) == (angle is None):
@@ -52,7 +56,11 @@ class Guide(Jointed):
 
     def parts(self) -> tuple[Reference, ...]:
         angle = () if self.angle is None or self.angle.is_constant else (self.angle,)
-        return (*(point for point in (self.P, self.Q) if point is not None), *angle)
+        own = (*(point for point in (self.P, self.Q) if point is not None), *angle)
+        return own if self.axes is None else (*own, *self.axes.parts())
+
+    def in_axes(self, axes: Axes) -> Self:
+        return self if self.Q is not None and self.P is not None else self.renewed(axes=axes.within(self.axes))
 
     def in_radians(self) -> tuple[Quantity, ...]:
         return () if self.angle is None else (self.angle,)
@@ -60,6 +68,8 @@ class Guide(Jointed):
     @property
     def points(self) -> tuple[str, ...]:
         """The names of the points the guide goes through."""
+        if self.P is None and self.axes is not None:
+            return self.axes.carrier
         return tuple(name_of(point) for point in (self.P, self.Q) if point is not None)
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
@@ -69,25 +79,29 @@ class Guide(Jointed):
 
     def having(self, values: Mapping[str, float]) -> Guide:
         place = self.fixed_at and tuple(values.get(f"{self.name}.{axis}", part) for axis, part in zip("xy", self.fixed_at, strict=True))
-        return self.renewed(fixed_at=place, angle=values.get(f"{self.name}.angle", self.angle))
+        return self.renewed(fixed_at=place, angle=None if self.angle is None else quantity(values.get(f"{self.name}.angle", self.angle)))
 
     def line(self, where: Where) -> Line:
         """Return the origin [m] and the direction's cosine and sine."""
         origin = where.at(self.P) if self.P is not None else Vec(where.input(f"{self.name}.x"), where.input(f"{self.name}.y"))
+        if self.P is None and self.axes is not None:
+            origin = self.axes.place(where, origin)
         if self.Q is not None:
             along = where.at(self.Q) - origin
-            scale = 1.0 / where.link_length(*self.points)
+            scale = 1.0 / (where.link_length(name_of(self.P), name_of(self.Q)) if self.P is not None else along.length())
             return Line(origin, along * scale)
         assert self.angle is not None
         angle: Quantity = Variable(f"{self.name}.angle") if self.angle.is_constant else self.angle
-        return Line(origin, Vec(*where.turn(angle)))
+        along = Vec(*where.turn(angle))
+        return Line(origin, along if self.axes is None else self.axes.vector(where, along))
 
     def joints(self) -> tuple[Joint, ...]:
         """Return what keeps the carrier of a guide of a given direction from turning, where it goes through a moving point."""
         if self.P is None or self.angle is None:
             return ()
         P = name_of(self.P)
-        return (Joint("upright", P, JointSide((P,), "slider"), FRAME_SIDE, "c"),)
+        by = JointSide(self.axes.carrier) if self.axes is not None and self.axes.carrier else FRAME_SIDE
+        return (Joint("upright", P, JointSide((P,), "slider"), by, "c"),)
 
     def __str__(self) -> str:
         start = label(self.P) if self.P is not None else str(self.fixed_at)

@@ -16,6 +16,7 @@ from typing import TypeAlias, final
 
 from ..quantities import (
     Angle,
+    Axes,
     CurveValue,
     Distance,
     Jointed,
@@ -273,7 +274,13 @@ class Construction:
             return self.direction_of(name_of(arrow.P), name_of(arrow.Q))
         if isinstance(arrow, Turn):
             return self.direction(self.arrow(arrow.base)).plus(self.form(arrow.angle))
-        return Form() if isinstance(arrow, Axis) else self._atom(("direction of", arrow.name or id(arrow)), {STROKE, POINTS})
+        if isinstance(arrow, Axis):
+            return Form() if arrow.axes is None else self._base(arrow.axes).plus(Form(number=pi if arrow.axes.mirrored else 0.0))
+        return self._atom(("direction of", arrow.name or id(arrow)), {STROKE, POINTS})
+
+    def _base(self, axes: Axes) -> Form:
+        """Return the direction of the x axis of axes, before they are mirrored."""
+        return (self.direction_of(*axes.carrier) if axes.carrier else Form()).plus(self.form(axes.angle))
 
     def length(self, arrow: Arrow) -> Form:
         """Return the length of a vector as a sum of lengths."""
@@ -326,7 +333,12 @@ class Construction:
         if isinstance(given, Negative):
             return Form().plus(self.form(given.a), -1.0)
         if isinstance(given, Angle):
-            return self.direction_of(name_of(given.P), name_of(given.Q))
+            way, axes = self.direction_of(name_of(given.P), name_of(given.Q)), given.axes
+            if axes is None:
+                return way
+            if axes.mirrored:
+                return self._base(axes).plus(Form(number=pi)).plus(way, -1.0)
+            return way.plus(self._base(axes), -1.0)
         if isinstance(given, Distance):
             return self.pair_length(name_of(given.P), name_of(given.Q))
         if isinstance(given, Length):

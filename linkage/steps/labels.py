@@ -8,11 +8,35 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, final
 
 from ..errors import DefinitionError
 from ..frozen import refuses_changes
 from ..quantities import Operand, Quantity, quantity, spelled
+
+
+def joined_names(*points: str) -> str:
+    """Return the names of points as one label: `OB`; `lower.OB` where all are of one part, else with _ for the dots: `lower_TP`."""
+    owners = {point.rpartition(".")[0] for point in points}
+    if owners == {""}:
+        return "".join(points)
+    if len(owners) == 1:
+        return f"{owners.pop()}.{''.join(point.rpartition('.')[2] for point in points)}"
+    return "".join(points).replace(".", "_")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Spoken:
+    """How the labels of a member of a part are spoken: by the points' names in the part, with the part's name in front."""
+
+    owner: str
+    letters: Mapping[str, str]
+
+    def word(self, *points: str) -> str:
+        """Return the label of points by their names in the whole."""
+        own = joined_names(*(self.letters.get(point, point) for point in points))
+        return f"{self.owner}.{own}"
 
 
 @refuses_changes
@@ -22,6 +46,7 @@ class Slot:
 
     attribute: str
     points: tuple[str, ...]
+    spoken: Spoken | None = None
 
     @property
     def kind(self) -> str:
@@ -31,7 +56,8 @@ class Slot:
     @property
     def spellings(self) -> dict[str, int]:
         """The valid spellings with their sign: reversed, an angle changes it."""
-        forward, back = "".join(self.points), "".join(reversed(self.points))
+        words = joined_names if self.spoken is None else self.spoken.word
+        forward, back = words(*self.points), words(*reversed(self.points))
         return {forward: 1, back: 1 if self.kind == "length" else -1} if forward != back else {forward: 1}
 
 

@@ -8,13 +8,15 @@ from types import MappingProxyType
 
 from ..errors import DefinitionError
 from ..quantities import Member, Operand, Reference, name_of, quantity
-from .labels import DimensionTable, Slot, match, relabelled, written_labels
+from .labels import DimensionTable, Slot, Spoken, match, relabelled, written_labels
 
 
 class Link(Member):
     """Points that move as one body: `Link(O, B, C)`, or `Link("O B C", OB=0.30, OC=0.36, BC=0.16)`."""
 
     kind = "link"
+    spoken: Spoken | None = None
+    """How its labels are spoken, where it is of a part."""
     argument_kinds = MappingProxyType({"points": "points"})
 
     def __init__(self, *points: Reference, **labels: Operand) -> None:
@@ -45,7 +47,7 @@ class Link(Member):
         """Return the labels that fit: the distances of its points, and the angles between three of them."""
         names = self.point_names
         corners = [(P, vertex, Q) for vertex in names for P, Q in combinations(names, 2) if vertex not in (P, Q)]
-        return [*(Slot("", pair) for pair in combinations(names, 2)), *(Slot("", corner) for corner in corners)]
+        return [Slot("", each, self.spoken) for each in (*combinations(names, 2), *corners)]
 
     @property
     def point_names(self) -> tuple[str, ...]:

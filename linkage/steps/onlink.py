@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..errors import DefinitionError
 from ..quantities import Driven, Joint, JointSide, Number, Operand, Quantity, Reference, Turning, Where, distance
 from ..vectors import Line, Scalar, Side, Vec
-from .labels import Slot
+from .labels import Slot, joined_names
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
 from .step import UNBOUND, Assignment, Position, Step
 
@@ -22,6 +22,8 @@ class OnLink(Step):
     PX: Quantity = UNBOUND
     QX: Quantity = UNBOUND
     QPX: Quantity = UNBOUND
+    is_mirrored: bool = False
+    """Whether it stands in a part that is mirrored, so that its side and the sense of its angle are the other ones."""
     from_drawing = "angle"
     expects = (("P", "point"), ("Q", "point"))
 
@@ -53,9 +55,18 @@ class OnLink(Step):
     def modes(self) -> tuple[Side, ...]:
         return (Side.LEFT, Side.RIGHT) if self.QX is not UNBOUND else ()
 
+    def in_axes(self, axes: Axes) -> Self:
+        return self.renewed(is_mirrored=not self.is_mirrored) if axes.mirrored else self
+
+    @property
+    def sense_of_turn(self) -> float:
+        """The sense in which its angle is counted: 1 counter-clockwise, -1 clockwise."""
+        sense = 1.0 if self.side is None else float(self.side)
+        return -sense if self.is_mirrored else sense
+
     def turn(self, where: Where, base: Scalar) -> Turning:
         """Return the cosine and sine of the angle QPX; `base` is the length of PQ [m]."""
-        sense = 1.0 if self.side is None else float(self.side)
+        sense = self.sense_of_turn
         if self.QX is not UNBOUND:
             p = where.value(self.PX)
             along, height = triangle(where, base * base, p, where.value(self.QX))
@@ -75,7 +86,7 @@ class OnLink(Step):
         if self.QX is UNBOUND:
             return ()
         base = where.link_length(self.P, self.Q)
-        return (self.P + self.Q, base), (self.P + self.X, where.value(self.PX)), (self.Q + self.X, where.value(self.QX))
+        return (joined_names(self.P, self.Q), base), (joined_names(self.P, self.X), where.value(self.PX)), (joined_names(self.Q, self.X), where.value(self.QX))
 
     def joints(self) -> tuple[Joint, ...]:
         """Return what holds the arm that a driven label moves: along it, across it and against turning."""
@@ -87,7 +98,7 @@ class OnLink(Step):
 
         drives = [Driven(self.PX, "t")]
         if self.QPX is not UNBOUND:
-            drives.append(Driven(self.QPX, "c", 1.0 if self.side is None else float(self.side)))
+            drives.append(Driven(self.QPX, "c", self.sense_of_turn))
         if self.QX is not UNBOUND:
             drives.append(Driven(self.QX, ""))
         third = f"{self.sentence()}: its third side"
@@ -105,13 +116,13 @@ class OnLink(Step):
         base, by_sides = Vector(self.P, self.Q), self.QX is not UNBOUND
         given = Number(0.0) if self.QPX is UNBOUND else self.QPX
         angle = CosineAngle(distance(self.P, self.Q), self.PX, self.QX) if by_sides else given
-        arm = Turn(base, -angle if self.side is Side.RIGHT else angle, length=self.PX)
-        lengths = (Assignment(self.P + self.X, self.PX), Assignment(self.Q + self.X, self.QX))
+        arm = Turn(base, -angle if self.sense_of_turn < 0.0 else angle, length=self.PX)
+        lengths = (Assignment(joined_names(self.P, self.X), self.PX), Assignment(joined_names(self.Q, self.X), self.QX))
         return (
             *lengths[: 2 if by_sides else 1],
-            Assignment(self.P + self.Q, base),
-            Assignment(self.X + self.P + self.Q if by_sides else self.Q + self.P + self.X, angle),
-            Assignment(self.P + self.X, arm),
+            Assignment(joined_names(self.P, self.Q), base),
+            Assignment(joined_names(self.X, self.P, self.Q) if by_sides else joined_names(self.Q, self.P, self.X), angle),
+            Assignment(joined_names(self.P, self.X), arm),
             Assignment(self.X, Offset(self.P, arm)),
-            *([Assignment(self.Q + self.X, Vector(self.Q, self.X))] if by_sides else []),
+            *([Assignment(joined_names(self.Q, self.X), Vector(self.Q, self.X))] if by_sides else []),
         )

@@ -8,7 +8,7 @@ from ..errors import DefinitionError, cited
 from ..quantities import Member, Quantity, Reference, Where, is_number, name_of, quantity
 from ..vectors import Scalar, Vec
 from .guide import Guide, Slide
-from .labels import DimensionTable, Slot
+from .labels import DimensionTable, Slot, Spoken, joined_names
 from .onlink import OnLink
 from .step import Bar, Point, Position, position
 
@@ -70,6 +70,9 @@ class Group(Member):
     rods, the shapes of its rigid links and its slides. Source: Artobolevsky, groups of class III and IV.
     """
 
+    spoken: Spoken | None = None
+    """How its labels are spoken, where it is of a part."""
+
     def __init__(self, pins: str) -> None:
         if not isinstance(pins, str) or not pins.split():
             raise DefinitionError(f'Group({cited(pins)}): the names of its pins are expected in one text, Group("D E F").')
@@ -82,7 +85,10 @@ class Group(Member):
 
     def enter(self, table: DimensionTable) -> None:
         """Enter the group's dimensions: its rods' lengths and its links' shapes."""
-        self.rods = tuple(Bar(P, Q, table.dimension(Slot("", (P, Q)), P + Q, length, str(self))) for P, Q, length in self.given)
+        spoken = joined_names if self.spoken is None else self.spoken.word
+        self.rods = tuple(
+            Bar(P, Q, table.dimension(Slot("", (P, Q), self.spoken), spoken(P, Q), length, str(self))) for P, Q, length in self.given
+        )
         self.rigid = tuple(step.bind(X, table) for X, step in self.attached)
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import final
+from typing import Self, final
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ..errors import DefinitionError
 from ..frozen import refuses_changes
 from ..quantities import (
     FRAME_SIDE,
+    Axes,
     Driven,
     Joint,
     JointSide,
@@ -28,7 +29,9 @@ from ..quantities import (
     quantity,
     spelled,
 )
+from ..quantities.axes import negated
 from ..vectors import Line, Scalar, Vec
+from .labels import joined_names
 from .step import Bar, Point, angle_given
 
 
@@ -73,8 +76,18 @@ class Vector(Arrow):
 class Axis(Arrow):
     """The unit vector of the x axis: what a crank's arm is turned from."""
 
+    def __init__(self, axes: Axes | None = None) -> None:
+        self.axes = axes
+
+    def parts(self) -> tuple[Reference, ...]:
+        return () if self.axes is None else self.axes.parts()
+
+    def in_axes(self, axes: Axes) -> Self:
+        return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
+
     def vector(self, where: Where) -> Vec:
-        return Vec(1.0, 0.0)
+        along = Vec(1.0, 0.0)
+        return along if self.axes is None else self.axes.vector(where, along)
 
     def length(self, where: Where) -> Scalar:
         return 1.0
@@ -97,6 +110,9 @@ class Turn(Arrow):
 
     def in_radians(self) -> tuple[Quantity, ...]:
         return (self.angle,)
+
+    def in_axes(self, axes: Axes) -> Self:
+        return self.renewed(angle=negated(self.angle)) if axes.mirrored else self
 
     def lengths(self) -> tuple[Quantity, ...]:
         return () if self.scaled_to is None else (self.scaled_to,)
@@ -220,7 +236,7 @@ class Offset(Point):
             return ()
         P, Q = name_of(self.P), self.keeps.apex
         base = (where.at(Q) - where.at(P)).length()
-        return (P + Q, base), *((side.P + self.name, where.value(side.length)) for side in self.keeps.sides)
+        return (joined_names(P, Q), base), *((joined_names(side.P, self.name), where.value(side.length)) for side in self.keeps.sides)
 
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         X, ends = where.at(self.name), (self.P, self.keeps.apex)

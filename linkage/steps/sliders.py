@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from ..quantities import Joint, JointSide, Number, Operand, Quantity, Reference, Where, guided, quantity, spelled
+from typing import Self
+
+from ..quantities import Axes, Joint, JointSide, Number, Operand, Quantity, Reference, Where, guided, quantity, spelled
+from ..quantities.axes import negated
 from ..vectors import Line, Scalar, Side, Vec
 from .step import UNBOUND, Position, Step, angle_given
 
@@ -78,6 +81,9 @@ class PinSlotDyad(Step):
 
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), self.offset)
+
+    def in_axes(self, axes: Axes) -> Self:
+        return self.renewed(offset=negated(self.offset)) if axes.mirrored else self
 
     def place(self, where: Where) -> Vec:
         P, to_pin, e = where.at(self.P), where.direction(self.P, self.Q), where.value(self.offset)
@@ -177,6 +183,9 @@ class YokeDyad(Step):
 
     def in_radians(self) -> tuple[Quantity, ...]:
         return (self.angle,)
+
+    def in_axes(self, axes: Axes) -> Self:
+        return self.renewed(angle=negated(self.angle)) if axes.mirrored else self
 
     def place(self, where: Where) -> Vec:
         line, (cos, sin) = where.line(self.guide), where.turn(self.angle)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 from types import MappingProxyType
 from typing import ClassVar, Self, TypeAlias, final
@@ -18,7 +18,7 @@ from ..frozen import refuses_changes
 from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, label, name_of, quantity
 from ..units import deg
 from ..vectors import Scalar, Side, Vec
-from .labels import DimensionTable, Slot, match, relabelled, written_labels
+from .labels import DimensionTable, Slot, Spoken, match, relabelled, written_labels
 
 
 @final
@@ -163,6 +163,8 @@ class Step(Point):
     """
 
     parents: tuple[Reference, ...]
+    spoken: Spoken | None = None
+    """How its labels are spoken, where it is of a part."""
     parent_letters: tuple[str, ...] = ("P", "Q")
     argument_kinds = MappingProxyType({"side": "side", "near": "place", "at": "place"})
     arms: tuple[str, ...] = ()
@@ -181,6 +183,10 @@ class Step(Point):
         self.side = None if side is None else side_of(side, type(self).__name__)
         self.near = position(near, f"{type(self).__name__}(near=...)")
         self.drawn_at = position(at, f"{type(self).__name__}(at=...)")
+
+    def fitting(self) -> tuple[Slot, ...]:
+        """Return its slots as their labels are spoken."""
+        return tuple(replace(slot, spoken=self.spoken) for slot in self.slots()) if self.spoken else self.slots()
 
     def slots(self) -> tuple[Slot, ...]:
         """Return the labels this step takes; the step knows its points' names by now."""
@@ -211,7 +217,7 @@ class Step(Point):
         for letter, parent in zip(self.parent_letters, self.parents, strict=True):
             setattr(bound, letter, name_of(parent))
         bound.check_points()
-        for attribute, (slot, spelling, sign, value) in match(self.labels, bound.slots(), bound.sentence()).items():
+        for attribute, (slot, spelling, sign, value) in match(self.labels, bound.fitting(), bound.sentence()).items():
             bound.check_sense(slot, spelling, sign, value)
             found = table.dimension(slot, spelling, value, bound.sentence())
             setattr(bound, attribute, found if sign > 0 else -found)
@@ -259,7 +265,7 @@ class Step(Point):
     def arguments(self) -> list[str]:
         """Return the arguments as they would be written."""
         words = [parent_text(parent) for parent in self.parents]
-        words += written_labels(self.labels, self.slots() if self.X else ())
+        words += written_labels(self.labels, self.fitting() if self.X else ())
         if self.side is not None:
             words.append(f"side={self.side}")
         if self.near is not None:
@@ -289,6 +295,11 @@ def side_of(side: object, what: str) -> Side:
     if found is None:
         raise DefinitionError(f"{what}: side={cited(side)}; say side=LEFT or side=RIGHT.")
     return found
+
+
+def opposite(side: Side | None) -> Side | None:
+    """Return the other side; None of none."""
+    return None if side is None else Side(-side)
 
 
 def angle_given(given: Operand, what: str) -> Quantity:

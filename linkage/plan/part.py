@@ -1,0 +1,522 @@
+"""A mechanism as a part of another one: a class that is bound once, then renamed, its members under dotted names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from copy import copy
+from dataclasses import fields, is_dataclass
+from types import MappingProxyType
+from typing import Any, Protocol, TypeGuard, final
+
+import numpy as np
+
+from ..errors import DefinitionError, about, cited, is_yes, unknown
+from ..frozen import FrozenDict
+from ..quantities import (
+    Axes,
+    Dimension,
+    Member,
+    Number,
+    Operand,
+    Quantity,
+    Ref,
+    Reference,
+    Stroke,
+    is_number,
+    label,
+    name_of,
+    needs,
+    quantity,
+)
+from ..quantities import spelled as written
+from ..quantities.member import word_arguments
+from ..steps import Arrow, Drawn, Ground, Group, Link, Point, Step
+from ..steps.labels import Spoken
+from .plan import Plan
+
+DEEPEST = 8
+"""Parts in parts, so deep."""
+MOST_MEMBERS = 4000
+LEFT_BEHIND = ("over", "load case")
+"""What speaks of a whole machine and stays with the class that says it."""
+WORDS = ("on", "at", "angle", "mirrored", "machine")
+
+
+class HasPlan(Protocol):
+    """A class of mechanisms, or a design of one."""
+
+    @property
+    def plan(self) -> Plan:
+        """What it is made of."""
+
+
+def is_mechanism(given: object) -> TypeGuard[HasPlan]:
+    """Return whether something is a class of mechanisms or a design."""
+    return isinstance(getattr(given, "plan", None), Plan)
+
+
+class PartNameError(DefinitionError, AttributeError):
+    """A name that a part has not."""
+
+
+@final
+class Part(Member):
+    """A mechanism in a mechanism: `lower = Part(Arm, S=s1, OB=0.45)`, a class or a design; its members are `lower.B`, `"lower.B"`.
+
+    Keywords are the part's own names. A fixed point becomes a point of the whole, or stands at (x, y); a dimension takes a number or
+    follows a quantity; a stroke follows a quantity, and is one of the whole, `lower.S`, where nothing is said; any other member goes by
+    None. `on` carries the part's axes: two points of a body, a link, nothing for the frame; there it stands `at=(x, y)` [m], turned by
+    `angle` [rad], `mirrored` at its own y axis first. Loads, cylinders, circuits and outlines come along; load cases and `Over`s do not.
+    """
+
+    kind = "part"
+
+    def __init__(
+        self, machine: Any, *, on: Reference | Sequence[Reference] | None = None, at: Sequence[Operand] | None = None,
+        angle: Operand = 0.0, mirrored: bool = False, **given: Any,
+    ) -> None:  # fmt: skip
+        if not is_mechanism(machine):
+            raise DefinitionError(f"Part({cited(machine)}): a class of mechanisms is expected, or a design of one, such as Part(FourBar).")
+        self.machine = machine if isinstance(machine, type) else type(machine)
+        self.plan: Plan = machine.plan
+        self.given: dict[str, Any] = {**self._set_in(machine), **given}
+        self.on = carriers_of(on)
+        x, y = (0.0, 0.0) if at is None else pair_of(at, "Part(at=...)")
+        self.at, self.angle = (quantity(x), quantity(y)), quantity(angle)
+        self.mirrored = is_yes("Part: mirrored", mirrored)
+        self._check_given()
+
+    def _set_in(self, machine: Any) -> dict[str, float]:
+        """Return the dimensions that a design has set otherwise than its class."""
+        if isinstance(machine, type):
+            return {}
+        changed = {name: value for name, value in machine.dimensions.items() if np.ndim(value) or value != self.plan.defaults[name]}
+        if any(map(np.ndim, changed.values())):
+            raise DefinitionError(f"Part({self.plan.title}(...)): this is a batch of designs; a part is one of them.")
+        return changed
+
+    # -- names ----------------------------------------------------------------------------------------------
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or "plan" not in vars(self):
+            raise AttributeError(name)
+        return self[name]
+
+    def __getitem__(self, name: str) -> Any:
+        """Return the reference to a member of the part, `lower["name"]`."""
+        member = self.plan.members.get(name)
+        if member is None:
+            owned = {each.partition(".")[0] for each in self.plan.members}
+            if name in self.plan.table.spellings:
+                return Ref(f"{self._called}.{name}")
+            known = sorted(owned | set(self.plan.aliases))
+            if name in self.plan.aliases:
+                return f"{self._called}.{name}"
+            error = unknown("Name", name, known, where=f"{self._called or 'Part'} = Part({self.plan.title})")
+            raise PartNameError(str(error))
+        called = f"{self._called}.{name}"
+        if isinstance(member, Part):
+            return Inner(member, called)
+        return Ref(called) if isinstance(member, Quantity) else called
+
+    @property
+    def _called(self) -> str:
+        if not self.name:
+            raise DefinitionError(f"Part({self.plan.title}) has no name yet; bind it in the class first, lower = Part(...), then lower.B.")
+        return self.name
+
+    # -- what it was given ----------------------------------------------------------------------------------
+
+    def _check_given(self) -> None:
+        plan, title = self.plan, f"Part({self.plan.title})"
+        for name, value in self.given.items():
+            member = plan.members.get(name)
+            if name in plan.strokes:
+                if value is None:
+                    raise DefinitionError(f"{title}: the stroke {name} cannot be left out; give it a quantity, {name}=S.")
+                quantity(value)
+            elif isinstance(member, Point):
+                self._check_point(title, name, member, value)
+            elif value is None and member is not None:
+                continue
+            elif name in plan.table.spellings or isinstance(member, Dimension):
+                if np.ndim(value):
+                    raise DefinitionError(f"{title}: {name} is a batch of {np.size(value)} values; a part is one design.")
+                quantity(value)
+            elif name in plan.table.following:
+                raise DefinitionError(f"{title}: {name} follows {plan.table.following[name]}; set what it follows.")
+            elif member is not None:
+                what = f"{title}: {name} is a {member.kind} and takes no value"
+                raise DefinitionError(f"{what}; leave it out by {name}=None, or exchange it in a subclass of {plan.title}.")
+            else:
+                raise unknown("Name", name, [*plan.members, *plan.table.names()], where=title)
+
+    def _check_point(self, title: str, name: str, member: Point, value: Any) -> None:
+        if value is None or not member.is_fixed:
+            if not member.is_fixed:
+                said = f"{title}: {name} moves in the part and takes no place"
+                raise DefinitionError(f"{said}; give its fixed points, {', '.join(self.plan.ground)}, or carry the part by on=.")
+            raise DefinitionError(f"{title}: the fixed point {name} cannot be left out; fuse it with a point or give (x, y).")
+        if not isinstance(value, (str, Member)):
+            pair_of(value, f"{title}: {name}=")
+
+    def parts(self) -> tuple[Reference, ...]:
+        own = [self.angle, *self.at]
+        found: list[Reference] = [each for each in own if not each.is_constant]
+        for name, value in self.given.items():
+            if value is None:
+                continue
+            if isinstance(self.plan.members.get(name), Point):
+                if isinstance(value, (str, Member)):
+                    found.append(value)
+                else:
+                    found += [each for each in map(quantity, value) if not each.is_constant]
+            elif not quantity(value).is_constant:
+                found.append(quantity(value))
+        return (*self.on, *found)
+
+    # -- what it brings -------------------------------------------------------------------------------------
+
+    @property
+    def aliases(self) -> dict[str, str]:
+        """The names of the part that are other names of members of the whole: fused points, strokes and dimensions that follow by name."""
+        found: dict[str, str] = {}
+        for name, value in self.given.items():
+            member = self.plan.members.get(name)
+            if isinstance(member, Point) and isinstance(value, (str, Member)):
+                found[f"{self.name}.{name}"] = name_of(value)
+            elif isinstance(member, (Stroke, Dimension)) and not is_number(value):
+                target = quantity(value)
+                by_name = target.name or (target.target if isinstance(target, Ref) else "")
+                if by_name:
+                    found[f"{self.name}.{name}"] = by_name
+        return found | {f"{self.name}.{name}": self._whole(target, found) for name, target in self.plan.aliases.items()}
+
+    def _whole(self, name: str, aliases: Mapping[str, str]) -> str:
+        return aliases.get(f"{self.name}.{name}", f"{self.name}.{name}")
+
+    def axes(self, members: Mapping[str, Member]) -> Axes | None:
+        """Return the axes of the part in the whole; None where they are the frame's."""
+        names = tuple(map(name_of, self.on))
+        if len(names) == 1 and isinstance(members.get(names[0]), Link):
+            names = members[names[0]].point_names[:2]  # type: ignore[attr-defined]
+        if len(names) == 1:
+            what = f"{self.name} = {self}: {names[0]} is one point, and gives a part no directions"
+            raise DefinitionError(f"{what}; name two points of the body that carries it, on=({names[0]}, ...), or a link.")
+        found = Axes(*names[:2], at=self.at, angle=self.angle, mirrored=self.mirrored) if names else None
+        if found is None and (self.mirrored or any(not is_zero(each) for each in (*self.at, self.angle))):
+            found = Axes(at=self.at, angle=self.angle, mirrored=self.mirrored)
+        return found
+
+    def brought(self, members: Mapping[str, Member]) -> dict[str, Member]:
+        """Return the members of the part as they stand among those of the whole, by their dotted names."""
+        return Renamed(self, self.axes(members)).members()
+
+    @property
+    def depth(self) -> int:
+        """How deep parts stand in it, itself included."""
+        return 1 + max((each.depth for each in self.plan.of_kind(Part).values()), default=0)
+
+    def __str__(self) -> str:
+        words = [self.plan.title, *(f"{name}={given_text(value)}" for name, value in self.given.items() if name.isidentifier())]
+        if self.on:
+            words.append(f"on={label(self.on[0])}" if len(self.on) == 1 else f"on=({', '.join(map(label, self.on))})")
+        if not all(map(is_zero, self.at)):
+            words.append(f"at=({', '.join(map(written, self.at))})")
+        words += [] if is_zero(self.angle) else [f"angle={written(self.angle, 0, 'angle')}"]
+        words += ["mirrored=True"] if self.mirrored else []
+        dotted = {name: value for name, value in self.given.items() if not name.isidentifier()}
+        more = [f"**{{{', '.join(f'{name!r}: {given_text(value)}' for name, value in dotted.items())}}}"] if dotted else []
+        return f"Part({', '.join([*words, *more])})"
+
+
+@final
+class Inner:
+    """A part of a part, by which its members are named: `lower.tool.T`."""
+
+    def __init__(self, part: Part, called: str) -> None:
+        self._part, self._is_called = part, called
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        view = self._part.renewed(_name=self._is_called)
+        return view[name]
+
+    __getitem__ = __getattr__
+
+
+def is_zero(given: Quantity) -> bool:
+    """Return whether a quantity is the number zero."""
+    return isinstance(given, Number) and given.number == 0.0
+
+
+def given_text(value: Any) -> str:
+    """Return what a keyword was given as it is written."""
+    if isinstance(value, (str, Member)):
+        return value.name or written(value) if isinstance(value, Quantity) else label(value)
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return f"({', '.join(written(quantity(each)) for each in value)})"
+    return repr(value.item() if isinstance(value, np.generic) else value)
+
+
+def pair_of(given: Any, what: str) -> tuple[Operand, Operand]:
+    """Return two coordinates; DefinitionError for anything else."""
+    pair = tuple(given) if (isinstance(given, (list, tuple, np.ndarray)) and np.ndim(given) != 0) or isinstance(given, tuple) else ()
+    if len(pair) != 2:
+        raise DefinitionError(f"{what}: {cited(given)} is no place; write (x, y) in m, or name a point of the machine.")
+    for each in pair:
+        quantity(each)
+    x, y = pair
+    return x, y
+
+
+def carriers_of(on: Any) -> tuple[Reference, ...]:
+    """Return the references to what carries a part."""
+    if on is None:
+        return ()
+    found = tuple(on.split()) if isinstance(on, str) else (on,) if isinstance(on, Member) else tuple(on) if isinstance(on, (list, tuple)) else ()
+    if not 0 < len(found) < 3 or not all(isinstance(each, (str, Member)) for each in found):
+        raise DefinitionError(f"Part(on={cited(on)}): name two points of the body that carries it, a link, or nothing for the frame.")
+    return found
+
+
+@final
+class Renamed:
+    """The members of a part under their names in the whole."""
+
+    def __init__(self, part: Part, axes: Axes | None) -> None:
+        self.part, self.axes, self.plan = part, axes, part.plan
+        self.memo: dict[int, Member] = {}
+        self.aliases = part.aliases
+        self.names = {name: f"{part.name}.{name}" for name in self.plan.members}
+        self.names |= {name: self.aliases[dotted] for name, dotted in self.names.items() if dotted in self.aliases}
+        self.names |= {name.partition(f"{part.name}.")[2]: target for name, target in self.aliases.items()}
+
+    def members(self) -> dict[str, Member]:
+        """Return all members that the part brings."""
+        part, source = self.part, self.plan.unbound
+        left_out = {name for name, value in part.given.items() if value is None}
+        found: dict[str, Member] = {}
+        for name, member in source.items():
+            dotted = f"{part.name}.{name}"
+            if name in left_out or member.kind in LEFT_BEHIND or dotted in self.aliases:
+                continue
+            if isinstance(member, Drawn):
+                strokes = {self.names[each]: value for each, value in member.strokes.items() if each not in part.given}
+                if strokes:
+                    found[dotted] = Drawn(strokes).renewed(_name=dotted)
+                continue
+            with about(dotted):
+                found[dotted] = self._placed(name, dotted, member)
+        self._check_left(left_out, found)
+        return found
+
+    def _check_left(self, left_out: set[str], found: Mapping[str, Member]) -> None:
+        """Raise DefinitionError where something needs a member that was left out."""
+        for name, member in found.items():
+            for each in needs(member):
+                lost = each.removeprefix(f"{self.part.name}.")
+                if lost in left_out and each not in found:
+                    own = name.removeprefix(f"{self.part.name}.")
+                    said = f"{self.part.name} = {self.part}: {lost}=None, but {own} = {self.plan.unbound[own]} needs it"
+                    raise DefinitionError(f"{said}; leave that out, too, {own}=None.", member=self.part.name)
+
+    def _placed(self, name: str, dotted: str, member: Member) -> Member:
+        """Return a member with its name in the whole, where the part stands, with the dimensions that are given."""
+        given = self.part.given
+        if name in given and isinstance(member, (Stroke, Dimension)) and not is_number(given[name]):
+            return quantity(given[name]).renewed(_name=dotted)
+        if name in given and isinstance(member, Stroke):
+            return Number(float(given[name])).renewed(_name=dotted)
+        if name in given and isinstance(member, Ground):
+            x, y = map(quantity, given[name])
+            place = Ground(0.0, 0.0).renewed(_name=dotted, x=x, y=y)
+            return place if self.axes is None else place.in_axes(self.axes)
+        found = self.member(member)
+        values: dict[str, Any] = {}
+        for each, value in given.items():
+            owner, sign = self.plan.table.spellings.get(each, ("", 1))
+            if owner and value is not None:
+                for spelling, (other, own) in self.plan.table.spellings.items():
+                    if other == owner:
+                        values[f"{self.part.name}.{spelling}"] = signed(value, sign * own)
+        if not values:
+            return found
+        before = {each for each, *_ in found.variables()}
+        changed = found.having(values)
+        follows = {each for each in before if each in values and not is_number(values[each])}
+        stays = follows & {each for each, *_ in changed.variables()}
+        if stays:
+            what = f"{self.part.name} = {self.part}: {sorted(stays)[0]} is a number of {name} = {member} and can follow nothing"
+            raise DefinitionError(f"{what}; give it a number.", member=self.part.name)
+        return changed
+
+    # -- one member ------------------------------------------------------------------------------------------
+
+    def member(self, given: Member) -> Member:
+        """Return a member of the part, named or not, as it stands in the whole."""
+        known = self.memo.get(id(given))
+        if known is not None:
+            return known
+        words = word_arguments(type(given))
+        found = object.__new__(type(given))
+        self.memo[id(given)] = found
+        for attribute, value in vars(given).items():
+            if attribute == "_class":
+                continue
+            if attribute == "_name":
+                value = self.names.get(value, value) if value else value
+            elif attribute == "labels" and isinstance(given, (Step, Link)):
+                value = {f"{self.part.name}.{spelling}": self.value(each, is_word=False) for spelling, each in value.items()}
+            elif attribute == "spoken":
+                continue
+            elif not (isinstance(given, Part) and attribute in ("plan", "machine")):
+                value = self.value(value, attribute in words)
+            object.__setattr__(found, attribute, value)
+        if isinstance(found, (Step, Link, Group)):
+            object.__setattr__(found, "spoken", self._spoken(given))
+        placed = found if self.axes is None else self._in_axes(given, found)
+        self.memo[id(given)] = placed
+        return placed
+
+    def _spoken(self, given: Any) -> Spoken:
+        """Return how the labels of a member are spoken in the whole."""
+        before = given.spoken
+        owner = self.part.name if before is None else f"{self.part.name}.{before.owner}"
+        letters = {self.names[name]: name for name in self.names} if before is None else {
+            self.names.get(name, name): letter for name, letter in before.letters.items()
+        }  # fmt: skip
+        return Spoken(owner, letters)
+
+    def _in_axes(self, given: Member, found: Member) -> Member:
+        """Return a member where the part stands; DefinitionError for one of another package that does not say how it is mirrored."""
+        assert self.axes is not None
+        is_own = type(given).__module__.split(".")[0] in ("linkage", "hydraulics", "mechanisms")
+        has_sides = isinstance(given, (Point, Arrow)) or (isinstance(given, Quantity) and not given.parts())
+        if self.axes.mirrored and not is_own and has_sides and type(given).in_axes is Member.in_axes:
+            what = f"{self.part.name} = {self.part}: {given.name} = {given} cannot be mirrored"
+            raise DefinitionError(f"{what}: {type(given).__name__} does not say how; give that class in_axes(axes).", member=self.part.name)
+        return found.in_axes(self.axes)
+
+    def value(self, given: Any, is_word: bool) -> Any:
+        """Return what an argument holds under the names of the whole."""
+        if isinstance(given, Member):
+            if given.name and self.names.get(given.name, given.name) in self._foreign:
+                target = self.names[given.name]
+                return Ref(target) if isinstance(given, Quantity) else target
+            return self.member(given)
+        if isinstance(given, str):
+            return given if is_word else " ".join(self.names.get(word, word) for word in given.split(" "))
+        if isinstance(given, (tuple, list)):
+            return type(given)(self.value(each, is_word) for each in given) if type(given) in (tuple, list) else given
+        if type(given) in (dict, FrozenDict, MappingProxyType):
+            return {self.value(key, is_word): self.value(each, is_word) for key, each in given.items()}
+        if is_dataclass(given) and not isinstance(given, type):
+            return self._data(given)
+        return given
+
+    @property
+    def _foreign(self) -> set[str]:
+        """The names of the whole that the part's names stand for."""
+        return set(self.aliases.values())
+
+    def _data(self, given: Any) -> Any:
+        """Return a value of a frozen dataclass under the names of the whole; itself, where nothing in it has a name."""
+        words = word_arguments(type(given))
+        changed = {each.name: self.value(getattr(given, each.name), each.name in words) for each in fields(given)}
+        if all(changed[name] is getattr(given, name) for name in changed):
+            return given
+        found = copy(given)
+        for name, value in changed.items():
+            object.__setattr__(found, name, value)
+        return found
+
+
+def signed(value: Any, sign: int) -> Any:
+    """Return a number or a quantity with a sign."""
+    if is_number(value):
+        return sign * float(value)
+    found = quantity(value)
+    return found if sign > 0 else -found
+
+
+# -- the members of a whole ---------------------------------------------------------------------------------------
+
+
+def with_parts(members: Mapping[str, Member], title: str) -> dict[str, Member]:
+    """Return the members of a class with those of its parts behind each part, and every name as the whole says it."""
+    parts = {name: member for name, member in members.items() if isinstance(member, Part)}
+    if not parts:
+        return dict(members)
+    found: dict[str, Member] = {}
+    for name, member in members.items():
+        if isinstance(member, Part) and member.name != name:
+            member = member.renewed(_name=name)
+        found[name] = member
+        if isinstance(member, Part):
+            if member.depth > DEEPEST:
+                raise DefinitionError(f"{title}: {name} = {member} holds parts {member.depth} deep; up to {DEEPEST} are taken.", member=name)
+            with about(name):
+                found |= member.brought(members)
+    if len(found) > MOST_MEMBERS:
+        raise DefinitionError(f"{title} has {len(found)} members with those of its parts; up to {MOST_MEMBERS} are taken.")
+    return unaliased(found)
+
+
+def unaliased(members: Mapping[str, Member]) -> dict[str, Member]:
+    """Return members that call fused points and shared strokes by their own names."""
+    aliases = {alias: target for part in members.values() if isinstance(part, Part) for alias, target in part.aliases.items()}
+    while any(target in aliases for target in aliases.values()):
+        aliases = {alias: aliases.get(target, target) for alias, target in aliases.items()}
+    if not aliases:
+        return dict(members)
+    renaming = Unaliased(aliases)
+    return {name: renaming.member(member) for name, member in members.items()}
+
+
+@final
+class Unaliased:
+    """Members with other names for some of what they refer to."""
+
+    def __init__(self, names: Mapping[str, str]) -> None:
+        self.names = names
+
+    def member(self, given: Member) -> Member:
+        """Return a member that refers to what the names stand for; itself, where it uses none of them."""
+        if not any(each in self.names for each in referred(given)):
+            return given
+        words = word_arguments(type(given))
+        changes = {}
+        for attribute, value in vars(given).items():
+            if attribute not in ("_name", "_class", "labels", "spoken", "plan", "machine"):
+                changes[attribute] = self.value(value, attribute in words)
+            elif attribute == "labels":
+                changes[attribute] = {name: self.value(each, is_word=False) for name, each in value.items()}
+        return given.renewed(**changes)
+
+    def value(self, given: Any, is_word: bool) -> Any:
+        """Return what an argument holds."""
+        if isinstance(given, Member):
+            return given if given.name and not isinstance(given, Group) else self.member(given)
+        if isinstance(given, str):
+            return given if is_word else " ".join(self.names.get(word, word) for word in given.split(" "))
+        if type(given) in (tuple, list):
+            return type(given)(self.value(each, is_word) for each in given)
+        if type(given) in (dict, FrozenDict, MappingProxyType):
+            return {self.value(key, is_word): self.value(each, is_word) for key, each in given.items()}
+        if is_dataclass(given) and not isinstance(given, type):
+            found = copy(given)
+            words = word_arguments(type(given))
+            for each in fields(given):
+                object.__setattr__(found, each.name, self.value(getattr(given, each.name), each.name in words))
+            return found
+        return given
+
+
+def referred(member: Member) -> Iterator[str]:
+    """Yield the names that a member refers to, as far as they are known yet."""
+    try:
+        yield from needs(member)
+    except DefinitionError:
+        return

@@ -1,0 +1,173 @@
+"""The axes of a part of a machine: where they stand in the whole, and what carries them."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from ..vectors import Line, Vec
+from .member import Reference, Turning, Where, name_of
+from .quantity import Number, Quantity, spelled
+
+NOTHING = Number(0.0)
+
+
+def is_zero(given: Quantity) -> bool:
+    """Return whether a quantity is the number zero."""
+    return isinstance(given, Number) and given.number == 0.0
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Axes:
+    """Axes that stand `at` a place, turned by an `angle` [rad], in the frame or in the axes of the body of two points P and Q.
+
+    Those of a body have their origin in P, and x goes to Q. A part that is `mirrored` is mirrored at its own y axis first, then turned,
+    then placed.
+    """
+
+    P: Reference | None = None
+    Q: Reference | None = None
+    at: tuple[Quantity, Quantity] = (NOTHING, NOTHING)
+    angle: Quantity = NOTHING
+    mirrored: bool = False
+
+    @property
+    def carrier(self) -> tuple[str, ...]:
+        """The names of the two points of the body that carries them; none in the frame."""
+        return () if self.P is None or self.Q is None else (name_of(self.P), name_of(self.Q))
+
+    @property
+    def are_upright(self) -> bool:
+        """Whether they have the directions of the frame."""
+        return not self.carrier and not self.mirrored and is_zero(self.angle)
+
+    @property
+    def is_level(self) -> bool:
+        """Whether they are not turned against what carries them."""
+        return is_zero(self.angle)
+
+    @property
+    def sign(self) -> float:
+        """The sense in which a turn of the part goes in the whole: 1, or -1 where it is mirrored."""
+        return -1.0 if self.mirrored else 1.0
+
+    @property
+    def identity(self) -> Hashable:
+        """What tells them from other axes."""
+        at = tuple(each.identity for each in self.at)
+        return (self.carrier, at, self.angle.identity, self.mirrored)
+
+    def parts(self) -> tuple[Reference, ...]:
+        """Return what they are built from."""
+        numbers = tuple(each for each in (*self.at, self.angle) if not each.is_constant)
+        return (*self.carrier, *numbers)
+
+    def within(self, inner: Axes | None) -> Axes:
+        """Return axes that stand in these, as they stand in the whole."""
+        if inner is None:
+            return self
+        mirrored = self.mirrored != inner.mirrored
+        if inner.carrier:  # carried along by their body, which is mirrored with its points
+            if not self.mirrored:
+                return inner
+            x, y = inner.at
+            return Axes(inner.P, inner.Q, (x, negated(y)), plus(Number(np.pi), negated(inner.angle)), not inner.mirrored)
+        x, y = inner.at
+        x = negated(x) if self.mirrored else x
+        cos, sin = (NOTHING, NOTHING) if is_zero(self.angle) else (np.cos(self.angle), np.sin(self.angle))
+        if not is_zero(self.angle) and not (is_zero(x) and is_zero(y)):
+            x, y = x * cos - y * sin, x * sin + y * cos
+        turn = negated(inner.angle) if self.mirrored else inner.angle
+        return Axes(self.P, self.Q, (plus(self.at[0], x), plus(self.at[1], y)), plus(self.angle, turn), mirrored)
+
+    # -- in a reading ------------------------------------------------------------------------------------------
+
+    def _turned(self, where: Where, vector: Vec) -> Vec:
+        """Return a vector of the part in the axes of what carries it."""
+        found = Vec(-vector.x, vector.y) if self.mirrored else vector
+        return found if is_zero(self.angle) else found.turned(*where.turn(self.angle))
+
+    def _base(self, where: Where) -> tuple[Vec, Vec]:
+        """Return the origin [m] and the direction of what carries them."""
+        P, Q = self.carrier
+        start = where.at(P)
+        return start, (where.at(Q) - start) * (1.0 / where.link_length(P, Q))
+
+    def vector(self, where: Where, given: Vec) -> Vec:
+        """Return a vector of the part in the axes of the frame."""
+        found = self._turned(where, given)
+        if not self.carrier:
+            return found
+        _, along = self._base(where)
+        return along * found.x + along.left() * found.y
+
+    def place(self, where: Where, given: Vec) -> Vec:
+        """Return where a place of the part is in the frame [m]."""
+        found = self._turned(where, given)
+        x, y = (part if is_zero(way) else where.value(way) + part for way, part in zip(self.at, (found.x, found.y), strict=True))
+        if not self.carrier:
+            return Vec(x, y)
+        start, along = self._base(where)
+        carried: Vec = start + (along * x + along.left() * y)
+        return carried
+
+    def line(self, where: Where, given: Line) -> Line:
+        """Return where a line of the part is in the frame."""
+        return Line(self.place(where, given.origin), self.vector(where, given.direction))
+
+    def turn(self, where: Where, given: Turning) -> Turning:
+        """Return the cosine and the sine of a direction of the part in the frame."""
+        found = self.vector(where, Vec(*given))
+        return found.x, found.y
+
+    def read_vector(self, where: Where, given: Vec) -> Vec:
+        """Return a vector of the frame as the part reads it."""
+        found = given
+        if self.carrier:
+            _, along = self._base(where)
+            found = Vec(along.dot(given), along.cross(given))
+        if not is_zero(self.angle):
+            cos, sin = where.turn(self.angle)
+            found = found.turned(cos, -sin)
+        return Vec(-found.x, found.y) if self.mirrored else found
+
+    def read_place(self, where: Where, given: Vec) -> Vec:
+        """Return a place in the frame as the part reads it [m]."""
+        x, y = (NOTHING.number if is_zero(way) else where.value(way) for way in self.at)
+        if not self.carrier:
+            shifted = Vec(*(part if is_zero(way) else part - each for way, part, each in zip(self.at, (given.x, given.y), (x, y), strict=True)))
+            return self._straight(where, shifted)
+        start, along = self._base(where)
+        way = given - start
+        return self._straight(where, Vec(along.dot(way) - x, along.cross(way) - y))
+
+    def _straight(self, where: Where, given: Vec) -> Vec:
+        """Return a vector in the axes of what carries the part as the part reads it."""
+        if not is_zero(self.angle):
+            cos, sin = where.turn(self.angle)
+            given = given.turned(cos, -sin)
+        return Vec(-given.x, given.y) if self.mirrored else given
+
+    def __str__(self) -> str:
+        words = [f"on=({', '.join(self.carrier)})"] if self.carrier else []
+        words += [] if all(map(is_zero, self.at)) else [f"at=({spelled(self.at[0])}, {spelled(self.at[1])})"]
+        words += [] if is_zero(self.angle) else [f"angle={spelled(self.angle, 0, 'angle')}"]
+        return ", ".join([*words, *(["mirrored=True"] if self.mirrored else [])])
+
+
+def negated(given: Quantity) -> Quantity:
+    """Return a quantity with its sign changed; a number as a number."""
+    return Number(-given.number if given.number else 0.0) if isinstance(given, Number) and not given.name else -given
+
+
+def plus(a: Quantity, b: Quantity) -> Quantity:
+    """Return the sum of two quantities; of numbers as a number, nothing left out."""
+    if is_zero(a) or is_zero(b):
+        return b if is_zero(a) else a
+    if isinstance(a, Number) and isinstance(b, Number) and not a.name and not b.name:
+        return Number(a.number + b.number)
+    return a + b

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
 from traceback import extract_tb
@@ -129,6 +129,9 @@ def cited(value: object, most: int = 60) -> str:
 
 def known_name(kind: str, name: object, names: Collection[str], where: str = "") -> str:
     """Return a name that is there; raise the error of `unknown` for any other one, and for what is no name at all."""
+    aliases: Mapping[str, str] = getattr(names, "aliases", {})
+    if isinstance(name, str) and name in aliases:
+        return aliases[name]
     if not isinstance(name, str) or name not in names:
         raise unknown(kind, name, names, where)
     return name

@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import AssemblyError, DefinitionError
 from ..plan import ArrayReading, Plan, as_written
 from ..program import FloatArray
-from ..quantities import Member, name_of
+from ..quantities import Member, joined_names, name_of
 from ..shown import Shown
 from ..steps import Link, Pin, Step
 from ..vectors import Numbers, Side
@@ -153,7 +153,7 @@ def measured_links(plan: Plan, declared: Mapping[str, Member], pins: Mapping[str
     lines = {}
     for name, link in declared.items():
         if isinstance(link, Link) and not pins.keys().isdisjoint(points := [name_of(point) for point in link.points]):
-            spelled = {"".join(several) for count in (2, 3) for several in permutations(points, count)}
+            spelled = {joined_names(*several) for count in (2, 3) for several in permutations(points, count)}
             given = {plan.table.spellings[label][0] for label in link.labels if label in plan.table.spellings}
             measured = {label: plan.defaults[label] for label in plan.table.entries if label in spelled - given}
             if measured:

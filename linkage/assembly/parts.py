@@ -10,7 +10,7 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..quantities import Number, Quantity, name_of, quantity
+from ..quantities import Number, Quantity, joined_names, name_of, quantity
 from ..steps import Dyad, Guide, GuideCross, Link, OnLink, Pin, PinSlotDyad, Slide, SliderDyad, Step, YokeDyad
 
 # The shape of a link: the distances and angles of its points, from its labels or a drawing.
@@ -26,7 +26,7 @@ class Shape:
 
     def given(self, *points: str) -> tuple[str, Quantity] | None:
         """Return the label of a distance (two points) or an angle (three points) as it is spelled, if it is given."""
-        spellings = ("".join(points), "".join(reversed(points)))
+        spellings = (joined_names(*points), joined_names(*reversed(points)))
         return next(((spelling, self.labels[spelling]) for spelling in spellings if spelling in self.labels), None)
 
     def distance(self, P: str, Q: str) -> Quantity | None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, final
 
 from ..errors import DefinitionError
 from ..mechanism import Mechanism
-from ..plan import printed, strokes_text
+from ..plan import strokes_text, written_out
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
 from .command import Command, lined_up, machine_arguments, picture, picture_argument
@@ -137,7 +137,7 @@ def construction(machine: Mechanism) -> Iterator[str]:
     """Yield the members in the order they are worked out, as this design has them, without the dimensions listed already."""
     dimensions, defaults = machine.plan.of_kind(Dimension), machine.plan.defaults
     changed = {name: value for name, value in machine.dimensions.items() if value != defaults[name]}
-    yield from (f"{name} = {text}" for name, text in printed(machine.plan, changed).items() if name not in dimensions)
+    yield from (f"{name} = {text}" for name, text in written_out(machine.plan, changed).items() if name not in dimensions)
 
 
 def print_section(title: str, lines: Iterable[str]) -> None:

@@ -11,7 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from ..mechanism import Mechanism
-from ..plan import printed
+from ..plan import written_out
 
 DIGITS = 16
 """Hexadecimal digits of a hash that are shown."""
@@ -24,7 +24,7 @@ def fingerprint(machine: Mechanism, strokes: Mapping[str, Any]) -> str:
 
     It is the same in every process; a function among the members counts by its source.
     """
-    members = printed(machine.plan, machine.dimensions)
+    members = written_out(machine.plan, machine.dimensions)
     inputs = {
         "machine": machine.plan.title,
         "members": {name: ADDRESS.sub("", text) for name, text in members.items()},

@@ -14,7 +14,7 @@ from ..language import said
 from ..loads import ForceElement, LoadCase
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
-from ..plan import plan_measure, printed
+from ..plan import plan_measure, written_out
 from ..quantities import Dimension, Stroke
 from ..units import display_unit, shown_in, shown_number, unit_sign
 from .content import Block, Cell, Formula, Paragraph, Section, TableBlock
@@ -77,7 +77,7 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
 
 def member_rows(machine: Mechanism, names: tuple[str, ...], notes: Mapping[str, str]) -> tuple[tuple[Cell, ...], ...]:
     """Return members as they are declared."""
-    texts = printed(machine.plan, {name: float(value) for name, value in machine.dimensions.items()})
+    texts = written_out(machine.plan, {name: float(value) for name, value in machine.dimensions.items()})
     return tuple((name, texts[name], notes.get(name, "")) for name in names)
 
 

@@ -18,6 +18,7 @@ from ..loads import PinFriction
 from ..motion import Motion
 from ..pictures.scene import DrawnCylinder, Places, Scene
 from ..program import FloatArray
+from ..quantities import body_name, joined_names
 from ..units import mm
 
 LAYERS: Mapping[str, tuple[int, str]] = MappingProxyType(
@@ -152,7 +153,7 @@ def frame_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
 def body_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
     """Yield outlines and centre lines."""
     for corners, points in zip(scene.hulls, scene.bodies, strict=True):
-        name = "".join(points)
+        name = body_name(points)
         places = np.array([at[point] for point in corners])
         yield outline_around(name, places, ROUND * size)
         if len(corners) > 1:
@@ -192,7 +193,7 @@ def cylinder_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
         P, Q = at[cylinder.P], at[cylinder.Q]
         along = unit_vector(P, Q)
         P, Q = (place + cylinder.aside / mm * np.array([-along[1], along[0]]) for place in (P, Q))
-        name = cylinder.P + cylinder.Q
+        name = joined_names(cylinder.P, cylinder.Q)
         for start, end, half in cylinder_pieces(cylinder, float(np.hypot(*(Q - P))), size):
             yield Polyline("cylinders", name, bar_corners(P + start * along, P + end * along, half), closed=True)
         yield Polyline("centre_lines", name, np.array([P, Q]))
@@ -232,7 +233,7 @@ def dimension_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
     pairs = [each for each in combinations(scene.motion.plan.points, 2) if frozenset(each) in labelled]
     placed: list[tuple[FloatArray, FloatArray, float]] = []
     for P, Q in sorted(pairs, key=lambda pair: float(np.hypot(*(at[pair[1]] - at[pair[0]])))):
-        name, start, end = P + Q, at[P], at[Q]
+        name, start, end = joined_names(P, Q), at[P], at[Q]
         if not np.hypot(*(end - start)) > 0.0:
             continue
         if (end[0], end[1]) < (start[0], start[1]):

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..mechanism import Mechanism, declared
-from ..quantities import Member, Number, Quantity, Ref, is_number, label, name_of, quantity, spelled
+from ..quantities import Member, Number, Quantity, Ref, is_number, joined_names, label, name_of, quantity, spelled
 from ..quantities.quantity import plain
 from ..steps import Link, Pin, Step
 from ..units import factor, parse
@@ -156,7 +156,7 @@ def measured_labels(design: Design, members: Mapping[str, Member]) -> dict[str, 
 def is_label_of(text: str, link: Link) -> bool:
     """Return whether a label is made of a link's own points."""
     names = [name_of(point) for point in link.points]
-    return text in {"".join(several) for count in (2, 3) for several in permutations(names, count)}
+    return text in {joined_names(*several) for count in (2, 3) for several in permutations(names, count)}
 
 
 # -- what a quantity or a vector says, apart from how it is written: whether a text reads back as the same --

@@ -21,7 +21,7 @@ from ..mechanism import Mechanism
 from ..motion import Motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..program import FloatArray
-from ..quantities import Angle, Distance, Quantity, Reference, name_of
+from ..quantities import Angle, Distance, Quantity, Reference, joined_names, name_of
 from ..statics import applied_loads
 from ..statics.holding import Holders, PressureLine, holders_of
 from .listing import Listing, ListingLine
@@ -198,7 +198,7 @@ class ForceLines:
 
     def _unit_thrust(self, line: PressureLine) -> Any:
         first = line.cylinders[0]
-        return self._thrusts[first.name or "".join(first.ends)].expr / self._area(line, first)
+        return self._thrusts[first.name or joined_names(*first.ends)].expr / self._area(line, first)
 
     # -- what elements write on ------------------------------------------------------------------------
 
@@ -237,7 +237,7 @@ class ForceLines:
         return self._thrusts.get(name_of(member))
 
     def carry(self, member: TwoPinned, thrust: Any) -> None:
-        title = member.name or "".join(member.ends)
+        title = member.name or joined_names(*member.ends)
         self._thrusts[title] = self.line(f"T_{title}", thrust, "kN")
         self._members[title] = member
 
@@ -343,7 +343,7 @@ class Chain:
 
     def _given_growth(self, forces: ForceLines, stroke: str, ends: tuple[str, str]) -> Any:
         """Return how a length grows that hangs on pins found together: a given number."""
-        vector = self.listing.names.vector("".join(ends))
+        vector = self.listing.names.vector(joined_names(*ends))
         symbol = self.listing.names.stretching(vector, self.symbol)
         forces.givens.append(GivenNumber(symbol, lambda motion: motion.ratio(Distance(*ends), wrt=stroke), NUMBER))
         return symbol

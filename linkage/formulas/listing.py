@@ -10,7 +10,7 @@ from typing import Any, final
 import sympy
 
 from ..plan import Plan
-from ..quantities import Member, Quantity, Reference, Tabulated, Turning, Variable, name_of, spelled
+from ..quantities import Member, Quantity, Reference, Tabulated, Turning, Variable, joined_names, name_of, spelled
 from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, Point, Turn, Vector
 from ..vectors import Line
 from .names import SymbolNames
@@ -73,7 +73,7 @@ def _(member: Point, reading: Any) -> Any:
     """Return a point's place by its own rule; of one that is given by coordinates these where one is a formula, else None."""
     place: Any = member.place(reading)
     given = member.coordinates()
-    if not given:
+    if not given or getattr(member, "axes", None) is not None:
         return vector_expr(place)
     is_formula = any(not value.is_constant for _, value in given)
     return sympy.ImmutableMatrix([term(place.x).expr, term(place.y).expr]) if is_formula else None
@@ -184,7 +184,7 @@ class Listing:
         """Return the vector PQ, written as Q - P where it is not known yet."""
         if (P, Q) not in self._vectors:
             vectors = self.plan.of_kind(Vector).items()
-            declared = next((name for name, each in vectors if (name_of(each.P), name_of(each.Q)) == (P, Q)), P + Q)
+            declared = next((name for name, each in vectors if (name_of(each.P), name_of(each.Q)) == (P, Q)), joined_names(P, Q))
             ends = self.at(Q).expr - self.at(P).expr
             self.define((P, Q), self.names.vector(declared), ends, LENGTH)
         return self._vectors[P, Q]
@@ -301,7 +301,7 @@ class Listing:
 
     def angle_of(self, vector: Any) -> Term:
         """Return a vector's direction."""
-        return Term(Direction(vector.expr), ANGLE)
+        return Term(Direction(vector_expr(vector)), ANGLE)
 
     def followed(self, angle: str, vector: Any) -> None:
         """Return nothing: an angle is written the same, wherever it is counted from."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from math import hypot
 from typing import Any, final
@@ -109,8 +110,9 @@ class Text(StrPrinter):  # type: ignore[misc]
 
     def _print_Norm(self, expr: Any) -> str:
         text = self._print(expr.args[0])
-        if self.values and text.startswith("(") and text.count(",") == 1:
-            return plain_number(hypot(*map(float, text.strip("()").split(", "))))
+        pair = re.fullmatch(r"\(([-+.\de]+), ([-+.\de]+)\)", text) if self.values else None
+        if pair is not None:
+            return plain_number(hypot(float(pair[1]), float(pair[2])))
         return f"|{text}|"
 
     def _print_Direction(self, expr: Any) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..plan import ChainBody, Plan, Reading
-from ..quantities import spelled
+from ..quantities import joined_names, spelled
 from ..steps import Link
 from ..vectors import Numbers
 
@@ -42,5 +42,5 @@ def chain_graph(plan: Plan, inputs: Mapping[str, Numbers]) -> nx.MultiGraph:
 def distances(body: ChainBody, reading: Reading) -> dict[str, Numbers]:
     """Return the distances of a body's points [m], by their names joined: a float, or an array of a batch of designs."""
     with np.errstate(all="ignore"):
-        found = {P + Q: np.asarray(reading.link_length(P, Q), float) for P, Q in combinations(body.points, 2)}
+        found = {joined_names(P, Q): np.asarray(reading.link_length(P, Q), float) for P, Q in combinations(body.points, 2)}
     return {name: length if length.ndim else float(length) for name, length in found.items()}

@@ -22,7 +22,7 @@ from ..errors import DefinitionError, unknown
 from ..loads import TwoPoint
 from ..plan import Plan
 from ..program import Node
-from ..quantities import Reference, is_number, name_of
+from ..quantities import Reference, is_number, joined_names, name_of
 from ..steps import Link
 from ..vectors import Scalar, Vec
 from .requests import NodeRequest
@@ -77,7 +77,7 @@ def two_shapes(plan: Plan, a: str, b: str) -> tuple[tuple[str, ...], tuple[str, 
 def shape_of(plan: Plan, name: str) -> tuple[str, ...]:
     """Return the points of a body, a straight element or a point by its name; DefinitionError for any other."""
     known: dict[str, tuple[str, ...]] = {body.name: body.points for body in plan.links}
-    known |= {"".join((bar.P, bar.Q)): (bar.P, bar.Q) for bar in plan.cylinders}
+    known |= {joined_names(bar.P, bar.Q): (bar.P, bar.Q) for bar in plan.cylinders}
     known |= {each: element.ends for each, element in plan.of_kind(TwoPoint).items()}
     for each, link in plan.of_kind(Link).items():
         known[each] = next((body.points for body in plan.links if set(link.point_names) <= set(body.points)), link.point_names)

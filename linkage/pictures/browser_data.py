@@ -17,7 +17,7 @@ from ..motion import Column, LiveText, Motion, Request, RequestLike, Tabled, str
 from ..motion.requests import NodeRequest
 from ..plan import Plan, opening, plan_measure
 from ..program import FloatArray, Node
-from ..quantities import is_number
+from ..quantities import is_number, joined_names
 from ..reports import At, Run, column_requests, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, pin_force, pin_forces, traced_loads
 from ..units import UNITS, deg, display_unit, factor, shown_in
@@ -423,7 +423,7 @@ def cylinder_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]
         pair = frozenset((each.P, each.Q))
         name = elements[pair].pop(0) if elements[pair] else ""
         gauges = {what: live.rows[f"gauge {name} {what}"][0] for what in GAUGES if f"gauge {name} {what}" in live.rows}
-        data = {"name": name or each.P + each.Q, "P": points.index(each.P), "Q": points.index(each.Q), "aside": each.aside}
+        data = {"name": name or joined_names(each.P, each.Q), "P": points.index(each.P), "Q": points.index(each.Q), "aside": each.aside}
         data |= {"drawn": 1} if (each.P, each.Q, each.aside) in drawn else {}
         found.append(data | gauges | ({} if pair in driven else {"beside": 1}))
     return found

@@ -16,7 +16,7 @@ from ..errors import DefinitionError, cited
 from ..loads import ForceElement, Glyph
 from ..motion import Motion, require_motion
 from ..program import FloatArray
-from ..quantities import Joint, Quantity, Where, is_whole, needs
+from ..quantities import Joint, Quantity, Where, is_whole, joined_names, needs
 from ..steps import Arrow, Guide, Point
 from ..surroundings import Outline
 from ..vectors import Line
@@ -230,7 +230,7 @@ class DrawnCylinder:
     def mark(self, size: float) -> DrawnMark:
         """Return it drawn in a size [m]: the eye, the barrel cut open, the rod, its piston, and the cap at the barrel's mouth."""
         lines = tuple(line.moved(self.aside) for line in cylinder(self.bottom, self.mouth, size))
-        return DrawnMark(self.P + self.Q, (self.P, self.Q), lines, 0.4, cylinder=self)
+        return DrawnMark(joined_names(self.P, self.Q), (self.P, self.Q), lines, 0.4, cylinder=self)
 
 
 @final
@@ -397,7 +397,7 @@ class Scene:
             lines = [line.moved(aside) for line in shape(short, long, self.size)] if shape and long else []
             lines += yokes(aside, self.size) if aside else ()
             if lines:
-                found.append(DrawnMark(member.P + member.Q, (member.P, member.Q), tuple(lines)))
+                found.append(DrawnMark(joined_names(member.P, member.Q), (member.P, member.Q), tuple(lines)))
         return (*found, *self.fed)
 
     @cached_property
@@ -411,7 +411,7 @@ class Scene:
                 side = self._free_side(member)
                 across = (member.aside + side * HALF["cylinder"] * 0.85) * self.size
                 lines = accumulators(min(max(glyph.count, 1), MOST_SHOWN), start, across, self.size)
-                found.append(DrawnMark(member.P + member.Q, (member.P, member.Q), lines))
+                found.append(DrawnMark(joined_names(member.P, member.Q), (member.P, member.Q), lines))
         return tuple(found)
 
     def _free_side(self, member: TwoForceMember) -> float:
@@ -494,7 +494,7 @@ class Scene:
     def contours(self) -> tuple[DrawnMark, ...]:
         """What steps draw of themselves, behind the bodies."""
         found = [each for step in self.motion.plan.points.values() for each in step.outline(self.motion._reading)]
-        return tuple(DrawnMark(each.P + each.Q, (each.P, each.Q), (turning_with(each),), -0.1) for each in found)
+        return tuple(DrawnMark(joined_names(each.P, each.Q), (each.P, each.Q), (turning_with(each),), -0.1) for each in found)
 
     def _lengths(self, P: str, Q: str) -> tuple[float, float]:
         """Return the least and the greatest distance of two points over the motions and the declared strokes' ends [m]; inf, 0 for none."""

@@ -3,7 +3,7 @@
 from .bodies import Body, merged
 from .chain import ChainBody, KinematicChain, Pair, arm_joint, arm_points, gruebler, holds_an_arm
 from .measure import plan_measure
-from .members import as_written, carrying_pairs, construction_order, member_sides, needed_names, printed, strokes_text
+from .members import as_written, carrying_pairs, construction_order, member_sides, needed_names, printed, strokes_text, written_out
 from .missing import Mask, called, failures, missing_words, negative, opening
 from .part import Part, with_parts
 from .plan import Plan

@@ -6,7 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import final
 
+from ..quantities import body_name
+
 FRAME = "frame"
+
 
 
 @final
@@ -20,7 +23,7 @@ class Body:
     @property
     def name(self) -> str:
         """The points' names joined, or `frame`."""
-        return FRAME if self.fixed else "".join(self.points)
+        return FRAME if self.fixed else body_name(self.points)
 
     def __contains__(self, point: object) -> bool:
         return point in self.points

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
-from ..quantities import Joint, JointSide, Quantity, needs
+from ..quantities import Joint, JointSide, Quantity, body_name, joined_names, needs
 from ..steps import Guide
 from .bodies import FRAME, Body
 from .members import Members, carrying_pairs, member_sides
@@ -49,8 +49,8 @@ class KinematicChain:
         self.slides: list[Pair] = []
         self.turns: dict[tuple[str, str], tuple[str, ...]] = {}
         for P, Q in cylinders:
-            barrel, rod = self.add(f"{P}{Q} barrel", "barrel", (P,)), self.add(f"{P}{Q} rod", "rod", (Q,))
-            self.slides.append(Pair("slide", P + Q, barrel, rod))
+            barrel, rod = self.add(f"{joined_names(P, Q)} barrel", "barrel", (P,)), self.add(f"{joined_names(P, Q)} rod", "rod", (Q,))
+            self.slides.append(Pair("slide", joined_names(P, Q), barrel, rod))
 
     def add(self, name: str, kind: str, points: tuple[str, ...]) -> str:
         """Enter a body and return its name, with a number where there is one of that name."""
@@ -196,7 +196,7 @@ def enter_arm(chain: KinematicChain, plan: Members, name: str, points: tuple[str
     joint = arm_joint(plan, name)
     pushed = next((drive.quantity for drive in joint.drives if drive.along == "t" and plan.moves(drive.quantity)), None)
     turned = tuple(each for drive in joint.drives if drive.along != "t" for each in driven_by(plan, drive.quantity))
-    title = "".join(points)
+    title = body_name(points)
     if pushed is None:
         chain.turns[joint.point, chain.add(title, "arm", (joint.point, *points))] = turned
         return

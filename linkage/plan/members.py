@@ -8,7 +8,7 @@ from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from math import pi
 from types import MappingProxyType
-from typing import TypeVar
+from typing import Any, TypeVar, final
 
 from ..errors import DefinitionError, about, unknown
 from ..frozen import FrozenDict
@@ -39,6 +39,37 @@ from .table import Table
 
 Kind = TypeVar("Kind", bound=Member)
 
+@final
+class Named(FrozenDict[str, Any]):
+    """Members by name, those of parts by each of their names: a point that is fused with another one is that one."""
+
+    def __init__(self, members: Mapping[str, Any], known: Mapping[str, str] | None = None) -> None:
+        super().__init__(members)
+        if known is not None:
+            self.aliases: Mapping[str, str] = FrozenDict({alias: name for alias, name in known.items() if name in members})
+            return
+        aliases = {alias: name for part in self.values() if part.kind == "part" for alias, name in part.aliases.items()}
+        while any(name in aliases for name in aliases.values()):
+            aliases = {alias: aliases.get(name, name) for alias, name in aliases.items()}
+        self.aliases = FrozenDict(aliases)
+
+    def __reduce__(self) -> tuple[type, tuple[Any, ...]]:
+        return type(self), (dict(self), dict(self.aliases))
+
+    def __missing__(self, name: str) -> Member:
+        if name not in self.aliases:
+            raise KeyError(name)
+        found: Member = self[self.aliases[name]]
+        return found
+
+    def __contains__(self, name: object) -> bool:
+        return super().__contains__(name) or (bool(self.aliases) and name in self.aliases)
+
+    def get(self, name: str, default: Any = None) -> Any:
+        known = self.aliases.get(name, name)
+        return super().get(known, default)
+
+
 TURNS = 8
 """A crank's stroke of more turns was given in degrees."""
 
@@ -53,19 +84,23 @@ class Members:
         self.title = title
         self.unbound: Mapping[str, Member] = FrozenDict(members)
         self._behind: dict[str, frozenset[str]] = {}
-        order = construction_order({name: needed_names(name, member, title) for name, member in members.items()}, title)
+        wanted = {name: needed_names(name, member, title) for name, member in members.items()}
+        for name, needed in wanted.items():
+            needed += [name.rpartition(".")[0]] if name.rpartition(".")[0] in members else []  # its part first, as it is pasted
+        order = construction_order(wanted, title)
         self.table = Table(title)
-        self.members: dict[str, Member] = {}
+        self.members: Mapping[str, Member] = {}
+        bound: dict[str, Member] = {}
         for name in order:
             with about(name):
-                self.members[name] = self._bound(name, members[name])
+                bound[name] = self._bound(name, members[name])
+        self.members = Named(bound)
         strokes = self.of_kind(Stroke)
         self.strokes: Mapping[str, Stroke] = FrozenDict({name: strokes[name] for name in members if name in strokes})
-        self.members = FrozenDict(self.members)
         for name, member in self.members.items():
             with about(name):
                 self._check_kinds(name, member)
-        self.members = FrozenDict(with_bodies(self.members, self.table.lengths))
+        self.members = Named(with_bodies(self.members, self.table.lengths))
 
     def _bound(self, name: str, member: Member) -> Member:
         """Return a member with its dimensions entered in the table."""
@@ -74,22 +109,19 @@ class Members:
         member.enter(self.table)
         return member.bind(name, self.table) if isinstance(member, Point) else member
 
-    @cached_property
+    @property
     def aliases(self) -> Mapping[str, str]:
         """The names that members of parts have beside their own, such as that of a fixed point that is fused with a point of the whole."""
-        found = {alias: name for part in self.members.values() if part.kind == "part" for alias, name in part.aliases.items()}
-        while any(name in found for name in found.values()):
-            found = {alias: found.get(name, name) for alias, name in found.items()}
-        return FrozenDict(found)
+        return self.members.aliases if isinstance(self.members, Named) else {}
 
     def of_kind(self, kind: type[Kind]) -> dict[str, Kind]:
         """Return the members of a kind by name, in order."""
         return {name: member for name, member in self.members.items() if isinstance(member, kind)}
 
     @cached_property
-    def points(self) -> dict[str, Point]:
+    def points(self) -> Mapping[str, Point]:
         """The points by name, in order."""
-        return FrozenDict(self.of_kind(Point))
+        return Named(self.of_kind(Point), self.aliases)
 
     @cached_property
     def ground(self) -> tuple[str, ...]:
@@ -283,9 +315,10 @@ class Members:
         """The title as words, for pictures: `MowerLift` is `Mower lift`."""
         return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", self.title).capitalize()
 
-    def named(self) -> list[str]:
-        """Return the names that have a value: points, vectors and quantities."""
-        return [name for name, member in self.members.items() if isinstance(member, (Point, Arrow, Quantity))]
+    def named(self) -> Mapping[str, Member]:
+        """Return what has a value, points, vectors and quantities, by name."""
+        found = {name: member for name, member in self.members.items() if isinstance(member, (Point, Arrow, Quantity))}
+        return Named(found, self.aliases)
 
     def __str__(self) -> str:
         return "\n".join(f"{name} = {text}" for name, text in printed(self).items())
@@ -363,8 +396,25 @@ def member_sides(plan: Members, ends: tuple[str, str], points: Iterable[str]) ->
 
 
 def printed(plan: Members, values: Mapping[str, float] = MappingProxyType({})) -> dict[str, str]:
-    """Return every member as a line that can be pasted into a class, by name; the design variables among `values` [SI] have those."""
-    spelled = {each: sign * values[owner] for each, (owner, sign) in plan.table.spellings.items() if owner in values}
+    """Return every member as a line that can be pasted into a class, by name; the design variables among `values` [SI] have those.
+
+    A part is one line, which says what it was given and which of its dimensions have other values.
+    """
+    spelled = respelled(plan, values)
+    own = {name: member for name, member in plan.members.items() if "." not in name}
+    set_in = {name: value for name, value in spelled.items() if "." in name and name in plan.defaults and value != plan.defaults[name]}
+    parts = {name: member.having(set_in) for name, member in own.items() if member.kind == "part"}
+    return {name: as_written(parts[name] if name in parts else member.having(spelled), plan.turning) for name, member in own.items()}
+
+
+def respelled(plan: Members, values: Mapping[str, float]) -> dict[str, float]:
+    """Return design variables [SI] under all names that labels give them."""
+    return {each: sign * values[owner] for each, (owner, sign) in plan.table.spellings.items() if owner in values}
+
+
+def written_out(plan: Members, values: Mapping[str, float] = MappingProxyType({})) -> dict[str, str]:
+    """Return every member as it is written, those of parts each by itself; the design variables among `values` [SI] have those."""
+    spelled = respelled(plan, values)
     return {name: as_written(member.having(spelled), plan.turning) for name, member in plan.members.items()}
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..program import FloatArray
-from ..quantities import Member, spelled
+from ..quantities import Member, joined_names, spelled
 from ..steps import Point, Step
 from ..units import mm
 from .members import Members
@@ -153,7 +153,7 @@ def remedy(plan: Members, name: str, labels: Sequence[str], longest: int, values
 
 def growth_of(plan: Members, label: str, reading: ArrayReading) -> float:
     """Return how the length of a label that follows a stroke grows with it; 0 for one that follows none."""
-    named = [each for ends, each in plan.table.lengths.items() if label in ("".join(sorted(ends)), "".join(sorted(ends)[::-1]))]
+    named = [each for ends, each in plan.table.lengths.items() if label in (joined_names(*sorted(ends)), joined_names(*sorted(ends)[::-1]))]
     if not named:
         return 0.0
     (length, *_) = named

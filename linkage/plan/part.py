@@ -203,7 +203,7 @@ class Part(Member):
         if len(names) == 1:
             what = f"{self.name} = {self}: {names[0]} is one point, and gives a part no directions"
             raise DefinitionError(f"{what}; name two points of the body that carries it, on=({names[0]}, ...), or a link.")
-        found = Axes(*names[:2], at=self.at, angle=self.angle, mirrored=self.mirrored) if names else None
+        found = Axes(names[0], names[1], self.at, self.angle, self.mirrored) if names else None
         if found is None and (self.mirrored or any(not is_zero(each) for each in (*self.at, self.angle))):
             found = Axes(at=self.at, angle=self.angle, mirrored=self.mirrored)
         return found
@@ -211,6 +211,10 @@ class Part(Member):
     def brought(self, members: Mapping[str, Member]) -> dict[str, Member]:
         """Return the members of the part as they stand among those of the whole, by their dotted names."""
         return Renamed(self, self.axes(members)).members()
+
+    def having(self, values: Mapping[str, float]) -> Part:
+        own = {name.removeprefix(f"{self.name}."): value for name, value in values.items() if name.startswith(f"{self.name}.")}
+        return self.renewed(given={**self.given, **own}) if own else self
 
     @property
     def depth(self) -> int:
@@ -275,7 +279,8 @@ def carriers_of(on: Any) -> tuple[Reference, ...]:
     """Return the references to what carries a part."""
     if on is None:
         return ()
-    found = tuple(on.split()) if isinstance(on, str) else (on,) if isinstance(on, Member) else tuple(on) if isinstance(on, (list, tuple)) else ()
+    given = on.split() if isinstance(on, str) else [on] if isinstance(on, Member) else on
+    found = tuple(given) if isinstance(given, (list, tuple)) else ()
     if not 0 < len(found) < 3 or not all(isinstance(each, (str, Member)) for each in found):
         raise DefinitionError(f"Part(on={cited(on)}): name two points of the body that carries it, a link, or nothing for the frame.")
     return found
@@ -456,7 +461,8 @@ def with_parts(members: Mapping[str, Member], title: str) -> dict[str, Member]:
         found[name] = member
         if isinstance(member, Part):
             if member.depth > DEEPEST:
-                raise DefinitionError(f"{title}: {name} = {member} holds parts {member.depth} deep; up to {DEEPEST} are taken.", member=name)
+                what = f"{title}: {name} = {member} holds parts {member.depth} deep"
+                raise DefinitionError(f"{what}; up to {DEEPEST} are taken.", member=name)
             with about(name):
                 found |= member.brought(members)
     if len(found) > MOST_MEMBERS:

@@ -103,7 +103,8 @@ class Axes:
         if not self.carrier:
             return found
         _, along = self._base(where)
-        return along * found.x + along.left() * found.y
+        turned: Vec = along * found.x + along.left() * found.y
+        return turned
 
     def place(self, where: Where, given: Vec) -> Vec:
         """Return where a place of the part is in the frame [m]."""
@@ -139,7 +140,8 @@ class Axes:
         """Return a place in the frame as the part reads it [m]."""
         x, y = (NOTHING.number if is_zero(way) else where.value(way) for way in self.at)
         if not self.carrier:
-            shifted = Vec(*(part if is_zero(way) else part - each for way, part, each in zip(self.at, (given.x, given.y), (x, y), strict=True)))
+            start_x, start_y = self.at
+            shifted = Vec(given.x if is_zero(start_x) else given.x - x, given.y if is_zero(start_y) else given.y - y)
             return self._straight(where, shifted)
         start, along = self._base(where)
         way = given - start

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from functools import lru_cache
 from inspect import Parameter, Signature, signature
 from keyword import iskeyword
@@ -10,6 +10,7 @@ from math import inf
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias
 from unicodedata import normalize
+from weakref import WeakKeyDictionary
 
 from ..errors import DefinitionError, cited
 from ..frozen import FrozenDict
@@ -182,6 +183,23 @@ def is_reference(text: object) -> bool:
     return isinstance(text, str) and all(map(str.isidentifier, text.split(".")))
 
 
+def joined_names(*points: str) -> str:
+    """Return the names of points as one label: `OB`; `lower.OB` where all are of one part, else with _ for the dots: `lower_TP`."""
+    owners = {point.rpartition(".")[0] for point in points}
+    if owners == {""}:
+        return "".join(points)
+    if len(owners) == 1:
+        return f"{owners.pop()}.{''.join(point.rpartition('.')[2] for point in points)}"
+    return "".join(points).replace(".", "_")
+
+
+def body_name(points: Iterable[str]) -> str:
+    """Return what a body is called by its points: `OBC`; `lower.OBC` where all are of one part, else the points with blanks."""
+    found = tuple(points)
+    mixed = len({point.rpartition(".")[0] for point in found}) > 1
+    return " ".join(found) if mixed else joined_names(*found)
+
+
 def name_of(reference: Reference) -> str:
     """Return the name a reference stands for; raise DefinitionError for a member without one."""
     if isinstance(reference, str):
@@ -329,9 +347,19 @@ def kinds_said(cls: type[Any], amount: Callable[[str], Any] = lambda unit: "quan
     return said
 
 
-@lru_cache(maxsize=1024)
 def word_arguments(cls: type[Any]) -> frozenset[str]:
     """Return the attributes of a class whose texts are words and no names of members: `works="rod"`."""
+    if cls not in WORD_ARGUMENTS:
+        WORD_ARGUMENTS[cls] = words_among(cls)
+    return WORD_ARGUMENTS[cls]
+
+
+WORD_ARGUMENTS: WeakKeyDictionary[type[Any], frozenset[str]] = WeakKeyDictionary()
+"""What `word_arguments` has found, by class."""
+
+
+def words_among(cls: type[Any]) -> frozenset[str]:
+    """Return the arguments of a class that are words, and the attributes that they are kept in."""
     said = kinds_said(cls)
     found: set[str] = set()
     if cls.__init__ is not object.__init__:

@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..loads import ForceElement, PinFriction, TwoPoint
 from ..plan import Plan, arm_joint, arm_points, carrying_pairs, holds_an_arm, member_sides
-from ..quantities import Quantity, name_of
+from ..quantities import Quantity, body_name, joined_names, name_of
 from ..steps import Link
 from .applied import AppliedThrust, member_title
 from .holding import Holders, PressureLine, sampled
@@ -76,7 +76,8 @@ def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[AppliedThrust]) 
     renamed = [each for each in struts if each.host == each.name]
     links = [link for link in links if link not in [hosts[each.name] for each in renamed]]
     carrying = [replace(hosts[each.name], name=each.name, axis=each.ends) for each in renamed]
-    own = [FreeBody(strut.name, (strut.P, strut.Q), (strut.P, strut.Q), label=strut.P + strut.Q) for strut in struts if not strut.host]
+    alone = [(strut.name, (strut.P, strut.Q)) for strut in struts if not strut.host]
+    own = [FreeBody(name, ends, ends, label=joined_names(*ends)) for name, ends in alone]
     return (*sliders, *arms, *links, *carrying, *own), struts
 
 
@@ -137,7 +138,7 @@ def driven_lengths(plan: Plan, holders: Holders) -> list[Strut]:
     for bar in plan.cylinders:
         strokes = {name for name in plan.strokes if name == bar.length.name or name in plan.reaches(bar.length)}
         if strokes - holders.taken:
-            found.append(Strut(bar.P + bar.Q, bar.P, bar.Q, bar.length))
+            found.append(Strut(joined_names(bar.P, bar.Q), bar.P, bar.Q, bar.length))
     return found
 
 
@@ -223,7 +224,7 @@ def telescope(plan: Plan, name: str) -> FreeBody:
     joint = arm_joint(plan, name)
     refuse_driven(plan, joint.still)
     points = arm_points(plan, name)
-    return FreeBody("".join(points), points, (joint.point, name))
+    return FreeBody(body_name(points), points, (joint.point, name))
 
 
 def refuse_driven(plan: Plan, still: Iterable[tuple[Quantity, str]]) -> None:

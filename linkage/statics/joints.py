@@ -16,7 +16,7 @@ from ..errors import DefinitionError, known_name, unknown
 from ..loads import ForceElement, Load
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import FRAME_SIDE, Angle, Joint, JointSide, Negative, Quantity, Ref, Sum, name_of
+from ..quantities import FRAME_SIDE, Angle, Joint, JointSide, Negative, Quantity, Ref, Sum, body_name, joined_names, name_of
 from ..steps import Guide, Link, Point
 from .applied import AppliedThrust
 from .bodies import FRAME, FRAME_NAME, Strut, frame_points, free_bodies, refuse_driven, sliding_blocks
@@ -274,7 +274,7 @@ class Structure:
         labels = [(body.label, body.name) for body in self.bodies if body.label]
         for each in self.struts:  # a cylinder with points along it goes by its ends and by all its points, too
             if each.host == each.name:
-                labels += [(name, each.name) for name in (each.P + each.Q, "".join(self.bodies[self.body_of(each)].points))]
+                labels += [(name, each.name) for name in (joined_names(each.P, each.Q), body_name(self.bodies[self.body_of(each)].points))]
         for link, member in self.plan.of_kind(Link).items():  # a driven length goes by its link's name as well
             driven = [each for each in self.struts if each.quantity is not None and {each.P, each.Q} == set(member.point_names)]
             labels += [(link, each.name) for each in driven]

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Self
 
 from ..errors import DefinitionError
-from ..quantities import FRAME_SIDE, Axes, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
+from ..quantities import FRAME_SIDE, Axes, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, joined_names, quantity, spelled
 from ..vectors import Vec
-from .labels import joined_names
 from .primitives import Axis, Offset, Turn
 from .step import UNBOUND, Assignment, Step
 
@@ -59,7 +58,8 @@ class Crank(Step):
     def expansion(self) -> tuple[Assignment, ...]:
         axes = self.axes or Axes()
         arm = Turn(Axis(self.axes), -self.angle if axes.mirrored else self.angle, length=self.PX)
-        return Assignment(joined_names(self.P, self.X), self.PX), Assignment(joined_names(self.P, self.X), arm), Assignment(self.X, Offset(self.P, arm))
+        name = joined_names(self.P, self.X)
+        return Assignment(name, self.PX), Assignment(name, arm), Assignment(self.X, Offset(self.P, arm))
 
     def arguments(self) -> list[str]:
         return [*super().arguments(), f"angle={spelled(self.angle, 0, 'angle')}"]

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Self
 
-from ..quantities import Axes, Operand, Quantity, Reference, Where, distance
+from ..quantities import Axes, Operand, Quantity, Reference, Where, distance, joined_names
 from ..vectors import Scalar, Side, Vec
-from .labels import joined_names
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
 from .step import UNBOUND, Assignment, Position, Step, opposite
 
@@ -46,7 +45,9 @@ class Dyad(Step):
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
         base = (where.at(self.Q) - where.at(self.P)).length()
-        return (joined_names(self.P, self.Q), base), (joined_names(self.P, self.X), where.value(self.PX)), (joined_names(self.Q, self.X), where.value(self.QX))
+        sides = (base, where.value(self.PX), where.value(self.QX))
+        pairs = ((self.P, self.Q), (self.P, self.X), (self.Q, self.X))
+        return tuple((joined_names(*pair), side) for pair, side in zip(pairs, sides, strict=True))
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
         X, p, q = where.at(self.X), where.value(self.PX), where.value(self.QX)

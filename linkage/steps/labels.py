@@ -12,17 +12,7 @@ from typing import Protocol, final
 
 from ..errors import DefinitionError
 from ..frozen import refuses_changes
-from ..quantities import Operand, Quantity, quantity, spelled
-
-
-def joined_names(*points: str) -> str:
-    """Return the names of points as one label: `OB`; `lower.OB` where all are of one part, else with _ for the dots: `lower_TP`."""
-    owners = {point.rpartition(".")[0] for point in points}
-    if owners == {""}:
-        return "".join(points)
-    if len(owners) == 1:
-        return f"{owners.pop()}.{''.join(point.rpartition('.')[2] for point in points)}"
-    return "".join(points).replace(".", "_")
+from ..quantities import Operand, Quantity, joined_names, quantity, spelled
 
 
 @final

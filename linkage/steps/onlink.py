@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Self
+
 from ..errors import DefinitionError
-from ..quantities import Driven, Joint, JointSide, Number, Operand, Quantity, Reference, Turning, Where, distance
+from ..quantities import Axes, Driven, Joint, JointSide, Number, Operand, Quantity, Reference, Turning, Where, distance, joined_names
 from ..vectors import Line, Scalar, Side, Vec
-from .labels import Slot, joined_names
+from .labels import Slot
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
 from .step import UNBOUND, Assignment, Position, Step
 
@@ -86,7 +88,9 @@ class OnLink(Step):
         if self.QX is UNBOUND:
             return ()
         base = where.link_length(self.P, self.Q)
-        return (joined_names(self.P, self.Q), base), (joined_names(self.P, self.X), where.value(self.PX)), (joined_names(self.Q, self.X), where.value(self.QX))
+        sides = (base, where.value(self.PX), where.value(self.QX))
+        pairs = ((self.P, self.Q), (self.P, self.X), (self.Q, self.X))
+        return tuple((joined_names(*pair), side) for pair, side in zip(pairs, sides, strict=True))
 
     def joints(self) -> tuple[Joint, ...]:
         """Return what holds the arm that a driven label moves: along it, across it and against turning."""

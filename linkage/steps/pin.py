@@ -5,10 +5,10 @@ from __future__ import annotations
 from types import MappingProxyType
 
 from ..errors import DefinitionError, cited
-from ..quantities import Member, Quantity, Reference, Where, is_number, name_of, quantity
+from ..quantities import Member, Quantity, Reference, Where, is_number, joined_names, name_of, quantity
 from ..vectors import Scalar, Vec
 from .guide import Guide, Slide
-from .labels import DimensionTable, Slot, Spoken, joined_names
+from .labels import DimensionTable, Slot, Spoken
 from .onlink import OnLink
 from .step import Bar, Point, Position, position
 

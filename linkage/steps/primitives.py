@@ -24,6 +24,7 @@ from ..quantities import (
     Reference,
     Turning,
     Where,
+    joined_names,
     label,
     name_of,
     quantity,
@@ -31,7 +32,6 @@ from ..quantities import (
 )
 from ..quantities.axes import negated
 from ..vectors import Line, Scalar, Vec
-from .labels import joined_names
 from .step import Bar, Point, angle_given
 
 

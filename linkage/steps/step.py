@@ -237,7 +237,7 @@ class Step(Point):
         """Raise DefinitionError for an angle whose own sense would be turned once more by the side."""
         if slot.kind != "angle" or self.side is None:
             return
-        given, forward = quantity(value), "".join(slot.points)
+        given, forward = quantity(value), next(iter(slot.spellings))
         if sign < 0 or (isinstance(given, Number) and given.number < 0.0):
             why = f"{spelling} is counted from the other ray, which is -{forward}" if sign < 0 else f"{spelling} is negative"
             remedy = f"write {forward}= with a positive angle, or leave the side out"
@@ -281,7 +281,7 @@ class Step(Point):
 
 def slot_example(slot: Slot) -> str:
     """Return how a missing label would be written."""
-    return "".join(slot.points) + ("=0.3 (m)" if slot.kind == "length" else "=30 * deg")
+    return next(iter(slot.spellings)) + ("=0.3 (m)" if slot.kind == "length" else "=30 * deg")
 
 
 def parent_text(parent: Reference) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..mechanism import Mechanism, declared
+from ..plan import Part
 from ..quantities import Member, Number, Quantity, Ref, is_number, joined_names, label, name_of, quantity, spelled
 from ..quantities.quantity import plain
 from ..steps import Link, Pin, Step
@@ -129,6 +130,8 @@ def members_to_write(machine: type[Mechanism] | Mechanism) -> dict[str, Member]:
 
 def settled(name: str, member: Member, machine: Mechanism) -> Member:
     """Return a member that no longer needs the sketch of its class."""
+    if isinstance(member, Part):
+        return member.having({each: value for each, value in changed(machine).items() if each.startswith(f"{name}.")})
     if isinstance(member, Step) and (member.near or member.drawn_at):
         found = copy(machine.plan.members[name])
         assert isinstance(found, Step)

@@ -35,7 +35,7 @@ GRAMMAR = "an expression is made of numbers with units, names, + - * / **, brack
 
 # -- words -------------------------------------------------------------------------------------------------
 
-OWN_WORDS = r"(?P<name>[^\W\d]\w*)|(?P<sign>\*\*|[-+*/(),=])"
+OWN_WORDS = r"(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*)|(?P<sign>\*\*|[-+*/(),=])"
 
 
 @lru_cache(maxsize=16)

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import final
+from typing import TYPE_CHECKING, NoReturn, final
 from unicodedata import normalize
 
 from ..errors import DefinitionError, unknown
 from ..quantities import Member, Quantity, Ref, is_name
 
+if TYPE_CHECKING:
+    from ..mechanism import Mechanism
+
 NAME_LENGTH = 60
+
+
+def no_folder(name: str) -> NoReturn:
+    """Raise DefinitionError: there is no folder to look for a file in."""
+    raise DefinitionError(f"{name}: no file stands beside these tables; put the machine in them, machines = ....")
 
 
 @final
@@ -22,6 +30,10 @@ class Names:
     kinds: Mapping[str, str]
     built: dict[str, Member] = field(default_factory=dict)
     """The members that are read already."""
+    machines: Mapping[str, type[Mechanism]] = field(default_factory=dict)
+    """The machines that the file holds for its parts."""
+    load_beside: Callable[[str], type[Mechanism]] = no_folder
+    """What loads the machine of another file in the same folder."""
 
     def quantity(self, name: str) -> Quantity:
         """Return the quantity of a name as a class has it: itself where it stands above, else by its name."""
@@ -35,7 +47,7 @@ class Names:
         if name not in self.kinds:
             raise unknown(kind.capitalize(), shortened(name, quote=False), self.of_kind(kind))
         if self.kinds[name] != kind:
-            raise DefinitionError(f"{name} of [{self.sections[name]}] is not a {kind}.")
+            raise DefinitionError(f"{name} of [{self.sections.get(name, 'parts')}] is not a {kind}.")
         return name
 
     def of_kind(self, kind: str) -> list[str]:

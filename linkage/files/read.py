@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Collection, Mapping
 from copy import copy
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,10 +18,12 @@ from ..plan import Table
 from ..quantities import Member
 from ..steps import Point
 from .names import Names, member_name, shortened
+from .parts_file import beside, dotted_kinds, machine_named
 from .registry import registry
 from .source import Faults, source
 
-HEAD = ("name", "doc", "order", "featured")
+HEAD = ("name", "doc", "order", "featured", "machines")
+MACHINES = 50
 MEMBERS = 400
 SKETCHED = 100  # members that stand in a sketch: assembling them takes time by the cube
 LINKS = 200
@@ -33,7 +37,7 @@ def load(path_or_text: str | os.PathLike[str], trust: Collection[str] = ()) -> t
     Raises FileError with every mistake, its key and, in TOML, its line; AssemblyError for a mechanism that cannot be assembled.
     """
     found = source(path_or_text)
-    return built(found.data, Faults(source=found.name, line_of=found.line_of), trusted(trust))
+    return built(found.data, Faults(source=found.name, line_of=found.line_of), trusted(trust), found.folder)
 
 
 def from_dict(data: Mapping[str, Any], trust: Collection[str] = ()) -> type[Mechanism]:
@@ -48,12 +52,25 @@ def trusted(given: object) -> tuple[str, ...]:
     return tuple(given)
 
 
-def built(data: Any, faults: Faults, trust: Collection[str]) -> type[Mechanism]:
-    """Return the class that the tables say."""
+DEEPEST = 8
+"""Files of parts in files of parts, so deep."""
+
+
+def built(data: Any, faults: Faults, trust: Collection[str], folder: Path | None = None, depth: int = 0) -> type[Mechanism]:
+    """Return the class that the tables say; `folder` is that of the file, where other files of parts may stand."""
     sections = sections_of(data, faults)
     title, doc = head_read(data, faults)
     featured = featured_read(data.get("featured", {}), faults)
+    if depth > DEEPEST:
+        raise FileError(f"{faults.source}: files of parts name each other more than {DEEPEST} deep, or in a circle.")
+
+    def load_part(path: Path) -> type[Mechanism]:
+        found = source(path)
+        return built(found.data, Faults(source=found.name, line_of=found.line_of), trust, folder, depth + 1)
+
     names = names_of(sections, faults)
+    names = replace(names, machines=machines_read(data, faults, trust, folder, depth), load_beside=beside(folder, load_part))
+    names = with_parts_named(names, sections, faults)
     order = ordered(data, names, faults)
     members = members_read(order, sections, names, title, faults, trust)
     faults.check()
@@ -98,6 +115,50 @@ def featured_read(given: object, faults: Faults) -> Featured:
             raise DefinitionError('a table is expected, column = "tilt", path = ["G"], limits = { tilt = [0.1, "most"] }.')
         found = Featured(**given)
     return found
+
+
+def machines_read(
+    data: Mapping[str, Any], faults: Faults, trust: Collection[str], folder: Path | None, depth: int
+) -> dict[str, type[Mechanism]]:
+    """Return the machines that a file holds for its parts, by name; one may have parts that are others of them."""
+    given = data.get("machines", {})
+    found: dict[str, type[Mechanism]] = {}
+    if not isinstance(given, Mapping) or not all(isinstance(each, Mapping) for each in given.values()) or len(given) > MACHINES:
+        faults.add(("machines",), f"a table of up to {MACHINES} machines is expected, each with its sections.")
+        return found
+    left = dict(given)
+    while left:
+        ready = [name for name, tables in left.items() if not named_machines(tables) & (left.keys())]
+        if not ready:
+            faults.add(("machines", next(iter(left))), "holds itself as a part; a machine in a circle has no end.")
+            return found
+        for name in ready:
+            tables = left.pop(name)
+            inner = {"name": name, **{key: value for key, value in tables.items() if key != "machines"}}
+            needed = {title: given[title] for title in named_machines(tables) if title in given}
+            while more := {title for tables in needed.values() for title in named_machines(tables) if title in given} - needed.keys():
+                needed |= {title: given[title] for title in more}
+            own = Faults(source=f"{faults.source}, machines.{name}")
+            with faults.at("machines", name):
+                found[name] = built(inner | ({"machines": needed} if needed else {}), own, trust, folder, depth + 1)
+    return found
+
+
+def named_machines(tables: Mapping[str, Any]) -> set[str]:
+    """Return the machines that the parts of a machine name."""
+    parts = tables.get("parts", {})
+    entries = parts.values() if isinstance(parts, Mapping) else ()
+    return {str(each["machine"]) for each in entries if isinstance(each, Mapping) and "machine" in each}
+
+
+def with_parts_named(names: Names, sections: Mapping[str, Mapping[str, Any]], faults: Faults) -> Names:
+    """Return the names with those of the members of parts."""
+    kinds = dict(names.kinds)
+    for name, entry in sections.get("parts", {}).items():
+        if isinstance(entry, Mapping) and "machine" in entry:
+            with faults.at("parts", name, "machine"):
+                kinds |= dotted_kinds(name, machine_named(entry["machine"], names))
+    return replace(names, kinds=kinds)
 
 
 def names_of(sections: Mapping[str, Mapping[str, Any]], faults: Faults) -> Names:

@@ -18,6 +18,7 @@ from typing import Any, TypeAlias, final
 from .. import loads, plugins, steps, surroundings
 from ..errors import DefinitionError, unknown
 from ..motion import Over, stroke_unit
+from ..plan import Part
 from ..quantities import Dimension, Member, Quantity, Stroke, ref
 from ..quantities.quantity import plain
 from ..units import UNITS, parse
@@ -26,6 +27,7 @@ from .entry import PATH, FileEntry, worded
 from .expression import one_unit
 from .names import Names, shortened
 from .over_file import over_read, over_written
+from .parts_file import part_read, part_written
 from .validators import arrow_of, coordinates_of, number_of, points_of, quantity_of, stroke_ends, strokes_of
 
 SHIPPED = {"hydraulics": "hydrolinkage"}
@@ -131,7 +133,7 @@ AnEntry: TypeAlias = FileEntry | Bare
 
 POINTS = (
     steps.Dyad, steps.OnLink, steps.Crank, steps.Offset, steps.SliderDyad, steps.PinSlotDyad, steps.GuideCross, steps.YokeDyad,
-    steps.OnGuide,
+    steps.OnGuide, steps.Carried,
 )  # fmt: skip
 LOADS = (
     loads.Weight, loads.Force, loads.Moment, loads.LinkMass, loads.Spring, loads.Damper, loads.Actuator, loads.Support,
@@ -146,6 +148,7 @@ OWN: tuple[AnEntry, ...] = (
     Bare(Dimension, "dimensions", dimension_of, dimension_written),
     Bare(steps.Drawn, "drawn", lambda given, names: steps.Drawn(strokes_of(given, names)), drawn_written),
     Bare(steps.Ground, "ground", lambda given, names: steps.Ground(*coordinates_of(given, names)), ground_written),
+    Bare(Part, "parts", part_read, part_written),
     FileEntry(steps.Guide, "guides", keys={"P": "from", "Q": "to"}),
     *(FileEntry(step, "points", step.__name__) for step in POINTS),
     Bare(steps.Arrow, "vectors", vector_of, lambda member, design: design.own(member), family=True),

@@ -9,7 +9,7 @@ import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, final
 
@@ -33,6 +33,8 @@ class Source:
     name: str
     data: Any
     places: Mapping[Key, int]
+    folder: Path | None = None
+    """The folder of the file; None of a text."""
 
     def line_of(self, key: Key) -> int:
         """Return the line of a key, else the first one inside it, else that of the nearest table around it; 0 where none is known."""
@@ -53,7 +55,7 @@ def source(path_or_text: str | os.PathLike[str]) -> Source:
     path = Path(path_or_text)
     if path.suffix not in (".toml", ".json"):
         raise FileError(f"{shortened(os.fspath(path_or_text), quote=False)}: the name of a mechanism's file ends in .toml or .json.")
-    return decoded(path.name, read(path, FILE_BYTES + 1), path.suffix == ".json")
+    return replace(decoded(path.name, read(path, FILE_BYTES + 1), path.suffix == ".json"), folder=path.parent)
 
 
 def decoded(name: str, raw: bytes, is_json: bool) -> Source:

@@ -14,8 +14,10 @@ from typing import Any
 from ..disk import replacing_text
 from ..errors import DefinitionError, FileError
 from ..mechanism import Mechanism, declared, require_mechanism
+from ..plan import Part
 from .design import Design, measured_labels, members_to_write
 from .names import Names, shortened
+from .parts_file import dotted_kinds, machines_of
 from .registry import registry
 
 Machine = type[Mechanism] | Mechanism
@@ -32,7 +34,11 @@ def to_dict(machine: Machine) -> dict[str, Any]:
     members = members_to_write(machine)
     entries = {name: registry().writing(member) for name, member in members.items()}
     sections = {name: entry.section for name, entry in entries.items()}
-    design = Design(machine, Names(sections, {name: registry().kind(section) for name, section in sections.items()}))
+    kinds = {name: registry().kind(section) for name, section in sections.items()}
+    machines = machines_of(members)
+    for name, member in members.items():
+        kinds |= dotted_kinds(name, member.machine) if isinstance(member, Part) else {}
+    design = Design(machine, Names(sections, kinds, machines=machines))
     tables: dict[str, dict[str, Any]] = {section: {} for section in dict.fromkeys(sections.values())}
     for name, member in members.items():
         tables[sections[name]][name] = entry_written(name, entries[name].write, member, design)
@@ -40,7 +46,13 @@ def to_dict(machine: Machine) -> dict[str, Any]:
         for name, labels in measured_labels(design, members).items():
             tables[sections[name]][name] |= labels
     names = [name for table in tables.values() for name in table]
-    return head_table(machine, [] if names == list(members) else list(members)) | tables
+    head = head_table(machine, [] if names == list(members) else list(members)) | tables
+    held: dict[str, Any] = {}
+    for title, part in machines.items():
+        own = to_dict(part)
+        held |= own.pop("machines", {})
+        held[title] = own
+    return head | ({"machines": held} if held else {})
 
 
 def entry_written(name: str, write: Any, member: Any, design: Design) -> Any:
@@ -132,19 +144,29 @@ def json_inline(value: object) -> str:
 def toml_text(data: Mapping[str, Any]) -> str:
     """Return the text of a file's tables: plain values first, then a table for each section."""
     head = [f"{toml_key(name)} = {long_text(value)}" for name, value in data.items() if not isinstance(value, Mapping)]
-    sections = ["\n".join(toml_section(name, table)) for name, table in data.items() if isinstance(table, Mapping)]
+    sections = ["\n".join(toml_section(toml_key(name), table)) for name, table in data.items() if is_section(name, table)]
+    for title, machine in data.get("machines", {}).items():
+        path = f"machines.{toml_key(title)}"
+        own = [f"{toml_key(name)} = {long_text(value)}" for name, value in machine.items() if not isinstance(value, Mapping)]
+        sections.append("\n".join([f"[{path}]", *own]))
+        sections += ["\n".join(toml_section(f"{path}.{toml_key(name)}", table)) for name, table in machine.items() if isinstance(table, Mapping)]
     return "\n\n".join(["\n".join(head), *sections]) + "\n"
+
+
+def is_section(name: str, table: object) -> bool:
+    """Return whether a key of a file is a section of members."""
+    return isinstance(table, Mapping) and name != "machines"
 
 
 def toml_section(name: str, table: Mapping[str, Any]) -> Iterator[str]:
     """Yield a section's lines."""
     lines = [f"{toml_key(each)} = {toml_inline(value)}" for each, value in table.items()]
     if not all(isinstance(value, Mapping) for value in table.values()) or all(len(line) <= WIDTH for line in lines):
-        yield f"[{toml_key(name)}]"
+        yield f"[{name}]"
         yield from lines
         return
     for place, (each, value) in enumerate(table.items()):
-        yield from ["", f"[{toml_key(name)}.{toml_key(each)}]"][place == 0 :]
+        yield from ["", f"[{name}.{toml_key(each)}]"][place == 0 :]
         yield from (f"{toml_key(part)} = {toml_inline(inner)}" for part, inner in value.items())
 
 

@@ -1,0 +1,128 @@
+"""How parts stand in a file: `lower = { machine = "Arm", S = "s1", OB = "450 mm", on = ["T", "O"] }`, and the machines that they are.
+
+A machine stands in the file itself, `[machines.Arm.points]`, once for all parts of its class; it may also be a name that is installed or
+another file in the same folder, `machine = "arm.toml"`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from .. import plugins
+from ..errors import DefinitionError, unknown
+from ..mechanism import Mechanism
+from ..plan import Part
+from ..quantities import Member, Number, label, name_of, quantity
+from ..steps import Point
+from .design import Design, degrees_text
+from .names import Names, shortened
+from .validators import coordinates_of, points_of, quantity_of, switch_of
+
+OWN_KEYS = ("machine", "on", "at", "angle", "mirrored")
+FILES = (".toml", ".json")
+
+
+def machine_named(given: object, names: Names) -> type[Mechanism]:
+    """Return the class that a part's `machine` names: one of the file, one that is installed, or that of a file beside this one."""
+    if not isinstance(given, str):
+        raise DefinitionError(f'{shortened(given)} is no machine; write machine = "Arm", of [machines.Arm...] or an installed one.')
+    if given in names.machines:
+        return names.machines[given]
+    if given.endswith(FILES):
+        return names.load_beside(given)
+    installed = plugins.entry_points(plugins.MACHINES)
+    if given in installed:
+        found = plugins.guarded(installed[given].load, f"the machine {given}")
+        if isinstance(found, type) and issubclass(found, Mechanism):
+            return found
+    raise unknown("Machine", given, [*names.machines, *installed])
+
+
+def part_read(given: object, names: Names) -> Part:
+    """Return the part that an entry says."""
+    if not isinstance(given, Mapping) or "machine" not in given:
+        raise DefinitionError(f'{shortened(given)} is no part; write {{ machine = "Arm", S = "s1" }}.')
+    machine = machine_named(given["machine"], names)
+    plan = machine.plan
+    options: dict[str, Any] = {}
+    if "on" in given:
+        options["on"] = points_of(given["on"], names)
+    if "at" in given:
+        options["at"] = coordinates_of(given["at"], names)
+    if "angle" in given:
+        options["angle"] = quantity_of(given["angle"], names)
+    if "mirrored" in given:
+        options["mirrored"] = switch_of(given["mirrored"], names)
+    for name, value in given.items():
+        if name in OWN_KEYS:
+            continue
+        if value is False:
+            options[name] = None
+        elif isinstance(plan.members.get(name), Point):
+            options[name] = names.checked(value, "point") if isinstance(value, str) else coordinates_of(value, names)
+        else:
+            options[name] = quantity_of(value, names)
+    return Part(machine, **options)
+
+
+def part_written(member: Part, design: Design) -> dict[str, Any]:
+    """Return a part as a file holds it; a member that is left out is false."""
+    design.written |= {name for name in design.plan.table.entries if name.startswith(f"{member.name}.")}
+    own = {name.removeprefix(f"{member.name}."): value for name, value in design.set.items() if name.startswith(f"{member.name}.")}
+    found: dict[str, Any] = {"machine": member.plan.title}
+    for name, value in {**member.given, **own}.items():
+        found[name] = given_written(name, value, member, design)
+    if member.on:
+        names = [name_of(each) for each in member.on]
+        found["on"] = names[0] if len(names) == 1 else names
+    if not all(isinstance(each, Number) and each.number == 0.0 for each in member.at):
+        found["at"] = [design.scalar(each) for each in member.at]
+    if not (isinstance(member.angle, Number) and member.angle.number == 0.0):
+        found["angle"] = degrees_text(design.scalar(member.angle))
+    return found | ({"mirrored": True} if member.mirrored else {})
+
+
+def given_written(name: str, value: Any, member: Part, design: Design) -> Any:
+    """Return what a part was given for one of its names."""
+    if value is None:
+        return False
+    if isinstance(member.plan.members.get(name), Point):
+        if isinstance(value, (str, Member)):
+            return label(value)
+        return [design.scalar(quantity(each)) for each in value]
+    found = design.scalar(quantity(value))
+    owner, _ = member.plan.table.spellings.get(name, ("", 1))
+    return degrees_text(found) if owner and member.plan.table.entries[owner].kind == "angle" else found
+
+
+def dotted_kinds(name: str, machine: type[Mechanism]) -> dict[str, str]:
+    """Return the kinds of the members of a part by their names in the whole."""
+    plan = machine.plan
+    found = {f"{name}.{each}": member.kind for each, member in plan.members.items()}
+    return found | {f"{name}.{alias}": plan.members[alias].kind for alias in plan.aliases}
+
+
+def machines_of(members: Mapping[str, Member]) -> dict[str, type[Mechanism]]:
+    """Return the classes of the parts among some members, by title; DefinitionError for two of one title."""
+    found: dict[str, type[Mechanism]] = {}
+    for member in members.values():
+        if isinstance(member, Part):
+            known = found.setdefault(member.plan.title, member.machine)
+            if known is not member.machine:
+                raise DefinitionError(f"{member.plan.title}: two classes of parts have this name; a file holds each once, so rename one.")
+    return found
+
+
+def beside(folder: Path | None, load: Callable[[Path], type[Mechanism]]) -> Callable[[str], type[Mechanism]]:
+    """Return what loads the machine of a file in the folder of the one that is read; DefinitionError for one elsewhere."""
+
+    def loaded(name: str) -> type[Mechanism]:
+        if folder is None:
+            raise DefinitionError(f"{shortened(name)}: a text has no folder; put the machine in it, [machines.Name...].")
+        if Path(name).name != name:
+            raise DefinitionError(f"{shortened(name)}: the file of a part stands in the folder of the one that names it; give its name alone.")
+        return load(folder / name)
+
+    return loaded

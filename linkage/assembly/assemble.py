@@ -15,6 +15,7 @@ from ..plan import needed_names
 from ..quantities import Member, Quantity, Reference, name_of, needs
 from ..steps import Group, Guide, Link, OnLink, Pin, Slide, Step
 from ..vectors import Side
+from .part_sketch import with_begun_pins
 from .parts import Parts, Shape, check_held, next_step
 from .sketch import Place, Sketch, missing_labels, sided, with_measured_labels
 
@@ -215,6 +216,7 @@ def assembled(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     Members that need nothing of this come back as they are. Raises DefinitionError for parts that hold a pin
     too little, AssemblyError for a sketch that cannot be assembled.
     """
+    members = with_begun_pins(members, title)
     if not any(is_loose(member) or sketched(member) for member in members.values()):
         return dict(members)
     check_names(members, title)

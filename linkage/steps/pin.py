@@ -70,6 +70,7 @@ class Group(Member):
     rods, the shapes of its rigid links and its slides. Source: Artobolevsky, groups of class III and IV.
     """
 
+    argument_kinds = MappingProxyType({"pins": "points"})
     spoken: Spoken | None = None
     """How its labels are spoken, where it is of a part."""
 

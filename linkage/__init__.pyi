@@ -46,6 +46,7 @@ from .pictures.browser import page as page
 from .pictures.draw import draw as draw
 from .pictures.draw import plot as plot
 from .pictures.film import animate as animate
+from .plan import Part as Part
 from .quantities import Curve as Curve
 from .quantities import Dimension as Dimension
 from .quantities import Stroke as Stroke
@@ -61,6 +62,7 @@ from .statics import max_table as max_table
 from .statics import pin_force as pin_force
 from .statics import pin_forces as pin_forces
 from .statics import reaction as reaction
+from .steps import Carried as Carried
 from .steps import CosineAngle as CosineAngle
 from .steps import Crank as Crank
 from .steps import Dyad as Dyad

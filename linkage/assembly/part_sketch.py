@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from ..plan import Part, Plan
+from ..plan import Part
 from ..quantities import Member, needs
 from ..steps import Group, Pin
 from .sketch import Place, Sketch, places_at

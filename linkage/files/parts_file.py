@@ -122,7 +122,8 @@ def beside(folder: Path | None, load: Callable[[Path], type[Mechanism]]) -> Call
         if folder is None:
             raise DefinitionError(f"{shortened(name)}: a text has no folder; put the machine in it, [machines.Name...].")
         if Path(name).name != name:
-            raise DefinitionError(f"{shortened(name)}: the file of a part stands in the folder of the one that names it; give its name alone.")
+            what = f"{shortened(name)}: the file of a part stands in the folder of the one that names it"
+            raise DefinitionError(f"{what}; give its name alone.")
         return load(folder / name)
 
     return loaded

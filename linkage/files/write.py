@@ -149,7 +149,8 @@ def toml_text(data: Mapping[str, Any]) -> str:
         path = f"machines.{toml_key(title)}"
         own = [f"{toml_key(name)} = {long_text(value)}" for name, value in machine.items() if not isinstance(value, Mapping)]
         sections.append("\n".join([f"[{path}]", *own]))
-        sections += ["\n".join(toml_section(f"{path}.{toml_key(name)}", table)) for name, table in machine.items() if isinstance(table, Mapping)]
+        tables = {name: table for name, table in machine.items() if isinstance(table, Mapping)}
+        sections += ["\n".join(toml_section(f"{path}.{toml_key(name)}", table)) for name, table in tables.items()]
     return "\n\n".join(["\n".join(head), *sections]) + "\n"
 
 

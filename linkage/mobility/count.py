@@ -12,7 +12,7 @@ import numpy as np
 
 from ..assembly import places_at
 from ..errors import AssemblyError, DefinitionError
-from ..plan import Plan, Reading, Trace, carrying_pairs, member_sides, merged, strokes_text
+from ..plan import Part, Plan, Reading, Trace, carrying_pairs, member_sides, merged, strokes_text
 from ..program import FloatArray, Level, Node, Tangent, ancestors, interpret
 from ..quantities import quantity
 from ..steps import Link, match
@@ -243,6 +243,10 @@ def check(plan: Plan) -> None:
     """
     if not any((plan.of_kind(Link), plan.sliding)) or not plan.moving:
         return
+    settled = implied(plan) if plan.of_kind(Part) else set[str]()  # what parts have is checked with their own classes
+    if {*plan.of_kind(Link), *plan.sliding} <= settled:
+        check_stated(plan)
+        return
     try:
         found = mobility(plan)
     except AssemblyError:
@@ -287,14 +291,24 @@ def check_lengths(plan: Plan) -> None:
             check_labels(plan, name, link, *known[0])
 
 
+def check_stated(plan: Plan) -> None:
+    """Raise DefinitionError where a link is not as long as it is said to be; steps hold all links together."""
+    stated = {name: link for name, link in plan.of_kind(Link).items() if link.labels}
+    found = sample(plan, 0.0) if stated else None
+    for name, link in stated.items() if found is not None else ():
+        check_labels(plan, name, link, *found)  # type: ignore[misc]
+
+
 def check_labels(plan: Plan, name: str, link: Link, places: Mapping[str, tuple[float, float]], inputs: Mapping[str, Numbers]) -> None:
     """Raise DefinitionError where what a link says of its points is not how other labels place them."""
     reading = Reading(plan.members, plan.table.lengths, inputs)
     for label, value in link.labels.items():
         ((slot, _, sign, given),) = match({label: value}, link.slots(), f"{name} = {link}").values()
         stated = sign * float(reading.value(quantity(given)))
+        sense = -sign if link.is_mirrored and len(slot.points) > 2 else sign
         P, Q, *rest = (complex(*places[point]) for point in slot.points)
         if rest:
+            stated = -stated if link.is_mirrored else stated
             found = stated + phase((rest[0] - Q) / (P - Q) * exp(-1j * stated)) if P != Q != rest[0] else stated
             differs, unit = abs(found - stated) > 1e-6, "deg"
         else:
@@ -302,8 +316,8 @@ def check_labels(plan: Plan, name: str, link: Link, places: Mapping[str, tuple[f
             differs = abs(found - abs(stated)) > 1e-9 * max(found, abs(stated))
         if differs:
             raise DefinitionError(
-                f"{plan.title}: {name} = {link}: {label} is given as {show(sign * stated, unit)}, but its points are placed by other "
-                f"labels, which make it {show(sign * found, unit)}. Take it out, or correct a length or an angle.",
+                f"{plan.title}: {name} = {link}: {label} is given as {show(sense * stated, unit)}, but its points are placed by other "
+                f"labels, which make it {show(sense * found, unit)}. Take it out, or correct a length or an angle.",
                 member=name,
             )
 

@@ -294,6 +294,8 @@ class Renamed:
         self.part, self.axes, self.plan = part, axes, part.plan
         self.memo: dict[int, Member] = {}
         self.aliases = part.aliases
+        self.foreign = set(self.aliases.values())
+        """The names of the whole that the part's names stand for."""
         self.names = {name: f"{part.name}.{name}" for name in self.plan.members}
         self.names |= {name: self.aliases[dotted] for name, dotted in self.names.items() if dotted in self.aliases}
         self.names |= {name.partition(f"{part.name}.")[2]: target for name, target in self.aliases.items()}
@@ -314,7 +316,8 @@ class Renamed:
                 continue
             with about(dotted):
                 found[dotted] = self._placed(name, dotted, member)
-        self._check_left(left_out, found)
+        if left_out:
+            self._check_left(left_out, found)
         return found
 
     def _check_left(self, left_out: set[str], found: Mapping[str, Member]) -> None:
@@ -407,7 +410,7 @@ class Renamed:
     def value(self, given: Any, is_word: bool) -> Any:
         """Return what an argument holds under the names of the whole."""
         if isinstance(given, Member):
-            if given.name and self.names.get(given.name, given.name) in self._foreign:
+            if given.name and self.names.get(given.name, given.name) in self.foreign:
                 target = self.names[given.name]
                 return Ref(target) if isinstance(given, Quantity) else target
             return self.member(given)
@@ -420,11 +423,6 @@ class Renamed:
         if is_dataclass(given) and not isinstance(given, type):
             return self._data(given)
         return given
-
-    @property
-    def _foreign(self) -> set[str]:
-        """The names of the whole that the part's names stand for."""
-        return set(self.aliases.values())
 
     def _data(self, given: Any) -> Any:
         """Return a value of a frozen dataclass under the names of the whole; itself, where nothing in it has a name."""

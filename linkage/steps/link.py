@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import combinations
 from types import MappingProxyType
+from typing import Self
 
 from ..errors import DefinitionError
-from ..quantities import Member, Operand, Reference, name_of, quantity
+from ..quantities import Axes, Member, Operand, Reference, name_of, quantity
 from .labels import DimensionTable, Slot, Spoken, match, relabelled, written_labels
 
 
@@ -15,6 +16,8 @@ class Link(Member):
     """Points that move as one body: `Link(O, B, C)`, or `Link("O B C", OB=0.30, OC=0.36, BC=0.16)`."""
 
     kind = "link"
+    is_mirrored: bool = False
+    """Whether it stands in a part that is mirrored, so that its angles go the other way."""
     spoken: Spoken | None = None
     """How its labels are spoken, where it is of a part."""
     argument_kinds = MappingProxyType({"points": "points"})
@@ -26,6 +29,9 @@ class Link(Member):
         if len(points) < 2:
             words = " ".join(map(str, points))
             raise DefinitionError(f'Link("{words}"): a link joins at least two points; write them apart, Link("O B").')
+
+    def in_axes(self, axes: Axes) -> Self:
+        return self.renewed(is_mirrored=not self.is_mirrored) if axes.mirrored else self
 
     def parts(self) -> tuple[Reference, ...]:
         return (*self.points, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))

@@ -32,15 +32,15 @@ def begin(name: str, part: Part, members: dict[str, Member], title: str) -> None
         outside = [(each, part.aliases.get(dotted, dotted)) for each, dotted in outside]
         held = {each for each in needs(bound) if each in members}
         pairs = [(each, dotted) for each, dotted in outside if dotted in held]
-        sketch = Sketch(reached(members, [dotted for _, dotted in pairs]), title)
-        places = fitted([own[each] for each, _ in pairs], [sketch.at(dotted) for _, dotted in pairs], part.mirrored, own, group.pins)
+        sketch = Sketch(all_behind(members, [dotted for _, dotted in pairs]), title)
+        places = laid_on([own[each] for each, _ in pairs], [sketch.at(dotted) for _, dotted in pairs], part.mirrored, own, group.pins)
         for pin, place in places.items():
             member = members[f"{name}.{pin}"]
             if isinstance(member, Pin):
                 members[f"{name}.{pin}"] = member.renewed(near=place, drawn_at=None)
 
 
-def fitted(
+def laid_on(
     own: list[Place], whole: list[Place], mirrored: bool, places: Mapping[str, Place], pins: Iterable[str]
 ) -> dict[str, Place]:
     """Return where pins come to lie when their part's points are laid on those of the whole, as near as can be."""
@@ -59,7 +59,7 @@ def fitted(
     return {pin: (float(place.real), float(place.imag)) for pin, place in moved.items()}
 
 
-def reached(members: Mapping[str, Member], names: Iterable[str]) -> dict[str, Member]:
+def all_behind(members: Mapping[str, Member], names: Iterable[str]) -> dict[str, Member]:
     """Return some members with all that they are built from."""
     stack, found = list(names), dict[str, Member]()
     while stack:

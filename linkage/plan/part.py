@@ -29,8 +29,9 @@ from ..quantities import (
     quantity,
 )
 from ..quantities import spelled as written
+from ..quantities.axes import is_nothing
 from ..quantities.member import word_arguments
-from ..steps import Arrow, Drawn, Ground, Group, Link, Point, Step
+from ..steps import Arrow, Drawn, Group, Link, Point, Step
 from ..steps.labels import Spoken
 from .plan import Plan
 
@@ -204,7 +205,7 @@ class Part(Member):
             what = f"{self.name} = {self}: {names[0]} is one point, and gives a part no directions"
             raise DefinitionError(f"{what}; name two points of the body that carries it, on=({names[0]}, ...), or a link.")
         found = Axes(names[0], names[1], self.at, self.angle, self.mirrored) if names else None
-        if found is None and (self.mirrored or any(not is_zero(each) for each in (*self.at, self.angle))):
+        if found is None and (self.mirrored or any(not is_nothing(each) for each in (*self.at, self.angle))):
             found = Axes(at=self.at, angle=self.angle, mirrored=self.mirrored)
         return found
 
@@ -225,9 +226,9 @@ class Part(Member):
         words = [self.plan.title, *(f"{name}={given_text(value)}" for name, value in self.given.items() if name.isidentifier())]
         if self.on:
             words.append(f"on={label(self.on[0])}" if len(self.on) == 1 else f"on=({', '.join(map(label, self.on))})")
-        if not all(map(is_zero, self.at)):
+        if not all(map(is_nothing, self.at)):
             words.append(f"at=({', '.join(map(written, self.at))})")
-        words += [] if is_zero(self.angle) else [f"angle={written(self.angle, 0, 'angle')}"]
+        words += [] if is_nothing(self.angle) else [f"angle={written(self.angle, 0, 'angle')}"]
         words += ["mirrored=True"] if self.mirrored else []
         dotted = {name: value for name, value in self.given.items() if not name.isidentifier()}
         more = [f"**{{{', '.join(f'{name!r}: {given_text(value)}' for name, value in dotted.items())}}}"] if dotted else []
@@ -248,11 +249,6 @@ class Inner:
         return view[name]
 
     __getitem__ = __getattr__
-
-
-def is_zero(given: Quantity) -> bool:
-    """Return whether a quantity is the number zero."""
-    return isinstance(given, Number) and given.number == 0.0
 
 
 def given_text(value: Any) -> str:
@@ -337,23 +333,21 @@ class Renamed:
             return quantity(given[name]).renewed(_name=dotted)
         if name in given and isinstance(member, Stroke):
             return Number(float(given[name])).renewed(_name=dotted)
-        if name in given and isinstance(member, Ground):
-            x, y = map(quantity, given[name])
-            place = Ground(0.0, 0.0).renewed(_name=dotted, x=x, y=y)
-            return place if self.axes is None else place.in_axes(self.axes)
         found = self.member(member)
         values: dict[str, Any] = {}
+        if name in given and isinstance(member, Point):
+            values = {f"{dotted}.{axis}": quantity(value) for axis, value in zip("xy", given[name], strict=True)}
         for each, value in given.items():
             owner, sign = self.plan.table.spellings.get(each, ("", 1))
             if owner and value is not None:
                 for spelling, (other, own) in self.plan.table.spellings.items():
                     if other == owner:
-                        values[f"{self.part.name}.{spelling}"] = signed(value, sign * own)
+                        values[f"{self.part.name}.{spelling}"] = with_sign(value, sign * own)
         if not values:
             return found
         before = {each for each, *_ in found.variables()}
         changed = found.having(values)
-        follows = {each for each in before if each in values and not is_number(values[each])}
+        follows = {each for each in before if each in values and not quantity(values[each]).is_constant}
         stays = follows & {each for each, *_ in changed.variables()}
         if stays:
             what = f"{self.part.name} = {self.part}: {sorted(stays)[0]} is a number of {name} = {member} and can follow nothing"
@@ -436,7 +430,7 @@ class Renamed:
         return found
 
 
-def signed(value: Any, sign: int) -> Any:
+def with_sign(value: Any, sign: int) -> Any:
     """Return a number or a quantity with a sign."""
     if is_number(value):
         return sign * float(value)

@@ -15,7 +15,7 @@ from .quantity import Number, Quantity, spelled
 NOTHING = Number(0.0)
 
 
-def is_zero(given: Quantity) -> bool:
+def is_nothing(given: Quantity) -> bool:
     """Return whether a quantity is the number zero."""
     return isinstance(given, Number) and given.number == 0.0
 
@@ -43,12 +43,12 @@ class Axes:
     @property
     def are_upright(self) -> bool:
         """Whether they have the directions of the frame."""
-        return not self.carrier and not self.mirrored and is_zero(self.angle)
+        return not self.carrier and not self.mirrored and is_nothing(self.angle)
 
     @property
     def is_level(self) -> bool:
         """Whether they are not turned against what carries them."""
-        return is_zero(self.angle)
+        return is_nothing(self.angle)
 
     @property
     def sign(self) -> float:
@@ -78,8 +78,8 @@ class Axes:
             return Axes(inner.P, inner.Q, (x, negated(y)), plus(Number(np.pi), negated(inner.angle)), not inner.mirrored)
         x, y = inner.at
         x = negated(x) if self.mirrored else x
-        cos, sin = (NOTHING, NOTHING) if is_zero(self.angle) else (np.cos(self.angle), np.sin(self.angle))
-        if not is_zero(self.angle) and not (is_zero(x) and is_zero(y)):
+        cos, sin = (NOTHING, NOTHING) if is_nothing(self.angle) else (np.cos(self.angle), np.sin(self.angle))
+        if not is_nothing(self.angle) and not (is_nothing(x) and is_nothing(y)):
             x, y = x * cos - y * sin, x * sin + y * cos
         turn = negated(inner.angle) if self.mirrored else inner.angle
         return Axes(self.P, self.Q, (plus(self.at[0], x), plus(self.at[1], y)), plus(self.angle, turn), mirrored)
@@ -89,7 +89,7 @@ class Axes:
     def _turned(self, where: Where, vector: Vec) -> Vec:
         """Return a vector of the part in the axes of what carries it."""
         found = Vec(-vector.x, vector.y) if self.mirrored else vector
-        return found if is_zero(self.angle) else found.turned(*where.turn(self.angle))
+        return found if is_nothing(self.angle) else found.turned(*where.turn(self.angle))
 
     def _base(self, where: Where) -> tuple[Vec, Vec]:
         """Return the origin [m] and the direction of what carries them."""
@@ -109,7 +109,7 @@ class Axes:
     def place(self, where: Where, given: Vec) -> Vec:
         """Return where a place of the part is in the frame [m]."""
         found = self._turned(where, given)
-        x, y = (part if is_zero(way) else where.value(way) + part for way, part in zip(self.at, (found.x, found.y), strict=True))
+        x, y = (part if is_nothing(way) else where.value(way) + part for way, part in zip(self.at, (found.x, found.y), strict=True))
         if not self.carrier:
             return Vec(x, y)
         start, along = self._base(where)
@@ -131,17 +131,17 @@ class Axes:
         if self.carrier:
             _, along = self._base(where)
             found = Vec(along.dot(given), along.cross(given))
-        if not is_zero(self.angle):
+        if not is_nothing(self.angle):
             cos, sin = where.turn(self.angle)
             found = found.turned(cos, -sin)
         return Vec(-found.x, found.y) if self.mirrored else found
 
     def read_place(self, where: Where, given: Vec) -> Vec:
         """Return a place in the frame as the part reads it [m]."""
-        x, y = (NOTHING.number if is_zero(way) else where.value(way) for way in self.at)
+        x, y = (NOTHING.number if is_nothing(way) else where.value(way) for way in self.at)
         if not self.carrier:
             start_x, start_y = self.at
-            shifted = Vec(given.x if is_zero(start_x) else given.x - x, given.y if is_zero(start_y) else given.y - y)
+            shifted = Vec(given.x if is_nothing(start_x) else given.x - x, given.y if is_nothing(start_y) else given.y - y)
             return self._straight(where, shifted)
         start, along = self._base(where)
         way = given - start
@@ -149,15 +149,15 @@ class Axes:
 
     def _straight(self, where: Where, given: Vec) -> Vec:
         """Return a vector in the axes of what carries the part as the part reads it."""
-        if not is_zero(self.angle):
+        if not is_nothing(self.angle):
             cos, sin = where.turn(self.angle)
             given = given.turned(cos, -sin)
         return Vec(-given.x, given.y) if self.mirrored else given
 
     def __str__(self) -> str:
         words = [f"on=({', '.join(self.carrier)})"] if self.carrier else []
-        words += [] if all(map(is_zero, self.at)) else [f"at=({spelled(self.at[0])}, {spelled(self.at[1])})"]
-        words += [] if is_zero(self.angle) else [f"angle={spelled(self.angle, 0, 'angle')}"]
+        words += [] if all(map(is_nothing, self.at)) else [f"at=({spelled(self.at[0])}, {spelled(self.at[1])})"]
+        words += [] if is_nothing(self.angle) else [f"angle={spelled(self.angle, 0, 'angle')}"]
         return ", ".join([*words, *(["mirrored=True"] if self.mirrored else [])])
 
 
@@ -168,8 +168,8 @@ def negated(given: Quantity) -> Quantity:
 
 def plus(a: Quantity, b: Quantity) -> Quantity:
     """Return the sum of two quantities; of numbers as a number, nothing left out."""
-    if is_zero(a) or is_zero(b):
-        return b if is_zero(a) else a
+    if is_nothing(a) or is_nothing(b):
+        return b if is_nothing(a) else a
     if isinstance(a, Number) and isinstance(b, Number) and not a.name and not b.name:
         return Number(a.number + b.number)
     return a + b

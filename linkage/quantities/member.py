@@ -16,9 +16,6 @@ from ..errors import DefinitionError, cited
 from ..frozen import FrozenDict
 from ..vectors import Line, Scalar, Vec
 
-if TYPE_CHECKING:
-    from .axes import Axes
-
 
 class Member:
     """Anything that a mechanism's class declares.
@@ -125,7 +122,7 @@ class Member:
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         """Raise DefinitionError for what only the whole class tells to be wrong: its members by name, its title."""
 
-    def in_axes(self, axes: Axes) -> Self:
+    def in_axes(self, axes: Any) -> Self:
         """Return this member of a part as it stands in the machine that has the part; itself, where it speaks of no axes and no side."""
         return self
 

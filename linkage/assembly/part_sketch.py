@@ -16,7 +16,9 @@ def with_begun_pins(members: Mapping[str, Member], title: str) -> dict[str, Memb
     """Return the members of a class, the pins of its parts' groups near the places that they have in the parts' own sketches."""
     found = dict(members)
     for name, part in members.items():
-        if isinstance(part, Part) and part.plan.groups:
+        if not isinstance(part, Part) or "." in name:
+            continue  # what stands in a part was begun with its class
+        if part.plan.groups and not part.stands_as_alone:
             begin(name, part, found, title)
     return found
 

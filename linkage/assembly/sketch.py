@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError
 from ..plan import ArrayReading, Plan, missing_words, strokes_text
-from ..quantities import Member, name_of
+from ..quantities import Member, joined_names, name_of
 from ..steps import Point, Step
 from ..vectors import Numbers
 from .angle_continuation import NONE_SOLVED, with_angles
@@ -127,13 +127,13 @@ def missing_labels(name: str, step: Step, parents: list[str], X: Any, place: Cal
     first = parents[0]
     wanted = parents if type(step).from_drawing == "distances" else parents[:1]
     for parent in wanted:
-        if not {parent + name, name + parent} & given:
-            found[parent + name] = float(np.hypot(*away[parent]))
+        if not {joined_names(parent, name), joined_names(name, parent)} & given:
+            found[joined_names(parent, name)] = float(np.hypot(*away[parent]))
     if type(step).from_drawing == "angle":
         second = parents[1]
-        angles = {second + first + name, name + first + second, second + name, name + second}
+        angles = {joined_names(*each) for each in ((second, first, name), (name, first, second), (second, name), (name, second))}
         if not angles & given:
             base = away[first] - away[second]
             turn = np.arctan2(base[0] * away[first][1] - base[1] * away[first][0], base @ away[first])
-            found[second + first + name] = float(turn)
+            found[joined_names(second, first, name)] = float(turn)
     return found

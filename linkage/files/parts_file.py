@@ -14,7 +14,6 @@ from .. import plugins
 from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
 from ..plan import Part
-from ..plan.part import HasPlan
 from ..quantities import Member, Number, label, name_of, quantity
 from ..steps import Point
 from .design import Design, degrees_text
@@ -98,7 +97,7 @@ def given_written(name: str, value: Any, member: Part, design: Design) -> Any:
     return degrees_text(found) if owner and member.plan.table.entries[owner].kind == "angle" else found
 
 
-def dotted_kinds(name: str, machine: HasPlan) -> dict[str, str]:
+def dotted_kinds(name: str, machine: type[Mechanism]) -> dict[str, str]:
     """Return the kinds of the members of a part by their names in the whole."""
     plan = machine.plan
     found = {f"{name}.{each}": member.kind for each, member in plan.members.items()}

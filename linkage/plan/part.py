@@ -78,7 +78,7 @@ class Part(Member):
     ) -> None:  # fmt: skip
         if not is_mechanism(machine):
             raise DefinitionError(f"Part({cited(machine)}): a class of mechanisms is expected, or a design of one, such as Part(FourBar).")
-        self.machine = machine if isinstance(machine, type) else type(machine)
+        self.machine: Any = machine if isinstance(machine, type) else type(machine)
         self.plan: Plan = machine.plan
         self.given: dict[str, Any] = {**self._set_in(machine), **given}
         self.on = carriers_of(on)
@@ -216,6 +216,12 @@ class Part(Member):
     def having(self, values: Mapping[str, float]) -> Part:
         own = {name.removeprefix(f"{self.name}."): value for name, value in values.items() if name.startswith(f"{self.name}.")}
         return self.renewed(given={**self.given, **own}) if own else self
+
+    @property
+    def stands_as_alone(self) -> bool:
+        """Whether all its points stand where they stand in the machine alone."""
+        is_moved = bool(self.on) or self.mirrored or not all(map(is_nothing, (*self.at, self.angle)))
+        return not is_moved and not any(self.given[name] is not None and name not in self.plan.strokes for name in self.given)
 
     @property
     def depth(self) -> int:
@@ -376,6 +382,8 @@ class Renamed:
             elif not (isinstance(given, Part) and attribute in ("plan", "machine")):
                 value = self.value(value, attribute in words)
             object.__setattr__(found, attribute, value)
+        if isinstance(found, Step):  # what its sketch chose and measured is settled
+            vars(found).update(near=None, drawn_at=None)
         if isinstance(found, (Step, Link, Group)):
             object.__setattr__(found, "spoken", self._spoken(given))
         placed = found if self.axes is None else self._in_axes(given, found)

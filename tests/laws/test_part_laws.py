@@ -1,0 +1,144 @@
+"""Laws of parts: a machine in a machine moves and carries as it does alone, and as the same typed flat does."""
+
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from linkage import Mechanism, Over, Part, SingularWarning, deg, pin_forces
+from linkage.files import load, to_toml
+from linkage.loads import ForceElement, LoadCase
+from linkage.quantities import Dimension, Quantity
+from tests.laws.test_laws import RANDOM, SHIPPED
+from tests.machines.test_tipper import Tipper
+
+MACHINES = [*SHIPPED, *RANDOM, Tipper]
+ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
+TURN, AT = 35 * deg, (1.5, -0.7)
+
+
+def whole(machine, **how):
+    """Return a class that has a machine as its one part."""
+    name = f"Whole{len(globals())}"
+    globals()[name] = made = type(name, (Mechanism,), {"p": Part(machine, **how), "__module__": __name__})
+    return made
+
+
+def moved(machine, prefix=""):
+    """Return strokes inside their ranges, by their names in the whole."""
+    shares = np.linspace(0.15, 0.8, 4)
+    return {f"{prefix}{name}": stroke.start + shares * (stroke.end - stroke.start) for name, stroke in machine.plan.strokes.items()}
+
+
+def motions(machine, **how):
+    """Return the motions of a machine alone and in a whole, at the same strokes, NaN where it cannot be assembled."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SingularWarning)
+        alone = machine().at(unreachable="nan", **moved(machine))
+        held = whole(machine, **how)().at(unreachable="nan", **moved(machine, "p."))
+    return alone, held
+
+
+def outputs(machine):
+    """Return the named outputs of a machine."""
+    found = machine.plan.of_kind(Quantity)
+    return [name for name, each in found.items() if name not in machine.plan.strokes and not isinstance(each, Dimension)]
+
+
+def in_the_whole(place, mirrored=False, angle=0.0, at=(0.0, 0.0)):
+    """Return where a place of a part is in the whole."""
+    x, y = (-place[0] if mirrored else place[0]), place[1]
+    return np.array([at[0] + x * np.cos(angle) - y * np.sin(angle), at[1] + x * np.sin(angle) + y * np.cos(angle)])
+
+
+@ALL
+def test_a_part_moves_as_the_machine_alone_does(machine):
+    alone, held = motions(machine)
+    for name in machine.plan.points:
+        np.testing.assert_array_equal(held[f"p.{name}"], alone[name])
+    for name in outputs(machine):
+        np.testing.assert_array_equal(held[f"p.{name}"], alone[name])
+    stroke = next(iter(machine.plan.strokes))
+    for name in list(machine.plan.moving)[:3]:
+        np.testing.assert_array_equal(held.ratio(f"p.{name}", wrt=f"p.{stroke}"), alone.ratio(name, wrt=stroke))
+
+
+@ALL
+@pytest.mark.parametrize("how", [dict(mirrored=True), dict(angle=TURN, at=AT), dict(mirrored=True, angle=TURN, at=AT)], ids=str)
+def test_a_part_that_is_mirrored_or_turned_stands_there(machine, how):
+    alone, held = motions(machine, **how)
+    size = max(float(np.nanmax(np.abs(alone[name]))) for name in machine.plan.points)
+    for name in machine.plan.points:
+        assert_allclose(held[f"p.{name}"], in_the_whole(alone[name], **how), atol=1e-11 * max(size, 1.0), rtol=1e-11)
+    for name in outputs(machine):
+        scale = float(np.nanmax(np.abs(alone[name]), initial=1.0))
+        difference = held[f"p.{name}"] - alone[name]
+        if getattr(machine.plan.members[name], "measures", "") == "angle":
+            difference = np.remainder(difference + np.pi, 2 * np.pi) - np.pi
+        assert np.nanmax(np.abs(difference), initial=0.0) <= 1e-10 * scale
+
+
+@ALL
+def test_mirrored_twice_is_not_mirrored(machine):
+    once = whole(machine, mirrored=True)
+    twice = type("Twice", (Mechanism,), {"q": Part(once, mirrored=True)})
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SingularWarning)
+        alone = machine().at(unreachable="nan", **moved(machine))
+        held = twice().at(unreachable="nan", **moved(machine, "q.p."))
+    for name in machine.plan.points:
+        assert_allclose(held[f"q.p.{name}"], alone[name], rtol=1e-14, atol=1e-14)
+
+
+LOADED = [machine for machine in MACHINES if machine.plan.of_kind(ForceElement)]
+
+
+@pytest.mark.parametrize("machine", LOADED, ids=lambda machine: machine.__name__)
+def test_pin_forces_of_a_part_are_those_of_the_machine_alone(machine):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        alone, held = motions(machine)
+        try:
+            own = pin_forces(alone)
+        except Exception as error:
+            with pytest.raises(type(error)):
+                pin_forces(held)
+            return
+        found = pin_forces(held)
+    assert len(found.joints) == len(own.joints)
+    scale = max(float(np.nanmax(np.abs(joint.force), initial=0.0)) for joint in own.joints) or 1.0
+    for joint, other in zip(sorted(found.joints, key=place_of), sorted(own.joints, key=place_of), strict=True):
+        assert np.nanmax(np.abs(np.abs(joint.force) - np.abs(other.force)), initial=0.0) <= 1e-9 * scale
+
+
+def place_of(joint):
+    """Return what tells a joint, whatever the machine calls its points."""
+    return tuple(text.replace("p.", "") for text in (joint.point, joint.kind, str(joint)))
+
+
+@ALL
+def test_a_machine_of_parts_is_saved_and_pickled(machine):
+    design = whole(machine, at=AT)()
+    again = pickle.loads(pickle.dumps(design))
+    strokes = {name: float(value[1]) for name, value in moved(machine, "p.").items()}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SingularWarning)
+        expected = design.at(unreachable="nan", **strokes)
+        found = again.at(unreachable="nan", **strokes)
+        try:
+            read = load(to_toml(design))().at(unreachable="nan", **strokes)
+        except Exception as error:
+            with pytest.raises(type(error)):
+                to_toml(machine())
+            read = found
+    for name in machine.plan.points:
+        np.testing.assert_array_equal(found[f"p.{name}"], expected[f"p.{name}"])
+        np.testing.assert_array_equal(read[f"p.{name}"], expected[f"p.{name}"])
+
+
+def test_cases_and_overs_stay_with_their_class():
+    for machine in MACHINES:
+        members = whole(machine).plan.members.values()
+        assert not any(isinstance(member, (Over, LoadCase)) for member in members)

@@ -39,7 +39,7 @@ from .motion import (
     source_of,
     sweep_values,
 )
-from .plan import Body, Part, Plan, with_parts
+from .plan import Body, Part, Plan, check_circuits, with_parts
 from .program import FloatArray, RunOptions
 from .quantities import Member, Stroke, is_name, needs
 from .shown import Shown, ShownList
@@ -195,6 +195,8 @@ class Mechanism(Shown, metaclass=MechanismType):
             except DefinitionError as error:
                 raise DefinitionError(f"{cls.__name__}: {name} = {sketch}: {error}", member=name) from None
         check(cls.plan)
+        if cls.plan.of_kind(Part):
+            check_circuits(cls.plan.members, cls.__name__)
         check_together(cls.plan.of_kind(ForceElement), cls.plan.members, cls.__name__)
         for member in (*members.values(), *cls.plan.members.values()):
             member.settle(cls.__name__)
@@ -522,7 +524,10 @@ def check_no_member(title: str, name: str, value: object) -> None:
     """Raise DefinitionError for what was meant as a member and is none: its class, or members in a list or behind a comma too many."""
     if isinstance(value, type) and issubclass(value, Member):
         raise DefinitionError(f"{title}.{name} = {value.__name__} is the class, no member; write {name} = {value.__name__}(...).")
-    if isinstance(value, Mechanism) and name != "plan":
+    if isinstance(value, type) and issubclass(value, Mechanism) and name != value.__name__:
+        text = f"{title}.{name} = {value.__name__} is a class of mechanisms and no member"
+        raise DefinitionError(f"{text}; as a part of the machine it is {name} = Part({value.__name__}).", member=name)
+    if isinstance(value, Mechanism):
         text = f"{title}.{name} = {type(value).__name__}(...) is a design, which stays numbers"
         raise DefinitionError(f"{text}; as a part of the machine it is {name} = Part({type(value).__name__}).", member=name)
     parts = value.values() if isinstance(value, dict) else value if isinstance(value, (list, tuple, set, frozenset)) else ()

@@ -22,6 +22,7 @@ from .grid import Grid, JoinedTo, Joining, angles_of, joined_in_order, not_joine
 from .interruptions import Interruption
 from .limits import Limits, assembly_error, no_joint, span_text, stroke_unit, where_words
 from .over import Over, over_of
+from .part_motion import PartOfMotion
 from .poles import body_points, body_rates, pole_of, whole_body
 from .requests import (
     Request,
@@ -43,6 +44,7 @@ from .strokes import checked_name, method_of, order_of, rates_of
 
 Target: TypeAlias = str | Member
 Made = TypeVar("Made")
+Kind = TypeVar("Kind", bound=Member)
 
 
 class Motion(Shown):
@@ -76,6 +78,7 @@ class Motion(Shown):
         self.plan, self.unreachable = plan, unreachable
         self.shape, self._design_shape = self._grid.shape, self._grid.design_shape
         self._tangent = tangent
+        self._held: tuple[Motion, str] | None = None
         self._values: dict[Hashable, FloatArray] = {}
         self._kept: dict[Hashable, Any] = {}
         self._watched: dict[Hashable, bool] = {}
@@ -164,6 +167,32 @@ class Motion(Shown):
         if isinstance(member, Arrow):
             return self._evaluated(Value(member))
         raise DefinitionError(f"{self.plan.title}: {name} = {member} has no value over the stroke; name a point, a vector or an output.")
+
+    def part(self, name: str) -> Motion:
+        """Return this motion as one of the machine's parts has it, in the part's own names and axes: `motion.part("lower")["T"]`.
+
+        Places and ratios are those of the part alone, thrusts, pressures and joint forces those of the whole; its `columns` and `rules`
+        take it. Strokes and dimensions have the values that the whole gives them. DefinitionError for a dimension that follows a stroke.
+        """
+        found = PartOfMotion.of(self, name)
+        motion = Motion(found.part.plan, found.designs, found.strokes, "nan", per_design=bool(self._design_shape))
+        motion._held = (self, name)
+        return motion
+
+    def held(self, member: Kind) -> tuple[Motion, Kind] | None:
+        """Return the motion of the whole and the member there, where this one is read as that of a part; None for any other motion."""
+        if self._held is None:
+            return None
+        whole, part = self._held
+        found = whole.plan.members.get(f"{part}.{member.name}")
+        if not isinstance(found, type(member)):
+            raise DefinitionError(f"{whole.plan.title}: {part}.{member.name} was left out, so that there is no force of it.")
+        return whole, found
+
+    @property
+    def whole(self) -> Motion:
+        """The motion whose forces these are: that of the whole, where this one is read as a part has it, else itself."""
+        return self if self._held is None else self._held[0].whole
 
     def x(self, point: Target) -> FloatArray:
         """Return a point's x coordinate [m]."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass
 from types import MappingProxyType
-from typing import Any, Protocol, TypeGuard, final
+from typing import Any, Protocol, TypeGuard, final, runtime_checkable
 
 import numpy as np
 
@@ -54,6 +54,19 @@ class HasPlan(Protocol):
 def is_mechanism(given: object) -> TypeGuard[HasPlan]:
     """Return whether something is a class of mechanisms or a design."""
     return isinstance(getattr(given, "plan", None), Plan)
+
+
+@runtime_checkable
+class FeedsOthers(Protocol):
+    """A load that gives others their force, or puts them on one line."""
+
+    name: str
+
+    def joined(self, members: Mapping[str, Member]) -> tuple[Any, ...]:
+        """Return what it puts on one line."""
+
+    def feeds(self, members: Mapping[str, Member]) -> tuple[Any, ...]:
+        """Return what it gives its force."""
 
 
 class PartNameError(DefinitionError, AttributeError):
@@ -394,7 +407,7 @@ class Renamed:
         """Return how the labels of a member are spoken in the whole."""
         before = given.spoken
         owner = self.part.name if before is None else f"{self.part.name}.{before.owner}"
-        letters = {self.names[name]: name for name in self.names} if before is None else {
+        letters = {self.names[name]: name for name in self.plan.members} if before is None else {
             self.names.get(name, name): letter for name, letter in before.letters.items()
         }  # fmt: skip
         return Spoken(owner, letters)
@@ -454,20 +467,52 @@ def with_parts(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     parts = {name: member for name, member in members.items() if isinstance(member, Part)}
     if not parts:
         return dict(members)
+    brought: dict[str, dict[str, Member]] = {}
+    for name in carriers_first(parts):
+        part = parts[name] if parts[name].name == name else parts[name].renewed(_name=name)
+        if part.depth > DEEPEST:
+            what = f"{title}: {name} = {part} holds parts {part.depth} deep"
+            raise DefinitionError(f"{what}; up to {DEEPEST} are taken.", member=name)
+        with about(name):
+            known = {**members, **{each: member for own in brought.values() for each, member in own.items()}}
+            brought[name] = {name: part, **part.brought(known)}
     found: dict[str, Member] = {}
     for name, member in members.items():
-        if isinstance(member, Part) and member.name != name:
-            member = member.renewed(_name=name)
-        found[name] = member
-        if isinstance(member, Part):
-            if member.depth > DEEPEST:
-                what = f"{title}: {name} = {member} holds parts {member.depth} deep"
-                raise DefinitionError(f"{what}; up to {DEEPEST} are taken.", member=name)
-            with about(name):
-                found |= member.brought(members)
+        found |= brought.get(name, {name: member})
     if len(found) > MOST_MEMBERS:
         raise DefinitionError(f"{title} has {len(found)} members with those of its parts; up to {MOST_MEMBERS} are taken.")
     return unaliased(found)
+
+
+def carriers_first(parts: Mapping[str, Part]) -> list[str]:
+    """Return the names of parts, each behind those that carry it, in the order written where that is free."""
+    found: list[str] = []
+
+    def take(name: str, behind: tuple[str, ...] = ()) -> None:
+        for each in parts[name].on:
+            owner = (each if isinstance(each, str) else each.name).partition(".")[0]
+            if owner in parts and owner not in (*behind, name):
+                take(owner, (*behind, name))
+        if name not in found:
+            found.append(name)
+
+    for name in parts:
+        take(name)
+    return found
+
+
+def check_circuits(members: Mapping[str, Member], title: str) -> None:
+    """Raise DefinitionError where something of the whole feeds a cylinder that its part feeds itself."""
+    owners: dict[str, str] = {}
+    elements = {name: member for name, member in members.items() if isinstance(member, FeedsOthers)}
+    for name, element in elements.items():
+        for fed in (*element.joined(members), *element.feeds(members)):
+            first = owners.setdefault(fed.name, name)
+            inner = [each for each in (first, name) if "." in each]
+            if first != name and inner and first.rpartition(".")[0] != name.rpartition(".")[0]:
+                part, _, own = inner[0].rpartition(".")
+                remedy = f"leave the part's own out, {part} = Part(..., {own}=None)"
+                raise DefinitionError(f"{title}: {first} and {name} both feed {fed.name}; {remedy}.", member=part)
 
 
 def unaliased(members: Mapping[str, Member]) -> dict[str, Member]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import final
 
 import numpy as np
@@ -29,7 +29,7 @@ class Angle(Quantity):
 
     P: Reference
     Q: Reference
-    axes: Axes | None = None
+    axes: Axes | None = field(default=None, repr=False)
     expects = (("P", "point"), ("Q", "point"))
 
     def __post_init__(self) -> None:
@@ -103,7 +103,7 @@ class Coordinate(Quantity):
 
     P: Reference
     axis: str
-    axes: Axes | None = None
+    axes: Axes | None = field(default=None, repr=False)
     expects = (("P", "point"),)
 
     @property

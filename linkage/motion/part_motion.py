@@ -53,7 +53,7 @@ class PartOfMotion:
             raise unknown("Part", name, whole.plan.of_kind(Part), where=whole.plan.title)
         axes = part.axes(whole.plan.members)
         strokes = {each: np.array(np.broadcast_to(stroke_in(whole, f"{name}.{each}"), whole.shape)) for each in part.plan.strokes}
-        return cls(part, {each: constant(whole, part, each, axes) for each in part.plan.table.entries}, strokes)
+        return cls(part, {each: steady_dimension(whole, part, each, axes) for each in part.plan.table.entries}, strokes)
 
 
 def stroke_in(whole: WholeMotion, name: str) -> FloatArray:
@@ -77,7 +77,7 @@ def dimension_in(whole: WholeMotion, part: Part, name: str, axes: Axes | None) -
     return part.plan.defaults[name] if given is None else whole.value(quantity(given))
 
 
-def constant(whole: WholeMotion, part: Part, name: str, axes: Axes | None) -> Numbers:
+def steady_dimension(whole: WholeMotion, part: Part, name: str, axes: Axes | None) -> Numbers:
     """Return a dimension that is the same at all poses, one value a design; DefinitionError for one that changes."""
     array = np.asarray(dimension_in(whole, part, name, axes), float)
     if array.size == 1:

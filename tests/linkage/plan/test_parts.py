@@ -1,0 +1,311 @@
+"""Parts: what a machine says of them, what they bring, and what is refused in words."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from hydraulics import Cylinder, LiftCircuit
+from linkage import (
+    RIGHT,
+    Carried,
+    DefinitionError,
+    Dimension,
+    Dyad,
+    Ground,
+    Link,
+    LoadCase,
+    Mechanism,
+    Moment,
+    OnLink,
+    Over,
+    Part,
+    Stroke,
+    Weight,
+    angle,
+    bar,
+    deg,
+    distance,
+    equations,
+    mm,
+    most,
+    pin_force,
+    pin_forces,
+    ref,
+    x,
+)
+
+
+class Arm(Mechanism):
+    """A lever moved by a cylinder."""
+
+    S = Stroke(0, 0.3)
+    O = Ground(0, 0)
+    A = Ground(0.1, -0.4)
+    L0 = Dimension(0.45)
+    B = Dyad(A, O, AB=L0 + S, OB=0.4, side=RIGHT)
+    T = OnLink(O, B, OT=1.2, BOT=20 * deg, side=RIGHT)
+    arm = Link(O, B, T)
+    tilt = angle(O, T)
+    reach = x(T)
+    G = OnLink(O, B, OG=0.6)
+    load = Weight(G, mass=100)
+    twist = Moment("O B", M=40)
+    ram = Cylinder(A, B, bore=80 * mm, rod=40 * mm)
+    pump = LiftCircuit(ram, pressure=180 * bar)
+
+
+class Loader(Mechanism):
+    """Two arms on each other and a third one opposite."""
+
+    s1, s2 = Stroke(0, 0.3), Stroke(0, 0.25)
+    lower = Part(Arm, S=s1, OB=0.45)
+    upper = Part(Arm, S=s2, on=(lower.T, lower.O), O=lower.T, A=(0.45, -0.1))
+    twin = Part(Arm, at=(2, 0), mirrored=True)
+    P = OnLink(lower.T, lower.O, lower_TP=0.2)
+    span = distance("upper.T", "twin.T")
+
+
+class Flat(Mechanism):
+    """The same, typed flat."""
+
+    s1, s2, s3 = Stroke(0, 0.3), Stroke(0, 0.25), Stroke(0, 0.3)
+    lO, lA, lL = Ground(0, 0), Ground(0.1, -0.4), Dimension(0.45)
+    lB = Dyad(lA, lO, lAlB=lL + s1, lOlB=0.45, side=RIGHT)
+    lT = OnLink(lO, lB, lOlT=1.2, lBlOlT=20 * deg, side=RIGHT)
+    larm = Link(lO, lB, lT)
+    lG = OnLink(lO, lB, lOlG=0.6)
+    lload, ltwist = Weight(lG, mass=100), Moment("lO lB", M=40)
+    lram = Cylinder(lA, lB, bore=80 * mm, rod=40 * mm)
+    uA, uL = Carried(lT, lO, 0.45, -0.1), Dimension(0.45)
+    uB = Dyad(uA, lT, uAuB=uL + s2, lTuB=0.4, side=RIGHT)
+    uT = OnLink(lT, uB, lTuT=1.2, uBlTuT=20 * deg, side=RIGHT)
+    uarm = Link(lT, uB, uT)
+    uG = OnLink(lT, uB, lTuG=0.6)
+    uload, utwist = Weight(uG, mass=100), Moment("lT uB", M=40)
+    uram = Cylinder(uA, uB, bore=80 * mm, rod=40 * mm)
+    tO, tA, tL = Ground(2, 0), Ground(1.9, -0.4), Dimension(0.45)
+    tB = Dyad(tA, tO, tAtB=tL + s3, tOtB=0.4, side="LEFT")
+    tT = OnLink(tO, tB, tOtT=1.2, tBtOtT=20 * deg, side="LEFT")
+    tarm = Link(tO, tB, tT)
+    tG = OnLink(tO, tB, tOtG=0.6)
+    tload, ttwist = Weight(tG, mass=100), Moment("tO tB", M=-40)
+    tram = Cylinder(tA, tB, bore=80 * mm, rod=40 * mm)
+    P = OnLink(lT, lO, lTP=0.2)
+
+
+STROKES = np.linspace(0.02, 0.28, 5)
+POSES = {"s1": STROKES, "s2": 0.1, "twin.S": 0.07}
+FLAT_POSES = {"s1": STROKES, "s2": 0.1, "s3": 0.07}
+SAME = {"lower.B": "lB", "lower.T": "lT", "upper.A": "uA", "upper.B": "uB", "upper.T": "uT", "twin.T": "tT", "upper.O": "lT", "P": "P"}
+
+
+@pytest.mark.parametrize("name", SAME)
+def test_a_machine_of_parts_is_the_same_typed_flat(name):
+    parts, flat = Loader().at(**POSES), Flat().at(**FLAT_POSES)
+    compared = assert_array_equal if not name.startswith("twin") else lambda a, b: assert_allclose(a, b, rtol=1e-14, atol=1e-14)
+    compared(parts[name], flat[SAME[name]])
+    compared(parts.ratio(name, wrt="s1"), flat.ratio(SAME[name], wrt="s1"))
+    compared(parts.ratio(name, wrt="s1", order=2), flat.ratio(SAME[name], wrt="s1", order=2))
+
+
+@pytest.mark.parametrize(("name", "other"), [("lower", "l"), ("upper", "u"), ("twin", "t")])
+def test_forces_of_parts_are_those_typed_flat(name, other):
+    parts, flat = Loader().at(**POSES), Flat().at(**FLAT_POSES)
+    ram, own = Loader.plan.members[f"{name}.ram"], Flat.plan.members[f"{other}ram"]
+    assert_allclose(ram.thrust(parts), own.thrust(flat), rtol=1e-13)
+    point, plain = (f"{name}.B", f"{other}B")
+    found, expected = Loader().evaluate([pin_force(point)], **POSES), Flat().evaluate([pin_force(plain)], **FLAT_POSES)
+    assert_allclose(found[0], expected[0], rtol=1e-13)
+
+
+def test_what_a_mirrored_part_says_itself_reads_as_in_the_part():
+    parts, alone = Loader().at(**POSES), Arm().at(S=0.07)
+    assert_allclose(parts["twin.tilt"], np.full(5, alone["tilt"]), rtol=1e-13)
+    assert_allclose(parts["twin.reach"], np.full(5, alone["reach"]), rtol=1e-13)
+    assert_allclose(parts["twin.T"][0], 2 - alone["T"][0], rtol=1e-13)
+
+
+def test_the_motion_of_a_part_is_that_of_the_part_alone_with_the_forces_of_the_whole():
+    parts = Loader(**{"lower.OB": 0.5}).at(**POSES)
+    lower, alone = parts.part("lower"), Arm(OB=0.5).at(S=STROKES)
+    assert_allclose(lower["T"], alone["T"], rtol=1e-13)
+    assert_allclose(lower.ratio("T"), alone.ratio("T"), rtol=1e-12)
+    assert_allclose(lower["tilt"], parts["lower.tilt"], rtol=1e-13)
+    ram = Arm.plan.members["ram"]
+    assert_array_equal(ram.thrust(lower), Loader.plan.members["lower.ram"].thrust(parts))
+    assert np.all(np.abs(ram.thrust(lower)) > 1.5 * np.abs(ram.thrust(alone)))  # the upper arm hangs on it
+    assert [column.name for column in Arm().columns(lower)] == [column.name for column in Arm().columns(alone)]
+    with pytest.raises(DefinitionError, match="Part 'side' is unknown in Loader"):
+        parts.part("side")
+
+
+def test_dimensions_go_by_dotted_names():
+    machine = Loader(**{"lower.OB": 0.5, "lower.ram.bore": 0.09, "upper.A": (0.4, 0.0)})
+    assert machine["lower.OB"] == machine["lower.BO"] == 0.5
+    assert_array_equal(machine["upper.A"], [0.4, 0.0])
+    assert Loader()["lower.OB"] == 0.45
+    assert Loader()["upper.OB"] == 0.4
+    batch = Loader(**{"lower.OB": np.array([0.45, 0.5])}).at(**POSES)
+    assert_array_equal(batch["upper.T"][:, 1], Loader(**{"lower.OB": 0.5}).at(**POSES)["upper.T"])
+
+
+def test_dimensions_and_strokes_follow_quantities_of_the_whole():
+    class Coupled(Mechanism):
+        S, L = Stroke(0, 0.2), Dimension(0.5)
+        one = Part(Arm, S=S, OB="L")
+        two = Part(Arm, S=0.05 + S * 0.5, OB=L * 0.9, at=("L", 1))
+
+    design = Coupled(L=0.48)
+    motion = design.at(S=0.1)
+    assert list(Coupled.plan.strokes) == ["S"]
+    assert_allclose(motion["one.T"], Arm(OB=0.48).at(S=0.1)["T"], rtol=1e-14)
+    assert_allclose(motion["two.T"], Arm(OB=0.432).at(S=0.1)["T"] + [0.48, 1], rtol=1e-13)
+    assert motion["one.S"] == motion["two.S"] == 0.1
+    with pytest.raises(DefinitionError, match=r"one\.OB follows L; set what it follows"):
+        Coupled(**{"one.OB": 0.4})
+
+
+def test_parts_hold_parts():
+    class Pair(Mechanism):
+        left = Part(Loader)
+        right = Part(Loader, at=(5, 1), angle=30 * deg, mirrored=True)
+
+    poses = {f"{side}.{name}": value for side in ("left", "right") for name, value in POSES.items()}
+    motion, alone = Pair().at(**poses), Loader().at(**POSES)
+    assert_array_equal(motion["left.upper.T"], alone["upper.T"])
+    px, py = -alone["upper.T"][0], alone["upper.T"][1]
+    turned = [5 + px * np.cos(np.pi / 6) - py * np.sin(np.pi / 6), 1 + px * np.sin(np.pi / 6) + py * np.cos(np.pi / 6)]
+    assert_allclose(motion["right.upper.T"], turned, rtol=1e-12)
+    assert_allclose(motion["right.twin.tilt"], alone["twin.tilt"], rtol=1e-11)
+    assert "left.lower_TP" in Pair.plan.table.entries
+
+
+def test_a_subclass_exchanges_a_part():
+    class Long(Arm):
+        T = OnLink("O", "B", OT=1.5)
+
+    class Other(Loader):
+        upper = Part(Long, S="s2", on=("lower.T", "lower.O"), O="lower.T", A=(0.45, -0.1))
+
+    class Anew(Mechanism):
+        s1, s2 = Stroke(0, 0.3), Stroke(0, 0.25)
+        lower = Part(Arm, S=s1, OB=0.45)
+        upper = Part(Long, S=s2, on=(lower.T, lower.O), O=lower.T, A=(0.45, -0.1))
+        twin = Part(Arm, at=(2, 0), mirrored=True)
+
+    assert_array_equal(Other().at(**POSES)["upper.T"], Anew().at(**POSES)["upper.T"])
+    assert "upper.tilt" in Other.plan.members
+
+
+def test_the_printed_plan_can_be_pasted_back():
+    space = {"Arm": Arm, **{name: value for name, value in vars(__import__("linkage")).items() if name[0] != "_"}}
+    exec("from linkage import *\nfrom hydraulics import *", space)
+    body = "\n".join(f"    {line}" for line in str(Loader.plan).splitlines())
+    exec(f"class Again(Mechanism):\n{body}\n", space)
+    assert_array_equal(space["Again"]().at(**POSES)["upper.T"], Loader().at(**POSES)["upper.T"])
+    assert str(space["Again"].plan) == str(Loader.plan)
+
+
+def test_cases_and_domains_of_the_whole_speak_of_dotted_names():
+    class Judged(Loader):
+        heavy = LoadCase("heavy", scale={"lower.load": 2.0})
+        runs = Over(s1=(0.05, 0.2), s2=0.1, **{"twin.S": 0.1})
+
+    design = Judged()
+    (found,) = design.answers([most(pin_force("lower.B"))])
+    at_end = design.at(s1=0.2, s2=0.1, **{"twin.S": 0.1})
+    forces = [np.hypot(*pin_forces(at_end, case=case).force("lower.B")) for case in (None, "heavy")]
+    assert found.value >= max(forces) * (1 - 1e-9)
+    assert "heavy" in str(found)
+
+
+def test_equations_name_what_parts_have():
+    found = {each.name: each for each in equations(Loader())}
+    assert {"lower.B", "lower.T", "upper.A", "twin.A", "lower.OAB"} <= found.keys()
+    values = equations(Loader()).values(dict(s1=0.1, s2=0.1, **{"twin.S": 0.1}))
+    motion = Loader().at(s1=0.1, s2=0.1, **{"twin.S": 0.1})
+    for name in ("lower.B", "upper.A", "upper.T", "twin.T"):
+        assert_allclose(np.array(values[name], float), motion[name], rtol=1e-12)
+    assert_allclose(float(values["twin.tilt"]), motion["twin.tilt"], rtol=1e-12)
+
+
+def test_words_that_are_no_names_stay():
+    class Sided(Mechanism):
+        S = Stroke(0, 0.2)
+        rod, piston = Ground(0, 0), Ground(0.1, -0.4)
+        B = Dyad(piston, rod, pistonB=ref("L0") + S, rodB=0.4, side=RIGHT)
+        L0 = Dimension(0.45)
+        ram = Cylinder(piston, B, bore=80 * mm, rod=40 * mm, works="rod")
+
+    class Holder(Mechanism):
+        one = Part(Sided)
+
+    assert Holder.plan.members["one.ram"].works == "rod"
+    assert Holder.plan.members["one.ram"].ends == ("one.piston", "one.B")
+
+
+class Deep:
+    """Classes of parts in parts."""
+
+    @staticmethod
+    def of(depth):
+        """Return a class that holds parts so deep."""
+        found = Arm
+        for level in range(depth):
+            found = type(f"Deep{level}", (Mechanism,), {"p": Part(found)})
+        return found
+
+
+def declare(**members):
+    """Return a class of members."""
+    return type("Wrong", (Mechanism,), members)
+
+
+REFUSED = {
+    "a design": (lambda: declare(left=Arm()), r"Wrong\.left = Arm\(\.\.\.\) is a design.*left = Part\(Arm\)"),
+    "a class": (lambda: declare(left=Arm), r"left = Part\(Arm\)"),
+    "no machine": (lambda: Part(3), r"Part\(3\): a class of mechanisms is expected"),
+    "a moving point": (lambda: declare(p=Part(Arm, B=(0, 0))), "B moves in the part and takes no place; give its fixed points, O, A"),
+    "an unknown name": (lambda: declare(p=Part(Arm, OX=2)), r"Name 'OX' is unknown in Part\(Arm\)"),
+    "a fixed point left out": (lambda: declare(p=Part(Arm, O=None)), "cannot be left out"),
+    "what others need": (lambda: declare(p=Part(Arm, ram=None)), "leave that out, too, pump=None"),
+    "a stroke left out": (lambda: declare(p=Part(Arm, S=None)), "the stroke S cannot be left out"),
+    "a batch": (lambda: Part(Arm(OB=np.array([0.4, 0.5]))), "a batch of designs; a part is one of them"),
+    "a batch as a keyword": (lambda: Part(Arm, OB=[0.4, 0.5]), "OB is a batch of 2 values"),
+    "two circuits": (lambda: declare(p=Part(Arm), q=LiftCircuit("p.ram", pressure=1e7)), r"p = Part\(\.\.\., pump=None\)"),
+    "one point": (lambda: declare(a=Part(Arm), p=Part(Arm, on="a.T")), r"a\.T is one point.*name two points of the body"),
+    "too deep": (lambda: Deep.of(9), "holds parts 9 deep; up to 8 are taken"),
+    "a label that follows": (lambda: declare(p=Part(Arm, ram=3)), "ram is a load and takes no value"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_cannot_be_a_part_is_refused_in_words(case):
+    make, words = REFUSED[case]
+    with pytest.raises(DefinitionError, match=words):
+        make()
+
+
+def test_a_wrong_name_fails_on_its_line():
+    with pytest.raises(DefinitionError, match="Name 'Q' is unknown in lower = Part"):
+
+        class Wrong(Mechanism):
+            lower = Part(Arm)
+            P = OnLink(lower.Q, lower.O, lower_QP=0.2)
+
+
+def test_a_link_carries_a_part():
+    class Carrying(Mechanism):
+        a = Part(Arm)
+        p = Part(Arm, on="a.arm", O="a.T", A=(0.5, 0.1))
+
+    motion = Carrying().at(**{"a.S": 0.1, "p.S": 0.1})
+    O, B, A = motion["a.O"], motion["a.B"], motion["p.A"]
+    along = (B - O) / np.hypot(*(B - O))
+    assert_allclose(A, O + 0.5 * along + 0.1 * np.array([-along[1], along[0]]), rtol=1e-13)
+
+
+def test_eight_deep_works():
+    deep = Deep.of(8)
+    name = "p." * 8
+    assert_array_equal(deep().at(**{f"{name}S": 0.1})[f"{name}T"], Arm().at(S=0.1)["T"])

@@ -84,7 +84,7 @@ def steady_dimension(whole: WholeMotion, part: Part, name: str, axes: Axes | Non
         return float(array.reshape(()))
     rows = np.broadcast_to(array, whole.shape).reshape(*whole._design_shape, -1)
     first = rows[..., 0]
-    if np.nanmax(np.abs(rows - first[..., None]), initial=0.0) > SAME * max(1.0, float(np.nanmax(np.abs(first), initial=0.0))):
+    if np.any(np.abs(rows - first[..., None]) > SAME * np.maximum(1.0, np.abs(first[..., None]))):
         what = f"{whole.plan.title}.{part.name}: {name} changes over the poses, so that the part alone has no such design"
         raise DefinitionError(f'{what}; ask the whole for its points, such as motion["{part.name}.{next(iter(part.plan.moving), "")}"].')
     return first if whole._design_shape else float(first)

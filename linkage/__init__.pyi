@@ -26,12 +26,15 @@ from .loads import Spring as Spring
 from .loads import Support as Support
 from .loads import Weight as Weight
 from .mechanism import Mechanism as Mechanism
+from .mechanism import strokes_for as strokes_for
 from .mobility import grashof as grashof
 from .motion import Answer as Answer
 from .motion import Column as Column
 from .motion import Featured as Featured
 from .motion import Motion as Motion
 from .motion import Over as Over
+from .motion import Positions as Positions
+from .motion import Target as Target
 from .motion import at as at
 from .motion import condition as condition
 from .motion import gap as gap

@@ -29,12 +29,16 @@ from .motion import (
     Motion,
     Over,
     PoseFunction,
+    Positions,
     Question,
     RequestLike,
+    Target,
     at_values,
     columns_of,
     evaluate,
+    followed,
     judge_verdicts,
+    positions_for,
     require_motion,
     source_of,
     sweep_values,
@@ -308,6 +312,25 @@ class Mechanism(Shown, metaclass=MechanismType):
         return Motion(self.plan, self._values, at_values(strokes, self.plan), unreachable, per_design=is_yes("per_design", per_design))
 
     @of_a_design
+    def follow(
+        self,
+        targets: Sequence[Target],
+        *,
+        hold: Mapping[str, float] | None = None,
+        start: Mapping[str, float] | None = None,
+        unreachable: str = "raise",
+    ) -> Motion:
+        """Return the motion along a path of places, on one branch: `follow([Target(x("M"), 2.5), Target(y("M"), heights)])`.
+
+        As many `Target`s as strokes, less those on `hold`, a number each [SI]. Their values are arrays, one value a place, or numbers that
+        hold at all of them; angles count modulo a turn. Between places it goes straight from value to value. `start` are strokes near
+        those of the first place; without it the branches of that place are tried, the nearest to the declared first pose first, and the
+        first one that goes all the way is taken. Where none does it raises AssemblyError, of a stroke past its end, or SingularError, of
+        a dead point, for the one that goes farthest: with the place, the stroke, the millimetres; unless `unreachable="nan"`.
+        """
+        return followed(self.plan, self._values, targets, hold, start, unreachable)
+
+    @of_a_design
     def evaluate(
         self,
         of: Sequence[RequestLike],
@@ -475,7 +498,20 @@ class Mechanism(Shown, metaclass=MechanismType):
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in changed.items())})"
 
 
-WORDS = frozenset({"plan", "graph", "follow"})
+def strokes_for(machine: Mechanism, targets: Sequence[Target], *, hold: Mapping[str, float] | None = None) -> Positions:
+    """Return the strokes of a place: `strokes_for(digger, [Target(x("M"), 2.5), Target(y("M"), 0.3)], hold={"bucket": 1.1})`.
+
+    A place is a list of `Target`s, as many as the machine has strokes, less those on `hold`, a number each [SI]: coordinates of points,
+    angles, which count modulo a turn, or any other quantity or request. All branches within the ends of the strokes are returned, each
+    with its condition; where there is none, the nearest pose, and which stroke would be past which end, by how much. It warns,
+    SingularWarning, where a place is at the border of what the strokes reach. Of infinitely many strokes that give the targets it returns
+    some.
+    """
+    require_mechanism(machine)
+    return positions_for(machine.plan, machine.dimensions, targets, hold)
+
+
+WORDS = frozenset({"plan", "graph"})
 """Words of the framework that no member may have for its name, beside those of Mechanism itself."""
 
 

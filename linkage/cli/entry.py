@@ -23,6 +23,7 @@ HOMES = {
     "list": "listing:ListCommand",
     "show": "show:ShowCommand",
     "table": "table:TableCommand",
+    "follow": "follow:FollowCommand",
     "limits": "forces:LimitsCommand",
     "forces": "forces:ForcesCommand",
     "plot": "plot:PlotCommand",

@@ -3,6 +3,7 @@
 from .answer import Answer, Lost, places_text
 from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
 from .featured import Featured
+from .follow import followed
 from .gaps import gap
 from .grid import Grid
 from .judge import Judge, Question, case_named
@@ -11,12 +12,14 @@ from .limits import stroke_display_unit, stroke_measure, stroke_unit
 from .line import highest, last_holding
 from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst
-from .motion import Motion, OnePose, Target, each_at_its_stroke, out_of_reach, require_motion
+from .motion import Motion, OnePose, each_at_its_stroke, out_of_reach, require_motion
 from .over import OPTIONS, Over
 from .poles import whole_body
 from .pose_requests import condition, transmission
+from .positions import Positions, positions_for
 from .reach import limits_over
 from .requests import MotionFunction, NodeRequest, Request, RequestLike, SmoothPiece, Value, ratio
 from .search import Extremum, Span, below_zero, greatest, lowest, reached
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values
 from .table import Column, Tabled, columns_of
+from .target import Target

@@ -47,7 +47,7 @@ from .measures import (
     words_of,
 )
 from .motion import Motion
-from .over import ALLOWED, Over
+from .over import ALLOWED, Over, with_strokes
 from .requests import Request, SmoothPiece, identity_of
 from .search import extremum, strokes_moved
 from .strokes import at_values
@@ -148,7 +148,7 @@ class Domain:
         self.over = over if isinstance(over, Over) else over.over
         self.plan, self.designs = plan, designs
         with unwarned():
-            strokes = self.over.places(plan, self.number) if given is None else given.strokes
+            strokes = self.over.places(plan, self.number) if given is None else with_strokes(given.strokes)
             own = given is not None and given._grid.per_design
             self.motion = Motion(plan, designs, strokes, "nan", per_design=own)
 

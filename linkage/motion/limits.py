@@ -262,9 +262,11 @@ def si_span(values: Any, unit: str) -> str:
 
 def span_text(values: Any, unit: str) -> str:
     """Return the range of some stroke values as it is read: `0 to 0.25 m`, `90 deg`."""
-    if not np.size(values):
+    values = np.asarray(values, float)
+    values = values[np.isfinite(values)]  # along a path a place that is not reached has no stroke
+    if not values.size:
         return "nothing"
-    low, high = float(np.min(values)), float(np.max(values))
+    low, high = float(values.min()), float(values.max())
     if low == high:
         return stroke_text(low, unit, 6)
     return said("{low} to {high}", low=stroke_number(low, unit, 6), high=stroke_text(high, unit, 6))

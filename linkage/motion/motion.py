@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from ..assembly import ambiguous_angle
 from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned, warn
 from ..plan import ArrayReading, Mask, Plan, failures, negative
 from ..program import FloatArray, Kernel
-from ..quantities import Angle, Distance, Member, Quantity, needs
+from ..quantities import Angle, Distance, Member, Quantity, Reference, needs
 from ..shown import Shown
 from ..steps import Arrow, Point
 from ..vectors import Vec
@@ -31,6 +31,7 @@ from .requests import (
     bound,
     dimensions_of,
     examined,
+    natural_size,
     near_singular,
     other_law_error,
     places_of,
@@ -40,9 +41,8 @@ from .requests import (
     stroke_of,
     watched,
 )
-from .strokes import checked_name, method_of, order_of, rates_of
+from .strokes import checked_name, checked_rate, method_of, order_of, rates_of
 
-Target: TypeAlias = str | Member
 Made = TypeVar("Made")
 Kind = TypeVar("Kind", bound=Member)
 
@@ -194,25 +194,25 @@ class Motion(Shown):
         """The motion whose forces these are: that of the whole, where this one is read as a part has it, else itself."""
         return self if self._held is None else self._held[0].whole
 
-    def x(self, point: Target) -> FloatArray:
+    def x(self, point: Reference) -> FloatArray:
         """Return a point's x coordinate [m]."""
         return np.asarray(self._point(point)[0])
 
-    def y(self, point: Target) -> FloatArray:
+    def y(self, point: Reference) -> FloatArray:
         """Return a point's y coordinate [m]."""
         return np.asarray(self._point(point)[1])
 
-    def angle(self, P: Target, Q: Target) -> FloatArray:
+    def angle(self, P: Reference, Q: Reference) -> FloatArray:
         """Return the direction of P -> Q [rad], without jumps along the stroke."""
         self._point(P), self._point(Q)
         return self.value(Angle(P, Q))
 
-    def distance(self, P: Target, Q: Target) -> FloatArray:
+    def distance(self, P: Reference, Q: Reference) -> FloatArray:
         """Return the distance of two points [m]."""
         self._point(P), self._point(Q)
         return self.value(Distance(P, Q))
 
-    def transmission_angle(self, point: Target) -> FloatArray:
+    def transmission_angle(self, point: Reference) -> FloatArray:
         """Return the transmission angle of a dyad's joint [rad], shape (...), 0 to pi; best near pi / 2.
 
         Between the two links that meet in it (Dyad); between the link and the normal to its guide (SliderDyad: a
@@ -261,14 +261,14 @@ class Motion(Shown):
         # of second order at the ends too; a stroke that is held stays exactly so
         is_pair = self._stroke_shape[0] == 2
         return {
-            name: np.gradient(value, axis=-1, edge_order=1 if is_pair else 2) * (np.ptp(value, axis=-1, keepdims=True) > 0.0)
+            name: np.gradient(value, axis=-1, edge_order=1 if is_pair else 2) * ~np.all(value == value[..., :1], axis=-1, keepdims=True)
             for name, value in self.strokes.items()
         }
 
     # -- ratios, velocities, gradients -------------------------------------------------------------------
 
     def ratio(
-        self, target: Target, *, wrt: str | None = None, order: int = 1, method: str = "exact", step: float | None = None
+        self, target: Reference, *, wrt: str | None = None, order: int = 1, method: str = "exact", step: float | None = None
     ) -> FloatArray:
         """Return the derivative of a point or an output by a stroke: the transfer ratio (velocity analogue).
 
@@ -285,15 +285,18 @@ class Motion(Shown):
         found = np.where(refused, np.nan, found) if np.count_nonzero(refused) else found
         return self._finite(found, refused, f"{words} by {stroke}")
 
-    def velocity(self, target: Target, rates: Mapping[str, Any]) -> FloatArray:
+    def velocity(self, target: Reference, rates: Mapping[str, Any]) -> FloatArray:
         """Return the velocity of a point [m/s], shape (2, ...), or the rate of an output, from stroke rates [1/s]."""
-        given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
+        gaps = self.unreachable == "nan"
+        given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title, gaps=gaps)
         return sum((self.ratio(target, wrt=name) * rate for name, rate in given.items()), self._still(target))
 
-    def acceleration(self, target: Target, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> FloatArray:
+    def acceleration(self, target: Reference, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> FloatArray:
         """Return the acceleration of a point [m/s2], shape (2, ...), from stroke rates and accelerations."""
-        given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
-        driven = rates_of("accelerations", {} if accelerations is None else accelerations, self.strokes, self.shape, self.plan.title)
+        gaps = self.unreachable == "nan"
+        given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title, gaps=gaps)
+        asked = {} if accelerations is None else accelerations
+        driven = rates_of("accelerations", asked, self.strokes, self.shape, self.plan.title, gaps=gaps)
         member = self._member(target)
         along = [tuple(sorted((first, second))) for first in given for second in given]
         masks = [self._refused(Value(member, each), f"The acceleration of {member.name or member}") for each in dict.fromkeys(along)]
@@ -304,8 +307,17 @@ class Motion(Shown):
                 total = total + self._evaluated(Value(member, tuple(sorted((first, second))))) * u * v
         return np.where(refused, np.nan, total)
 
+    def rates_for(self, velocities: Mapping[RequestLike, Any]) -> dict[str, FloatArray]:
+        """Return the stroke rates [1/s] that give outputs their rates and points their velocities: `rates_for({"px": 0.2, "py": 0.0})`.
+
+        As many as there are strokes, by name or quantity, a number or an array over the poses each; of a point the two parts, (0.2, 0.0); a
+        stroke that stands still is one of them, `{"S": 0.0}`. Raises SingularError where the strokes cannot give them, at a dead point of
+        the drive, unless the motion has `unreachable="nan"`.
+        """
+        return rates_for(self, velocities)
+
     def pole(
-        self, body: Target, other: Target = "frame", *, wrt: str | None = None, rates: Mapping[str, Any] | None = None
+        self, body: Reference, other: Reference = "frame", *, wrt: str | None = None, rates: Mapping[str, Any] | None = None
     ) -> FloatArray:
         """Return the pole of a body, its instant centre, against the frame or another body, shape (2, ...) [m]; over a sweep, its path.
 
@@ -469,13 +481,13 @@ class Motion(Shown):
         index = 2 * self.plan.moving.index(name)
         return self._places[index : index + 2]
 
-    def _point(self, name: Target) -> FloatArray:
+    def _point(self, name: Reference) -> FloatArray:
         return self._place(checked_name("Point", name, self.plan.points, self.plan.title))
 
-    def _known(self, target: Target) -> Member:
+    def _known(self, target: Reference) -> Member:
         return self.plan.members[checked_name("Name", target, self.plan.members, self.plan.title)]
 
-    def _member(self, target: Target) -> Member:
+    def _member(self, target: Reference) -> Member:
         if not isinstance(target, Quantity) or target.name:
             return self._known(target)
         for name in needs(target):
@@ -540,7 +552,7 @@ class Motion(Shown):
             warn(SingularWarning(text, estimate=lost))
         return np.where(useless, np.nan, found)
 
-    def _still(self, target: Target) -> FloatArray:
+    def _still(self, target: Reference) -> FloatArray:
         """Return zeros in the shape of a ratio, NaN where the pose is not reached."""
         parts = (2,) if isinstance(self._member(target), (Point, Arrow)) else ()
         return np.where(self.reached, np.zeros((*parts, *self.shape)), np.nan)
@@ -649,6 +661,57 @@ class Motion(Shown):
     def _array(self, values: Any) -> FloatArray:
         """Return numbers as arrays of floats."""
         return np.asarray(values, float)
+
+
+def rates_for(motion: Motion, velocities: Any) -> dict[str, FloatArray]:
+    """Return the stroke rates that give some velocities; see Motion.rates_for."""
+    plan, title = motion.plan, f"{motion.plan.title}.rates_for"
+    if not isinstance(velocities, Mapping) or not velocities:
+        raise DefinitionError(f'{title}: {cited(velocities)}: rates by name are expected, such as {{"px": 0.2, "py": 0.0}}.')
+    names, slopes, wanted, natural = [], [], [], []
+    for quantity, rate in velocities.items():
+        what = bound(plan, quantity)
+        parts: Any = [rate]
+        if what.rows > 1:
+            if not isinstance(rate, (tuple, list, np.ndarray)) or len(rate) != what.rows:
+                raise DefinitionError(f"{title}: {what} is a point or a vector: its two parts are expected, (0.2, 0.0), not {cited(rate)}.")
+            parts = rate
+        names += [str(what)] * what.rows
+        wanted += [np.broadcast_to(checked_rate(f"rates_for: {what}", part, motion.shape, plan.title), motion.shape) for part in parts]
+        along = [np.broadcast_to(motion.ratio(quantity, wrt=stroke), (what.rows, *motion.shape)) for stroke in motion.strokes]
+        slopes += list(np.stack(along, axis=1))
+        natural += [compared_size(motion, what)] * what.rows
+    if len(wanted) != len(motion.strokes):
+        counted = f"{len(wanted)} rate{'s' * (len(wanted) != 1)} for {' and '.join(motion.strokes)}"
+        last = [*motion.strokes][-1]
+        remedy = f'one that stands still is a rate too, "{last}": 0.0' if len(wanted) < len(motion.strokes) else "leave out some"
+        raise DefinitionError(f"{title}: {counted}: give as many as there are strokes; {remedy}.")
+    matrix = np.moveaxis(np.array(slopes), (0, 1), (-2, -1))
+    right = np.moveaxis(np.array(wanted), 0, -1)[..., None]
+    spans = np.array([abs(stroke.end - stroke.start) for stroke in plan.strokes.values()])
+    sizes = np.moveaxis(np.array([np.broadcast_to(each, motion.shape) for each in natural]), 0, -1)
+    known = np.isfinite(matrix).all(axis=(-2, -1))
+    slopes = np.where(known[..., None, None], matrix, np.eye(len(wanted))) * spans / np.where(sizes > 0.0, sizes, 1.0)[..., None]
+    found = np.linalg.svd(slopes, compute_uv=False)
+    dead = known & ~(found[..., -1] * conditions.REFUSE > np.maximum(found[..., 0], 1.0))
+    if dead.any() and motion.unreachable == "raise":
+        where = where_words(plan, dead, motion.strokes)
+        text = f"{title}: no stroke rates give {', '.join(dict.fromkeys(names))} {where}, at a dead point of the drive"
+        raise SingularError(f'{text}. Leave these poses out, or ask with unreachable="nan".', mask=dead, motion=motion)
+    solvable = (known & ~dead)[..., None, None]
+    found = np.linalg.solve(np.where(solvable, matrix, np.eye(len(wanted))), right)[..., 0]
+    found = np.asarray(np.where(solvable[..., 0], found, np.nan), float)
+    return {stroke: np.asarray(found[..., place], float) for place, stroke in enumerate(motion.strokes)}
+
+
+def compared_size(motion: Motion, what: Request) -> FloatArray:
+    """Return what values of a request are compared with [SI]: places and lengths with the size of the machine, others with 1."""
+    extent = motion.plan.made(("extent",), lambda fork: Kernel([fork.trace.graph.node(fork.trace.extent)]))
+    size = np.asarray(np.sqrt(motion._grid.full(extent(motion._grid.flat, size=motion._grid.size).values)[0]))
+    if isinstance(what, Value):
+        found = natural_size(what.member, size)
+        return np.ones_like(size) if found is None else found
+    return size if what.measured(motion.plan) == "length" else np.ones_like(size)
 
 
 def each_at_its_stroke(

@@ -261,8 +261,20 @@ def place_values(shape: str, name: str, value: Any) -> Any:
     return tuple(found.tolist()) if found.ndim else float(found)
 
 
+def with_strokes(strokes: Mapping[str, FloatArray]) -> Mapping[str, FloatArray]:
+    """Return the strokes of those poses that have some: a place of a path that is not reached has none, and is NaN."""
+    known = np.all([np.isfinite(value) for value in strokes.values()], axis=0) if strokes else np.ones((), bool)
+    if known.all() or not known.any():
+        return strokes
+    return {name: value[known] for name, value in strokes.items()}
+
+
 def over_of(strokes: Mapping[str, FloatArray], per_design: bool) -> Over:
-    """Return where poses are: of one stroke its range, of several in arrays of one axis their path, of a grid the box."""
+    """Return where poses are: of one stroke its range, of several in arrays of one axis their path, of a grid the box.
+
+    Places of a path that have no strokes are left out.
+    """
+    strokes = with_strokes(strokes)
     several = sum(float(np.ptp(value)) > 0.0 for value in strokes.values()) > 1
     if several and not per_design and all(value.ndim == 1 for value in strokes.values()):
         return Over.path(**{name: value.tolist() for name, value in strokes.items()})

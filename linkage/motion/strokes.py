@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, known_name, unknown
+from ..errors import DefinitionError, cited, known_name, unknown
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import Member, Stroke, is_number, is_whole, real
@@ -132,25 +132,28 @@ def checked_name(kind: str, target: Any, known: Collection[str], title: str) -> 
     return known_name(kind, target.name if isinstance(target, Member) else target, known, where=title)
 
 
-def rates_of(what: str, given: Any, strokes: Mapping[str, FloatArray], shape: tuple[int, ...], title: str) -> dict[str, FloatArray]:
-    """Return the stroke rates by name, a float or an array over the poses; DefinitionError for anything else."""
+def rates_of(
+    what: str, given: Any, strokes: Mapping[str, FloatArray], shape: tuple[int, ...], title: str, *, gaps: bool = False
+) -> dict[str, FloatArray]:
+    """Return the stroke rates by name, a float or an array over the poses, NaN where there may be `gaps`; DefinitionError for others."""
     if not isinstance(given, Mapping):
         example = f"{what}=dict({next(iter(strokes), 'S')}=0.05)"
         raise DefinitionError(f"{title}: {what}={given!r}: a value for each stroke is expected, such as {example}.")
     return {
-        checked_name("Stroke", name, strokes, title): checked_rate(f"{what}: {name}", value, shape, title) for name, value in given.items()
+        checked_name("Stroke", name, strokes, title): checked_rate(f"{what}: {name}", value, shape, title, gaps=gaps)
+        for name, value in given.items()
     }
 
 
-def checked_rate(what: str, value: Any, shape: tuple[int, ...], title: str) -> FloatArray:
-    """Return one rate; DefinitionError unless it is finite and fits the poses."""
+def checked_rate(what: str, value: Any, shape: tuple[int, ...], title: str, *, gaps: bool = False) -> FloatArray:
+    """Return one rate; DefinitionError unless it is finite, or NaN where there may be `gaps`, and fits the poses."""
     try:
         rate = real(value)
         fits = np.broadcast_shapes(rate.shape, shape) == shape
     except ValueError:
         fits = False
-    if not fits or not np.all(np.isfinite(rate)):
-        raise DefinitionError(f"{title}: {what}={value!r}: a finite number or an array that fits the poses {shape} is expected.")
+    if not fits or not np.all(np.isfinite(rate) | (gaps & np.isnan(rate))):
+        raise DefinitionError(f"{title}: {what}={cited(value)}: a finite number or an array that fits the poses {shape} is expected.")
     return rate
 
 

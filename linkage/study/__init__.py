@@ -1,5 +1,6 @@
 """Studies: the search for better dimensions, extremes over a box, wanted values, tolerances, and surveys of millions of designs."""
 
+from ..motion import Target
 from .box import Box
 from .infeasible import InfeasibleError
 from .monte_carlo import Band, MonteCarlo, monte_carlo
@@ -9,6 +10,6 @@ from .sensitivity import Effect, SobolIndices, Tornado, sobol, tornado
 from .settings import Settings, settings_for
 from .space import around
 from .survey import Survey, survey
-from .targets import Solutions, Target
+from .targets import Solutions
 from .tolerances import Tolerance, sigma, spread
 from .zone import Zone, zone

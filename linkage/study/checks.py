@@ -10,18 +10,12 @@ import numpy as np
 from ..errors import AssemblyError, DefinitionError, cited
 from ..mechanism import Mechanism
 from ..plan import Plan
-from ..quantities import is_number
 
 
 def unit_of(plan: Plan, name: str) -> str:
     """Return the unit a dimension is shown in: its own, mm for lengths, deg for angles, "" where nothing says."""
     found = plan.table.entries[plan.table.spellings[name][0]]
     return found.unit or {"length": "mm", "coordinate": "mm", "angle": "deg"}.get(found.kind, "")
-
-
-def is_one(value: Any) -> bool:
-    """Return whether a value is one finite number."""
-    return is_number(value.item() if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value) else value)
 
 
 def check_mechanism(machine: Any) -> None:

@@ -11,18 +11,19 @@ import numpy as np
 from ..errors import DefinitionError, cited, known_name
 from ..language import said
 from ..mechanism import Mechanism
-from ..motion import last_holding
+from ..motion import Target, last_holding
 from ..motion.grid import recalled
 from ..motion.line import Curve, highest_between, sign_changes
 from ..motion.measures import words_of
 from ..motion.requests import identity_of
+from ..motion.target import is_one
 from ..plan import Mask
 from ..program import FloatArray
 from ..units import show, unit_or_none
 from .box import range_of
-from .checks import check_one_design, is_one, unit_of, why_not_assembled
+from .checks import check_one_design, unit_of, why_not_assembled
 from .measured import QuantityLike, StudyPoses, quantity_values
-from .targets import Solutions, Target, solutions_for
+from .targets import Solutions, solutions_for
 
 SAMPLES = 1025
 TOUCH = 1e-9  # of the values' span: what comes as near as this to the target touches it

@@ -4,56 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NoReturn, final
+from typing import Any, final
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
-from ..motion import Motion, Request, RequestLike, stroke_display_unit
-from ..motion.kinds import measure_of
+from ..motion import Motion, Request, Target, stroke_display_unit
+from ..motion.descent import descended
 from ..motion.line import Index
 from ..motion.requests import dimensions_of, slopes_of
-from ..plan import Mask, Plan
+from ..plan import Mask
 from ..program import FloatArray, RunOptions
-from ..quantities import is_number
-from ..units import deg, display_unit, mm, show, unit_or_none
+from ..units import show
 from .box import Box, setting_words, unit_points
-from .checks import check_one_design, is_one, why_not_assembled
+from .checks import check_one_design, why_not_assembled
 from .measured import StudyPoses, traced_number
-
-
-@final
-class Target:
-    """A value [SI] that a quantity is to have at a pose: `Target(y("F"), 0.45, S=0.05)`, `Target("tilt", 0.0, unit="deg", S=0.05)`.
-
-    The quantity is an output, a quantity or a request. `within` says how far off it may be [SI], by default 1 mm, 0.1 deg, or a
-    thousandth: where no setting gives all targets, misses are weighed by it. `unit` is that of the words.
-    """
-
-    def __init__(self, quantity: RequestLike, value: float, *, within: float | None = None, unit: str = "", **strokes: float) -> None:
-        what = f"Target({cited(quantity)}, {cited(value)})"
-        if not is_one(value):
-            raise DefinitionError(f"{what}: one number is expected for the value, in SI.")
-        if within is not None and not (is_number(within) and within > 0.0):
-            raise DefinitionError(f"{what}: within={cited(within)}: how far off it may be [SI], a number above zero, is expected.")
-        if not all(map(is_one, strokes.values())):
-            raise DefinitionError(f"{what}: one number is expected for each stroke, in SI.")
-        parts = {"quantity": quantity, "value": float(value), "within": within, "strokes": {k: float(v) for k, v in strokes.items()}}
-        vars(self).update(parts, unit=unit_or_none(unit, where="Target(unit=...)"))
-
-    quantity: RequestLike
-    value: float
-    within: float | None
-    unit: str
-    strokes: Mapping[str, float]
-
-    def __setattr__(self, name: str, value: object) -> NoReturn:
-        raise DefinitionError(f"Target.{name} = ...: it does not change; make a new one, Target(...).")
-
-    def __repr__(self) -> str:
-        return f"Target({', '.join([repr(self.quantity), repr(self.value), *(f'{k}={v!r}' for k, v in self.strokes.items())])})"
 
 
 @final
@@ -134,11 +101,14 @@ class Aim:
             said = 'a list of targets is expected, such as [Target("tilt", 0.0, S=0.1)]'
             raise DefinitionError(f"{plan.title}: {cited(targets)}: {said}.")
         for each in targets:
+            if each.is_path:
+                said = "one number is expected for the value, in SI. An array is a path, of follow(...)"
+                raise DefinitionError(f"{plan.title}: {each!r}: {said}.")
             if set(each.strokes) != set(machine.strokes):
                 raise DefinitionError(f"{plan.title}: {each!r}: say the pose, {', '.join(f'{name}=...' for name in machine.strokes)}.")
         bound = tuple(traced_number(plan, each.quantity) for each in targets)
         strokes = {name: np.array([each.strokes[name] for each in targets]) for name in machine.strokes}
-        scale = [each.within or usual_miss(plan, each) for each in targets]
+        scale = [each.miss(plan, float(each.value)) for each in targets]
         with unwarned():
             poses = StudyPoses(Motion(plan, machine.dimensions, strokes, "nan"))
         return cls(machine, tuple(targets), bound, poses, np.array([each.value for each in targets]), np.array(scale))
@@ -167,17 +137,11 @@ class Aim:
         """Return a target in words, or a value of it: `tilt = 5 deg at S = 100 mm`."""
         each, request, plan = self.targets[place], self.bound[place], self.machine.plan
         at = ", ".join(f"{name} = {show(float(v), stroke_display_unit(plan, name, 'mm'))}" for name, v in each.strokes.items())
-        return f"{request} = {show(each.value if value is None else value, self.unit_of_target(place))} at {at}"
+        return f"{request} = {show(float(each.value) if value is None else value, self.unit_of_target(place))} at {at}"
 
     def unit_of_target(self, place: int) -> str:
         """Return the unit that a target is told in."""
-        return self.targets[place].unit or display_unit(measure_of(self.machine.plan, self.targets[place].quantity), "mm")
-
-
-def usual_miss(plan: Plan, target: Target) -> float:
-    """Return how far off a target may be where nothing is said [SI]."""
-    kind = measure_of(plan, target.quantity)
-    return {"length": 1.0 * mm, "angle": 0.1 * deg}.get(kind, 1e-3 * abs(target.value) or 1e-3)
+        return self.targets[place].shown_in(self.machine.plan)
 
 
 def nowhere(box: Box, aim: Aim) -> str:
@@ -191,8 +155,6 @@ def nowhere(box: Box, aim: Aim) -> str:
 STARTS = 64
 """Starts of each choice: the best points of the grid, and those that no neighbour betters."""
 STEPS = 80
-LEAST = 1e-13
-"""The damping of a step, at least: with it a singular system of equations has a solution."""
 MET = 1e-7
 """Of a target's own units: a miss that is smaller is rounding."""
 SAME = 1e-6
@@ -234,26 +196,15 @@ class Search:
         return np.concatenate([grid[row] for row in rows]), np.repeat(np.arange(choices), [len(row) for row in rows])
 
     def descend(self, unit: FloatArray, choice: Index) -> tuple[FloatArray, FloatArray]:
-        """Return where the misses are least near each start, unit coordinates (m, k), and the misses there (m, targets).
+        """Return where the misses are least near each start, unit coordinates (m, k), and the misses there (m, targets)."""
 
-        Source: Nocedal, Wright, Numerical Optimization, 2nd ed., 10.3; a coordinate that a step would take out of the box is held.
-        """
-        unit = unit.copy()
-        off = self.aim.misses(self.at(unit, choice))
-        damping, going = np.full(len(unit), 1e-3), np.arange(len(unit)) if unit.shape[1] else np.arange(0)
-        for _ in range(STEPS):
-            if not len(going):
-                break
-            at = self.at(unit[going], choice[going])
-            slopes = self.aim.slopes(at, [*self.box.ranges]) * self.sides
-            new = damped_steps(unit[going], off[going], slopes, damping[going])
-            found = self.aim.misses(self.at(new, choice[going]))
-            better = np.sum(found**2, axis=1) < np.sum(off[going] ** 2, axis=1)
-            moved = np.abs(new - unit[going]).max(axis=1)
-            unit[going[better]], off[going[better]] = new[better], found[better]
-            damping[going] = np.where(better, np.maximum(damping[going] * 0.1, LEAST), damping[going] * 5.0)
-            going = going[(moved > 1e-14) & (damping[going] < 1e12)]
-        return unit, off
+        def misses(at: FloatArray, which: Index) -> FloatArray:
+            return self.aim.misses(self.at(at, choice[which]))
+
+        def slopes(at: FloatArray, which: Index) -> FloatArray:
+            return self.aim.slopes(self.at(at, choice[which]), [*self.box.ranges]) * self.sides
+
+        return descended(misses, slopes, unit, STEPS)
 
     def settled(self, unit: FloatArray, choice: Index, off: FloatArray) -> Solutions:
         """Return all solutions that a search found, or the nearest setting."""
@@ -322,7 +273,7 @@ class Search:
         """Return the nearest setting, and what is missing of each target."""
         said = []
         for place, miss in enumerate(off * self.aim.scale):
-            name = self.aim.words(place, self.aim.targets[place].value + float(miss))
+            name = self.aim.words(place, float(self.aim.targets[place].value) + float(miss))
             gap = show(abs(float(miss)), self.aim.unit_of_target(place), 4)
             side = "more" if miss > 0.0 else "less"
             said.append(f"{name}, {gap} {side} than wanted" if abs(off[place]) > TOLD else f"{name} as wanted")
@@ -349,24 +300,3 @@ def best_points(grid: FloatArray, off: FloatArray) -> Mask:
         lowest = np.flatnonzero(off <= off[near].min(axis=1))
         chosen[lowest[np.argsort(off[lowest], kind="stable")][:STARTS]] = True
     return chosen & np.isfinite(off)
-
-
-def damped_steps(unit: FloatArray, off: FloatArray, slopes: FloatArray, damping: FloatArray) -> FloatArray:
-    """Return where a step of Levenberg and Marquardt leads from unit coordinates (m, k), within the box."""
-    m, k = unit.shape
-    slopes = np.where(np.isfinite(slopes), slopes, 0.0)
-    size = np.sqrt(np.sum(slopes**2, axis=1))
-    slopes = slopes / np.where(size > 0.0, size, 1.0)[:, None]  # every coordinate by its own effect
-    pull = np.einsum("mrk,mr->mk", slopes, off)
-    matrix = np.einsum("mrk,mrl->mkl", slopes, slopes)
-    free = np.ones((m, k), bool)
-    step: FloatArray = np.zeros((m, k))
-    for _ in range(k + 1):  # coordinates that would leave the box are held, one round after the other
-        both = free[:, :, None] & free[:, None, :]
-        system = np.where(both, matrix, 0.0) + np.eye(k) * np.where(free & (size > 0.0), damping[:, None], 1.0)[:, :, None]
-        step = np.asarray(-np.linalg.solve(system, np.where(free, pull, 0.0)[:, :, None])[:, :, 0], float)
-        leaving = free & (((unit <= 0.0) & (step < 0.0)) | ((unit >= 1.0) & (step > 0.0)))
-        if not leaving.any():
-            break
-        free &= ~leaving
-    return np.clip(unit + np.where(free & (size > 0.0), step / np.where(size > 0.0, size, 1.0), 0.0), 0.0, 1.0)

@@ -1,0 +1,386 @@
+"""A path of places followed on one branch: the strokes of each place, from those of the place before, and why it ends where it ends.
+
+From place to place steps of Newton go from where the last places lead to; where they do not settle quickly, or come to a pose on the
+other side of one at which the slopes lose a rank, the way between two places is divided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import isfinite
+from typing import Any, TypeAlias, final
+
+import numpy as np
+
+from ..errors import AssemblyError, DefinitionError, SingularError, cited, one_word, unwarned
+from ..language import said
+from ..plan import Mask, Plan, opening
+from ..program import NO_VALUE, FloatArray
+from ..units import show
+from .interruptions import ON_ARRAYS, Clearances
+from .motion import Motion
+from .places import Places, branches, unmet_words
+from .strokes import TURN, checked_name
+from .target import is_one
+
+TOLERANCE = 1e-12
+"""Of the size of what it measures: a target that is missed by no more is met."""
+LEAST = 1e-7
+"""Of the way between two places: steps that are shorter end the path."""
+SETTLES, TURNS = 0.3, 0.5
+"""A correction over the one before, or over the step itself, and the length of one over that of the last places: more is not trusted."""
+ITERATIONS = 8
+IN_LINE = 1e-4
+"""A loop's clearance, a squared sine or a share, below which it is that loop's dead point where a path ends."""
+BEYOND = 1e-9
+"""Of its range: a stroke that is so far past its end is past it."""
+
+Pose: TypeAlias = Callable[[Sequence[float]], "tuple[list[float], list[list[float]]] | None"]
+"""The values of the targets at some strokes, and their slopes, a row each; None where there is no pose."""
+
+
+def followed(plan: Plan, designs: Mapping[str, Any], targets: Any, hold: Any, start: Any, unreachable: str) -> Motion:
+    """Return the motion along a path of places; see Mechanism.follow."""
+    one_word("unreachable", unreachable, ("raise", "nan"))
+    places = Places.of(plan, designs, targets, hold, where="follow")
+    route = Route(places, goals_of(places))
+    begun = start_of(places, start)
+    with unwarned():
+        if begun is not None:
+            tracks = [route.tracked(begun)]
+        else:
+            tracks = []
+            for unit in first_branches(places, route.goals[0]):
+                tracks.append(route.tracked(places.low + unit * places.span))
+                if tracks[-1].is_whole:
+                    break
+            if not tracks and unreachable == "raise":
+                why = unmet_words(places, route.goals[0], places.shown(route.goals[0]))
+                text = said("place {n} of {count} is not reached: {why}", n=1, count=len(route.goals), why=why)
+                raise AssemblyError(f"{plan.title}: follow: {text}", mask=np.ones(len(route.goals), bool))
+    best = max(tracks, key=lambda each: each.reached_first, default=None)
+    if best is None:
+        return route.motion(np.full((len(route.goals), len(places.free)), np.nan), unreachable)
+    if unreachable == "raise" and not best.is_whole:
+        raise best.error()
+    return route.motion(np.where(best.inside[:, None], best.strokes, np.nan), unreachable)
+
+
+def goals_of(places: Places) -> FloatArray:
+    """Return what is wanted at each place (n, t); DefinitionError where the arrays of the targets are not of one length."""
+    lengths = {len(each.value) for each in places.targets if isinstance(each.value, np.ndarray)}
+    if len(lengths) > 1:
+        given = ", ".join(f"{each.quantity} {np.size(each.value)}" for each in places.targets)
+        what = f"the targets have values of different lengths, {given}; give each one value a place"
+        raise DefinitionError(f"{places.plan.title}: follow: {what}.")
+    count = lengths.pop() if lengths else 1
+    return np.stack([np.broadcast_to(each.value, (count,)) for each in places.targets], axis=1)
+
+
+def start_of(places: Places, start: Any) -> FloatArray | None:
+    """Return where the path is begun from, values of the free strokes (k,), None where that is not said; DefinitionError for no strokes."""
+    if start is None:
+        return None
+    title = f"{places.plan.title}: follow"
+    if hasattr(start, "keys"):  # a row of `Positions.strokes` too
+        start = dict(start)
+    if not isinstance(start, Mapping):
+        example = ", ".join(f'"{name}": ...' for name in places.free)
+        raise DefinitionError(f"{title}: start={cited(start)}: the strokes it begins near are expected, start={{{example}}}.")
+    for name, value in start.items():
+        checked_name("Stroke", name, places.plan.strokes, places.plan.title)
+        if not is_one(value):
+            raise DefinitionError(f"{title}: start: {name}={cited(value)}: one number is expected, in SI.")
+    missing = [name for name in places.free if name not in start]
+    if missing:
+        raise DefinitionError(f"{title}: start= does not say {', '.join(missing)}; give a value for each stroke that is not held.")
+    return np.array([float(start[name]) for name in places.free])
+
+
+def first_branches(places: Places, goal: FloatArray) -> FloatArray:
+    """Return the branches of the first place, unit coordinates (n, k), the nearest to the declared first pose of the strokes first."""
+    found = branches(places, goal).unit
+    begun = (np.array([places.plan.sketch_strokes[name] for name in places.free]) - places.low) / places.span
+    return found[np.argsort(np.abs(found - begun).max(axis=1), kind="stable")] if len(found) else found
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class PathEnd:
+    """Where a path ends: before which place, the strokes there (k,), and what they give (t,) [SI]."""
+
+    place: int
+    strokes: FloatArray
+    values: FloatArray
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Route:
+    """The places of a path, what is wanted at each (n, t)."""
+
+    places: Places
+    goals: FloatArray
+
+    @cached_property
+    def pose(self) -> Pose:
+        """The targets and their slopes in floats, next to dead points too, where they are rough."""
+        places, t, k = self.places, len(self.places.targets), len(self.places.free)
+        kernel = places.program.together
+        quick = kernel.floats.quick["pose"]
+        passed = [] if places.plan.solved else kernel.floats.design([places.designs[node.value] for node in kernel.plan.design_inputs])
+        names = [node.value for node in kernel.plan.pose_inputs]
+
+        def at(strokes: Sequence[float]) -> tuple[list[float], list[list[float]]] | None:
+            if places.plan.solved:
+                found = kernel(places.inputs(np.array(strokes)[:, None]), size=(1, 1)).values[:, 0, 0].tolist()
+            else:
+                here = {**places.held, **dict(zip(places.free, strokes, strict=True))}
+                try:
+                    found = quick(*passed, *[here[name] for name in names])
+                except NO_VALUE:
+                    return None
+            if not isfinite(sum(found)):
+                return None
+            return list(found[:t]), [list(found[t + k * row : t + k * (row + 1)]) for row in range(t)]
+
+        return at
+
+    @cached_property
+    def tolerance(self) -> list[float]:
+        """By how much each target may be missed [SI]."""
+        return [float(each) for each in TOLERANCE * self.places.sizes]
+
+    @cached_property
+    def angles(self) -> list[bool]:
+        """Which targets count modulo a turn."""
+        return [bool(each) for each in self.places.angles]
+
+    def off(self, values: Sequence[float], goal: Sequence[float]) -> list[float]:
+        """Return what is missing to a goal [SI], angles the shorter way round."""
+        return [
+            (b - a) - TURN * round((b - a) / TURN) if is_angle else b - a
+            for a, b, is_angle in zip(values, goal, self.angles, strict=True)
+        ]
+
+    def tracked(self, start: FloatArray) -> Track:
+        """Return the strokes of each place, from some strokes near those of the first one; NaN from where it ends."""
+        goals: list[list[float]] = self.goals.tolist()
+        strokes = np.full((len(goals), len(self.places.free)), np.nan)
+        begun = self.pose(start.tolist())
+        if begun is None:
+            return Track(self, strokes, PathEnd(0, start, np.full(len(goals[0]), np.nan)))
+        step = solved(begun[1], begun[0])
+        here = TrackedPose(start.tolist(), *begun, step[1] if step is not None else 0.0)
+        ahead: list[TrackedPose] = []
+        for place, goal in enumerate(goals):
+            found = None
+            if len(ahead) == 4:
+                found = self._ahead(ahead, goal)
+                ahead = ahead if found is not None else []
+            if found is None:
+                found = self._divided(here, goal)
+            if not self.is_met(self.off(found.values, goal)):
+                return Track(self, strokes, PathEnd(place, np.array(found.strokes), np.array(found.values)))
+            here = found
+            ahead = [*ahead[-3:], here]
+            strokes[place] = here.strokes
+        return Track(self, strokes, None)
+
+    def _ahead(self, last: Sequence[TrackedPose], goal: Sequence[float]) -> TrackedPose | None:
+        """Return the pose at a goal from where the last four places lead to, a cubic through them; None where that is not near it."""
+        a, b, c, here = (each.strokes for each in last)
+        guess = [4.0 * z - 6.0 * y + 4.0 * x - w for w, x, y, z in zip(a, b, c, here, strict=True)]
+        return self._corrected(last[-1], guess, goal, TURNS)
+
+    def _divided(self, here: TrackedPose, goal: Sequence[float]) -> TrackedPose:
+        """Return the pose at a goal, in as many steps as are needed; the last one that is reached where none leads there."""
+        way = self.off(here.values, goal)
+        begun, done, step = here.values, 0.0, 1.0
+        while done < 1.0:
+            step = min(step, 1.0 - done)
+            until = [a + (done + step) * b for a, b in zip(begun, way, strict=True)] if done + step < 1.0 else goal
+            ahead = solved(here.slopes, self.off(here.values, until))
+            found = None
+            if ahead is not None:
+                guess = [a + b for a, b in zip(here.strokes, ahead[0], strict=True)]
+                found = self._corrected(here, guess, until, SETTLES)
+            if found is None:
+                step *= 0.25
+                if step < LEAST:
+                    return here
+            else:
+                here, done, step = found, done + step, 2.0 * step
+        return here
+
+    def _corrected(self, here: TrackedPose, guess: list[float], goal: Sequence[float], share: float) -> TrackedPose | None:
+        """Return the pose at a goal by steps of Newton from a guess; None where they do not settle quickly, or on the same branch.
+
+        The first correction is at most a share of the step from here to the guess. On another branch the determinant of the slopes
+        has the other sign.
+        """
+        spans = self.places.span.tolist()
+        most = share * max(abs(b - a) / span for a, b, span in zip(here.strokes, guess, spans, strict=True)) + 1e-9
+        near, determinant = 0.1 * most, 0.0
+        for _ in range(ITERATIONS):
+            found = self.pose(guess)
+            if found is None:
+                return None
+            missing = self.off(found[0], goal)
+            if determinant and most <= SETTLES * near and self.is_met(missing):  # so near that the slopes are the same
+                return TrackedPose(guess, *found, determinant)
+            step = solved(found[1], missing)
+            if step is None or step[1] * here.determinant <= 0.0:
+                return None
+            determinant = step[1]
+            if self.is_met(missing):
+                return TrackedPose(guess, *found, determinant)
+            size = max(abs(each) / span for each, span in zip(step[0], spans, strict=True))
+            if not size <= most:
+                return None
+            guess = [a + b for a, b in zip(guess, step[0], strict=True)]
+            most = max(SETTLES * size, 1e-14)
+        return None
+
+    def is_met(self, missing: Sequence[float]) -> bool:
+        """Return whether what is missing to a goal is nothing but rounding."""
+        return all(-least <= each <= least for each, least in zip(missing, self.tolerance, strict=True))
+
+    def motion(self, strokes: FloatArray, unreachable: str) -> Motion:
+        """Return the motion at strokes (n, k)."""
+        places = self.places
+        every = dict(zip(places.free, strokes.T, strict=True))
+        every |= {name: np.full(len(strokes), value) for name, value in places.held.items()}
+        return Motion(places.plan, places.designs, {name: every[name] for name in places.plan.strokes}, unreachable)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class TrackedPose:
+    """A pose on the way: its strokes, what they give, the slopes and their determinant, whose sign tells two branches apart."""
+
+    strokes: list[float]
+    values: list[float]
+    slopes: list[list[float]]
+    determinant: float
+
+
+def solved(matrix: Sequence[Sequence[float]], right: Sequence[float]) -> tuple[list[float], float] | None:
+    """Return the solution of a small system of linear equations in floats, and its determinant; None of a singular one."""
+    rows = [[*row, b] for row, b in zip(matrix, right, strict=True)]
+    count, determinant = len(rows), 1.0
+    for k in range(count):
+        pivot = k
+        for row in range(k + 1, count):
+            if abs(rows[row][k]) > abs(rows[pivot][k]):
+                pivot = row
+        if not abs(rows[pivot][k]) > 0.0:
+            return None
+        if pivot != k:
+            rows[k], rows[pivot], determinant = rows[pivot], rows[k], -determinant
+        top = rows[k]
+        determinant *= top[k]
+        for below in rows[k + 1 :]:
+            factor = below[k] / top[k]
+            for column in range(k + 1, count + 1):
+                below[column] -= factor * top[column]
+    found = [0.0] * count
+    for k in range(count - 1, -1, -1):
+        found[k] = (rows[k][count] - sum(rows[k][j] * found[j] for j in range(k + 1, count))) / rows[k][k]
+    return found, determinant
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Track:
+    """The strokes (n, k) of a path on one branch, NaN from where it ends; and where that is, None of one that goes all the way."""
+
+    route: Route
+    strokes: FloatArray
+    ended: PathEnd | None
+
+    @cached_property
+    def past(self) -> FloatArray:
+        """How far each stroke is past its ends [m or rad], shape (n, k); a crank that turns all the way round has none."""
+        places = self.route.places
+        whole = places.turning & (places.span >= TURN * (1.0 - 1e-9))
+        far = np.maximum(places.low - self.strokes, self.strokes - (places.low + places.span))
+        return np.where(whole | ~(far > BEYOND * places.span), 0.0, far)
+
+    @cached_property
+    def inside(self) -> Mask:
+        """The places that are reached with all strokes between their ends, shape (n,)."""
+        return np.asarray(np.isfinite(self.strokes).all(axis=1) & (self.past <= 0.0).all(axis=1))
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether all places are reached."""
+        return bool(self.inside.all())
+
+    @property
+    def reached_first(self) -> int:
+        """How many places are reached before the first one that is not."""
+        return int(np.argmin(np.append(self.inside, False)))
+
+    def error(self) -> AssemblyError:
+        """Return why it does not go all the way."""
+        place = self.reached_first
+        out = self.past[place] > 0.0
+        if out.any():
+            return AssemblyError(self._past_words(place, out), mask=~self.inside, shortfall=float(self.past[place].max()))
+        assert self.ended is not None
+        return self._dead_point(self.ended)
+
+    def _opening(self, place: int) -> str:
+        """Return how a sentence about a place begins."""
+        places, goals = self.route.places, self.route.goals
+        at = said("place {n} of {count}, {wanted}", n=place + 1, count=len(goals), wanted=places.shown(goals[place]))
+        return f"{places.plan.title}: follow: {at}"
+
+    def _past_words(self, place: int, out: Mask) -> str:
+        """Return which stroke is past which end at a place, by how much; and where most."""
+        words = self.route.places.past_words(self.strokes[place], out)
+        text = said("{opening}: {words}.", opening=self._opening(place), words=words)
+        worst = int(np.argmax(np.max(self.past / self.route.places.span, axis=1)))
+        if worst != place:
+            most = self.route.places.past_words(self.strokes[worst], self.past[worst] > 0.0)
+            text += " " + said("Farthest out is place {n}: {words}.", n=worst + 1, words=most)
+        return text
+
+    def _dead_point(self, ended: PathEnd) -> SingularError:
+        """Return the error for a path that ends at a dead point: of a loop where one is in line there, else of the drive."""
+        places = self.route.places
+        at = places.stroke_words(ended.strokes)
+        missing = self.route.off(ended.values.tolist(), self.route.goals[ended.place].tolist())
+        lacks = ", ".join(
+            said("{amount} of {name}", amount=show(abs(each), target.shown_in(places.plan), 4), name=name)
+            for each, target, name, least in zip(missing, places.targets, places.bound, self.route.tolerance, strict=True)
+            if not abs(each) <= least
+        )
+        loop = loop_in_line(places, ended.strokes)
+        if not np.isfinite(ended.values).all():
+            what = said("at {strokes}, where it begins, there is no pose", strokes=at)
+        elif loop:
+            what = said("at {strokes} {step} stands at a dead point, {missing} short of it", strokes=at, step=loop, missing=lacks)
+        else:
+            what = said(
+                "at {strokes} the strokes stand at a dead point of the drive, from which they move {names} no farther this way, "
+                "{missing} short of it",
+                strokes=at, names=", ".join(map(str, places.bound)), missing=lacks,
+            )  # fmt: skip
+        poses = self.route.motion(np.where(self.inside[:, None], self.strokes, np.nan), "nan")
+        point = loop.partition(" = ")[0]
+        return SingularError(f"{self._opening(ended.place)}: {what}.", point=point, mask=~self.inside, motion=poses)
+
+
+def loop_in_line(places: Places, strokes: FloatArray) -> str:
+    """Return the step whose loop stands at its dead point at some strokes, as a sentence begins with it; "" where none does."""
+    clearances = places.plan.made("clearances", Clearances.of)
+    if not clearances.loops:
+        return ""
+    seen = np.abs(clearances.kernel(places.inputs(strokes[:, None]), way=ON_ARRAYS, size=(1, 1)).values[:, 0, 0])
+    share = [each / places.size if loop.kind in ("length", "meeting") else each for each, loop in zip(seen, clearances.loops, strict=True)]
+    worst = int(np.nanargmin(share))
+    return opening(places.plan, clearances.loops[worst].step) if share[worst] < IN_LINE else ""

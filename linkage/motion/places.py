@@ -1,0 +1,651 @@
+"""Strokes from places: all that give some targets, on the exact slopes from a grid of strokes; where none does, how far off the nearest is.
+
+A grid of the strokes is looked at first. Steps of Levenberg and Marquardt go from every cell of it in which all targets may be met, by
+their values at its corners and how these bend; where two branches come close to each other, on from the other side of each as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations, product
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited, unwarned
+from ..language import said
+from ..plan import Mask, Plan
+from ..program import QUICKEST, FloatArray, Kernel, RunOptions
+from ..program.elimination import is_zero
+from ..units import show
+from .descent import descended
+from .grid import Grid
+from .interruptions import ON_ARRAYS
+from .kinds import measure_of
+from .limits import stroke_display_unit
+from .line import Index, last_holding
+from .measures import traced, words_of
+from .motion import Motion
+from .requests import Request
+from .strokes import TURN, check_magnitude, checked_name
+from .target import Target, is_one
+
+SIDE = {1: 129, 2: 33, 3: 13, 4: 8, 5: 6}
+"""Values of each stroke of the grid, by how many strokes are looked for; 5 of more of them."""
+A_TURN = {1: 128, 2: 32, 3: 16, 4: 9, 5: 7}
+"""Values of a crank for each turn of it, at the least."""
+MOST_POSES = 1 << 19
+STARTS = 96
+"""Starts on the grid, those where most seems to be met first."""
+BORDER_STARTS = 48
+"""Starts at the border of what can be assembled."""
+FAR_OFF = 0.35
+"""Of what a target changes by over the strokes: what misses it by more at a border is not met within a cell of it."""
+NEXT_TO, PARTS = 1e-3, 32
+"""Of a cell: how near to its border they lie; and in how many parts it is cut to find that."""
+STEPS, MORE_STEPS = 8, 60
+"""Steps from every start, and from those that have come near; a branch that ends there is come to by halves."""
+DAMPING = 1e-6
+"""The damping of the first step: the starts are near."""
+ROUNDING = 1e-14
+"""Of the size of what it measures: a miss that is no larger is rounding."""
+CLOSE = 0.05
+"""Of what a target changes by over the strokes: what misses it by less has come near it."""
+MET = 1e-10
+"""Of the size of what it measures: a target that is missed by no more is met."""
+SAME = 1e-7
+"""Of the range of a stroke: branches that are nearer to each other are one."""
+NEAR = 1e-2
+"""Of the range: branches that are so near are one where what lies between them meets the targets too."""
+BESIDE = 0.01
+"""Of a cell of the grid: how far aside it is looked how the slopes change."""
+CELLS = 3.0
+"""Cells of the grid within which another branch is looked for beside each that is found."""
+SCATTERED = 0.5 + 0.4 * np.sin(np.arange(1, 17)[:, None] * np.sqrt(np.arange(2, 34)))
+"""Some poses in unit coordinates."""
+MOST = 64
+"""Branches that are told, where infinitely many meet the targets."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class PlaceProgram:
+    """Some targets by the strokes that are looked for: kernels of their values, of their slopes, of both, and of the squared size [m2].
+
+    `follows` are the targets (t, k) that a stroke has an effect on.
+    """
+
+    values: Kernel
+    slopes: Kernel
+    together: Kernel
+    size: Kernel
+    follows: Mask
+
+    @classmethod
+    def of(cls, plan: Plan, requests: Sequence[Request], free: Sequence[str]) -> PlaceProgram:
+        """Return the program of requests that are bound to a plan, made once."""
+
+        def make(fork: Plan) -> PlaceProgram:
+            nodes = [node for each in requests for node in each.nodes(fork)]
+            rates = np.array([[*fork.derived([node], (name,))] for node in nodes for name in free], object).reshape(len(nodes), -1)
+            follows = np.array([[not is_zero(node) for node in row] for row in rates])
+            size = fork.trace.graph.node(fork.trace.extent)
+            slopes = list(rates.ravel())
+            return cls(Kernel(nodes), Kernel(slopes), Kernel([*nodes, *slopes]), Kernel([size]), follows)
+
+        return plan.made(("places", tuple(each.key for each in requests), tuple(free)), make)
+
+
+FEW = 4
+"""Poses that are worked out in plain floats: the programs of places are small, and more are quicker as arrays."""
+
+
+def way_of(count: int) -> RunOptions:
+    """Return how so many poses are worked out."""
+    return QUICKEST if count <= FEW else ON_ARRAYS
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Targets of one design, bound to its plan, by the strokes that are looked for; the others are held.
+
+    Unit coordinates are shares of the range of each stroke, from its least value on, and may lie beyond 0 to 1.
+    """
+
+    plan: Plan
+    designs: Mapping[str, Any]
+    targets: tuple[Target, ...]
+    bound: tuple[Request, ...]
+    free: tuple[str, ...]
+    held: Mapping[str, float]
+
+    @classmethod
+    def of(cls, plan: Plan, designs: Mapping[str, Any], targets: Any, hold: Any, *, where: str) -> Places:
+        """Return targets bound to one design; DefinitionError for what is none, and where they do not ask for the strokes there are."""
+        title = f"{plan.title}: {where}"
+        if any(np.ndim(value) for value in designs.values()):
+            raise DefinitionError(f"{title} is of one design, this is a batch; choose one of them.")
+        if not isinstance(targets, (list, tuple)) or not targets or not all(isinstance(each, Target) for each in targets):
+            example = 'a list of targets is expected, such as [Target(x("G"), 2.5), Target(y("G"), 0.5)]'
+            raise DefinitionError(f"{title}: {cited(targets)}: {example}.")
+        held = held_strokes(plan, hold, title)
+        for each in targets:
+            if each.strokes:
+                names = ", ".join(f'hold={{"{name}": {value!r}}}' for name, value in each.strokes.items())
+                raise DefinitionError(f"{title}: {each!r}: strokes are what is looked for here; one that stands still is held, {names}.")
+        free = tuple(name for name in plan.strokes if name not in held)
+        bound = tuple(traced_target(plan, each, title) for each in targets)
+        found = cls(plan, {name: float(value) for name, value in designs.items()}, tuple(targets), bound, free, held)
+        check_targets(found, title)
+        return found
+
+    @cached_property
+    def program(self) -> PlaceProgram:
+        """The kernels."""
+        return PlaceProgram.of(self.plan, self.bound, self.free)
+
+    @cached_property
+    def low(self) -> FloatArray:
+        """The least values of the strokes that are looked for [m or rad], shape (k,)."""
+        return np.array([min(stroke.start, stroke.end) for stroke in self._strokes])
+
+    @cached_property
+    def span(self) -> FloatArray:
+        """The ranges of these strokes [m or rad], shape (k,)."""
+        return np.array([abs(stroke.end - stroke.start) for stroke in self._strokes])
+
+    @property
+    def _strokes(self) -> list[Any]:
+        return [self.plan.strokes[name] for name in self.free]
+
+    @cached_property
+    def turning(self) -> Mask:
+        """Which of these strokes are angles, shape (k,)."""
+        return np.array([name in self.plan.turning for name in self.free])
+
+    @cached_property
+    def angles(self) -> Mask:
+        """Which targets count modulo a turn, shape (t,)."""
+        return np.array([measure_of(self.plan, each.quantity) == "angle" for each in self.targets])
+
+    @cached_property
+    def size(self) -> float:
+        """The size of the machine [m]."""
+        middle = self.low + 0.5 * self.span
+        return float(np.sqrt(self.program.size(self.inputs(middle[:, None]), size=(1, 1)).values[0, 0, 0]))
+
+    @cached_property
+    def sizes(self) -> FloatArray:
+        """The natural size of what each target measures [SI], shape (t,): of a length that of the machine, of an angle 1."""
+        kinds = [measure_of(self.plan, each.quantity) for each in self.targets]
+        other = [max(float(np.max(np.abs(each.value))), each.miss(self.plan, 0.0)) for each in self.targets]
+        known = {"length": self.size, "angle": 1.0}
+        return np.array([known.get(kind, size) for kind, size in zip(kinds, other, strict=True)])
+
+    @cached_property
+    def within(self) -> FloatArray:
+        """How far off each target may be [SI], shape (t,), by which misses are weighed where nothing meets all of them."""
+        return np.array([each.miss(self.plan, float(np.max(np.abs(each.value)))) for each in self.targets])
+
+    # -- what is seen ------------------------------------------------------------------------------------
+
+    def inputs(self, strokes: FloatArray) -> Mapping[str, Any]:
+        """Return the inputs of the program at strokes (k, n) [m or rad]."""
+        held = {name: np.full(strokes.shape[1], value) for name, value in self.held.items()}
+        every = dict(zip(self.free, strokes, strict=True)) | held
+        if not self.plan.solved:
+            return {**self.designs, **every}
+        return Grid(self.plan, self.designs, {name: every[name] for name in self.plan.strokes}).flat
+
+    def rows(self, unit: FloatArray) -> dict[str, FloatArray]:
+        """Return all strokes by name [m or rad], shape (n,), at unit coordinates (n, k)."""
+        every = dict(zip(self.free, (self.low + unit * self.span).T, strict=True))
+        every |= {name: np.full(len(unit), value) for name, value in self.held.items()}
+        return {name: every[name] for name in self.plan.strokes}
+
+    def values(self, unit: FloatArray) -> FloatArray:
+        """Return the values of the targets [SI], shape (n, t), at unit coordinates (n, k); NaN out of reach."""
+        strokes = (self.low + unit * self.span).T
+        return self.program.values(self.inputs(strokes), way=way_of(len(unit)), size=(1, len(unit))).values[:, 0].T
+
+    def slopes(self, unit: FloatArray) -> FloatArray:
+        """Return their derivatives by unit coordinates, shape (n, t, k)."""
+        strokes = (self.low + unit * self.span).T
+        found = self.program.slopes(self.inputs(strokes), way=way_of(len(unit)), size=(1, len(unit))).values[:, 0]
+        return found.reshape(len(self.targets), len(self.free), len(unit)).transpose(2, 0, 1) * self.span
+
+    def off(self, values: FloatArray, wanted: FloatArray) -> FloatArray:
+        """Return by how much values (n, t) exceed what is wanted (t,) [SI], angles the shorter way round."""
+        miss = values - wanted
+        if self.angles.any():
+            miss[:, self.angles] -= TURN * np.round(miss[:, self.angles] / TURN)
+        return miss
+
+    def condition(self, unit: FloatArray) -> FloatArray:
+        """Return how badly strokes are known from places, shape (n,): the largest slope anywhere over the least here, in natural sizes.
+
+        It is infinite where some way of the strokes moves no target.
+        """
+        slopes = self.slopes(np.concatenate([unit, SCATTERED[:, : len(self.free)]])) / self.sizes[:, None]
+        known = all_known(slopes)
+        sizes = np.full((len(slopes), 2), np.nan)
+        sizes[known] = np.linalg.svd(slopes[known], compute_uv=False)[:, [0, -1]]
+        with np.errstate(divide="ignore"):
+            found = np.fmax.reduce(sizes[:, 0], initial=0.0) / sizes[: len(unit), 1]
+        return np.where(np.isnan(found), np.inf, found)
+
+    def reached(self, unit: FloatArray) -> Mask:
+        """Return where the whole machine can be assembled, shape (n,)."""
+        with unwarned():
+            return Motion(self.plan, self.designs, self.rows(unit), "nan").reached
+
+    # -- words -------------------------------------------------------------------------------------------
+
+    def shown(self, wanted: FloatArray) -> str:
+        """Return what is wanted (t,) in words: `x(M) = 2500 mm, tilt = 5 deg`."""
+        each = zip(self.bound, wanted.tolist(), self.targets, strict=True)
+        return ", ".join(f"{name} = {show(value, target.shown_in(self.plan))}" for name, value, target in each)
+
+    def stroke_words(self, strokes: FloatArray) -> str:
+        """Return values of the free strokes (k,) in words: `boom = 1100 mm, arm = 1300 mm`."""
+        return ", ".join(f"{name} = {self.stroke_value(name, value)}" for name, value in zip(self.free, strokes.tolist(), strict=True))
+
+    def stroke_value(self, name: str, value: float, digits: int = 6) -> str:
+        """Return a value of a stroke [m or rad] in words, lengths in millimetres."""
+        return show(value, stroke_display_unit(self.plan, name, "mm"), digits)
+
+    def past_words(self, strokes: FloatArray, out: Mask) -> str:
+        """Return which of the free strokes (k,) are past which end, and by how much; `out` says which are."""
+        words = []
+        for place in np.flatnonzero(out).tolist():
+            name, value, low = self.free[place], float(strokes[place]), float(self.low[place])
+            end = low if value < low else low + float(self.span[place])
+            away = {"value": self.stroke_value(name, value), "end": self.stroke_value(name, end)}
+            past = self.stroke_value(name, abs(value - end), 4)
+            words.append(said("{stroke} = {value} is {past} past its end at {end}", stroke=name, past=past, **away))
+        return ", ".join(words)
+
+
+def traced_target(plan: Plan, target: Target, title: str) -> Request:
+    """Return what a target is of, bound to a plan; DefinitionError for what has no slopes in the program."""
+    found = traced(plan, target.quantity)
+    if found is None:
+        what = f"{title}: {words_of(target.quantity)} is no part of the program, so that no slopes of it are known"
+        raise DefinitionError(f'{what}; give an output, a quantity or a request, such as x("G") or "tilt".')
+    return found
+
+
+def held_strokes(plan: Plan, hold: Any, title: str) -> dict[str, float]:
+    """Return the strokes that are held, by name; DefinitionError for what is no stroke or no number."""
+    if hold is None:
+        return {}
+    if not isinstance(hold, Mapping):
+        raise DefinitionError(f'{title}: hold={cited(hold)}: strokes by name are expected, hold={{"{next(iter(plan.strokes))}": 0.1}}.')
+    for name, value in hold.items():
+        checked_name("Stroke", name, plan.strokes, plan.title)
+        if not is_one(value):
+            raise DefinitionError(f"{title}: hold: {name}={cited(value)}: one number is expected, in SI.")
+        check_magnitude(name, (float(value),), plan)
+    return {name: float(value) for name, value in hold.items()}
+
+
+def check_targets(places: Places, title: str) -> None:
+    """Raise DefinitionError unless there are as many targets as strokes to look for, each with some of its own."""
+    free, targets, names = places.free, places.targets, [str(each) for each in places.bound]
+    missing = len(free) - len(targets)
+    strokes = f"{len(free)} free stroke{'s' * (len(free) != 1)}{', ' * bool(free)}{', '.join(free)}"
+    counted = f"{len(targets)} target{'s' * (len(targets) != 1)} and {strokes}"
+    if missing > 0:
+        some = "it" if len(free) == 1 else "one of them" if missing == 1 else f"{missing} of them"
+        example = f'hold={{"{free[-1]}": {places.low[-1] + 0.5 * places.span[-1]:.4g}}}'
+        more = f"give {'one target' if missing == 1 else f'{missing} targets'} more"
+        raise DefinitionError(f"{title}: {counted}: hold {some}, {example}, or {more}.")
+    if missing < 0:
+        what = "one target" if missing == -1 else f"{-missing} targets"
+        release = f", or do not hold {', '.join(places.held)}" if places.held else ""
+        raise DefinitionError(f"{title}: {counted}: leave out {what}{release}.")
+    follows = places.program.follows
+    for place, name in enumerate(names):
+        if not follows[place].any():
+            all_free = Places(places.plan, places.designs, places.targets, places.bound, tuple(places.plan.strokes), {})
+            moving = [each for each, moves in zip(all_free.free, all_free.program.follows[place], strict=True) if moves]
+            if not moving:
+                raise DefinitionError(f"{title}: {targets[place]!r}: no stroke moves {name}; give a target on what moves.")
+            held = " and ".join(moving)
+            raise DefinitionError(f"{title}: {targets[place]!r}: {name} follows {held} alone, which is held; hold another stroke.")
+    for count in range(2, len(targets) + 1):
+        for some_of in combinations(range(len(targets)), count):
+            moving = [name for name, column in zip(free, follows[[*some_of]].T, strict=True) if column.any()]
+            if len(moving) < count:
+                what = f"{' and '.join(names[place] for place in some_of)} follow {' and '.join(moving)} alone"
+                raise DefinitionError(f"{title}: {what}, which cannot give {count} targets; hold another stroke, or aim at something else.")
+
+
+LOST = 1e10
+"""A condition above which the slopes have lost a rank; where they have at every pose, the targets hang together."""
+
+
+def check_independent(places: Places, condition: FloatArray) -> None:
+    """Raise DefinitionError where the targets hang together at every pose, so that infinitely many strokes give them, or none do."""
+    if len(places.free) < 2 or not (condition > LOST).all():
+        return
+    looked = SCATTERED[:, : len(places.free)]
+    known = all_known(places.slopes(looked))
+    if known.any() and (places.condition(looked[known]) > LOST).all():
+        names = said(" and ").join(map(str, places.bound))
+        what = f"{names} hang together at every pose, so that they do not tell {' and '.join(places.free)} apart"
+        raise DefinitionError(f"{places.plan.title}: {what}; hold a stroke for one of them, or aim at something else.")
+
+
+# -- the search ----------------------------------------------------------------------------------------------
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Unit coordinates (n, k) that were found, and by how much the targets are missed there (n, t) [SI]."""
+
+    unit: FloatArray
+    off: FloatArray
+
+    def where(self, rows: Any) -> Found:
+        """Return some of them."""
+        return Found(self.unit[rows], self.off[rows])
+
+
+def branches(places: Places, wanted: FloatArray) -> Found:
+    """Return all unit coordinates in the ranges of the strokes that give what is wanted (t,), ascending; of infinitely many some."""
+    return BranchSearch(places, wanted, 0.0).branches()
+
+
+def nearest(places: Places, wanted: FloatArray) -> Found:
+    """Return the unit coordinates in the ranges at which least is missing, of one pose; none where nothing can be assembled."""
+    return BranchSearch(places, wanted, 0.0).nearest()
+
+
+def beyond(places: Places, wanted: FloatArray) -> Found:
+    """Return the unit coordinates outside the ranges that give what is wanted, the least far out first.
+
+    It is looked one range beyond either end, a crank over a whole turn.
+    """
+    out = np.where(places.turning, np.maximum(0.5 * TURN / places.span - 0.5, 0.0), 1.0)
+    if not out.any():
+        return Found(np.empty((0, len(out))), np.empty((0, len(places.targets))))
+    found = BranchSearch(places, wanted, out).branches()
+    away = np.maximum(np.maximum(-found.unit, found.unit - 1.0), 0.0).max(axis=1)
+    return found.where(np.argsort(away, kind="stable"))
+
+
+def unmet_words(places: Places, wanted: FloatArray, what: str) -> str:
+    """Return why nothing in the ranges of the strokes gives what is wanted: the pose beyond them, or how far off the nearest one is."""
+    past = beyond(places, wanted)
+    near = nearest(places, wanted)
+    if not len(near.unit) and not len(past.unit):
+        return said("no strokes that were looked at can be assembled.")
+    text = said("no strokes within their ends give {wanted}.", wanted=what)
+    if len(past.unit):
+        unit = past.unit[0]
+        strokes = places.low + unit * places.span
+        text += " " + said("The nearest pose that does: {words}.", words=places.past_words(strokes, (unit < 0.0) | (unit > 1.0)))
+    if len(near.unit):
+        strokes, off = places.low + near.unit[0] * places.span, near.off[0]
+        missing = ", ".join(
+            said("{name} is off by {amount}", name=name, amount=show(abs(float(miss)), target.shown_in(places.plan), 4))
+            for name, miss, target, size in zip(places.bound, off, places.targets, places.sizes, strict=True) if abs(miss) > MET * size
+        )
+        text += " " + said("The nearest within them is {strokes}, where {missing}.", strokes=places.stroke_words(strokes), missing=missing)
+    return text
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class BranchSearch:
+    """What is looked for in a box of unit coordinates, from -out to 1 + out."""
+
+    places: Places
+    wanted: FloatArray
+    out: Any
+
+    @cached_property
+    def axes(self) -> list[FloatArray]:
+        """The values of each unit coordinate on the grid."""
+        k = len(self.places.free)
+        wide = 1.0 + 2.0 * np.broadcast_to(self.out, (k,))
+        turns = np.where(self.places.turning, wide * self.places.span / TURN, 0.0)
+        counts = np.maximum(SIDE.get(k, 5) * wide, A_TURN.get(k, 6) * turns).astype(int)
+        shrink = max(1.0, float((np.prod(counts.astype(float)) / MOST_POSES) ** (1.0 / k)))
+        outs = np.broadcast_to(self.out, (k,))
+        return [np.linspace(-out, 1.0 + out, max(int(count / shrink), 4)) for out, count in zip(outs, counts, strict=True)]
+
+    @cached_property
+    def grid(self) -> FloatArray:
+        """The places of the grid, shape (n, k)."""
+        return np.stack([each.ravel() for each in np.meshgrid(*self.axes, indexing="ij")], axis=1)
+
+    @cached_property
+    def seen(self) -> FloatArray:
+        """By how much the targets are missed on the grid, shape (t, *counts)."""
+        off = self.places.off(self.places.values(self.grid), self.wanted)
+        return off.T.reshape(-1, *map(len, self.axes))
+
+    @cached_property
+    def changes(self) -> FloatArray:
+        """By how much each target changes over the grid [SI], shape (t,)."""
+        known = [each[np.isfinite(each)] for each in self.seen]
+        return np.array([max(float(np.ptp(each)), 1e-300) if each.size else 1.0 for each in known])
+
+    # in coordinates of the box, 0 to 1
+
+    def _to_unit(self, box: FloatArray) -> FloatArray:
+        return np.asarray(box * (1.0 + 2.0 * self.out) - self.out)
+
+    def _to_box(self, unit: FloatArray) -> FloatArray:
+        return np.asarray((unit + self.out) / (1.0 + 2.0 * self.out))
+
+    def descend(self, unit: FloatArray, steps: int, scale: FloatArray) -> Found:
+        """Return where misses over a scale (t,) are least near each start (n, k)."""
+        places, sides = self.places, 1.0 + 2.0 * self.out
+
+        def misses(box: FloatArray, _: Index) -> FloatArray:
+            return places.off(places.values(self._to_unit(box)), self.wanted) / scale
+
+        def slopes(box: FloatArray, _: Index) -> FloatArray:
+            return np.asarray(places.slopes(self._to_unit(box)) * sides / scale[:, None])
+
+        enough = ROUNDING * float(np.min(places.sizes / scale))
+        box, off = descended(misses, slopes, self._to_box(unit), steps, enough=enough, begin=DAMPING)
+        return Found(self._to_unit(box), off * scale)
+
+    # -- where it begins ---------------------------------------------------------------------------------
+
+    def starts(self) -> FloatArray:
+        """Return where to start, unit coordinates (n, k): in the cells where every target may be met, the nearest first."""
+        k = len(self.axes)
+        cells = tuple(len(axis) - 1 for axis in self.axes)
+        low, high, bend = extremes_of_cells(self.seen)
+        wide, whole = high - low, corners_all(np.asarray(np.isfinite(self.seen).all(axis=0)))
+        room = np.where(whole, 0.1, 1.0) * wide + 0.5 * bend
+        angles = self.places.angles.reshape(-1, *[1] * k)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            may_be = ((low <= room) & (high >= -room) & ((wide < 0.5 * TURN) | ~angles)).all(axis=0)
+            score = (np.abs(0.5 * (low + high)) / (0.5 * wide + room)).max(axis=0)
+        place = np.flatnonzero(may_be)
+        place = place[np.argsort(score.ravel()[place], kind="stable")][:STARTS]
+        index = np.stack(np.unravel_index(place, cells), axis=1)
+        starts = np.stack([0.5 * (axis[at] + axis[at + 1]) for axis, at in zip(self.axes, index.T, strict=True)], axis=1)
+        whole = whole.ravel()[place]
+        if not whole.all():  # at the border of what is assembled from the best corner
+            size = np.max(np.abs(self.seen) / self.places.sizes.reshape(-1, *[1] * k), axis=0)
+            size = np.where(np.isfinite(size), size, np.inf)
+            for row in np.flatnonzero(~whole):
+                corners = [tuple(index[row] + step) for step in product((0, 1), repeat=k)]
+                best = min(corners, key=lambda corner: size[corner])
+                starts[row] = [axis[at] for axis, at in zip(self.axes, best, strict=True)]
+        return starts
+
+    def border_starts(self) -> FloatArray:
+        """Return where to start next to what cannot be assembled, unit coordinates (n, k): where lines of the grid end, the nearest first.
+
+        There values change as roots do, and steps go well from the border inwards, not towards it.
+        """
+        known, places = np.asarray(np.isfinite(self.seen).all(axis=0)), self.places
+        inside, outside = [np.empty((0, known.ndim))], [np.empty((0, known.ndim))]
+        for axis in range(known.ndim):
+            before, behind = (along(axis, known.ndim, part) for part in (slice(None, -1), slice(1, None)))
+            low = np.argwhere(known[before] != known[behind])
+            high = low + (np.arange(known.ndim) == axis)
+            low, high = (np.stack([line[at] for line, at in zip(self.axes, each.T, strict=True)], axis=1) for each in (low, high))
+            ends_above = known[before][known[before] != known[behind]][:, None]
+            inside.append(np.where(ends_above, low, high))
+            outside.append(np.where(ends_above, high, low))
+        first, last = np.concatenate(inside), np.concatenate(outside)
+        if not len(first):
+            return first
+
+        def holds(share: FloatArray) -> Mask:
+            at = first[:, None] + share[..., None] * (last - first)[:, None]
+            return all_known(places.values(at.reshape(-1, at.shape[-1]))).reshape(share.shape)
+
+        share, _ = last_holding(holds, np.zeros(len(first)), np.ones(len(first)), NEXT_TO, PARTS)
+        starts = first + share[:, None] * (last - first)
+        off = (np.abs(places.off(places.values(starts), self.wanted)) / self.changes).max(axis=1)
+        order = np.argsort(off, kind="stable")[:BORDER_STARTS]
+        return np.asarray(starts[order[off[order] < FAR_OFF]])
+
+    def least_missed(self, count: int) -> FloatArray:
+        """Return the places of the grid where least is missed, shape (n, k): the best, and those that no neighbour betters."""
+        with np.errstate(invalid="ignore"):
+            size = np.sum((self.seen / self.places.within.reshape(-1, *[1] * len(self.axes))) ** 2, axis=0)
+        size = np.where(np.isfinite(size), size, np.inf)
+        low = size.copy()
+        for axis in range(size.ndim):
+            moved = np.moveaxis(low, axis, 0).copy()
+            wide = moved.copy()
+            wide[1:] = np.minimum(wide[1:], moved[:-1])
+            wide[:-1] = np.minimum(wide[:-1], moved[1:])
+            low = np.moveaxis(wide, 0, axis)
+        place = np.flatnonzero((size.ravel() <= low.ravel()) & np.isfinite(size.ravel()))
+        return self.grid[place[np.argsort(size.ravel()[place], kind="stable")][:count]]
+
+    # -- what is found -----------------------------------------------------------------------------------
+
+    @np.errstate(all="ignore")
+    def branches(self) -> Found:
+        """Return all that meets the targets, ascending."""
+        places = self.places
+        scale = self.changes
+        starts = np.concatenate([self.starts(), self.border_starts()])
+        none = Found(np.empty((0, len(self.axes))), np.empty((0, len(scale))))
+        if not len(starts):
+            return none
+        found = self.descend(starts, STEPS, scale)
+        met = self._met(found)
+        near = ~met & (np.abs(found.off) < CLOSE * scale).all(axis=1)
+        found = self._joined(found.where(met), self._again(found.where(near), scale))
+        found = self._joined(found, self._beside(found, scale))
+        if not len(found.unit):
+            return none
+        return found.where(places.reached(found.unit))
+
+    def _met(self, found: Found) -> Mask:
+        """Return which meet all targets."""
+        return np.asarray((np.abs(found.off) <= MET * self.places.sizes).all(axis=1))
+
+    def _again(self, found: Found, scale: FloatArray) -> Found:
+        """Return those of some places from which steps go on to where all targets are met."""
+        if not len(found.unit):
+            return found
+        _, first = np.unique(np.round(found.unit, 3), axis=0, return_index=True)
+        on = self.descend(found.unit[first], MORE_STEPS, scale)
+        return on.where(self._met(on))
+
+    def _beside(self, found: Found, scale: FloatArray) -> Found:
+        """Return what is found on the other side of branches that have another one close by, where the slopes lose a rank between them.
+
+        It is as far beyond the place where the least singular value would be zero, by how it changes along its own direction.
+        """
+        if not len(found.unit) or len(found.unit) >= MOST:
+            return found.where(slice(0))
+        slopes = self.places.slopes(found.unit) / scale[:, None]
+        known = all_known(slopes)
+        left, sizes, right = np.linalg.svd(np.where(known[:, None, None], slopes, 0.0))
+        way, cell = right[:, -1], np.array([axis[1] - axis[0] for axis in self.axes])
+        aside = self.places.slopes(found.unit + BESIDE * way * cell) / scale[:, None]
+        change = np.einsum("nt,ntk,nk->n", left[:, :, -1], aside - slopes, way)
+        twin = -2.0 * BESIDE * sizes[:, -1] / change
+        close = known & (np.abs(twin) < CELLS)
+        if not close.any():
+            return found.where(slice(0))
+        starts = found.unit[close] + (twin[:, None] * way * cell)[close]
+        starts = np.clip(starts, self._to_unit(np.zeros(len(cell))), self._to_unit(np.ones(len(cell))))
+        again = self.descend(starts, STEPS, scale)
+        return again.where(self._met(again))
+
+    def _joined(self, one: Found, other: Found) -> Found:
+        """Return the places of two lots, each once, ascending by the first coordinate, then by the next ones."""
+        unit, off = np.concatenate([one.unit, other.unit]), np.concatenate([one.off, other.off])
+        order = np.argsort(np.abs(off / self.places.sizes).max(axis=1), kind="stable")
+        kept: list[int] = []
+        for each in order.tolist():
+            if len(kept) < MOST and not any(self._is_same(unit[known], unit[each]) for known in kept):
+                kept.append(each)
+        kept.sort(key=lambda each: tuple(np.round(unit[each], 9)))
+        return Found(unit[kept], off[kept])
+
+    def _is_same(self, one: FloatArray, other: FloatArray) -> bool:
+        """Return whether two places are one: to rounding, a whole turn apart, or one solution that is met twice."""
+        apart = one - other
+        whole = self.places.turning & (self.places.span <= TURN * (1.0 + 1e-9))
+        turn = TURN / self.places.span
+        apart = np.where(whole, apart - turn * np.round(apart / turn), apart)
+        far = float(np.abs(apart).max())
+        if far <= SAME or far > NEAR:
+            return far <= SAME
+        middle = (other + 0.5 * apart)[None]
+        return bool(self._met(Found(middle, self.places.off(self.places.values(middle), self.wanted)))[0])
+
+    @np.errstate(all="ignore")
+    def nearest(self) -> Found:
+        """Return the place at which least is missing by what each target may miss; none where nothing can be assembled."""
+        starts = self.least_missed(16)
+        found = self.descend(starts, MORE_STEPS, self.places.within)
+        found = found.where(self.places.reached(found.unit)) if len(starts) else found
+        size = np.sum((found.off / self.places.within) ** 2, axis=1)
+        return found.where(np.argsort(size, kind="stable")[:1])
+
+
+def extremes_of_cells(values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the least and the greatest of the corners of every cell of a grid, (t, *counts), and how far values may bend beyond them."""
+    low = high = values
+    bend = np.zeros(values.shape)
+    for axis in range(1, values.ndim):
+        curve = np.zeros(values.shape)
+        curve[along(axis, values.ndim, slice(1, -1))] = np.abs(np.diff(values, 2, axis=axis))
+        for end, inner in ((slice(0, 1), slice(1, 2)), (slice(-1, None), slice(-2, -1))):
+            curve[along(axis, values.ndim, end)] = curve[along(axis, values.ndim, inner)]
+        bend += 0.25 * np.where(np.isfinite(curve), curve, 0.0)
+    for axis in range(1, values.ndim):
+        before, behind = (along(axis, values.ndim, part) for part in (slice(None, -1), slice(1, None)))
+        low, high = np.fmin(low[before], low[behind]), np.fmax(high[before], high[behind])
+        bend = np.maximum(bend[before], bend[behind])
+    return low, high, bend
+
+
+def along(axis: int, axes: int, part: slice) -> tuple[slice, ...]:
+    """Return the index of a part of an array along one of its axes."""
+    return tuple(part if each == axis else slice(None) for each in range(axes))
+
+
+def all_known(values: FloatArray) -> Mask:
+    """Return in which rows of an array all values are finite, shape (n,) of (n, ...)."""
+    return np.asarray(np.isfinite(values).all(axis=tuple(range(1, values.ndim))))
+
+
+def corners_all(mask: Mask) -> Mask:
+    """Return of which cells of a grid all corners are in a mask."""
+    for axis in range(mask.ndim):
+        mask = np.asarray(mask[along(axis, mask.ndim, slice(None, -1))] & mask[along(axis, mask.ndim, slice(1, None))])
+    return mask

@@ -1,0 +1,131 @@
+"""What `strokes_for` returns: the strokes of all poses that give some targets, or of the nearest one, and a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import ItemsView, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError, SingularWarning, cited, warn
+from ..frozen import refuses_changes
+from ..language import said
+from ..plan import Plan
+from ..program import FloatArray
+from .conditions import WARN
+from .places import Found, Places, branches, check_independent, nearest, unmet_words
+
+TOLD = 4
+"""Branches that are told in a sentence."""
+
+
+@final
+class StrokeRows(np.ndarray[Any, np.dtype[np.float64]]):
+    """Strokes [m or rad], one row a branch, one column a stroke: `rows[0]`, `rows["boom"]`, `rows[0]["boom"]`, `machine.at(**rows[0])`.
+
+    The columns stand in the order of the machine's strokes; `keys()` are their names.
+    """
+
+    names: tuple[str, ...]
+
+    def __new__(cls, rows: Any, names: Iterable[str]) -> StrokeRows:
+        found = np.array(rows, float).view(cls)
+        found.names = tuple(names)
+        found.flags.writeable = False
+        return found
+
+    def __array_finalize__(self, other: Any) -> None:
+        self.names = getattr(other, "names", ())
+
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, str):
+            if key not in self.names:
+                raise DefinitionError(f"The stroke {cited(key)} is unknown. Known: {', '.join(self.names)}.")
+            place = self.names.index(key)
+            return np.asarray(self)[:, place] if self.ndim > 1 else np.asarray(self)[place]
+        found = np.asarray(self)[key]
+        if self.ndim < 2 or not isinstance(key, (int, np.integer, slice)):
+            return found
+        return found.view(type(self))._named(self.names)
+
+    def _named(self, names: tuple[str, ...]) -> StrokeRows:
+        self.names = names
+        return self
+
+    def keys(self) -> tuple[str, ...]:
+        """Return the names of the strokes."""
+        return self.names
+
+    def items(self) -> ItemsView[str, FloatArray]:
+        """Return the strokes by name, arrays (branches,), of one row numbers."""
+        return {name: self[name] for name in self.names}.items()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return StrokeRows, (np.array(self), self.names)
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Positions:
+    """The strokes that give some targets: all branches within the ends of the strokes, ascending by the first stroke; or the nearest.
+
+    `strokes` [m or rad] has one row a branch, those that are held included, and so have `condition`, the condition number of the targets
+    by the strokes in their natural sizes, which is infinite at a dead point, and `misses`, by how much each target is exceeded [SI].
+    `met` is whether the strokes give all targets; where none do, the one row is the nearest pose within the ends, or none where nothing
+    can be assembled, and `sentence` says which stroke would be past which end, by how much.
+    """
+
+    strokes: StrokeRows
+    condition: FloatArray
+    met: bool
+    misses: FloatArray
+    sentence: str
+
+    def __len__(self) -> int:
+        return len(self.strokes)
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+def positions_for(plan: Plan, designs: Mapping[str, Any], targets: Any, hold: Any) -> Positions:
+    """Return the strokes that give some targets; see `strokes_for`."""
+    places = Places.of(plan, designs, targets, hold, where="strokes_for")
+    for each in places.targets:
+        if each.is_path:
+            raise DefinitionError(f"{plan.title}: strokes_for: {each!r}: one number is expected; a path is followed, machine.follow(...).")
+    wanted = np.array([float(each.value) for each in places.targets])
+    found = branches(places, wanted)
+    condition = places.condition(found.unit)
+    if len(found.unit):
+        check_independent(places, condition)
+        words = met_words(places, found, condition, wanted)
+    else:
+        words = unmet_words(places, wanted, places.shown(wanted))
+        words = words[0].upper() + words[1:]
+    is_met = bool(len(found.unit))
+    found = found if is_met else nearest(places, wanted)
+    rows = StrokeRows(np.stack([*places.rows(found.unit).values()], axis=1), plan.strokes)
+    return Positions(rows, condition if is_met else places.condition(found.unit), is_met, found.off, words)
+
+
+def met_words(places: Places, found: Found, condition: FloatArray, wanted: FloatArray) -> str:
+    """Return the strokes that give what is wanted, in words; warn of those next to a dead point."""
+    strokes = [places.stroke_words(each) for each in places.low + found.unit * places.span]
+    parts = {"wanted": places.shown(wanted), "strokes": said(" or with ").join(strokes[:TOLD])}
+    text = said("{wanted}: with {strokes}.", **parts)
+    if len(strokes) > TOLD:
+        text = said("{wanted}: on {count} branches, with {strokes} and so on.", count=len(strokes), **parts)
+    worst = int(np.argmax(condition))
+    if condition[worst] > WARN:
+        size = "" if np.isfinite(condition[worst]) else said("infinite")
+        near = said(
+            "At {strokes} it is at the border of what the strokes reach, next to a dead point of the drive (condition {condition}), "
+            "and hardly tells where they stand.",
+            strokes=strokes[worst], condition=size or f"{condition[worst]:.1e}",
+        )  # fmt: skip
+        text += f" {near}"
+        warn(SingularWarning(f"{places.plan.title}: strokes_for: {near}", estimate=float(np.finfo(float).eps * condition[worst])))
+    return text

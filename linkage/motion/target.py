@@ -1,0 +1,82 @@
+"""Targets: what a quantity is to be at a pose, of dimensions that are looked for or of strokes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NoReturn, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited
+from ..frozen import FrozenDict, read_only
+from ..plan import Plan
+from ..program import FloatArray
+from ..quantities import is_number, real
+from ..units import deg, display_unit, mm, unit_or_none
+from .kinds import measure_of
+from .requests import RequestLike
+
+
+@final
+class Target:
+    """A value [SI] that a quantity is to have at a pose: `Target(y("F"), 0.45, S=0.05)`, `Target("tilt", 0.0, unit="deg", S=0.05)`.
+
+    The quantity is an output, a quantity or a request. `within` says how far off it may be [SI], by default 1 mm, 0.1 deg, or a
+    thousandth: where nothing gives all targets, misses are weighed by it. `unit` is that of the words. Where strokes are looked for,
+    in `strokes_for` and `follow`, it says none; there angles count modulo a turn. In `follow` the value may be an array (places,).
+    """
+
+    def __init__(
+        self, quantity: RequestLike, value: float | FloatArray, *, within: float | None = None, unit: str = "", **strokes: float
+    ) -> None:
+        what = f"Target({cited(quantity)}, {cited(value)})"
+        if within is not None and not (is_number(within) and within > 0.0):
+            raise DefinitionError(f"{what}: within={cited(within)}: how far off it may be [SI], a number above zero, is expected.")
+        if not all(map(is_one, strokes.values())):
+            raise DefinitionError(f"{what}: one number is expected for each stroke, in SI.")
+        known = float(value) if is_one(value) else values_along(what, value)
+        parts = {"quantity": quantity, "value": known, "within": within, "strokes": FrozenDict({k: float(v) for k, v in strokes.items()})}
+        vars(self).update(parts, unit=unit_or_none(unit, where="Target(unit=...)"))
+
+    quantity: RequestLike
+    value: float | FloatArray
+    within: float | None
+    unit: str
+    strokes: Mapping[str, float]
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise DefinitionError(f"Target.{name} = ...: it does not change; make a new one, Target(...).")
+
+    def __repr__(self) -> str:
+        value = cited(self.value.tolist()) if isinstance(self.value, np.ndarray) else repr(self.value)
+        return f"Target({', '.join([repr(self.quantity), value, *(f'{k}={v!r}' for k, v in self.strokes.items())])})"
+
+    @property
+    def is_path(self) -> bool:
+        """Whether its value is an array, one value a place along a path."""
+        return isinstance(self.value, np.ndarray)
+
+    def miss(self, plan: Plan, value: float) -> float:
+        """Return how far off it may be where it is to have a value [SI]: `within`, or what is usual of what it measures."""
+        kind = measure_of(plan, self.quantity)
+        return self.within or {"length": 1.0 * mm, "angle": 0.1 * deg}.get(kind, 1e-3 * abs(value) or 1e-3)
+
+    def shown_in(self, plan: Plan) -> str:
+        """Return the unit that it is told in."""
+        return self.unit or display_unit(measure_of(plan, self.quantity), "mm")
+
+
+def is_one(value: Any) -> bool:
+    """Return whether a value is one finite number."""
+    return is_number(value.item() if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value) else value)
+
+
+def values_along(what: str, value: Any) -> FloatArray:
+    """Return the values of a path, shape (places,), a copy; DefinitionError for anything but finite numbers in a row."""
+    try:
+        found = real(value)
+    except (TypeError, ValueError, OverflowError):
+        found = np.empty(())
+    if found.ndim != 1 or not found.size or not np.isfinite(found).all():
+        raise DefinitionError(f"{what}: one number is expected for the value, in SI. Along a path it is an array, a number a place.")
+    return read_only(found)

@@ -35,7 +35,9 @@ from .motion import Motion as Motion
 from .motion import Over as Over
 from .motion import Positions as Positions
 from .motion import Target as Target
+from .motion import Planes as Planes
 from .motion import at as at
+from .motion import clearance as clearance
 from .motion import condition as condition
 from .motion import gap as gap
 from .motion import integral as integral

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias, final
 
 from .. import loads, plugins, steps, surroundings
 from ..errors import DefinitionError, unknown
-from ..motion import Over, stroke_unit
+from ..motion import Over, Planes, stroke_unit
 from ..plan import Part
 from ..quantities import Dimension, Member, Quantity, Stroke, ref
 from ..quantities.quantity import plain
@@ -28,7 +28,7 @@ from .expression import one_unit
 from .names import Names, shortened
 from .over_file import over_read, over_written
 from .parts_file import part_read, part_written
-from .validators import arrow_of, coordinates_of, number_of, points_of, quantity_of, stroke_ends, strokes_of
+from .validators import arrow_of, coordinates_of, number_of, points_of, quantity_of, stroke_ends, strokes_of, word_list_of
 
 SHIPPED = {"hydraulics": "hydrolinkage"}
 """Sections that packages beside this one bring, each with what to install for it."""
@@ -129,6 +129,19 @@ def link_of(*points: str, **labels: Any) -> steps.Link:
     return steps.Link(*points, **labels)
 
 
+def planes_read(given: object, names: Names) -> Planes:
+    """Return the planes that an entry says: `{ planes = ["OBC AB", "CD EDF"], width = "60 mm" }`."""
+    if not isinstance(given, Mapping) or "planes" not in given or not given.keys() <= {"planes", "width"}:
+        raise DefinitionError(f'{shortened(given)}: write {{ planes = ["OBC AB", "CD EDF"], width = "60 mm" }}.')
+    return Planes(*word_list_of(given["planes"], names), width=quantity_of(given.get("width", 0.0), names))
+
+
+def planes_written(member: Planes, design: Design) -> dict[str, Any]:
+    """Return the planes of bodies, and the width of two bars where it is not nothing."""
+    width = design.amount(member.width, "mm", f"{member.name}.width")
+    return {"planes": list(member.planes)} | ({"width": width} if width else {})
+
+
 AnEntry: TypeAlias = FileEntry | Bare
 
 POINTS = (
@@ -160,6 +173,7 @@ OWN: tuple[AnEntry, ...] = (
     *(FileEntry(load, "loads", load.__name__) for load in LOADS),
     FileEntry(loads.LoadCase, "cases"),
     Bare(Over, "over", over_read, over_written),
+    Bare(Planes, "planes", planes_read, planes_written),
     *(FileEntry(outline, "surroundings", word) for outline, word in OUTLINES),
 )
 

@@ -14,6 +14,7 @@ from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst
 from .motion import Motion, OnePose, each_at_its_stroke, out_of_reach, require_motion
 from .over import OPTIONS, Over
+from .planes import Planes, clearance
 from .poles import whole_body
 from .pose_requests import condition, transmission
 from .positions import Positions, positions_for

@@ -5,25 +5,28 @@
       o-----o
 
 Two convex bodies are apart where some line across an edge of either has them on its two sides. The edges of all pairs of a body's points
-are taken, those inside it too: they change nothing, and nobody has to know which points are outermost in which design.
+are taken, those inside it too: they change nothing, and nobody has to know which points are outermost in which design. An outline is cut
+into convex pieces as it is declared; the gap is then the least of those of all pairs of pieces.
 Source: C. Ericson, Real-time collision detection (2005), 5.1 and 5.2.1 (separating axes).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import reduce
-from itertools import combinations, product
-from typing import TypeAlias
+from itertools import combinations, pairwise, product
+from typing import TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError, unknown
 from ..loads import TwoPoint
-from ..plan import Plan
+from ..plan import Plan, Reading
 from ..program import Node
-from ..quantities import Reference, is_number, joined_names, name_of
+from ..quantities import Member, Reference, is_number, joined_names, name_of
 from ..steps import Link
+from ..surroundings import CircleOutline, Outline, convex_pieces, crosses_itself, numbers_at
 from ..vectors import Scalar, Vec
 from .requests import NodeRequest
 
@@ -39,39 +42,142 @@ def gap(a: Reference, b: Reference, *, width: float = 0.0) -> NodeRequest:
 
     A body goes by its points (`"OBC"`), the name of its Link, that of a cylinder, a spring or another straight element, or of a point;
     `"frame"` is its fixed points, each for itself. Bars count by their centre lines and plates by the convex hull of their points, less
-    the `width` [m], the sum of their half widths. Where two bodies cross it is negative: the least way that parts them. Outlines that
-    steps draw of themselves do not count. DefinitionError for two bodies that share a pin.
+    the `width` [m], the sum of their half widths. Where two bodies cross it is negative: the least way that parts them. An outline
+    goes by its name, with all its corners; two outlines may belong to bodies that share a pin. What steps draw of themselves does not
+    count. DefinitionError for two bodies that share a pin, and for an outline that is open.
     """
     if not is_number(width) or width < 0.0:
         raise DefinitionError(f"gap(width={width!r}): the sum of the half widths is expected [m], zero or more.")
     one, other = name_of(a), name_of(b)
 
     def nodes(plan: Plan) -> tuple[Node, ...]:
-        where, frame = plan.trace, plan.links[0].name
-        of_one, of_other = (
-            [[each] for each in points] if name == frame else [points]  # the frame is its points, each for itself
-            for name, points in zip((one, other), two_shapes(plan, one, other), strict=True)
-        )
-        gaps = [signed_gap([where.at(P) for P in p], [where.at(Q) for Q in q], where.graph.pick) for p, q in product(of_one, of_other)]
-        return (where.graph.node(least_number(gaps) - float(width)),)
+        return (plan.trace.graph.node(gap_of(plan, one, other) - float(width)),)
 
     return NodeRequest(
         text=f"gap({one}, {other}{f', width={width:g}' if width else ''})", sentence=f"the gap between {one} and {other}",
         key=("gap", one, other, float(width)), measures="length", may_fail=True,
-        nodes_of=nodes, names_of=lambda plan: plan.reaches(*(name for points in two_shapes(plan, one, other) for name in points)),
+        nodes_of=nodes, names_of=lambda plan: plan.reaches(*(name for shape in two_shapes(plan, one, other) for name in shape.behind)),
     )  # fmt: skip
 
 
-def two_shapes(plan: Plan, a: str, b: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the points of two bodies or points by their names; DefinitionError where they share one."""
-    of_a, of_b = shape_of(plan, a), shape_of(plan, b)
+@final
+@dataclass(frozen=True)
+class Piece:
+    """A convex piece of a shape: its corners in order, or points of which the outermost count, and how far it is rounded out [m]."""
+
+    places: tuple[Vec, ...]
+    in_order: bool = False
+    radius: Scalar = 0.0
+
+    @property
+    def edges(self) -> list[tuple[Vec, Vec]]:
+        """Its edges; of points that stand in no order those of all pairs."""
+        if self.in_order and len(self.places) > 2:
+            return list(pairwise((*self.places, self.places[0])))
+        return list(combinations(self.places, 2))
+
+
+@final
+@dataclass(frozen=True)
+class Shape:
+    """What stands for a body: its points, each for itself in the frame, or an outline."""
+
+    points: tuple[str, ...]
+    each_alone: bool = False
+    outline: Outline | None = None
+
+    @property
+    def behind(self) -> tuple[Member | str, ...]:
+        """What it is built from."""
+        return self.points if self.outline is None else (self.outline, *self.points)
+
+    def pieces(self, plan: Plan) -> list[Piece]:
+        """Return its convex pieces in the plan's trace."""
+        where = plan.trace
+        if self.outline is not None:
+            return outline_pieces(plan, self.outline)
+        if self.each_alone:
+            return [Piece((where.at(P),)) for P in self.points]
+        return [Piece(tuple(where.at(P) for P in self.points))]
+
+
+def gap_of(plan: Plan, a: str, b: str) -> Scalar:
+    """Return the gap of two bodies or outlines in a plan's trace [m]."""
+    one, other = two_shapes(plan, a, b)
+    pick = plan.trace.graph.pick
+    return least_number([signed_gap(p, q, pick) for p, q in product(one.pieces(plan), other.pieces(plan))])
+
+
+def outline_pieces(plan: Plan, outline: Outline) -> list[Piece]:
+    """Return the convex pieces of an outline in a plan's trace, cut as they are in the class's own design."""
+    where, carriers = plan.trace, outline.carriers
+
+    def place(x: Scalar, y: Scalar) -> Vec:
+        if len(carriers) < 2:
+            own = Vec(x, y)
+            return where.at(carriers[0]) + own if carriers else own
+        P, Q = carriers
+        along = (where.at(Q) - where.at(P)) * (1.0 / where.link_length(P, Q))
+        found: Vec = where.at(P) + (along * x + along.left() * y)
+        return found
+
+    if isinstance(outline, CircleOutline):
+        centre = tuple(where.value(each) for each in outline.centre) or (0.0, 0.0)
+        return [Piece((place(*centre),), radius=where.value(outline.radius))]
+    corners = [place(where.value(x), where.value(y)) for x, y in outline.points]
+    return [Piece(tuple(corners[each] for each in piece), in_order=True) for piece in cut(plan, outline)]
+
+
+def cut(plan: Plan, outline: Outline) -> tuple[tuple[int, ...], ...]:
+    """Return the convex pieces of an outline by the numbers of its corners; DefinitionError for one that has no inside."""
+    if not outline.closed or not hasattr(outline, "points"):
+        what = f"{plan.title}: {outline.name} = {outline}: it is open, or lines of a file, and has no inside"
+        raise DefinitionError(f"{what}; give the corners of a closed one, Outline([(0, 0), (0.9, 0), (0.5, 0.6)], on=...).")
+    reading = Reading(plan.members, plan.table.lengths, plan.defaults)
+    corners = numbers_at(outline.points, lambda each: float(reading.value(each)))
+    pieces = () if crosses_itself(corners) else convex_pieces(corners)
+    if not pieces:
+        raise DefinitionError(f"{plan.title}: {outline.name} = {outline}: it crosses itself or encloses nothing; correct its corners.")
+    return pieces
+
+
+def two_shapes(plan: Plan, a: str, b: str) -> tuple[Shape, Shape]:
+    """Return the shapes of two bodies, points or outlines by their names; DefinitionError for bodies that share a point."""
+    one, other = shape_named(plan, a), shape_named(plan, b)
+    if one.outline is None and other.outline is None:
+        check_apart(plan, a, b, one.points, other.points)
+    elif one == other:
+        raise DefinitionError(f"{plan.title}: gap({a}, {b}): this is one outline; name two.")
+    elif one.outline is None or other.outline is None:
+        outline, body = (one, other) if other.outline is None else (other, one)
+        pair, home = set(outline.points), body_points_of(plan, outline)
+        if len(pair) and set(body.points) <= home and not body.each_alone:
+            raise DefinitionError(f"{plan.title}: gap({a}, {b}): the outline is fixed to that body; name another one.")
+    return one, other
+
+
+def body_points_of(plan: Plan, shape: Shape) -> set[str]:
+    """Return the points of the body that carries an outline."""
+    carriers = set(shape.points)
+    return next((set(body.points) for body in plan.links if carriers and carriers <= set(body.points)), carriers)
+
+
+def shape_named(plan: Plan, name: str) -> Shape:
+    """Return the shape of a body, a straight element, a point or an outline by its name."""
+    outline = plan.of_kind(Outline).get(name)
+    if outline is not None:
+        return Shape(outline.carriers, outline=outline)
+    return Shape(shape_of(plan, name), each_alone=name == plan.links[0].name)
+
+
+def check_apart(plan: Plan, a: str, b: str, of_a: tuple[str, ...], of_b: tuple[str, ...]) -> None:
+    """Raise DefinitionError for two bodies that share a point."""
     shared = [name for name in of_a if name in of_b]
     if shared:
         what = f"{plan.title}: gap({a}, {b}): both have {', '.join(shared)}, so that there is no gap between them"
         first, body, rest = (b, a, of_b) if b == plan.links[0].name else (a, b, of_a)
         free = next((each for each in rest if each not in shared), first)
-        raise DefinitionError(f"{what}; ask for that of a point, such as gap({free}, {body}).")
-    return of_a, of_b
+        raise DefinitionError(f"{what}; ask for that of a point, such as gap({free}, {body}), or of outlines on both.")
 
 
 def shape_of(plan: Plan, name: str) -> tuple[str, ...]:
@@ -87,20 +193,21 @@ def shape_of(plan: Plan, name: str) -> tuple[str, ...]:
     if name not in known and len(found) == 1:
         return found[0]
     if name not in known:
-        raise unknown("Body", name, known, where=plan.title)
+        raise unknown("Body", name, [*known, *plan.of_kind(Outline)], where=plan.title)
     return known[name]
 
 
-def signed_gap(a: Sequence[Vec], b: Sequence[Vec], pick: Pick) -> Scalar:
-    """Return the least distance of the convex hulls of some points [m], below zero by the least way that parts them."""
-    edges = [[(P, Q) for P, Q in combinations(points, 2)] for points in (a, b)]
+def signed_gap(one: Piece, other: Piece, pick: Pick) -> Scalar:
+    """Return the least distance of two convex pieces [m], below zero by the least way that parts them."""
+    a, b = one.places, other.places
+    edges, rounded = [one.edges, other.edges], one.radius + other.radius
     if not any(edges):
-        return np.sqrt((a[0] - b[0]).square())
+        return np.sqrt((a[0] - b[0]).square()) - rounded
     squares = [square_to_edge(P, edge) for points, own in ((a, edges[1]), (b, edges[0])) for P in points for edge in own]
     ways = [(start - end).left() for own in edges for start, end in own]
     ways += [own[0][1] - own[0][0] for own in edges if own]  # bars in line are parted along it
     overlap = reduce(np.maximum, [separation(a, b, way) for way in ways])
-    return pick(overlap, 0.0, overlap, np.sqrt(least_number(squares)))
+    return pick(overlap, 0.0, overlap, np.sqrt(least_number(squares))) - rounded
 
 
 def square_to_edge(P: Vec, edge: tuple[Vec, Vec]) -> Scalar:

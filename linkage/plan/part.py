@@ -38,7 +38,7 @@ from .plan import Plan
 DEEPEST = 8
 """Parts in parts, so deep."""
 MOST_MEMBERS = 4000
-LEFT_BEHIND = ("over", "load case")
+LEFT_BEHIND = ("over", "load case", "planes")
 """What speaks of a whole machine and stays with the class that says it."""
 WORDS = ("on", "at", "angle", "mirrored", "machine")
 

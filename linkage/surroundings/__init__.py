@@ -1,8 +1,10 @@
 """What stands around a mechanism and is only drawn: a wheel, the ground, a bucket, a photograph."""
 
+from .convex import convex_pieces, crosses_itself
 from .outline import CircleOutline as CircleOutline
 from .outline import Corner as Corner
 from .outline import DxfOutline as DxfOutline
 from .outline import ImageOutline as ImageOutline
 from .outline import LineOutline as LineOutline
 from .outline import Outline as Outline
+from .outline import numbers_at

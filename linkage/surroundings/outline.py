@@ -157,16 +157,16 @@ class CircleOutline(Outline):
         return self.on if isinstance(self.at, tuple) else (self.at,)
 
     @property
-    def _centre(self) -> tuple[Quantity, ...]:
+    def centre(self) -> tuple[Quantity, ...]:
         """The centre's coordinates; none where it is a point."""
         return self.at if isinstance(self.at, tuple) else ()
 
     def numbers(self) -> tuple[Quantity, ...]:
-        return (*self._centre, self.radius)
+        return (*self.centre, self.radius)
 
     def lines(self, value: Value) -> tuple[Array, ...]:
         ways = np.linspace(0.0, 2.0 * np.pi, ROUND, endpoint=False)
-        centre = np.array([value(each) for each in self._centre] or [0.0, 0.0])
+        centre = np.array([value(each) for each in self.centre] or [0.0, 0.0])
         return (centre + value(self.radius) * np.column_stack([np.cos(ways), np.sin(ways)]),)
 
     def __str__(self) -> str:

@@ -1,0 +1,230 @@
+"""The planes that bodies lie in, side by side across the machine, and the clearance of what lies in one plane.
+
+    |  boom  |        a body of one plane never touches one of another; in one plane bodies are to stay apart,
+    |  | rod |        and a pin that joins bodies of two planes passes through those between them
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import combinations
+from types import MappingProxyType
+from typing import Any, ClassVar, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited
+from ..language import said
+from ..loads import TwoPoint
+from ..plan import Plan
+from ..program import Node
+from ..quantities import Number, Operand, Quantity, Reference, Variable, joined_names, quantity, spelled
+from ..surroundings import Outline
+from ..units import show
+from ..verdict import Verdict
+from .answer import Answer
+from .gaps import body_points_of, gap_of, least_number, shape_named
+from .judge import Judge, Question
+from .judging import HasVerdicts
+from .measures import Condition, least
+from .motion import Motion
+from .requests import NodeRequest
+
+Pair = tuple[str, str]
+
+
+@final
+class Planes(HasVerdicts):
+    """Which bodies lie in one plane, plane by plane across the machine: `planes = Planes("OBC AB", "CD EDF", width=60 * mm)`.
+
+    A body goes by its points, its Link, its cylinder or spring, an outline by its name; one may stand in several planes, and what is not
+    named lies in all. `width` [m] is the sum of the half widths of two bars, a design variable by the name `planes.width`; plates count
+    as their points' convex hull, a body with closed outlines on it as these. Its verdict is the `clearance`: the least gap over all that
+    the machine runs, of bodies in a common plane that share no pin (of two that share one, of their outlines), and of pins that pass
+    through a plane.
+    """
+
+    kind = "planes"
+    file_section = "planes"
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"planes": "words"})
+
+    def __init__(self, *planes: str, width: Operand = 0.0) -> None:
+        if not planes or not all(isinstance(each, str) and each.split() for each in planes):
+            what = f"Planes({', '.join(map(cited, planes))})"
+            raise DefinitionError(f'{what}: the names of the bodies of each plane are expected in one text, Planes("OBC AB", "CD EDF").')
+        self.planes, self.width = planes, quantity(width)
+        if isinstance(self.width, Number) and not 0.0 <= self.width.number < np.inf:
+            raise DefinitionError(f"Planes(width={self.width}): the sum of two half widths is expected [m], zero or more.")
+
+    def parts(self) -> tuple[Reference, ...]:
+        return () if self.width.is_constant else (self.width,)
+
+    def variables(self) -> tuple[tuple[str, float, str, str], ...]:
+        return ((f"{self.name}.width", self.width.number, "not negative", "mm"),) if isinstance(self.width, Number) else ()
+
+    def having(self, values: Mapping[str, float]) -> Planes:
+        return self.renewed(width=quantity(values.get(f"{self.name}.width", self.width)))
+
+    def names(self) -> tuple[tuple[str, ...], ...]:
+        """Return the names in each plane."""
+        return tuple(tuple(each.split()) for each in self.planes)
+
+    def questions(self, judge: Judge) -> list[Question]:
+        """Return the least clearance."""
+        return [least(clearance())] if pairs_of(judge.plan) else []
+
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return that nothing touches."""
+        return {"clearance": least(clearance()) >= 0.0} if pairs_of(judge.plan) else {}
+
+    def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return whether everything in one plane stays apart wherever the machine runs, with what comes nearest, and where."""
+        if not pairs_of(judge.plan):
+            return [Verdict("clearance", True, said("no two bodies lie in one plane that share no pin."))]
+        answer = judge.answer(least(clearance()))
+        if not np.isfinite(answer.value):
+            return []
+        one, other = nearest(judge, answer)
+        gap = show(abs(float(answer.value)), "mm", 3)
+        if answer.value >= 0.0:
+            text = said("{one} and {other} come within {gap} of each other, {where}.", one=one, other=other, gap=gap, where=answer.where)
+            return [Verdict("clearance", True, text, answer=answer)]
+        remedy = said("Change a dimension, or put them in different planes.")
+        text = said("{one} and {other} cross by {gap}, deepest {where}.", one=one, other=other, gap=gap, where=answer.where)
+        return [Verdict("clearance", False, f"{text} {remedy}", answer=answer)]
+
+    def __str__(self) -> str:
+        width = [] if isinstance(self.width, Number) and self.width.number == 0.0 else [f"width={spelled(self.width)}"]
+        return f"Planes({', '.join([*map(repr, self.planes), *width])})"
+
+
+def clearance() -> NodeRequest:
+    """Return the request for the least gap of all that lies in one plane [m], as the machine's `Planes` say: `least(clearance()) >= 0.02`.
+
+    Below zero where two bodies cross, by the least way that parts them. DefinitionError for a machine that declares no planes.
+    """
+
+    def nodes(plan: Plan) -> tuple[Node, ...]:
+        found = pairs_of(plan)
+        if not found:
+            raise DefinitionError(f"{plan.title}: clearance(): no two bodies lie in one plane that share no pin; ask gap(a, b) of two.")
+        width = plan.trace.value(width_of(plan))
+        return (plan.trace.graph.node(least_number([gap_of(plan, a, b) - (width if thick else 0.0) for (a, b), thick in found.items()])),)
+
+    def behind(plan: Plan) -> set[str]:
+        shapes = [shape_named(plan, name) for pair in pairs_of(plan) for name in pair]
+        return plan.reaches(*(name for shape in shapes for name in shape.behind), width_of(plan))
+
+    return NodeRequest(
+        text="clearance()", sentence="the least gap of what lies in one plane", key=("clearance",), measures="length", may_fail=True,
+        nodes_of=nodes, names_of=behind,
+    )  # fmt: skip
+
+
+def planes_of(plan: Plan) -> Planes:
+    """Return the planes that a class declares; DefinitionError for none, and for several."""
+    found = list(plan.of_kind(Planes).values())
+    if len(found) != 1:
+        what = f"it declares {len(found)}" if found else "it does not say which bodies lie in one plane"
+        raise DefinitionError(f'{plan.title}: clearance(): {what}; declare one, planes = Planes("OBC AB", "CD EDF", width=60 * mm).')
+    return found[0]
+
+
+def width_of(plan: Plan) -> Quantity:
+    """Return the sum of the half widths of two bars [m]."""
+    given = planes_of(plan)
+    return Variable(f"{given.name}.width") if given.width.is_constant else given.width
+
+
+def pairs_of(plan: Plan) -> dict[Pair, bool]:
+    """Return what must stay apart, each pair with whether the width of bars counts: bodies of a common plane, and pins that pass it."""
+    declared = planes_of(plan)
+    bodies = bodies_named(plan)
+    known = {id_of(plan, name): name for name in bodies}
+    planes: dict[str, set[int]] = {name: set() for name in bodies}
+    for number, names in enumerate(declared.names()):
+        for name in names:
+            shape_named(plan, name)  # DefinitionError for an unknown body
+            owner = known.get(id_of(plan, name), name)
+            planes.setdefault(owner, set()).add(number)
+    everywhere = set(range(len(declared.planes)))
+    lie = {name: numbers or everywhere for name, numbers in planes.items()}
+    found: dict[Pair, bool] = {}
+    for a, b in combinations(lie, 2):
+        if lie[a] & lie[b]:
+            found |= dict(apart(plan, a, b))
+    for point, between in passing(plan, lie).items():
+        for name in lie:
+            if lie[name] & between and point not in shape_named(plan, name).points:
+                found[point, name] = True
+    return found
+
+
+def bodies_named(plan: Plan) -> list[str]:
+    """Return the moving bodies and the straight elements of a class by name."""
+    bars = {joined_names(bar.P, bar.Q): frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
+    elements = {name: frozenset(element.ends) for name, element in plan.of_kind(TwoPoint).items()}
+    alone = [name for name, ends in bars.items() if ends not in elements.values()]
+    return [*(body.name for body in plan.links[1:]), *alone, *elements]
+
+
+def id_of(plan: Plan, name: str) -> frozenset[str] | str:
+    """Return what tells a body from others, whatever it is called: its points; of an outline its name."""
+    shape = shape_named(plan, name)
+    return name if shape.outline is not None else frozenset(shape.points)
+
+
+def apart(plan: Plan, a: str, b: str) -> Iterator[tuple[Pair, bool]]:
+    """Yield the pairs that stand for two bodies: themselves where they share no pin, else and with them their outlines."""
+    shapes = {name: shape_named(plan, name) for name in (a, b)}
+    drawn = {name: [name] if shapes[name].outline is not None else outlines_on(plan, shapes[name].points) for name in (a, b)}
+    share = bool(set(shapes[a].points) & set(shapes[b].points))
+    if drawn[a] and drawn[b]:
+        yield from (((one, other), False) for one in drawn[a] for other in drawn[b] if one != other)
+    elif not share:
+        yield from (((one, other), True) for one in drawn[a] or [a] for other in drawn[b] or [b])
+
+
+def outlines_on(plan: Plan, points: tuple[str, ...]) -> list[str]:
+    """Return the closed outlines that a body carries, by name."""
+    home = set(points)
+    carried = [name for name, each in plan.of_kind(Outline).items() if each.filled and len(each.carriers) == 2]
+    return [name for name in carried if body_points_of(plan, shape_named(plan, name)) <= home]
+
+
+def passing(plan: Plan, lie: Mapping[str, set[int]]) -> dict[str, set[int]]:
+    """Return the pins that join bodies of different planes, each with the planes between them that it passes through."""
+    found: dict[str, set[int]] = {}
+    for point in plan.points:
+        joined = [numbers for name, numbers in lie.items() if point in shape_named(plan, name).points]
+        taken = set().union(*joined)
+        between = set(range(min(taken), max(taken))) - taken if len(joined) > 1 and taken else set[int]()
+        if between:
+            found[point] = between
+    return found
+
+
+def nearest(judge: Judge, answer: Answer) -> Pair:
+    """Return the pair that comes nearest where the clearance is least."""
+    pairs = pairs_of(judge.plan)
+    strokes = {name: np.asarray(float(value)) for name, value in answer.strokes.items()}
+    motion = Motion(judge.plan, judge.designs, strokes, "nan")
+    gaps = {pair: float(np.ravel(motion[pair_gap(pair, thick)])[0]) for pair, thick in pairs.items()}
+    return min(gaps, key=lambda pair: gaps[pair])
+
+
+def pair_gap(pair: Pair, thick: bool) -> NodeRequest:
+    """Return the request for the gap of one pair, less the width where it counts [m]."""
+    a, b = pair
+
+    def nodes(plan: Plan) -> tuple[Node, ...]:
+        width = plan.trace.value(width_of(plan)) if thick else 0.0
+        return (plan.trace.graph.node(gap_of(plan, a, b) - width),)
+
+    def behind(plan: Plan) -> set[str]:
+        return plan.reaches(*(name for each in pair for name in shape_named(plan, each).behind), width_of(plan))
+
+    return NodeRequest(
+        text=f"gap({a}, {b})", sentence=f"the gap between {a} and {b}", key=("pair gap", a, b, thick), measures="length", may_fail=True,
+        nodes_of=nodes, names_of=behind,
+    )  # fmt: skip

@@ -1,0 +1,120 @@
+"""A closed outline cut into convex pieces: its corners by their numbers, as they stand in one design."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+
+Corners = npt.NDArray[np.float64]
+FLAT = 1e-12
+"""A turn whose sine is smaller is no turn."""
+
+
+def turn(corners: Corners, a: int, b: int, c: int) -> float:
+    """Return twice the area of three corners, above zero where they go round counter-clockwise [m2]."""
+    (ax, ay), (bx, by), (cx, cy) = corners[a], corners[b], corners[c]
+    return float((bx - ax) * (cy - ay) - (by - ay) * (cx - ax))
+
+
+def signed_area(corners: Corners) -> float:
+    """Return the area of a closed line, above zero where it goes round counter-clockwise [m2]."""
+    x, y = corners.T
+    return float(0.5 * np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+
+def convex_pieces(corners: Corners) -> tuple[tuple[int, ...], ...]:
+    """Return convex pieces that make up a closed line, the numbers of their corners counter-clockwise; none of one that crosses itself.
+
+    Ears are cut off until a triangle is left, then neighbours are joined again while they stay convex.
+    Source: J. O'Rourke, Computational geometry in C (1998), 1.4; S. Hertel, K. Mehlhorn, FCT 1983, LNCS 158, 207-218.
+    """
+    order = list(range(len(corners)))
+    if signed_area(corners) < 0.0:
+        order.reverse()
+    triangles: list[tuple[int, ...]] = []
+    while len(order) > 3:
+        ear = next((place for place in range(len(order)) if is_ear(corners, order, place)), None)
+        if ear is None:
+            return ()
+        a, b, c = (order[(ear + step) % len(order)] for step in (-1, 0, 1))
+        if turn(corners, a, b, c) > FLAT * spread(corners):
+            triangles.append((a, b, c))
+        del order[ear]
+    if len(order) == 3 and turn(corners, *order) > FLAT * spread(corners):
+        triangles.append((order[0], order[1], order[2]))
+    return joined_pieces(corners, triangles)
+
+
+def spread(corners: Corners) -> float:
+    """Return the square of the extent of some corners [m2]."""
+    return float(np.square(np.ptp(corners, axis=0)).sum())
+
+
+def is_ear(corners: Corners, order: Sequence[int], place: int) -> bool:
+    """Return whether a corner can be cut off: nothing else of the line lies in its triangle."""
+    a, b, c = (order[(place + step) % len(order)] for step in (-1, 0, 1))
+    if turn(corners, a, b, c) < -FLAT * spread(corners):
+        return False
+    others = [each for each in order if each not in (a, b, c)]
+    return not any(within(corners, each, (a, b, c)) for each in others)
+
+
+def within(corners: Corners, place: int, triangle: tuple[int, int, int]) -> bool:
+    """Return whether a corner lies in a triangle or on its edges, but on none of its corners."""
+    a, b, c = triangle
+    if any(np.array_equal(corners[place], corners[each]) for each in triangle):
+        return False
+    return all(turn(corners, start, end, place) >= 0.0 for start, end in ((a, b), (b, c), (c, a)))
+
+
+def joined_pieces(corners: Corners, pieces: list[tuple[int, ...]]) -> tuple[tuple[int, ...], ...]:
+    """Return convex pieces, neighbours joined across an edge where both together are convex."""
+    found = list(pieces)
+    while True:
+        pair = next(
+            (
+                (i, j, both)
+                for i in range(len(found))
+                for j in range(i + 1, len(found))
+                if (both := across_edge(found[i], found[j])) and is_convex(corners, both)
+            ),
+            None,
+        )
+        if pair is None:
+            return tuple(found)
+        i, j, both = pair
+        del found[j], found[i]
+        found.append(both)
+
+
+def across_edge(one: tuple[int, ...], other: tuple[int, ...]) -> tuple[int, ...]:
+    """Return two pieces as one, without the edge that they share; empty where they share none."""
+    for k, edge in enumerate(pairwise((*one, one[0]))):
+        for m, back in enumerate(pairwise((*other, other[0]))):
+            if edge == (back[1], back[0]):
+                first = one[k + 1 :] + one[: k + 1]
+                second = other[m + 1 :] + other[: m + 1]
+                return first + second[1:-1]
+    return ()
+
+
+def is_convex(corners: Corners, piece: tuple[int, ...]) -> bool:
+    """Return whether a piece turns to the left at all its corners, or goes straight on."""
+    count = len(piece)
+    least = -FLAT * spread(corners)
+    return all(turn(corners, piece[k - 2], piece[k - 1], piece[k]) >= least for k in range(count)) and count == len(set(piece))
+
+
+def crosses_itself(corners: Corners) -> bool:
+    """Return whether two edges of a closed line cross that share no corner."""
+    edges = list(pairwise([*range(len(corners)), 0]))
+    for k, (a, b) in enumerate(edges):
+        for c, d in edges[k + 1 :]:
+            if {a, b} & {c, d}:
+                continue
+            if turn(corners, a, b, c) * turn(corners, a, b, d) < 0.0 and turn(corners, c, d, a) * turn(corners, c, d, b) < 0.0:
+                return True
+    return False

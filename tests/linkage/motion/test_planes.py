@@ -1,0 +1,255 @@
+"""Outlines that stand for bodies, the planes that bodies lie in, and the clearance of what lies in one of them."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from linkage import (
+    Crank,
+    DefinitionError,
+    Ground,
+    Link,
+    Mechanism,
+    OnLink,
+    Outline,
+    Planes,
+    Stroke,
+    around,
+    clearance,
+    gap,
+    least,
+    mm,
+    most,
+    optimise,
+    ref,
+    x,
+)
+from linkage.files import load, to_toml
+from linkage.motion.planes import pairs_of
+from linkage.surroundings import convex_pieces, crosses_itself
+from mechanisms.three_point_hitch import ThreePointHitch
+
+
+def star(rng, corners):
+    """Return a closed line without crossings, seen whole from its middle, shape (n, 2)."""
+    ways = np.linspace(0, 2 * np.pi, corners, endpoint=False) + rng.uniform(0, 0.6 * 2 * np.pi / corners, corners)
+    sizes = rng.uniform(0.08, 0.35, corners)
+    return np.column_stack([sizes * np.cos(ways), sizes * np.sin(ways)])
+
+
+def facing(one, other, first="A O", second="C B"):
+    """Return a machine of two levers that turn against each other, an outline on each."""
+    members = {
+        "s": Stroke(0.0, 1.4),
+        "O": Ground(0, 0),
+        "C": Ground(1.1, 0.1),
+        "back": 3.3 - 0.7 * ref("s"),
+        "A": Crank("O", OA=0.5, angle="s"),
+        "B": Crank("C", CB=0.5, angle="back"),
+        "one": Outline([tuple(map(float, each)) for each in one], on=first),
+        "other": Outline([tuple(map(float, each)) for each in other], on=second),
+        "planes": Planes("OA CB", width=20 * mm),
+    }
+    return type("Facing", (Mechanism,), members)
+
+
+def in_the_frame(corners, P, Q):
+    """Return corners of a body where it stands, shape (n, 2)."""
+    along = (Q - P) / np.hypot(*(Q - P))
+    return P + corners[:, :1] * along + corners[:, 1:] * np.array([-along[1], along[0]])
+
+
+def inside(points, corners):
+    """Return which points lie inside a closed line, by counting crossings."""
+    found = np.zeros(len(points), bool)
+    for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        crosses = (ay > points[:, 1]) != (by > points[:, 1])
+        with np.errstate(all="ignore"):
+            at = ax + (points[:, 1] - ay) * (bx - ax) / (by - ay)
+        found ^= crosses & (points[:, 0] < at)
+    return found
+
+
+def along_edges(corners, count=60):
+    """Return places along a closed line."""
+    shares = np.linspace(0, 1, count, endpoint=False)[:, None]
+    return np.concatenate([a + shares * (b - a) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)])
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_gap_of_outlines_against_points_along_them(seed):
+    rng = np.random.default_rng(seed)
+    one, other = star(rng, int(rng.integers(4, 13))), star(rng, int(rng.integers(3, 9)))
+    machine = facing(one, other)
+    motion = machine().sweep(s=9)
+    gaps = motion[gap("one", "other")]
+    for k in range(9):
+        first = in_the_frame(one, motion["A"][:, k], motion["O"][:, k])
+        second = in_the_frame(other, motion["C"][:, k], motion["B"][:, k])
+        cross = inside(along_edges(first), second).any() or inside(along_edges(second), first).any()
+        apart = np.min(np.hypot(*(along_edges(first)[:, None] - along_edges(second)[None]).transpose(2, 0, 1)))
+        if cross:
+            assert gaps[k] < 0.0
+        elif gaps[k] < 0.0:
+            assert -gaps[k] <= 2e-2  # they cross between the places looked at
+        else:
+            assert gaps[k] <= apart + 1e-12
+            assert apart - gaps[k] <= 0.02
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_exchanging_the_two_changes_nothing(seed):
+    rng = np.random.default_rng(100 + seed)
+    one, other = star(rng, 7), star(rng, 5)
+    motion = facing(one, other)().sweep(s=11)
+    assert_allclose(motion[gap("one", "other")], motion[gap("other", "one")], rtol=1e-13, atol=1e-15)
+    again = facing(one[::-1], np.roll(other, 2, axis=0))().sweep(s=11)[gap("one", "other")]
+    apart = motion[gap("one", "other")] > 0.0
+    assert_allclose(again[apart], motion[gap("one", "other")][apart], rtol=1e-12)
+    assert np.array_equal(again > 0.0, apart)
+
+
+def test_a_convex_outline_is_the_hull_of_its_points():
+    class Hull(Mechanism):
+        s = Stroke(0.0, 1.4)
+        O, C, E = Ground(0, 0), Ground(1.2, 0.1), Ground(1.5, 0.4)
+        A = Crank(O, OA=0.5, angle=s)
+        F = OnLink(O, A, OF=0.3, AOF=0.5)
+        plate = Link(O, A, F)
+        drawn = Outline([(0, 0), (0.5, 0), (0.3 * np.cos(0.5), 0.3 * np.sin(0.5))], on="O A")
+        block = Outline([(0.9, -0.3), (1.1, -0.3), (1.1, 0.2), (0.9, 0.2)])
+
+    motion = Hull().sweep(s=15)
+    for name in "CE":
+        assert_allclose(motion[gap("drawn", name)], motion[gap("OAF", name)], rtol=1e-12)
+    assert motion[gap("drawn", "block")].min() > 0.0
+
+
+def test_circles_are_round():
+    class Wheel(Mechanism):
+        s = Stroke(0.0, 1.0)
+        O, C = Ground(0, 0), Ground(2, 0)
+        A = Crank(O, OA=1.0, angle=s)
+        wheel = Outline.circle(at="C", radius=0.4)
+        knob = Outline.circle(at="A", radius=0.1)
+
+    motion = Wheel().sweep(s=9)
+    expected = np.hypot(*(motion["A"] - np.array([[2.0], [0.0]]))) - 0.5
+    assert_allclose(motion[gap("wheel", "knob")], expected, rtol=1e-13)
+
+
+@pytest.mark.parametrize("corners", [3, 4, 8, 13])
+def test_pieces_are_convex_and_make_up_the_whole(corners):
+    rng = np.random.default_rng(corners)
+    for _ in range(25):
+        line = star(rng, corners)
+        pieces = convex_pieces(line)
+        total = sum(area(line[list(piece)]) for piece in pieces)
+        assert_allclose(total, abs(area(line)), rtol=1e-12)
+        for piece in pieces:
+            sides = np.roll(line[list(piece)], -1, axis=0) - line[list(piece)]
+            turns = sides[:, 0] * np.roll(sides, -1, axis=0)[:, 1] - sides[:, 1] * np.roll(sides, -1, axis=0)[:, 0]
+            assert turns.min() >= -1e-12
+
+
+def area(line):
+    """Return a closed line's area, above zero counter-clockwise."""
+    px, py = line.T
+    return 0.5 * float(np.sum(px * np.roll(py, -1) - np.roll(px, -1) * py))
+
+
+def test_a_line_that_crosses_itself_is_told():
+    assert crosses_itself(np.array([(0, 0), (1, 1), (1, 0), (0, 1)], float))
+    with pytest.raises(DefinitionError, match="it crosses itself or encloses nothing"):
+        facing([(0, 0), (0.3, 0.3), (0.3, 0), (0, 0.3)], star(np.random.default_rng(1), 5))().sweep(s=3)[gap("one", "other")]
+
+
+# -- planes ------------------------------------------------------------------------------------------------
+
+
+class Crossing(ThreePointHitch):
+    """The hitch with all its bars in one plane, which cross."""
+
+    planes = Planes("OBC AB EDF MK", width=60 * mm)
+
+
+class Sideways(ThreePointHitch):
+    """The same in three planes."""
+
+    planes = Planes("OBC lift", "EDF MK", "CD", width=60 * mm)
+
+
+def test_bodies_that_cross_are_told_with_their_place():
+    (told,) = [each for each in Crossing().verdicts() if getattr(each, "rule", "") == "clearance"]
+    assert told.ok is False
+    assert "cross by 135 mm" in told
+    (answer,) = Crossing().answers([least(clearance())])
+    at_worst = Crossing().at(S=float(answer.strokes["S"]))
+    assert_allclose(at_worst[gap("MK", "OBC", width=0.06)], answer.value, rtol=1e-9)
+    every = [at_worst[gap(a, b, width=0.06)] for a, b in pairs_of(Crossing.plan)]
+    assert_allclose(min(map(float, every)), answer.value, rtol=1e-9)
+
+
+def test_planes_keep_bodies_apart_and_pins_pass_through_them():
+    pairs = set(map(frozenset, pairs_of(Sideways.plan)))
+    assert frozenset(("MK", "OBC")) not in pairs
+    assert frozenset(("C", "MK")) in pairs  # the pin from the first plane to the third passes the second
+    assert not any({"OBC", "CD"} == each for each in pairs)  # they share a pin
+
+
+def test_no_planes_no_verdict():
+    assert not any("clearance" in each for each in ThreePointHitch().verdicts())
+    with pytest.raises(DefinitionError, match=r"clearance\(\): it does not say which bodies lie in one plane; declare one"):
+        ThreePointHitch().answers([least(clearance())])
+
+
+def test_bodies_that_share_a_pin_by_their_outlines():
+    class Bucket(Mechanism):
+        s = Stroke(-1.2, 0.6)
+        O, E = Ground(0, 0), Ground(-1, 0)
+        D = Crank(O, OD=0.5, angle=s)
+        shell = Outline([(0, 0), (0.5, 0), (0.5, 0.2), (0.1, 0.2)], on="O D")
+        skin = Outline([(-1, 0), (-0.05, 0.05), (-0.05, 0.3), (-1, 0.3)])
+        planes = Planes("OD skin")
+
+    assert set(pairs_of(Bucket.plan)) == {("shell", "skin")} or set(pairs_of(Bucket.plan)) == {("skin", "shell")}
+    (answer,) = Bucket().answers([least(clearance())])
+    dense = Bucket().sweep(s=2001)[gap("shell", "skin")]
+    assert answer.value <= dense.min() + 1e-9
+    assert_allclose(answer.value, dense.min(), atol=2e-4)
+
+
+def test_a_design_is_looked_for_that_keeps_clear():
+    rng = np.random.default_rng(3)
+    machine = facing(star(rng, 6), star(rng, 6))
+    before = machine().answers([least(clearance())])[0].value
+    found = optimise(machine(), vary={"C.x": around(0.5)}, minimise=most(x("B")), subject_to=[least(clearance()) >= before + 0.05])
+    (after,) = found.machine.answers([least(clearance())])
+    assert after.value >= before + 0.05 - 1e-6
+
+
+def test_planes_stand_in_files():
+    again = load(to_toml(Sideways))
+    assert pairs_of(again.plan) == pairs_of(Sideways.plan)
+    assert again()["planes.width"] == 0.06
+
+
+def test_a_machine_of_planes_is_drawn_and_printed():
+    assert str(Sideways.plan.members["planes"]) == "Planes('OBC lift', 'EDF MK', 'CD', width=0.06)"
+    narrow = Crossing(**{"planes.width": 0.0}).answers([least(clearance())])[0].value
+    assert_allclose(narrow - Crossing().answers([least(clearance())])[0].value, 0.06, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Planes(), "the names of the bodies of each plane are expected"),
+        (lambda: Planes("", "OB"), "the names of the bodies of each plane are expected"),
+        (lambda: Planes("OB", width=-1.0), "zero or more"),
+        (lambda: type("X", (ThreePointHitch,), {"planes": Planes("OQ")})().verdicts(), "Body 'OQ' is unknown"),
+        (lambda: type("X", (ThreePointHitch,), {"o": Outline.line((0, 0), (1, 0))})().at(S=0.1)[gap("o", "MK")], "it is open"),
+    ],
+)
+def test_what_is_no_plane_is_refused_in_words(make, words):
+    with pytest.raises(DefinitionError, match=words):
+        make()

@@ -33,9 +33,9 @@ from .motion import Column as Column
 from .motion import Featured as Featured
 from .motion import Motion as Motion
 from .motion import Over as Over
+from .motion import Planes as Planes
 from .motion import Positions as Positions
 from .motion import Target as Target
-from .motion import Planes as Planes
 from .motion import at as at
 from .motion import clearance as clearance
 from .motion import condition as condition

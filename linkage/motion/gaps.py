@@ -79,7 +79,7 @@ class Piece:
 
 @final
 @dataclass(frozen=True)
-class Shape:
+class BodyShape:
     """What stands for a body: its points, each for itself in the frame, or an outline."""
 
     points: tuple[str, ...]
@@ -141,7 +141,7 @@ def cut(plan: Plan, outline: Outline) -> tuple[tuple[int, ...], ...]:
     return pieces
 
 
-def two_shapes(plan: Plan, a: str, b: str) -> tuple[Shape, Shape]:
+def two_shapes(plan: Plan, a: str, b: str) -> tuple[BodyShape, BodyShape]:
     """Return the shapes of two bodies, points or outlines by their names; DefinitionError for bodies that share a point."""
     one, other = shape_named(plan, a), shape_named(plan, b)
     if one.outline is None and other.outline is None:
@@ -156,18 +156,18 @@ def two_shapes(plan: Plan, a: str, b: str) -> tuple[Shape, Shape]:
     return one, other
 
 
-def body_points_of(plan: Plan, shape: Shape) -> set[str]:
+def body_points_of(plan: Plan, shape: BodyShape) -> set[str]:
     """Return the points of the body that carries an outline."""
     carriers = set(shape.points)
     return next((set(body.points) for body in plan.links if carriers and carriers <= set(body.points)), carriers)
 
 
-def shape_named(plan: Plan, name: str) -> Shape:
+def shape_named(plan: Plan, name: str) -> BodyShape:
     """Return the shape of a body, a straight element, a point or an outline by its name."""
     outline = plan.of_kind(Outline).get(name)
     if outline is not None:
-        return Shape(outline.carriers, outline=outline)
-    return Shape(shape_of(plan, name), each_alone=name == plan.links[0].name)
+        return BodyShape(outline.carriers, outline=outline)
+    return BodyShape(shape_of(plan, name), each_alone=name == plan.links[0].name)
 
 
 def check_apart(plan: Plan, a: str, b: str, of_a: tuple[str, ...], of_b: tuple[str, ...]) -> None:

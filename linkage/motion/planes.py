@@ -84,7 +84,7 @@ class Planes(HasVerdicts):
         answer = judge.answer(least(clearance()))
         if not np.isfinite(answer.value):
             return []
-        one, other = nearest(judge, answer)
+        one, other = nearest_pair(judge, answer)
         gap = show(abs(float(answer.value)), "mm", 3)
         if answer.value >= 0.0:
             text = said("{one} and {other} come within {gap} of each other, {where}.", one=one, other=other, gap=gap, where=answer.where)
@@ -204,7 +204,7 @@ def passing(plan: Plan, lie: Mapping[str, set[int]]) -> dict[str, set[int]]:
     return found
 
 
-def nearest(judge: Judge, answer: Answer) -> Pair:
+def nearest_pair(judge: Judge, answer: Answer) -> Pair:
     """Return the pair that comes nearest where the clearance is least."""
     pairs = pairs_of(judge.plan)
     strokes = {name: np.asarray(float(value)) for name, value in answer.strokes.items()}

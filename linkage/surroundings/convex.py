@@ -40,15 +40,15 @@ def convex_pieces(corners: Corners) -> tuple[tuple[int, ...], ...]:
         if ear is None:
             return ()
         a, b, c = (order[(ear + step) % len(order)] for step in (-1, 0, 1))
-        if turn(corners, a, b, c) > FLAT * spread(corners):
+        if turn(corners, a, b, c) > FLAT * squared_extent(corners):
             triangles.append((a, b, c))
         del order[ear]
-    if len(order) == 3 and turn(corners, *order) > FLAT * spread(corners):
+    if len(order) == 3 and turn(corners, *order) > FLAT * squared_extent(corners):
         triangles.append((order[0], order[1], order[2]))
     return joined_pieces(corners, triangles)
 
 
-def spread(corners: Corners) -> float:
+def squared_extent(corners: Corners) -> float:
     """Return the square of the extent of some corners [m2]."""
     return float(np.square(np.ptp(corners, axis=0)).sum())
 
@@ -56,7 +56,7 @@ def spread(corners: Corners) -> float:
 def is_ear(corners: Corners, order: Sequence[int], place: int) -> bool:
     """Return whether a corner can be cut off: nothing else of the line lies in its triangle."""
     a, b, c = (order[(place + step) % len(order)] for step in (-1, 0, 1))
-    if turn(corners, a, b, c) < -FLAT * spread(corners):
+    if turn(corners, a, b, c) < -FLAT * squared_extent(corners):
         return False
     others = [each for each in order if each not in (a, b, c)]
     return not any(within(corners, each, (a, b, c)) for each in others)
@@ -104,7 +104,7 @@ def across_edge(one: tuple[int, ...], other: tuple[int, ...]) -> tuple[int, ...]
 def is_convex(corners: Corners, piece: tuple[int, ...]) -> bool:
     """Return whether a piece turns to the left at all its corners, or goes straight on."""
     count = len(piece)
-    least = -FLAT * spread(corners)
+    least = -FLAT * squared_extent(corners)
     return all(turn(corners, piece[k - 2], piece[k - 1], piece[k]) >= least for k in range(count)) and count == len(set(piece))
 
 

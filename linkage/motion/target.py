@@ -11,10 +11,10 @@ from ..errors import DefinitionError, cited
 from ..frozen import FrozenDict, read_only
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import is_number, real
+from ..quantities import Quantity, is_number, real
 from ..units import deg, display_unit, mm, unit_or_none
 from .kinds import measure_of
-from .requests import RequestLike
+from .requests import Request, RequestLike
 
 
 @final
@@ -29,7 +29,7 @@ class Target:
     def __init__(
         self, quantity: RequestLike, value: float | FloatArray, *, within: float | None = None, unit: str = "", **strokes: float
     ) -> None:
-        what = f"Target({cited(quantity)}, {cited(value)})"
+        what = f"Target({quantity_cited(quantity)}, {cited(value)})"
         if within is not None and not (is_number(within) and within > 0.0):
             raise DefinitionError(f"{what}: within={cited(within)}: how far off it may be [SI], a number above zero, is expected.")
         if not all(map(is_one, strokes.values())):
@@ -49,7 +49,7 @@ class Target:
 
     def __repr__(self) -> str:
         value = cited(self.value.tolist()) if isinstance(self.value, np.ndarray) else repr(self.value)
-        return f"Target({', '.join([repr(self.quantity), value, *(f'{k}={v!r}' for k, v in self.strokes.items())])})"
+        return f"Target({', '.join([quantity_cited(self.quantity), value, *(f'{k}={v!r}' for k, v in self.strokes.items())])})"
 
     @property
     def is_path(self) -> bool:
@@ -64,6 +64,11 @@ class Target:
     def shown_in(self, plan: Plan) -> str:
         """Return the unit that it is told in."""
         return self.unit or display_unit(measure_of(plan, self.quantity), "mm")
+
+
+def quantity_cited(quantity: object) -> str:
+    """Return what a target is of as it stands in a message: `'tilt'`, `x(M)`."""
+    return str(quantity) if isinstance(quantity, (Quantity, Request)) else cited(quantity)
 
 
 def is_one(value: Any) -> bool:

@@ -32,6 +32,8 @@ LEAST = 1e-7
 SETTLES, TURNS = 0.3, 0.5
 """A correction over the one before, or over the step itself, and the length of one over that of the last places: more is not trusted."""
 ITERATIONS = 8
+STILL, NOISE = 1e-12, 100.0
+"""A correction, of the ranges, where places are told no better: misses so many times larger are rounding there."""
 IN_LINE = 1e-4
 """A loop's clearance, a squared sine or a share, below which it is that loop's dead point where a path ends."""
 BEYOND = 1e-9
@@ -45,22 +47,23 @@ def followed(plan: Plan, designs: Mapping[str, Any], targets: Any, hold: Any, st
     """Return the motion along a path of places; see Mechanism.follow."""
     one_word("unreachable", unreachable, ("raise", "nan"))
     places = Places.of(plan, designs, targets, hold, where="follow")
-    route = Route(places, goals_of(places))
-    begun = start_of(places, start)
+    route, begun = Route(places, goals_of(places)), start_of(places, start)
+    first, starts = 0, [] if begun is None else [begun]
     with unwarned():
-        if begun is not None:
-            tracks = [route.tracked(begun)]
-        else:
-            tracks = []
-            for unit in first_branches(places, route.goals[0]):
-                tracks.append(route.tracked(places.low + unit * places.span))
-                if tracks[-1].is_whole:
-                    break
-            if not tracks and unreachable == "raise":
-                why = unmet_words(places, route.goals[0], places.shown(route.goals[0]))
-                text = said("place {n} of {count} is not reached: {why}", n=1, count=len(route.goals), why=why)
-                raise AssemblyError(f"{plan.title}: follow: {text}", mask=np.ones(len(route.goals), bool))
-    best = max(tracks, key=lambda each: each.reached_first, default=None)
+        if begun is None:
+            last = len(route.goals) if unreachable == "nan" else 1
+            found = ((place, first_branches(places, route.goals[place])) for place in range(last))
+            first, starts = next(((place, [*each]) for place, each in found if len(each)), (0, []))
+        if not starts and unreachable == "raise":
+            why = unmet_words(places, route.goals[0], places.shown(route.goals[0]))
+            text = said("place {n} of {count} is not reached: {why}", n=1, count=len(route.goals), why=why)
+            raise AssemblyError(f"{plan.title}: follow: {text}", mask=np.ones(len(route.goals), bool))
+        best = None
+        for each in starts:
+            track = route.tracked(each, first)
+            best = track if best is None or track.reached_first > best.reached_first else best
+            if track.is_whole:
+                break
     if best is None:
         return route.motion(np.full((len(route.goals), len(places.free)), np.nan), unreachable)
     if unreachable == "raise" and not best.is_whole:
@@ -100,10 +103,10 @@ def start_of(places: Places, start: Any) -> FloatArray | None:
 
 
 def first_branches(places: Places, goal: FloatArray) -> FloatArray:
-    """Return the branches of the first place, unit coordinates (n, k), the nearest to the declared first pose of the strokes first."""
+    """Return the strokes of all branches of a place, shape (n, k), the nearest to the declared first pose of the strokes first."""
     found = branches(places, goal).unit
     begun = (np.array([places.plan.sketch_strokes[name] for name in places.free]) - places.low) / places.span
-    return found[np.argsort(np.abs(found - begun).max(axis=1), kind="stable")] if len(found) else found
+    return places.low + found[np.argsort(np.abs(found - begun).max(axis=1), kind="stable")] * places.span
 
 
 @final
@@ -165,29 +168,29 @@ class Route:
             for a, b, is_angle in zip(values, goal, self.angles, strict=True)
         ]
 
-    def tracked(self, start: FloatArray) -> Track:
-        """Return the strokes of each place, from some strokes near those of the first one; NaN from where it ends."""
+    def tracked(self, start: FloatArray, first: int) -> Track:
+        """Return the strokes of each place from the first one on, from some strokes near those of it; NaN from where it ends."""
         goals: list[list[float]] = self.goals.tolist()
         strokes = np.full((len(goals), len(self.places.free)), np.nan)
         begun = self.pose(start.tolist())
         if begun is None:
-            return Track(self, strokes, PathEnd(0, start, np.full(len(goals[0]), np.nan)))
+            return Track(self, strokes, first, PathEnd(first, start, np.full(len(goals[0]), np.nan)))
         step = solved(begun[1], begun[0])
         here = TrackedPose(start.tolist(), *begun, step[1] if step is not None else 0.0)
         ahead: list[TrackedPose] = []
-        for place, goal in enumerate(goals):
+        for place, goal in enumerate(goals[first:], first):
             found = None
             if len(ahead) == 4:
                 found = self._ahead(ahead, goal)
                 ahead = ahead if found is not None else []
             if found is None:
                 found = self._divided(here, goal)
-            if not self.is_met(self.off(found.values, goal)):
-                return Track(self, strokes, PathEnd(place, np.array(found.strokes), np.array(found.values)))
+            if not self.is_met(self.off(found.values, goal), NOISE):
+                return Track(self, strokes, first, PathEnd(place, np.array(found.strokes), np.array(found.values)))
             here = found
             ahead = [*ahead[-3:], here]
             strokes[place] = here.strokes
-        return Track(self, strokes, None)
+        return Track(self, strokes, first, None)
 
     def _ahead(self, last: Sequence[TrackedPose], goal: Sequence[float]) -> TrackedPose | None:
         """Return the pose at a goal from where the last four places lead to, a cubic through them; None where that is not near it."""
@@ -238,15 +241,17 @@ class Route:
             if self.is_met(missing):
                 return TrackedPose(guess, *found, determinant)
             size = max(abs(each) / span for each, span in zip(step[0], spans, strict=True))
+            if size <= STILL and self.is_met(missing, NOISE):
+                return TrackedPose(guess, *found, determinant)
             if not size <= most:
                 return None
             guess = [a + b for a, b in zip(guess, step[0], strict=True)]
             most = max(SETTLES * size, 1e-14)
         return None
 
-    def is_met(self, missing: Sequence[float]) -> bool:
-        """Return whether what is missing to a goal is nothing but rounding."""
-        return all(-least <= each <= least for each, least in zip(missing, self.tolerance, strict=True))
+    def is_met(self, missing: Sequence[float], noise: float = 1.0) -> bool:
+        """Return whether what is missing to a goal is nothing but rounding, of which there may be so many times as much as elsewhere."""
+        return all(-noise * least <= each <= noise * least for each, least in zip(missing, self.tolerance, strict=True))
 
     def motion(self, strokes: FloatArray, unreachable: str) -> Motion:
         """Return the motion at strokes (n, k)."""
@@ -295,10 +300,14 @@ def solved(matrix: Sequence[Sequence[float]], right: Sequence[float]) -> tuple[l
 @final
 @dataclass(frozen=True, eq=False)
 class Track:
-    """The strokes (n, k) of a path on one branch, NaN from where it ends; and where that is, None of one that goes all the way."""
+    """The strokes (n, k) of a path on one branch, from the first place that it reaches, NaN from where it ends.
+
+    `ended` is where that is, None of one that goes to the end.
+    """
 
     route: Route
     strokes: FloatArray
+    first: int
     ended: PathEnd | None
 
     @cached_property
@@ -321,8 +330,8 @@ class Track:
 
     @property
     def reached_first(self) -> int:
-        """How many places are reached before the first one that is not."""
-        return int(np.argmin(np.append(self.inside, False)))
+        """The first place that is not reached, of those from where it begins."""
+        return self.first + int(np.argmin(np.append(self.inside[self.first :], False)))
 
     def error(self) -> AssemblyError:
         """Return why it does not go all the way."""

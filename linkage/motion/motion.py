@@ -86,7 +86,8 @@ class Motion(Shown):
         self.reached.fill(True)
         self._places, is_clear = self._grid.run(plan.kernel(plan.moving, guarded=True))
         self._is_near_singular, self._is_reached = not is_clear, True
-        if self._is_near_singular or plan.may_overflow:
+        has_gaps = unreachable == "nan" and any([np.isnan(value).any() for value in self._grid.strokes.values()])
+        if self._is_near_singular or plan.may_overflow or has_gaps:  # a place of a path that is not reached has no strokes
             self._settle_unreached()
         if self._is_near_singular:
             self._settle_lost()

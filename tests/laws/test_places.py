@@ -299,6 +299,20 @@ def test_a_branch_that_leaves_the_strokes_comes_back_to_them():
         assert values[0] == pytest.approx(values[-1], abs=1e-9), name
 
 
+def test_a_path_that_begins_out_of_reach_is_followed_from_where_it_comes_in():
+    machine, *_ = two_cranks(np.random.default_rng(3))
+    reach = sum(machine.dimensions[name] for name in ("OA", "AB"))
+    along = np.linspace(1.2, 0.8, 41) * reach
+    path = [Target(x("B"), along), Target(y("B"), 0.1)]
+    motion = machine.follow(path, unreachable="nan")
+    assert np.array_equal(motion.reached, np.hypot(along, 0.1) <= reach)
+    assert motion.x("B")[motion.reached] == pytest.approx(along[motion.reached], abs=1e-10)
+    with pytest.raises(AssemblyError, match="place 1 of 41 is not reached: no strokes within their ends give"):
+        machine.follow(path)
+    nowhere = machine.follow([Target(x("B"), along + reach), Target(y("B"), 0.1)], unreachable="nan")
+    assert not nowhere.reached.any()
+
+
 class CrankRocker(Mechanism):
     """A four-bar driven by its crank."""
 

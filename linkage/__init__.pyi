@@ -61,12 +61,15 @@ from .quantities import ref as ref
 from .quantities import x as x
 from .quantities import y as y
 from .statics import PinForces as PinForces
+from .statics import axle_load as axle_load
 from .statics import drive_force as drive_force
 from .statics import driving_force as driving_force
 from .statics import max_table as max_table
 from .statics import pin_force as pin_force
 from .statics import pin_forces as pin_forces
 from .statics import reaction as reaction
+from .statics import slipping as slipping
+from .statics import standing as standing
 from .steps import Carried as Carried
 from .steps import CosineAngle as CosineAngle
 from .steps import Crank as Crank

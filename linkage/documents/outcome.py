@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from ..errors import LinkageError, unknown, unwarned
 from ..language import noted, said, translated
 from ..loads import PLAIN, PLAIN_CASE, Acting
-from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, most, stroke_display_unit
+from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, most, speakers, stroke_display_unit
 from ..motion.limits import StrokeLimits
 from ..motion.measures import Least, Most
 from ..pictures import mechanism
@@ -235,19 +235,25 @@ def column_grids(caption: str, columns: Sequence[Column]) -> Iterator[TableBlock
 # -- cylinders and springs ---------------------------------------------------------------------------------
 
 
-def members_section(subject: ReportSubject) -> Section | None:
-    """Return the section of what members show of themselves, such as cylinders their thrust and pressure; None where none does."""
-    members = subject.machine.plan.of_kind(Tabled)
-    if not members:
-        return None
+def members_sections(subject: ReportSubject) -> list[Section]:
+    """Return the sections of what members show of themselves, such as cylinders their thrust and pressure."""
+    members = speakers(subject.machine.plan, Tabled)
+    titles = dict.fromkeys(member.section for member in members.values())
+    return [members_section(subject, {name: each for name, each in members.items() if each.section == one}) for one in titles]
+
+
+def members_section(subject: ReportSubject, members: Mapping[str, Tabled]) -> Section:
+    """Return the section of what some members show of themselves, which have one title."""
+    first = next(iter(members.values()))
+    title, caption = translated(first.section), translated(first.caption)
     with unwarned():
-        columns = subject.member_columns
+        columns = [(name, column) for name, column in subject.member_columns if name in members]
         asked = [column.request if column.request is not None else values_in_rows(subject, name, column) for name, column in columns]
         questions = [[side(quantity) for side in sides_asked(quantity)] for quantity in asked]
         try:
             answers = iter(subject.judge.answers([question for each in questions for question in each]))
         except LinkageError as error:
-            return Section(said("Hydraulics"), (Paragraph(str(error)),))
+            return Section(title, (Paragraph(str(error)),))
     found = [[next(answers) for _ in each] for each in questions]
     rows = tuple(
         (name, column.heading, *end_cells(each, Least, column), *end_cells(each, Most, column))
@@ -256,8 +262,8 @@ def members_section(subject: ReportSubject) -> Section | None:
     shown = dict.fromkeys(name for name, _ in columns)
     refused = [Paragraph(why) for name in members if name not in shown and (why := refusal_words(subject, name))]
     heads = (said("member"), said("quantity"), said("least"), said("situation and place"), said("greatest"), said("situation and place"))
-    table = [TableBlock(said("Cylinders, over all that the machine runs"), heads, rows, "llrmrm")] if rows else []
-    return Section(said("Hydraulics"), (*table, *refused))
+    table = [TableBlock(caption, heads, rows, "llrmrm")] if rows else []
+    return Section(title, (*table, *refused))
 
 
 def end_cells(answers: Sequence[Answer], end: type[Measure], column: Column) -> tuple[str, str]:
@@ -278,7 +284,7 @@ def values_in_rows(subject: ReportSubject, member: str, column: Column) -> Calla
     """Return a member's column as a function of a motion, for one that nothing else asks for."""
 
     def values(motion: Motion) -> FloatArray:
-        found = subject.machine.plan.of_kind(Tabled)[member].columns(motion)
+        found = speakers(subject.machine.plan, Tabled)[member].columns(motion)
         return np.asarray(next(each.values for each in found if each.name == column.name), float)
 
     return values
@@ -288,7 +294,7 @@ def refusal_words(subject: ReportSubject, member: str) -> str:
     """Return why a member shows nothing of itself; "" where it has nothing to show."""
     try:
         with unwarned():
-            subject.machine.plan.of_kind(Tabled)[member].columns(subject.curve)
+            speakers(subject.machine.plan, Tabled)[member].columns(subject.curve)
     except LinkageError as error:
         return str(error)
     return ""

@@ -30,7 +30,7 @@ from .fingerprint import DIGITS, fingerprint, own_version
 from .html import write_html
 from .inputs import definition_section, inputs_section
 from .markdown import write_markdown
-from .outcome import curve_columns, drawing_section, forces_section, limits_section, members_section, results_section
+from .outcome import curve_columns, drawing_section, forces_section, limits_section, members_sections, results_section
 from .pdf import write_pdf
 from .run import ReportSubject
 
@@ -135,7 +135,7 @@ def composed(
         drawing_section(subject, path),
         calculation_section(found, subject.words(subject.pose)),
         results_section(subject, columns, first, bounds),
-        members_section(subject),
+        *members_sections(subject),
         forces_section(subject),
         limits_section(subject),
         checks_section(subject, found.values),

@@ -13,7 +13,7 @@ from ..errors import AssemblyError, DefinitionError, LinkageError, SingularError
 from ..language import said
 from ..loads import PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..mechanism import Mechanism, require_mechanism
-from ..motion import Column, Judge, Motion, Request, Tabled, stroke_display_unit
+from ..motion import Column, Judge, Motion, Request, Tabled, speakers, stroke_display_unit
 from ..motion.measures import MeasuredQuantity
 from ..quantities import Quantity, is_whole
 from ..reports import At, Run, column_requests, is_column, results, run_of
@@ -164,7 +164,7 @@ class ReportSubject:
 
 def member_tables(machine: Mechanism, motion: Motion) -> Iterator[tuple[str, Column]]:
     """Yield the columns that members show of themselves, each with the member's name; nothing of one that is refused."""
-    for name, member in machine.plan.of_kind(Tabled).items():
+    for name, member in speakers(machine.plan, Tabled).items():
         try:
             columns = member.columns(motion)
         except LinkageError:

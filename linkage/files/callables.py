@@ -13,15 +13,18 @@ from .. import plugins
 from ..errors import unknown
 from ..motion import condition, gap, ratio, transmission
 from ..plugins import Plugins
-from ..statics import drive_force, pin_force
+from ..statics import axle_load, drive_force, pin_force, slipping
 
 REQUESTS = Plugins[Callable[..., Any]](
     plugins.REQUESTS,
     "the request",
     lambda found: found if callable(found) else None,
     "no function",
-    {"ratio": ratio, "drive_force": drive_force, "pin_force": pin_force, "transmission": transmission, "gap": gap, "condition": condition},
-)
+    {
+        "ratio": ratio, "drive_force": drive_force, "pin_force": pin_force, "axle_load": axle_load, "slipping": slipping,
+        "transmission": transmission, "gap": gap, "condition": condition,
+    },
+)  # fmt: skip
 """The requests there are, by name."""
 
 

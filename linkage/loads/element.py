@@ -250,6 +250,8 @@ class ForceElement(Jointed):
 
     kind: ClassVar[str] = "load"
     file_section: ClassVar[str] = "loads"
+    shown_by: ClassVar[str] = ""
+    """The class that shows and judges it, "module:name", where that is in a room above its own; see `linkage.motion.speakers`."""
     places: ClassVar[tuple[str, ...]] = ("point",)
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({})
     not_negative: ClassVar[frozenset[str]] = frozenset()

@@ -123,14 +123,22 @@ class Support(ForceElement):
 
     Its reaction is what `reaction(motion, loads, support)` finds. `force` [N] is the one it is taken to have elsewhere:
     none, unless it is given. Of the direction only the sense counts, not the length.
+
+    Under a fixed point it bears the frame, a vehicle with a Weight at fixed points, and its reaction is an axle load. Three or more such
+    supports say their `stiffness` [N/m]; `friction`, a coefficient, is what the ground holds along itself.
     """
 
     point: Reference
     direction: tuple[float, float]
     force: Parameter = 0.0
+    stiffness: Parameter | None = None
+    friction: Parameter | None = None
     axes: ClassVar[Axes | None] = None
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"force": "N"})
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"force": "N", "stiffness": "N/m", "friction": ""})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"direction": "pair"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"stiffness", "friction"})
+    optional: ClassVar[frozenset[str]] = frozenset({"stiffness", "friction"})
+    shown_by: ClassVar[str] = "linkage.statics.vehicle:AxleLoad"
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -142,6 +150,8 @@ class Support(ForceElement):
         if not (np.all(np.isfinite(size)) and np.all(size > 0.0)):
             said = f"the direction {cited(self.direction)} has no finite length above zero"
             raise DefinitionError(f"Support: {said}; write one such as (0, 1).")
+        if is_number(self.stiffness) and not plain(self.stiffness) > 0.0:
+            raise DefinitionError("Support: stiffness=0 carries nothing; give one above zero in N/m, or leave it out.")
 
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
         return (Glyph("support", (name_of(self.point),), way=float(np.arctan2(self.unit[1], self.unit[0]))),)
@@ -152,12 +162,16 @@ class Support(ForceElement):
         direction = np.asarray(self.direction, float)
         return np.asarray(direction / np.hypot(*direction))
 
+    def way(self, motion: Poses) -> Array:
+        """Return the direction in the axes of the frame, of length one, shape (2, ...) to broadcast against the motion."""
+        return in_the_whole(motion, self.axes, (self.unit[0], self.unit[1]))
+
     def bounds(self, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return what its reaction can be [N]: it pushes, and never pulls."""
         return np.zeros(()), np.asarray(np.inf)
 
     def loads(self, motion: Poses) -> list[Load]:
-        way = in_the_whole(motion, self.axes, (self.unit[0], self.unit[1]))
+        way = self.way(motion)
         return [Load(name_of(self.point), vector(self.number(motion, "force"), (way[0], way[1])))]
 
     def in_axes(self, axes: Axes) -> Support:

@@ -22,5 +22,5 @@ from .reach import limits_over
 from .requests import MotionFunction, NodeRequest, Request, RequestLike, SmoothPiece, Value, ratio
 from .search import Extremum, Span, below_zero, greatest, lowest, reached
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values
-from .table import Column, Tabled, columns_of
+from .table import Column, Tabled, columns_of, speakers
 from .target import Target

@@ -19,6 +19,7 @@ from .limits import StrokeLimits, place_text
 from .measures import Condition, Measure, least, reachable
 from .motion import out_of_reach
 from .pose_requests import transmission
+from .table import speakers
 
 POOR = 40.0 * deg
 """A transmission angle below which textbooks advise against a loop that carries load [rad]."""
@@ -51,7 +52,7 @@ def judge_verdicts(judge: Judge) -> list[str]:
         return batch_verdicts(judge)
     if not judge.is_reached:
         return assembly_verdicts(judge)
-    members = judge.plan.of_kind(HasVerdicts).values()
+    members = speakers(judge.plan, HasVerdicts).values()
     judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
     lost = judge.answer(reachable).ok is False
     return [*geometry_verdicts(judge), *member_verdicts(judge.lost_allowed() if lost else judge)]
@@ -174,7 +175,7 @@ def transmission_words(judge: Judge) -> list[str]:
 
 def member_verdicts(judge: Judge) -> list[Verdict]:
     """Return what the members that judge themselves say; with their names where several follow the same rule."""
-    members = judge.plan.of_kind(HasVerdicts)
+    members = speakers(judge.plan, HasVerdicts)
     found = [(name, verdict) for name, member in members.items() for verdict in member.verdicts(judge)]
     count = Counter(rule for _, rule in {(name, verdict.rule) for name, verdict in found})
     return [verdict if count[verdict.rule] == 1 else verdict.named(name) for name, verdict in found]
@@ -188,7 +189,7 @@ def batch_verdicts(judge: Judge) -> list[str]:
     text = said("{n} of {total} designs cannot be assembled over the whole motion", n=lost.size, total=total)
     text += said("; the first is design {number}.", number=lost[0] + 1) if lost.size else "."
     found: list[str] = [Verdict("assembly", not lost.size, text)]
-    if not judge.plan.of_kind(HasVerdicts):
+    if not speakers(judge.plan, HasVerdicts):
         return found
     if total > JUDGED:
         text = said(

@@ -5,14 +5,15 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from importlib import import_module
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..language import heading_of
-from ..loads import LoadCase
+from ..language import heading_of, noted
+from ..loads import ForceElement, LoadCase
 from ..plan import Plan
 from ..program import FloatArray, claim, is_traced
 from ..quantities import Coordinate, Dimension, Member, Quantity, Stroke
@@ -123,9 +124,31 @@ def columns_of(motion: Motion) -> list[Column]:
 
 # Members that have columns of their own in a machine's table of results.
 
+Kind = TypeVar("Kind", bound=Member)
+
+
+def speakers(plan: Plan, kind: type[Kind]) -> dict[str, Kind]:
+    """Return the members of a plan that show or judge themselves, `Tabled` or `HasVerdicts`, and what does so for others, by name."""
+    each_of = ((name, member if isinstance(member, kind) else speaker(member, plan)) for name, member in plan.members.items())
+    return {name: each for name, each in each_of if isinstance(each, kind)}
+
+
+def speaker(member: Member, plan: Plan) -> object:
+    """Return what shows and judges a member whose own room is below that: of the class that it names; None where nothing is said."""
+    if not isinstance(member, ForceElement) or not member.shown_by:
+        return None
+    module, name = member.shown_by.split(":")
+    return getattr(import_module(module), name).of(member, plan)
+
 
 class Tabled(Member):
-    """A member that the table of results shows, such as a cylinder: its base beside that of its kind."""
+    """A member that the table of results shows, such as a cylinder: its base beside that of its kind.
+
+    `section` and `caption` head its values in a report, together with those of other members that have the same.
+    """
+
+    section: ClassVar[str] = noted("Hydraulics")
+    caption: ClassVar[str] = noted("Cylinders, over all that the machine runs")
 
     @abstractmethod
     def columns(self, motion: Motion) -> list[Column]:

@@ -13,7 +13,7 @@ from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, 
 from ..language import heading_of, language, translated
 from ..loads import AT_REST, PLAIN, TwoPoint
 from ..mechanism import Mechanism
-from ..motion import Column, LiveText, Motion, Request, RequestLike, Tabled, stroke_display_unit, transmission
+from ..motion import Column, LiveText, Motion, Request, RequestLike, Tabled, speakers, stroke_display_unit, transmission
 from ..motion.requests import NodeRequest
 from ..plan import Plan, opening, plan_measure
 from ..program import FloatArray, Node
@@ -140,7 +140,7 @@ class PageRequests:
                 self.by_name[f"track {track.name} {k}"] = track_number(track, part, axis)
         for name in self.motion._joints:
             self.by_name[f"joint {name}"] = transmission(name)
-        for name, member in self.plan.of_kind(Tabled).items():
+        for name, member in speakers(self.plan, Tabled).items():
             self.by_name |= {f"gauge {name} {what}": request for what, request in member.gauges(self.plan).items()}
         for k, (_, x, y, _) in enumerate(self.arrows):
             self.by_name |= {f"arrow {k} x": x, f"arrow {k} y": y}

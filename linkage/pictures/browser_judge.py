@@ -14,7 +14,7 @@ from ..errors import DefinitionError, LawError, LinkageError, UntracedError, unw
 from ..language import heading_of, language
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
-from ..motion import Condition, HasVerdicts, LiveText, Motion, Request, RequestLike, least, most
+from ..motion import Condition, HasVerdicts, LiveText, Motion, Request, RequestLike, least, most, speakers
 from ..motion.judge import measures_of
 from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, conditions_of
 from ..motion.over import ALLOWED
@@ -64,7 +64,7 @@ class LiveQuestions:
     def conditions(self) -> dict[str, Condition]:
         """Return the rules of the machine's members that are plain conditions, with a member's name where several have the same one."""
         found = []
-        for name, member in self.machine.plan.of_kind(HasVerdicts).items():
+        for name, member in speakers(self.machine.plan, HasVerdicts).items():
             try:
                 found += [(name, rule, one) for rule, one in member.conditions(self.judge).items()]
             except LinkageError:

@@ -11,7 +11,7 @@ from ..files.callables import REQUESTS, request_function
 from ..language import noted
 from ..loads import Case, ForceElement
 from ..mechanism import Mechanism, require_mechanism
-from ..motion import Column, Motion, Tabled, require_motion, stroke_unit
+from ..motion import Column, Motion, Tabled, require_motion, speakers, stroke_unit
 from ..statics import drive_force, driving_force
 
 
@@ -69,7 +69,7 @@ def drive_columns(motion: Motion, case: Case = None, direction: str | None = Non
 
 def member_columns(motion: Motion, case: Case = None, direction: str | None = None, *, beside: Container[str] = ()) -> Iterator[Column]:
     """Yield the columns of the members that have some, with their names where several members have the same; not of those `beside`."""
-    members = {name: member for name, member in motion.plan.of_kind(Tabled).items() if name not in beside}
+    members = {name: member for name, member in speakers(motion.plan, Tabled).items() if name not in beside}
     found = [(name, column) for name, member in members.items() for column in member.columns_in(motion, case, direction)]
     if case is None and direction is None:
         found = [(name, asked_by_name(name, column)) for name, column in found]

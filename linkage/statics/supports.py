@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, known_name
-from ..loads import ActingKeywords, Loads, Support, situation_of, takes_situation
+from ..loads import Acting, ActingKeywords, Loads, Support, situation_of, takes_situation
 from ..motion import Motion, require_motion
 from ..motion.conditions import condition_of_sine
 from ..motion.requests import stroke_of
@@ -20,6 +21,7 @@ from .holding import refused_where
 from .joints import Wrench
 from .poses import FlatPoses
 from .solution import Equilibrium, locked_words, system_with_friction
+from .vehicle import is_under_frame, push_of, reaction_under_frame
 from .work import by_work
 
 
@@ -39,10 +41,15 @@ def reaction(
     an element such as a charged line stands for it. The machine's only Support is meant unless one is given; its own `force` does
     not count. With several strokes `drive` names the one that the support balances; the others stand still. Raises SingularError
     where the support's point does not move along its direction with the drive.
+
+    Of a support under the frame it is its axle load: what the drive's force is does not matter there. DefinitionError where the frame
+    weighs nothing or stands on nothing; see `standing` for all that is known of a vehicle on its supports.
     """
     acting = situation_of("reaction", loads=loads, **situation)
     require_motion(motion)
     name, element = support_of(motion, support)
+    if is_under_frame(motion.plan, element):
+        return axle_load_of(motion, name, element, acting if drive is None else replace(acting, drive=drive), drive_force)
     stroke = stroke_of(motion.plan, drive, "drive")
     applied = applied_loads(motion, acting, rates_in(motion, acting, stroke), without=name)
     poses = FlatPoses(motion, f"The reaction of {name}")
@@ -53,7 +60,7 @@ def reaction(
     # with friction: the reaction at which it, the joint forces and the known drive force agree
     system, frictions = system_with_friction(poses, applied)
     column, point = np.zeros((poses.count, system.height, 1)), name_of(element.point)
-    push = Wrench(poses.at(point), np.zeros((2, poses.count)) + element.unit[:, None], np.zeros(poses.count))
+    push = Wrench(poses.at(point), push_of(poses, element), np.zeros(poses.count))
     for row, value in system.parts(system.structure.holder(point), push):
         column[:, row, 0] += value
     bound = (*system.known(), (system.drive(stroke), known))
@@ -61,6 +68,14 @@ def reaction(
     check_joints(system.structure, poses)
     locked_words(found, acting.movement)
     return poses.full(found.u[:, -1])
+
+
+def axle_load_of(motion: Motion, name: str, support: Support, acting: Acting, drive_force: ArrayLike) -> FloatArray:
+    """Return the reaction of a support under the frame, shape (...) [N]; DefinitionError for a drive's force."""
+    if np.any(known_force(motion, drive_force)):
+        what = f"{motion.plan.title}: {name} bears the frame, and a drive's force acts between the frame and what it drives"
+        raise DefinitionError(f"{what}: an axle load does not hang on it; leave drive_force= out.")
+    return reaction_under_frame(motion, name, support, acting)
 
 
 def support_of(motion: Motion, support: Support | str | None) -> tuple[str, Support]:
@@ -91,7 +106,7 @@ def known_force(motion: Motion, drive_force: ArrayLike) -> FloatArray:
 def way_along(poses: FlatPoses, support: Support, drive: str, name: str) -> FloatArray:
     """Return how far the support's point moves along its direction on a unit of the stroke, shape (n,); SingularError where it does not."""
     point = name_of(support.point)
-    along = (poses.rate(point, drive) * support.unit[:, None]).sum(axis=0)
+    along = (poses.rate(point, drive) * push_of(poses, support)).sum(axis=0)
     carrying = [each for each in poses.plan.moving if each in poses.plan.reaches(point)]
     size = np.max([np.hypot(*poses.rate(each, drive)) for each in carrying], axis=0, initial=0.0)  # of the fastest point on the way to it
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -105,7 +105,11 @@ USES = [
         "",
         ("Cylinder(...): missing a required argument: 'rod'; it", "rod, count, works, stroke, closed, mounting, safety."),
     ),
-    ('Support("G")', "", ("Support(...): missing a required argument: 'direction'; it takes point, direction, force.",)),
+    (
+        'Support("G")',
+        "",
+        ("Support(...): missing a required argument: 'direction'; it takes point, direction, force, stiffness, friction.",),
+    ),
     ('Damper("A", "B")', "", ("Damper(...): missing a required argument: 'coefficient'; it takes A, B, coefficient.",)),
     ('Moment("O B")', "", ("Moment(...): missing a required argument: 'M'; it takes link, M.",)),
     ('LinkMass("O B")', "", ("LinkMass(...): missing a required argument: 'mass'; it takes link, mass, at, gravity.",)),

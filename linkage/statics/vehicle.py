@@ -1,0 +1,476 @@
+"""A vehicle on its supports: the frame as a body with weights, which several supports under it push, and the ground holds by friction.
+
+All that acts on the machine from outside acts on the frame at last: forces between its own bodies cancel, whatever its joints are. So the
+loads of axles follow from the sum of the loads and their moment. Directions are counted from the first support: across the ground is
+its own, along the ground is a quarter turn to the right of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import TypeAlias, Unpack, final
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import DefinitionError, UntracedError
+from ..language import noted, said
+from ..loads import (
+    AT_REST,
+    FRICTIONLESS,
+    PLAIN,
+    Acting,
+    ActingKeywords,
+    Case,
+    ForceElement,
+    LinkMass,
+    Loads,
+    Support,
+    Weight,
+    situation_of,
+    takes_situation,
+)
+from ..loads.case import LoadCase
+from ..motion import Answer, Column, Condition, HasVerdicts, Judge, Motion, Question, Tabled, least, most, require_motion
+from ..plan import Plan
+from ..program import FloatArray
+from ..quantities import name_of
+from ..units import show
+from ..verdict import Verdict
+from .applied import AppliedLoads, applied_loads, elements_of, rates_in
+from .bodies import frame_points
+from .law_requests import LawRequest, case_words
+from .poses import AnyMotion, FlatPoses, cross
+from .traced_loads import TracedMotion, traced_loads
+
+IntArray: TypeAlias = npt.NDArray[np.intp]
+SAME_PLACE = 1e-9
+"""m: supports that are nearer to each other stand at one place."""
+BEYOND = 1e-9
+"""A resultant that lies beyond a support by less than this part of their distance lies above it."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Standing:
+    """How a vehicle stands on its supports; forces in N, shape (...), by the supports' names.
+
+    `reactions` are the axle loads along the supports' directions: a support that lifts off among three or more has none, a negative one is
+    what would have to hold it down, so that the vehicle tips over. `outermost` are those of the two outermost supports, were they alone:
+    negative at one where the resultant lies beyond the other. `along` is what the ground puts on the frame along itself at the first
+    support, `friction` how much it can by friction, None where no support says one.
+    """
+
+    reactions: Mapping[str, FloatArray]
+    outermost: Mapping[str, FloatArray]
+    along: FloatArray
+    friction: FloatArray | None
+
+
+@takes_situation
+def standing(motion: Motion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Standing:
+    """Return how a vehicle stands on the supports under its frame, under the machine's own loads unless others are given.
+
+    The supports are those of the class, and those among the loads, whose points do not move; with three or more all say a `stiffness`.
+    """
+    require_motion(motion)
+    acting = situation_of("standing", loads=loads, **situation)
+    return standing_of(motion, acting, vehicle_of(motion.plan, acting))
+
+
+def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Support]) -> Standing:
+    """Return how a vehicle stands on some supports over a motion's poses, as numbers of a program where it is traced."""
+    poses = FlatPoses(motion, "The axle loads", set())
+    applied = traced_loads(motion, acting, AT_REST) if isinstance(motion, TracedMotion) else loads_over(motion, acting)
+    outside = outside_of(poses, applied, supports)
+    ways = {name: push_of(poses, each) for name, each in supports.items()}
+    across, levers = directions(poses, supports, ways)
+    ends: list[FloatArray | None]
+    if len(supports) == 2:
+        ends = [*carried_by_two(across, levers, outside, 0, 1)]
+        found = np.stack([each for each in ends if each is not None])
+    elif isinstance(motion, TracedMotion):
+        what = f"{motion.plan.title}: axle loads of more than two supports have values"
+        raise UntracedError(f"{what}, and no program that gives derivatives. Take finite differences.")
+    else:
+        found, ends = by_stiffness(poses, supports, across, levers, outside)
+    names = list(supports)
+    slants = [part_along(way, to_the_right(poses, supports)) for way in ways.values()]
+    along = 0.0 - outside.along - sum((one * force for one, force in zip(slants, found, strict=True)), poses.zeros())
+    rough = [(each.number(motion, "friction"), force) for each, force in zip(supports.values(), found, strict=True) if is_rough(each)]
+    friction = sum((poses.flattened(number) * force for number, force in rough), poses.zeros()) if rough else None
+    return Standing(
+        {name: poses.full(force) for name, force in zip(names, found, strict=True)},
+        {name: poses.full(force) for name, force in zip(names, ends, strict=True) if force is not None},
+        poses.full(np.asarray(along)), None if friction is None else poses.full(np.asarray(friction)),
+    )  # fmt: skip
+
+
+def loads_over(motion: AnyMotion, acting: Acting) -> AppliedLoads:
+    """Return what acts over the poses of a motion in a situation."""
+    found = require_motion(motion)
+    resting = acting.movement == FRICTIONLESS and acting.rates is None
+    return applied_loads(found, acting, AT_REST if resting else rates_in(found, acting))
+
+
+# Which supports a vehicle stands on.
+
+
+def vehicle_of(plan: Plan, acting: Acting = PLAIN) -> dict[str, Support]:
+    """Return the supports under a machine's frame, in a situation; DefinitionError where it cannot stand on them."""
+    found = frame_supports(plan, acting)
+    if not found:
+        raise DefinitionError(f"{plan.title} has no support under a point of its frame; declare two, such as front = Support(A, (0, 1)).")
+    first = next(iter(found))
+    if not any(is_on_frame(plan, each) for each in plan.of_kind(ForceElement).values()):
+        what = f"{plan.title} stands on {', '.join(found)}, but its frame weighs nothing"
+        remedy = f"declare the vehicle, body = Weight(P, mass=...) with a fixed point P at its centre of gravity, or take {first} out"
+        raise DefinitionError(f"{what}: {remedy}.", member=first)
+    if len(found) == 1:
+        what = f"{plan.title} stands on {first} alone and would turn over about it"
+        raise DefinitionError(f"{what}; declare a second support under the frame, such as rear = Support(B, (0, 1)).", member=first)
+    for name, each in found.items():
+        if len(found) > 2 and each.stiffness is None:
+            what = f"{plan.title} stands on {len(found)} supports, {', '.join(found)}: how they share its weight hangs on how they give way"
+            raise DefinitionError(f"{what}; say stiffness= of {name}, in N/m, or take all but two out.", member=name)
+    return found
+
+
+def frame_supports(plan: Plan, acting: Acting = PLAIN) -> dict[str, Support]:
+    """Return the supports under points that do not move: those of the class, and those among given loads."""
+    own = {name: each for name, each in plan.of_kind(Support).items() if is_under_frame(plan, each)}
+    given = () if acting.loads is None else elements_of(plan, acting.loads)
+    return own | {name: each for name, each in given if isinstance(each, Support) and is_under_frame(plan, each)}
+
+
+def is_under_frame(plan: Plan, support: Support) -> bool:
+    """Return whether a support stands under a point of the frame."""
+    return name_of(support.point) in frame_points(plan)
+
+
+def is_on_frame(plan: Plan, element: ForceElement) -> bool:
+    """Return whether an element is a weight of the frame."""
+    if isinstance(element, LinkMass):
+        return set(element.points(plan.members, plan.title)) <= frame_points(plan)
+    return isinstance(element, Weight) and name_of(element.point) in frame_points(plan)
+
+
+def is_rough(support: Support) -> bool:
+    """Return whether a support says how rough the ground is."""
+    return support.friction is not None
+
+
+# The balance of the frame.
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Outside:
+    """What acts on a vehicle from outside, without its supports, at the first of them: across and along the ground [N], about it [Nm]."""
+
+    across: FloatArray
+    along: FloatArray
+    moment: FloatArray
+
+
+def outside_of(poses: FlatPoses, applied: AppliedLoads, supports: Mapping[str, Support]) -> Outside:
+    """Return the sum of all loads, but for what the supports are taken to have elsewhere."""
+    first = next(iter(supports.values()))
+    start, force, moment = poses.at(name_of(first.point)), poses.zeros(2).T, poses.zeros()
+    for load in applied.loads:
+        if load.element not in supports:
+            own = poses.flattened(load.force)
+            force, moment = force + own, moment + cross(poses.at(name_of(load.load.point)) - start, own)
+    return Outside(part_along(push_of(poses, first), force), part_along(to_the_right(poses, supports), force), np.asarray(moment))
+
+
+def push_of(poses: FlatPoses, support: Support) -> FloatArray:
+    """Return the direction of a support, of length one, shape (2, n)."""
+    way = support.way(poses.motion)
+    return poses.flattened(way.reshape((2, *(1,) * (len(poses.motion.shape) + 1 - way.ndim), *way.shape[1:])))
+
+
+def to_the_right(poses: FlatPoses, supports: Mapping[str, Support]) -> FloatArray:
+    """Return the direction along the ground at the first support, shape (2, n)."""
+    x, y = push_of(poses, next(iter(supports.values())))
+    return np.stack([y, 0.0 - x])
+
+
+def part_along(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return the product of two vectors (2, n), shape (n,)."""
+    return np.asarray(a[0] * b[0] + a[1] * b[1])
+
+
+def directions(
+    poses: FlatPoses, supports: Mapping[str, Support], ways: Mapping[str, FloatArray]
+) -> tuple[list[FloatArray], list[FloatArray]]:
+    """Return what each support's newton gives across the ground, and its lever about the first support, shape (n,) [m]."""
+    first = next(iter(supports))
+    start = poses.at(name_of(supports[first].point))
+    across = {name: part_along(way, ways[first]) for name, way in ways.items()}
+    for name, part in across.items():
+        if part.dtype != object and not np.all(part > 0.0):
+            what = f"{poses.plan.title}: {name} pushes {supports[name].direction}, not to the side of {first}, {supports[first].direction}"
+            raise DefinitionError(f"{what}; supports of a vehicle push to one side, such as (0, 1).", member=name)
+    return [*across.values()], [cross(poses.at(name_of(each.point)) - start, ways[name]) for name, each in supports.items()]
+
+
+def carried_by_two(across: list[FloatArray], levers: list[FloatArray], outside: Outside, i: int, j: int) -> tuple[FloatArray, FloatArray]:
+    """Return the reactions of two supports that carry alone, (n,) each."""
+    span = across[i] * levers[j] - across[j] * levers[i]
+    if span.dtype != object and np.any(np.abs(span) <= SAME_PLACE):
+        raise DefinitionError("Two supports of a vehicle stand at one place and do not hold it upright; set them apart.")
+    return (
+        np.asarray((across[j] * outside.moment - levers[j] * outside.across) / span),
+        np.asarray((levers[i] * outside.across - across[i] * outside.moment) / span),
+    )
+
+
+def by_stiffness(
+    poses: FlatPoses, supports: Mapping[str, Support], across: list[FloatArray], levers: list[FloatArray], outside: Outside
+) -> tuple[FloatArray, list[FloatArray | None]]:
+    """Return the reactions of three or more supports that give way, (supports, n), and those of the two outermost, were they alone.
+
+    A rigid frame sinks and turns; one by one the last support of the side that rises lifts off, and the others are asked again.
+    """
+    motion, many = poses.motion, len(supports)
+    a, b = np.stack(across), np.stack(levers)
+    k = np.stack([poses.flattened(each.number(motion, "stiffness")) for each in supports.values()])
+    order = np.argsort(b / a, axis=0, kind="stable")
+    a, b, k = (np.take_along_axis(each, order, axis=0) for each in (a, b, k))
+
+    def carried(low: int, high: int) -> FloatArray:
+        """Return the reactions where the supports from low to before high carry, (supports, n)."""
+        own = np.zeros((many, 1))
+        own[low:high] = 1.0
+        w = k * own
+        stiff = (w * a * a).sum(axis=0)
+        centre = (w * a * b).sum(axis=0) / stiff  # about it the frame turns without sinking
+        arms = b - a * centre
+        sinks, turns = outside.across / stiff, (outside.moment - centre * outside.across) / (w * arms * arms).sum(axis=0)
+        return np.asarray(0.0 - w * (a * sinks + arms * turns))
+
+    def lifted(found: FloatArray, left: bool) -> FloatArray:
+        """Return the reactions where supports of one side lift off, one after the other, down to two."""
+        for gone in range(1, many - 1):
+            last, rest = (gone - 1, (gone, many)) if left else (many - gone, (0, many - gone))
+            found = np.where(found[last] < 0.0, carried(*rest), found)
+        return found
+
+    whole = carried(0, many)
+    found = np.where(whole[-1] < 0.0, lifted(whole, False), np.where(whole[0] < 0.0, lifted(whole, True), whole))
+    back = np.argsort(order, axis=0, kind="stable")
+    return np.take_along_axis(found, back, axis=0), outer(poses, order, across, levers, outside)
+
+
+def outer(
+    poses: FlatPoses, order: IntArray, across: list[FloatArray], levers: list[FloatArray], outside: Outside
+) -> list[FloatArray | None]:
+    """Return what the two outermost supports carry alone, at their places among all, None at others; NaN where they are others."""
+    found: list[FloatArray | None] = [None] * len(across)
+    for i, j in {(int(i), int(j)) for i, j in zip(order[0], order[-1], strict=True)}:
+        here = (order[0] == i) & (order[-1] == j)
+        for place, force in zip((i, j), carried_by_two(across, levers, outside, i, j), strict=True):
+            before = found[place]
+            found[place] = np.where(here, force, np.nan if before is None else before)
+    return found
+
+
+# Before any load: what the vehicle's own weight puts on its supports.
+
+
+def bare_loads(motion: Motion, supports: Mapping[str, Support]) -> Mapping[str, float]:
+    """Return what the weights of the frame alone put on each support [N], of one design; DefinitionError where that stands on nothing.
+
+    It is the same at all poses; of a batch, and where no pose is reached, nothing is told.
+    """
+    plan = motion.plan
+    if motion._design_shape or not motion.reached.any():
+        return {}
+    weights = [each for each in plan.of_kind(ForceElement).values() if is_on_frame(plan, each)]
+    pose = motion.moved({name: value[motion.reached][:1] for name, value in motion.strokes.items()})
+    found = standing_of(pose, Acting(loads=weights), supports)
+    low, high = sorted(found.outermost, key=lambda name: float(found.outermost[name][0]))
+    least_force, force = float(found.outermost[low][0]), float(found.outermost[high][0])
+    if not abs(least_force) + abs(force) > 0.0:
+        raise DefinitionError(f"{plan.title} stands on nothing: its frame weighs nothing. Give its weight a mass above zero.")
+    if least_force < -BEYOND * abs(force):
+        poses = FlatPoses(pose, "The supports", set())
+        apart = poses.at(name_of(supports[low].point)) - poses.at(name_of(supports[high].point))
+        away = show(-least_force / abs(force + least_force) * abs(float(part_along(apart, to_the_right(poses, supports))[0])), "mm", 4)
+        what = f"{plan.title} stands on nothing: the weight of its frame lies {away} beyond {high} before any load"
+        names = ", ".join(each.name or str(each) for each in weights)
+        remedy = f"move {names} between the supports, or a support under it"
+        raise DefinitionError(f"{what}, so that {low} would have to hold it down; {remedy}.", member=high)
+    return {name: float(each[0]) for name, each in found.reactions.items()}
+
+
+# What is asked of a vehicle.
+
+
+def axle_load(support: str | Support, *, case: Case = None, acting: Acting | None = None) -> LawRequest:
+    """Return the request for the load of an axle [N], in `evaluate`, `answers` and searches: `reaction(motion, support="rear", case=...)`.
+
+    Below zero it is what would have to hold the support down: the vehicle tips over.
+    """
+    name = name_of(support)
+    given = situation_of("axle_load", acting, case=case)
+    return LawRequest(
+        formula=partial(load_over, name), text=partial(vehicle_text, "axle_load", (name,)), known=("axle load", name), acting=given,
+        measures="force", directions=at_rest_alone, examine=partial(support_in, name),
+    )  # fmt: skip
+
+
+def slipping(*, case: Case = None, acting: Acting | None = None) -> LawRequest:
+    """Return the request for how much of its friction with the ground a vehicle uses along it; at 1 it slips."""
+    given = situation_of("slipping", acting, case=case)
+    return LawRequest(
+        formula=used_over, text=partial(vehicle_text, "slipping", ()), known=("slipping",), acting=given, directions=at_rest_alone,
+        examine=rough_in,
+    )  # fmt: skip
+
+
+def vehicle_text(word: str, arguments: tuple[str, ...], acting: Acting) -> str:
+    """Return how a request is written in a situation."""
+    return f"{word}({', '.join([*arguments, *case_words(acting.case)])})"
+
+
+def at_rest_alone(plan: Plan) -> tuple[str, ...]:
+    """Return that a vehicle is asked at rest: what rubs inside it puts nothing on its supports."""
+    return (FRICTIONLESS,)
+
+
+def support_in(name: str, plan: Plan) -> None:
+    """Raise DefinitionError where a plan has no such support under its frame."""
+    found = vehicle_of(plan)
+    if name not in found:
+        raise DefinitionError(f"{plan.title}: {name} is no support under its frame; these are {', '.join(found)}.")
+
+
+def rough_in(plan: Plan) -> None:
+    """Raise DefinitionError where no support of a plan says how rough the ground is."""
+    if not any(is_rough(each) for each in vehicle_of(plan).values()):
+        raise DefinitionError(f"{plan.title}: no support says friction=, so that nothing tells when it slips; say it, friction=0.6.")
+
+
+def load_over(name: str, motion: AnyMotion, acting: Acting) -> FloatArray:
+    """Return the load of an axle over a motion's poses [N], shape (...)."""
+    return np.asarray(standing_of(motion, acting, vehicle_of(motion.plan, acting)).reactions[name])[()]
+
+
+def used_over(motion: AnyMotion, acting: Acting) -> FloatArray:
+    """Return the use of the friction over a motion's poses, shape (...); infinite where nothing presses and something pushes."""
+    found = standing_of(motion, acting, vehicle_of(motion.plan, acting))
+    if found.friction is None:
+        rough_in(motion.plan)
+    assert found.friction is not None
+    if isinstance(motion, TracedMotion):
+        return np.asarray(np.abs(found.along) / found.friction)[()]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        used = np.abs(found.along) / np.maximum(found.friction, 0.0)
+    return np.where((found.along == 0.0) & (found.friction <= 0.0), 0.0, used)
+
+
+# What a support under the frame shows and says.
+
+
+@final
+class AxleLoad(Tabled, HasVerdicts):
+    """What shows and judges a support under the frame: its load in tables, whether it lifts off, whether the vehicle slips."""
+
+    def __init__(self, support: Support, plan: Plan) -> None:
+        self.support = support
+        self.is_first = next(iter(frame_supports(plan))) == support.name
+
+    section = noted("Vehicle")
+    caption = noted("Axle loads, over all that the machine runs")
+
+    @classmethod
+    def of(cls, support: Support, plan: Plan) -> AxleLoad | None:
+        """Return it for a support under the frame; None for one under a point that moves."""
+        return cls(support, plan) if is_under_frame(plan, support) else None
+
+    def columns(self, motion: Motion) -> list[Column]:
+        return self.columns_in(motion)
+
+    def columns_in(self, motion: Motion, case: LoadCase | str | None = None, direction: str | None = None) -> list[Column]:
+        request, name = axle_load(self.support.name, case=case), noted("axle load")
+        return [Column(name, request.of(motion), "kN", 3, request if direction is None else None)]
+
+    def judges_slipping(self, judge: Judge) -> bool:
+        """Return whether the verdict on slipping is its own: of the first support, where one says how rough the ground is."""
+        return self.is_first and any(is_rough(each) for each in frame_supports(judge.plan).values())
+
+    def questions(self, judge: Judge) -> list[Question]:
+        return list(self.conditions(judge).values())
+
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        try:
+            vehicle_of(judge.plan)
+        except DefinitionError:
+            return {}
+        found: dict[str, Condition] = {"axle load": least(axle_load(self.support.name)) >= 0.0}
+        return found | ({"slipping": most(slipping()) <= 1.0} if self.judges_slipping(judge) else {})
+
+    def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return how much of its load the support keeps, and whether the vehicle slips."""
+        try:
+            supports = vehicle_of(judge.plan)
+            bare = bare_loads(judge.motion, supports)
+            return list(self._verdicts(judge, bare.get(self.support.name, 0.0)))
+        except DefinitionError as error:
+            return [Verdict("axle load", False, " ".join(str(error).split()))] if self.is_first else []
+
+    def _verdicts(self, judge: Judge, bare: float) -> Iterator[Verdict]:
+        found = judge.answer(least(axle_load(self.support.name)) >= 0.0)
+        yield Verdict("axle load", found.ok, self.sentence(found, bare), answer=found)
+        if self.judges_slipping(judge):
+            worst = judge.answer(most(slipping()) <= 1.0)
+            yield Verdict("slipping", worst.ok, slipping_sentence(worst), answer=worst)
+
+    def sentence(self, found: Answer, bare: float) -> str:
+        """Return what becomes of the axle's load, in words; `bare` is that of the vehicle alone [N]."""
+        if np.isnan(found.value):
+            return f"{found}."
+        load, place = float(found.value), found.place
+        if load < 0.0:
+            return said(
+                "tipping {place}: it would have to be held down with {force}. Add weight on its side, or set the supports wider.",
+                place=place, force=show(-load, "kN", 4),
+            )  # fmt: skip
+        if load == 0.0:
+            return said("it lifts off, such as {place}; the others carry.", place=place)
+        if not bare > 0.0:
+            return said("it carries at least {force} {place}, without a load nothing.", force=show(load, "kN", 4), place=place)
+        return said(
+            "it keeps {share} % of its load, least {place}: {force} of the {bare} that the vehicle alone puts on it.",
+            share=f"{100.0 * load / bare:.3g}", place=place, force=show(load, "kN", 4), bare=show(bare, "kN", 4),
+        )  # fmt: skip
+
+
+def slipping_sentence(worst: Answer) -> str:
+    """Return how much of its friction with the ground a vehicle uses, in words."""
+    if np.isnan(worst.value):
+        return f"{worst}."
+    if np.isinf(worst.value):
+        return said("slipping {place}: nothing presses it to the ground there.", place=worst.place)
+    share = f"{100.0 * float(worst.value):.3g}"
+    if worst.ok:
+        return said("along the ground it uses at most {share} % of its friction, {place}.", share=share, place=worst.place)
+    return said(
+        "slipping {place}: along the ground it needs {share} % of its friction. Take a gentler slope, or chock it.",
+        share=share, place=worst.place,
+    )  # fmt: skip
+
+
+def reaction_under_frame(motion: Motion, name: str, support: Support, acting: Acting) -> FloatArray:
+    """Return the load of an axle over a motion, one that is given beside those of the class among them, shape (...) [N]."""
+    supports = vehicle_of(motion.plan, acting)
+    if name not in supports:
+        point = name_of(support.point)
+        supports = {known: each for known, each in supports.items() if name_of(each.point) != point} | {name: support}
+    bare_loads(motion, supports)
+    return standing_of(motion, acting, supports).reactions[name]
+

@@ -63,7 +63,7 @@ from linkage.motion import (
     require_motion,
 )
 from linkage.plan import Plan
-from linkage.quantities import Member, Reference, distance, joined_names, label, name_of
+from linkage.quantities import Member, Reference, body_name, distance, label, name_of
 from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, same
 from linkage.units import mm, show, shown_number, unit_sign
 from linkage.verdict import Verdict
@@ -488,7 +488,7 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
 
     @property
     def _pins(self) -> str:
-        return joined_names(*(label(end) for end in (self.A, self.B)))
+        return body_name(label(end) for end in (self.A, self.B))
 
 
 @final

@@ -45,7 +45,7 @@ from .motion import (
 )
 from .plan import Body, Part, Plan, check_circuits, with_parts
 from .program import FloatArray, RunOptions
-from .quantities import Member, Stroke, is_name, needs
+from .quantities import Member, Stroke, is_name, keywords, needs
 from .shown import Shown, ShownList
 from .steps import Drawn
 from .vectors import Numbers
@@ -218,7 +218,8 @@ class Mechanism(Shown, metaclass=MechanismType):
         for name in dimensions:
             if name in self.plan.strokes:
                 error = unknown("Dimension", name, self.plan.table.names(), where=self.plan.title)
-                raise DefinitionError(f"{error} {name} is a stroke; give it to sweep({name}=...) or at({name}=...).")
+                said = keywords({name: "..."})
+                raise DefinitionError(f"{error} {name} is a stroke; give it to sweep({said}) or at({said}).")
         return self.plan.table.settings(dimensions)
 
     def __getattr__(self, name: str) -> Any:
@@ -308,7 +309,8 @@ class Mechanism(Shown, metaclass=MechanismType):
         """
         if unnamed:
             text = f"{self.plan.title}: at({cited(unnamed[0])}) does not say which stroke has this value"
-            raise DefinitionError(f"{text}; write {' or '.join(f'at({name}=...)' for name in self.plan.strokes) or 'at()'}.")
+            ways = " or ".join(f"at({keywords({name: '...'})})" for name in self.plan.strokes)
+            raise DefinitionError(f"{text}; write {ways or 'at()'}.")
         return Motion(self.plan, self._values, at_values(strokes, self.plan), unreachable, per_design=is_yes("per_design", per_design))
 
     @of_a_design

@@ -18,6 +18,7 @@ from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, columns_of
 from ..pictures.strokes import stroke_words
 from ..plugins import Plugins
+from ..quantities import as_mapping
 from ..reports import NOTHING, first_stroke, results, run_of, stroke_middles, write_csv
 from .calculation import Calculation, reached_somewhere
 from .drawing_dxf import dxf
@@ -241,9 +242,9 @@ def over_strokes(machine: Mechanism, at: Mapping[str, Any], count: int) -> Motio
     if rows > MOST_ROWS:
         each = " x ".join(str(len(axis)) for axis in many.values())
         most = int(MOST_ROWS ** (1.0 / len(many)))
-        hold = ", ".join(f"{name}=..." for name in list(many)[1:]) or f"{next(iter(many))}=..."
+        hold = as_mapping(dict.fromkeys(list(many)[1:] or many, "..."))
         said = f"{machine.plan.title}: {each} poses are {rows:,} rows, some {rows * ROW / 1e9:.1f} GB"
-        raise DefinitionError(f"{said}; give count={most} at most, or hold strokes, at=dict({hold}).")
+        raise DefinitionError(f"{said}; give count={most} at most, or hold strokes, at={hold}.")
     grids = dict(zip(many, np.meshgrid(*many.values(), indexing="ij"), strict=True)) if many else {}
     unknown_names = {name: at[name] for name in at if name not in axes}
     strokes = {name: grids.get(name, axis[0]) for name, axis in axes.items()}

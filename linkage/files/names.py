@@ -34,6 +34,13 @@ class Names:
     """The machines that the file holds for its parts."""
     load_beside: Callable[[str], type[Mechanism]] = no_folder
     """What loads the machine of another file in the same folder."""
+    of_parts: tuple[str, ...] = ()
+    """The strokes that parts bring, `lower.S`."""
+
+    @property
+    def strokes(self) -> list[str]:
+        """The names of the machine's strokes, those of its parts included."""
+        return [*(name for name, section in self.sections.items() if section == "strokes"), *self.of_parts]
 
     def quantity(self, name: str) -> Quantity:
         """Return the quantity of a name as a class has it: itself where it stands above, else by its name."""

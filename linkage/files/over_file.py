@@ -23,7 +23,7 @@ def over_read(given: object, names: Names) -> Over:
     """Return where is looked, as a table says it; DefinitionError, with the key, for what it is not."""
     if not isinstance(given, Mapping):
         raise DefinitionError(f'{shortened(given)} is not a table of strokes, such as {{ phi = ["15 deg", "80 deg"], t = 0.0 }}.')
-    known = [name for name, section in names.sections.items() if section == "strokes"]
+    known = names.strokes
     shapes = [word for word in SHAPES if isinstance(given.get(word), bool)]
     for key in given:
         if key not in (*known, *OPTIONS, *shapes):

@@ -152,13 +152,15 @@ def named_machines(tables: Mapping[str, Any]) -> set[str]:
 
 
 def with_parts_named(names: Names, sections: Mapping[str, Mapping[str, Any]], faults: Faults) -> Names:
-    """Return the names with those of the members of parts."""
-    kinds = dict(names.kinds)
+    """Return the names with those of the members of parts; a stroke that a part is not given is one of the machine."""
+    kinds, strokes = dict(names.kinds), []
     for name, entry in sections.get("parts", {}).items():
         if isinstance(entry, Mapping) and "machine" in entry:
             with faults.at("parts", name, "machine"):
-                kinds |= dotted_kinds(name, machine_named(entry["machine"], names))
-    return replace(names, kinds=kinds)
+                machine = machine_named(entry["machine"], names)
+                kinds |= dotted_kinds(name, machine)
+                strokes += [f"{name}.{each}" for each in machine.plan.strokes if each not in entry]
+    return replace(names, kinds=kinds, of_parts=tuple(strokes))
 
 
 def names_of(sections: Mapping[str, Mapping[str, Any]], faults: Faults) -> Names:

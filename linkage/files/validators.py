@@ -213,7 +213,7 @@ def factors_of(given: object, names: Names) -> dict[str, float]:
 
 def strokes_of(given: object, names: Names) -> dict[str, float]:
     """Return values of strokes by name [SI]."""
-    strokes = [name for name, section in names.sections.items() if section == "strokes"]
+    strokes = names.strokes
     if not isinstance(given, Mapping):
         raise DefinitionError(f"{shortened(given)} is not a table of strokes, such as {{ S = 0.0 }}.")
     for name in given:

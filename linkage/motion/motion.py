@@ -12,7 +12,7 @@ from ..assembly import ambiguous_angle
 from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned, warn
 from ..plan import ArrayReading, Mask, Plan, failures, negative
 from ..program import FloatArray, Kernel
-from ..quantities import Angle, Distance, Member, Quantity, Reference, needs
+from ..quantities import Angle, Distance, Member, Quantity, Reference, as_mapping, needs
 from ..shown import Shown
 from ..steps import Arrow, Point
 from ..vectors import Vec
@@ -409,8 +409,8 @@ class Motion(Shown):
         """Return the same designs at other strokes [SI], each at its own where the arrays begin with the designs; NaN out of reach."""
         given = strokes if isinstance(strokes, Mapping) else {}
         if given.keys() != self.strokes.keys():
-            known = ", ".join(f"{name}=..." for name in self.strokes)
-            raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): a value for each stroke is expected, dict({known}).")
+            known = as_mapping(dict.fromkeys(self.strokes, "..."))
+            raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): a value for each stroke is expected, {known}.")
         try:
             arrays = np.broadcast_arrays(*(np.array(given[name], float) for name in self.strokes))
         except (TypeError, ValueError, OverflowError):

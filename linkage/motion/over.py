@@ -13,7 +13,7 @@ from ..language import said
 from ..loads import PLAIN_CASE, LoadCase
 from ..plan import Mask, Plan
 from ..program import FloatArray
-from ..quantities import Member, PoseCondition, Quantity, Stroke, is_number, name_of, needs, quantity, real
+from ..quantities import Member, PoseCondition, Quantity, Stroke, is_number, keywords, name_of, needs, quantity, real
 from .grid import MotionLike
 from .limits import place_text, span_text, stroke_unit
 from .strokes import check_magnitude
@@ -116,7 +116,7 @@ class Over(Member):
                 raise DefinitionError(f"{error} Designs are varied by vary=, not by over=.")
         missing = [name for name in known if name not in self.strokes] if self.shape != "box" else []
         if missing:
-            example = ", ".join(f"{name}=..." for name in missing)
+            example = keywords(dict.fromkeys(missing, "..."))
             raise DefinitionError(
                 f"{where}: it does not say where {', '.join(missing)} stand; give {example}, one number where it is held."
             )
@@ -209,7 +209,7 @@ class Over(Member):
 
     def __str__(self) -> str:
         word = "Over" if self.shape == "box" else f"Over.{self.shape}"
-        given = [f"{name}={ends_text(value)}" for name, value in self.strokes.items()]
+        given = [keywords({name: ends_text(value) for name, value in self.strokes.items()})] if self.strokes else []
         given += [f"only=[{', '.join(map(str, self.only))}]"] if self.only else []
         given += [f"cases={self.cases!r}"] if self.cases is not None else []
         return f"{word}({', '.join([*given, *([f'lost={self.lost!r}'] if self.lost else [])])})"

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, known_name, unknown
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Member, Stroke, is_number, is_whole, real
+from ..quantities import Member, Stroke, as_mapping, is_number, is_whole, keywords, real
 from .limits import stroke_unit
 
 TURN = 2.0 * pi
@@ -96,10 +96,10 @@ def sweep_values(count: int | None, given: Mapping[str, Any], plan: Plan) -> dic
         if not strokes:
             raise DefinitionError(f"{title} has no stroke, so there is nothing to sweep; declare one, S = Stroke(0, 0.25), or ask at().")
         if len(strokes) != 1 or given:
-            each = ", ".join(f"{name}=..." for name in strokes)
+            each = keywords(dict.fromkeys(strokes, "..."))
             raise DefinitionError(f"{title} has {len(strokes)} strokes: say sweep({each}), an int for a count and a float for a value.")
         if not isinstance(count, (int, np.integer)) or isinstance(count, bool):
-            remedy = f"for a value write at({next(iter(strokes))}={count!r})"
+            remedy = f"for a value write at({keywords({next(iter(strokes)): repr(count)})})"
             raise DefinitionError(f"{title}: sweep({count!r}): a whole number of poses is expected; {remedy}.")
         given = {next(iter(strokes)): count}
     known_strokes(given, strokes, title)
@@ -122,7 +122,8 @@ def _axis(name: str, given: Any, plan: Plan) -> FloatArray:
     if isinstance(given, (float, np.floating)) and np.isfinite(given):
         check_magnitude(name, (float(given),), plan)
         return np.asarray(given, float)
-    raise DefinitionError(f"{title}: sweep({name}={given!r}): an int is a count, a float a value; for chosen values use at({name}=...).")
+    remedy = f"for chosen values use at({keywords({name: '...'})})"
+    raise DefinitionError(f"{title}: sweep({name}={given!r}): an int is a count, a float a value; {remedy}.")
 
 
 # What a motion is given for, checked: names, rates, orders and steps.
@@ -137,7 +138,7 @@ def rates_of(
 ) -> dict[str, FloatArray]:
     """Return the stroke rates by name, a float or an array over the poses, NaN where there may be `gaps`; DefinitionError for others."""
     if not isinstance(given, Mapping):
-        example = f"{what}=dict({next(iter(strokes), 'S')}=0.05)"
+        example = f"{what}={as_mapping({next(iter(strokes), 'S'): 0.05})}"
         raise DefinitionError(f"{title}: {what}={given!r}: a value for each stroke is expected, such as {example}.")
     return {
         checked_name("Stroke", name, strokes, title): checked_rate(f"{what}: {name}", value, shape, title, gaps=gaps)

@@ -17,7 +17,7 @@ from ..motion import Column, LiveText, Motion, Request, RequestLike, Tabled, spe
 from ..motion.requests import NodeRequest
 from ..plan import Plan, opening, plan_measure
 from ..program import FloatArray, Node
-from ..quantities import is_number, joined_names
+from ..quantities import as_mapping, is_number, joined_names
 from ..reports import At, Run, column_requests, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, pin_force, pin_forces, traced_loads
 from ..units import UNITS, deg, display_unit, factor, shown_in
@@ -182,7 +182,8 @@ def one_way(machine: Mechanism, run: Run) -> tuple[float, float]:
     way = run.ways[run.stroke]
     if len(run.ways) > 1 or len(way) != 2:
         said = f"{machine.plan.title}: on a page one stroke runs between two values, and each has a slider"
-        raise DefinitionError(f"{said}; hold the others, at=dict({run.stroke}=({way[0]:.4g}, {way[-1]:.4g})), or animate them as a .gif.")
+        ends = as_mapping({run.stroke: f"({way[0]:.4g}, {way[-1]:.4g})"})
+        raise DefinitionError(f"{said}; hold the others, at={ends}, or animate them as a .gif.")
     return way[0], way[1]
 
 

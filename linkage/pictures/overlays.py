@@ -14,6 +14,7 @@ from ..errors import DefinitionError, SingularError, cited, unwarned
 from ..language import said, translated
 from ..motion import Motion, rates_of, whole_body
 from ..program import FloatArray
+from ..quantities import as_mapping
 from ..units import factor, show, shown_in
 from . import style
 from .arrows import (
@@ -263,8 +264,8 @@ def poles_of_pair(at: Motion, body: str, other: str, rates: Mapping[str, Any] | 
 def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, Any] | None, ends: tuple[FloatArray, ...]) -> PoleMark:
     """Return one pole; where it is at infinity or everywhere, the words for that."""
     if rates is None and len(at.strokes) > 1:
-        names = ", ".join(f"{name}=..." for name in at.strokes)
-        raise DefinitionError(f"{at.plan.title}: several strokes move its bodies; say how, velocities=dict({names}).")
+        names = as_mapping(dict.fromkeys(at.strokes, "..."))
+        raise DefinitionError(f"{at.plan.title}: several strokes move its bodies; say how, velocities={names}.")
     place = at.pole(body, other, rates=rates)
     alone = other == "frame"
     name = said("pole of {body}", body=body) if alone else said("pole of {body} against {other}", body=body, other=other)

@@ -5,7 +5,21 @@ from .axes import Axes
 from .curve import Curve, CurveValue
 from .inputs import Dimension, Stroke, Variable
 from .joint import FRAME_SIDE, Driven, Joint, Jointed, JointSide, guided, pinned
-from .member import Member, Reference, Tabulated, Turning, Where, body_name, is_name, joined_names, name_of, needs, unnamed
+from .member import (
+    Member,
+    Reference,
+    Tabulated,
+    Turning,
+    Where,
+    as_mapping,
+    body_name,
+    is_name,
+    joined_names,
+    keywords,
+    name_of,
+    needs,
+    unnamed,
+)
 from .outputs import Angle, Coordinate, Distance, Length, angle, distance, label, x, y
 from .quantity import (
     Function,

@@ -197,6 +197,20 @@ def body_name(points: Iterable[str]) -> str:
     return " ".join(found) if mixed else joined_names(*found)
 
 
+def keywords(given: Mapping[str, object]) -> str:
+    """Return arguments by name as a call takes them: `S=0.1, t=2`; those of parts, with a dot, in `**{"boom.S": 0.1}`."""
+    plain = [f"{name}={value}" for name, value in given.items() if name.isidentifier()]
+    dotted = ", ".join(f"'{name}': {value}" for name, value in given.items() if not name.isidentifier())
+    return ", ".join([*plain, *([f"**{{{dotted}}}"] if dotted else [])])
+
+
+def as_mapping(given: Mapping[str, object]) -> str:
+    """Return values by name as Python writes them: `dict(S=0.1)`, or `{'boom.S': 0.1}` where a name has a dot."""
+    if all(map(str.isidentifier, given)):
+        return f"dict({keywords(given)})"
+    return f"{{{', '.join(f'{name!r}: {value}' for name, value in given.items())}}}"
+
+
 def name_of(reference: Reference) -> str:
     """Return the name a reference stands for; raise DefinitionError for a member without one."""
     if isinstance(reference, str):

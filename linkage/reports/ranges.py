@@ -15,7 +15,7 @@ from ..language import said, with_and
 from ..mechanism import Mechanism
 from ..motion import Motion, Request, out_of_reach, require_motion
 from ..program import FloatArray
-from ..quantities import is_number, real
+from ..quantities import as_mapping, is_number, real
 from ..units import show, shown_number
 
 Range: TypeAlias = tuple[float, float]
@@ -111,7 +111,7 @@ def run_of(machine: Mechanism, at: At = NOTHING) -> Run:
     one = first_stroke(machine)
     title = machine.plan.title
     if not isinstance(at, Mapping):
-        raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at=dict({one}=0.1).")
+        raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at={as_mapping({one: 0.1})}.")
     given = {name: stroke_way(machine, name, value) for name, value in at.items()}
     ways = {name: given[name] for name in machine.strokes if len(given.get(name, ())) > 1}
     free = [name for name in machine.strokes if name not in given]

@@ -15,6 +15,7 @@ from ..loads import FRICTIONLESS, Acting
 from ..mechanism import Mechanism
 from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
 from ..motion.limits import place_text
+from ..quantities import body_name
 from ..units import shown_number, unit_sign
 from .force_requests import pin_force
 from .joint_forces import JointForce, PinForces, joint_forces
@@ -201,7 +202,7 @@ def pin_load(result: PinForces, joint: JointForce, force: float, place: Place, d
     within = (angle + pi) % (2.0 * pi) - pi
     angle = within + 2.0 * pi if within < -pi + 1e-9 else within  # half a turn to within rounding is pi
     return PinLoad(
-        joint.point, joint.on, joint.by, joint.kind, force, angle, "".join(joint.axis or ("x",)), strokes,
+        joint.point, joint.on, joint.by, joint.kind, force, angle, body_name(joint.axis or ("x",)), strokes,
         tuple(map(int, design)), result.case, result.direction,
         {name: stroke_unit(result.motion.plan, name) for name in strokes},
     )  # fmt: skip

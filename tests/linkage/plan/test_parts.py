@@ -1,5 +1,7 @@
 """Parts: what a machine says of them, what they bring, and what is refused in words."""
 
+import re
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -33,6 +35,7 @@ from linkage import (
     ref,
     x,
 )
+from linkage.files import load, to_toml
 
 
 class Arm(Mechanism):
@@ -309,3 +312,32 @@ def test_eight_deep_works():
     deep = Deep.of(8)
     name = "p." * 8
     assert_array_equal(deep().at(**{f"{name}S": 0.1})[f"{name}T"], Arm().at(S=0.1)["T"])
+
+
+def test_strokes_of_parts_are_spelled_as_python_takes_them():
+    """Where a machine runs, and what a remedy says, can be pasted: a name with a dot stands in a mapping."""
+
+    class Runs(Mechanism):
+        lower = Part(Arm)
+        upper = Part(Arm, at=(3, 0))
+        lifting = Over.path(**{"lower.S": [0.0, 0.2], "upper.S": 0.1})
+
+    [over] = Runs().overs
+    assert str(over) == "Over.path(**{'lower.S': (0.0, 0.2), 'upper.S': 0.1})"
+    assert str(eval(str(over), {"Over": Over})) == str(over)
+    with pytest.raises(DefinitionError, match=re.escape("sweep(**{'lower.S': ..., 'upper.S': ...})")):
+        Runs().sweep(5)
+    with pytest.raises(DefinitionError, match=re.escape("at(**{'lower.S': ...}) or at(**{'upper.S': ...})")):
+        Runs().at(0.1)
+    again = load(to_toml(Runs()))()
+    assert [str(each) for each in again.overs] == [str(over)]
+
+
+def test_a_cylinder_between_two_parts_is_told_by_both():
+    class Joined(Mechanism):
+        s = Stroke(0.0, 0.1)
+        lower = Part(Arm, S=s, load=None, ram=None, pump=None)
+        other = Part(Arm, S=s, at=(1.5, 0), mirrored=True, load=None, ram=None, pump=None)
+        tie = Cylinder(lower.T, other.T, bore=80 * mm, rod=40 * mm, closed=0.1, stroke=0.01)
+
+    assert any("lower.T other.T goes from" in verdict for verdict in Joined().verdicts())

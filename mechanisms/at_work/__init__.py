@@ -1,0 +1,1 @@
+"""Machines at work: whole machines to copy, many of them of parts that stand on one another."""

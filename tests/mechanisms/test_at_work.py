@@ -1,0 +1,128 @@
+"""The machines at work against their sources and against statics by hand, and through every door."""
+
+import pickle
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from hydraulics import Cylinder
+from linkage import LoadCase, Motion, Part, equations, pin_forces
+from linkage.files import load, to_toml
+from mechanisms.at_work.excavator import Excavator, HookExcavator
+from tests.machines import plane, test_excavator
+
+MACHINES = [Excavator, HookExcavator]
+ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
+PRINTED = {"boom": (-0.4737, 1.0923), "arm": (-0.5103, -2.5848), "bucket": (0.7839, -2.8659)}  # rad, at the shortest, at the longest
+
+
+def middle(machine, shares=(0.3, 0.45, 0.6)):
+    """Return strokes inside what a machine really runs."""
+    over = machine().overs[0]
+    ends = {name: np.atleast_1d(value) for name, value in over.strokes.items()}
+    whole = {name: (stroke.start, stroke.end) for name, stroke in machine().strokes.items()}
+    return {name: np.interp(shares, np.linspace(0.0, 1.0, len(np.atleast_1d(ends.get(name, each)))), np.atleast_1d(ends.get(name, each)))
+            for name, each in whole.items()}  # fmt: skip
+
+
+# -- every machine through every door ------------------------------------------------------------------------
+
+
+@ALL
+def test_no_verdict_fails(machine):
+    assert [verdict for verdict in machine().verdicts() if verdict.startswith("FAIL")] == []
+
+
+@ALL
+def test_files_and_pickles_hold_it_whole(machine):
+    design, strokes = machine(), middle(machine)
+    again = load(to_toml(design))()
+    assert [str(each) for each in again.overs] == [str(each) for each in design.overs]
+    for other in (again, pickle.loads(pickle.dumps(design))):
+        expected, found = design.at(**strokes), other.at(**strokes)
+        for name in machine.plan.points:
+            assert_array_equal(found[name], expected[name])
+        for case in (None, *machine.plan.of_kind(LoadCase)):
+            assert pin_forces(found, case=case).thrusts.keys() == pin_forces(expected, case=case).thrusts.keys()
+            for name, thrust in pin_forces(expected, case=case).thrusts.items():
+                assert_array_equal(pin_forces(found, case=case).thrusts[name], thrust)
+
+
+@ALL
+def test_a_part_is_read_in_its_own_names(machine):
+    """Its points keep their distances, its cylinders their lengths and thrusts, and its own table is there."""
+    motion = machine().at(**middle(machine))
+    for name in machine.plan.of_kind(Part):
+        part = motion.part(name)
+        own = part.plan.of_kind(Cylinder)
+        for each, cylinder in own.items():
+            P, Q = cylinder.ends
+            assert_allclose(np.hypot(*(part[Q] - part[P])), motion.distance(*machine.plan.members[f"{name}.{each}"].ends), rtol=1e-12)
+            assert_allclose(cylinder.thrust(part), machine.plan.members[f"{name}.{each}"].thrust(motion), rtol=1e-12)
+        assert isinstance(part, Motion)
+
+
+@ALL
+def test_forces_are_in_equilibrium_and_equations_are_there(machine):
+    motion = machine().at(**middle(machine))
+    for case in (None, *machine.plan.of_kind(LoadCase)):
+        assert np.max(pin_forces(motion, case=case).residual) < 1e-9
+    values = equations(machine()).values({name: each[1] for name, each in middle(machine).items()})
+    for name in machine.plan.moving:
+        assert_allclose(values[name], motion[name][:, 1], atol=1e-12)
+
+
+def test_all_of_them_are_installed():
+    project = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))["project"]
+    installed = project["entry-points"]["hydrolinkage.machines"].values()
+    assert {f"{machine.__module__}:{machine.__name__}" for machine in MACHINES} <= set(installed)
+
+
+# -- the excavator -------------------------------------------------------------------------------------------
+
+
+def test_the_six_end_lengths_at_the_printed_angles():
+    for part, (name, ends) in zip(("boom.up", "arm.fold", "tool.turn"), PRINTED.items(), strict=True):
+        strokes = ("lift", "swing", "curl")
+        driven = strokes[list(PRINTED).index(name)]
+        for share, angle in zip((0.0, 1.0), ends, strict=True):
+            at = {each: 0.5 * Excavator().strokes[each].end for each in strokes} | {driven: share * Excavator().strokes[driven].end}
+            found = float(Excavator().at(**at)[part])
+            assert abs(np.remainder(found - angle + np.pi, 2 * np.pi) - np.pi) < 1.1e-4
+
+
+def test_places_and_thrusts_are_those_of_the_printed_model():
+    hand = test_excavator
+    for q in hand.POSES:
+        strokes = {name: value[0] for name, value in zip(("lift", "swing", "curl"), hand.strokes([q]).values(), strict=True)}
+        motion, p = Excavator().at(**strokes), hand.places(q)
+        for part, names in (("boom", "DAE"), ("arm", "FGJL"), ("tool", "HKM")):
+            for name in names:
+                assert_allclose(motion[f"{part}.{name}"], p[name], atol=1e-12)
+        dig = 10e3 * plane.turned((0.0, 1.0), sum(q))
+        weights = [(name, (0.0, -mass * plane.G)) for name, mass in hand.MASS.items()]
+        want = plane.balance(hand.places, q, [*weights, ("M", dig)], list(hand.RAMS.values()))
+        found = [Excavator.plan.members[f"{part}.ram"].thrust(motion, case="digging") for part in ("boom", "arm", "tool")]
+        assert_allclose(found, want, rtol=1e-8)
+
+
+def without_bucket(q):
+    """Return the places of boom and arm by two angles."""
+    return {name: place for name, place in test_excavator.places([*q, 0.1]).items() if name not in ("H", "K", "M", "G3")}
+
+
+def test_the_hook_stands_in_the_buckets_place():
+    """The bucket's cylinder, link and stroke are gone; what hangs on the hook is carried by hand."""
+    assert [*HookExcavator().strokes] == ["lift", "swing"]
+    assert not any(name.startswith("tool.") for name in HookExcavator.plan.points)
+    hand = test_excavator
+    for q in hand.POSES[:, :2]:
+        p = without_bucket(q)
+        strokes = {"lift": plane.length(p["C"], p["D"]) - 0.905, "swing": plane.length(p["E"], p["F"]) - 1.046}
+        loads = [("G1", (0.0, -227.343 * plane.G)), ("G2", (0.0, -130.123 * plane.G)), ("L", (0.0, -400.0 * plane.G))]
+        want = plane.balance(without_bucket, q, loads, [("C", "D"), ("E", "F")])
+        motion = HookExcavator().at(**strokes)
+        assert_allclose([HookExcavator.plan.members[f"{part}.ram"].thrust(motion) for part in ("boom", "arm")], want, rtol=1e-8)

@@ -589,7 +589,7 @@ def thrust_along(cylinder: Cylinder, thrust: Array) -> Array:
 def pressure_of(cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
     """Return a cylinder's pressure by the circuit that has it; without one, of a pump without losses."""
     require_poses(motion)
-    held = motion.held(cylinder) if isinstance(motion, Motion) else None
+    held = motion._of_the_whole(cylinder) if isinstance(motion, Motion) else None
     if held is not None:
         return pressure_of(held[1], held[0], acting)
     circuit = circuit_having(cylinder, motion.plan)

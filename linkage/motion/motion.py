@@ -180,7 +180,7 @@ class Motion(Shown):
         motion._held = (self, name)
         return motion
 
-    def held(self, member: Kind) -> tuple[Motion, Kind] | None:
+    def _of_the_whole(self, member: Kind) -> tuple[Motion, Kind] | None:
         """Return the motion of the whole and the member there, where this one is read as that of a part; None for any other motion."""
         if self._held is None:
             return None
@@ -191,9 +191,9 @@ class Motion(Shown):
         return whole, found
 
     @property
-    def whole(self) -> Motion:
+    def _whole(self) -> Motion:
         """The motion whose forces these are: that of the whole, where this one is read as a part has it, else itself."""
-        return self if self._held is None else self._held[0].whole
+        return self if self._held is None else self._held[0]._whole
 
     def x(self, point: Reference) -> FloatArray:
         """Return a point's x coordinate [m]."""

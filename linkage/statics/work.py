@@ -140,7 +140,7 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
     The direction is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises DefinitionError for one
     that neither holds nor has a law here, SingularError where its length stands still against its drive.
     """
-    held = motion.held(member) if isinstance(motion, Motion) else None
+    held = motion._of_the_whole(member) if isinstance(motion, Motion) else None
     if held is not None:
         return member_thrust(*held, acting)
     plan = plan_of(motion)

@@ -403,8 +403,8 @@ def answered(machine, questions):
 
 
 def test_a_law_is_traced_where_it_is_bound_and_for_its_kernel_and_not_a_third_time(monkeypatch):
-    known, trace = [], LawRequest.traced
-    monkeypatch.setattr(LawRequest, "traced", lambda request, motion: known.append(str(request)) or trace(request, motion))
+    known, trace = [], LawRequest.traced_law
+    monkeypatch.setattr(LawRequest, "traced_law", lambda request, motion: known.append(str(request)) or trace(request, motion))
     Loader().answers([least(reserve("lift")) >= 1], over={"T": 0.1}, acting=Acting(case="carrying", direction="extending"))
     assert known and max(map(known.count, known)) <= 2
 

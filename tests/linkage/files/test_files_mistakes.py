@@ -16,7 +16,7 @@ def test_every_mistake_comes_with_its_key_and_line():
     with pytest.raises(FileError) as caught:
         load(DATA / "many_mistakes.toml")
     expected = [
-        "line 6, colour: is not a section; there are name, doc, order, featured, strokes,",
+        "line 6, colour: is not a section; there are name, doc, order, featured, machines, strokes,",
         "line 9, strokes.S: 'fast': Quantity 'fast' is unknown. Known: S, T, L0, tilt.",
         "line 10, strokes.T: Stroke(1, 1) has no length: give two different ends.",
         "line 13, dimensions.L0: '500 furlong':",

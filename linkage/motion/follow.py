@@ -21,7 +21,7 @@ from ..program import NO_VALUE, FloatArray
 from ..units import show
 from .interruptions import ON_ARRAYS, Clearances
 from .motion import Motion
-from .places import Places, branches, unmet_words
+from .places import Places, branches, nearest, unmet_words
 from .strokes import TURN, checked_name
 from .target import is_one
 
@@ -55,7 +55,7 @@ def followed(plan: Plan, designs: Mapping[str, Any], targets: Any, hold: Any, st
             found = ((place, first_branches(places, route.goals[place])) for place in range(last))
             first, starts = next(((place, [*each]) for place, each in found if len(each)), (0, []))
         if not starts and unreachable == "raise":
-            why = unmet_words(places, route.goals[0], places.shown(route.goals[0]))
+            why = unmet_words(places, route.goals[0], nearest(places, route.goals[0]))
             text = said("place {n} of {count} is not reached: {why}", n=1, count=len(route.goals), why=why)
             raise AssemblyError(f"{plan.title}: follow: {text}", mask=np.ones(len(route.goals), bool))
         best = None

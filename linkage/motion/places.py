@@ -379,13 +379,12 @@ def beyond(places: Places, wanted: FloatArray) -> Found:
     return found.where(np.argsort(away, kind="stable"))
 
 
-def unmet_words(places: Places, wanted: FloatArray, what: str) -> str:
-    """Return why nothing in the ranges of the strokes gives what is wanted: the pose beyond them, or how far off the nearest one is."""
+def unmet_words(places: Places, wanted: FloatArray, near: Found) -> str:
+    """Return why nothing in the ranges of the strokes gives what is wanted: the pose beyond them, and how far off the nearest one is."""
     past = beyond(places, wanted)
-    near = nearest(places, wanted)
     if not len(near.unit) and not len(past.unit):
         return said("no strokes that were looked at can be assembled.")
-    text = said("no strokes within their ends give {wanted}.", wanted=what)
+    text = said("no strokes within their ends give {wanted}.", wanted=places.shown(wanted))
     if len(past.unit):
         unit = past.unit[0]
         strokes = places.low + unit * places.span

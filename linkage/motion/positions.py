@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import ItemsView, Iterable, Mapping
+from collections.abc import ItemsView, Iterable, Mapping, ValuesView
 from dataclasses import dataclass
 from typing import Any, final
 
@@ -61,6 +61,13 @@ class StrokeRows(np.ndarray[Any, np.dtype[np.float64]]):
         """Return the strokes by name, arrays (branches,), of one row numbers."""
         return {name: self[name] for name in self.names}.items()
 
+    def values(self) -> ValuesView[FloatArray]:
+        """Return the same without the names."""
+        return dict(self.items()).values()
+
+    def __contains__(self, value: object) -> bool:
+        return value in self.names if isinstance(value, str) else value in np.asarray(self)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return StrokeRows, (np.array(self), self.names)
 
@@ -69,18 +76,19 @@ class StrokeRows(np.ndarray[Any, np.dtype[np.float64]]):
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Positions:
-    """The strokes that give some targets: all branches within the ends of the strokes, ascending by the first stroke; or the nearest.
+    """The strokes that give some targets: all branches within the ends of the strokes, ascending by the first stroke.
 
     `strokes` [m or rad] has one row a branch, those that are held included, and so have `condition`, the condition number of the targets
     by the strokes in their natural sizes, which is infinite at a dead point, and `misses`, by how much each target is exceeded [SI].
-    `met` is whether the strokes give all targets; where none do, the one row is the nearest pose within the ends, or none where nothing
-    can be assembled, and `sentence` says which stroke would be past which end, by how much.
+    `met` is whether there is a branch. Where there is none `nearest` is the row of the pose within the ends at which least is missing, None
+    where nothing can be assembled, `misses` has its one row, and `sentence` says which stroke would be past which end, by how much.
     """
 
     strokes: StrokeRows
     condition: FloatArray
     met: bool
     misses: FloatArray
+    nearest: StrokeRows | None
     sentence: str
 
     def __len__(self) -> int:
@@ -98,17 +106,19 @@ def positions_for(plan: Plan, designs: Mapping[str, Any], targets: Any, hold: An
             raise DefinitionError(f"{plan.title}: strokes_for: {each!r}: one number is expected; a path is followed, machine.follow(...).")
     wanted = np.array([float(each.value) for each in places.targets])
     found = branches(places, wanted)
-    condition = places.condition(found.unit)
+    condition, rows = places.condition(found.unit), rows_of_branches(places, found)
     if len(found.unit):
         check_independent(places, condition)
-        words = met_words(places, found, condition, wanted)
-    else:
-        words = unmet_words(places, wanted, places.shown(wanted))
-        words = words[0].upper() + words[1:]
-    is_met = bool(len(found.unit))
-    found = found if is_met else nearest(places, wanted)
-    rows = StrokeRows(np.stack([*places.rows(found.unit).values()], axis=1), plan.strokes)
-    return Positions(rows, condition if is_met else places.condition(found.unit), is_met, found.off, words)
+        return Positions(rows, condition, True, found.off, None, met_words(places, found, condition, wanted))
+    near = nearest(places, wanted)
+    words = unmet_words(places, wanted, near)
+    nearest_row = rows_of_branches(places, near)[0] if len(near.unit) else None
+    return Positions(rows, condition, False, near.off, nearest_row, words[0].upper() + words[1:])
+
+
+def rows_of_branches(places: Places, found: Found) -> StrokeRows:
+    """Return all strokes of some branches, those that are held included."""
+    return StrokeRows(np.stack([*places.rows(found.unit).values()], axis=1), places.plan.strokes)
 
 
 def met_words(places: Places, found: Found, condition: FloatArray, wanted: FloatArray) -> str:

@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from math import cos, sin
+from typing import Any, final
 
 import numpy as np
 
-from ..plan import Part
-from ..quantities import Member, needs
+from ..errors import DefinitionError
+from ..plan import ArrayReading, Part, is_foreign
+from ..quantities import FRAME_SIDE, Axes, Member, Reference, needs
 from ..steps import Group, Pin
-from .sketch import Place, Sketch, places_at
+from ..vectors import Line, Vec
+from .sketch import Place, Sketch, inputs_at, places_at
+
+TURNED = 0.7
+"""The angle [rad] at which steps of other packages are tried."""
+ASIDE = Vec(0.31, -0.17)
+"""The displacement at which they are tried, over the size of the machine."""
+STAYS = 1e-9
+"""A step comes to the place that its axes take it to, to so much of the machine's size."""
 
 
 def with_begun_pins(members: Mapping[str, Member], title: str) -> dict[str, Member]:
@@ -18,6 +29,7 @@ def with_begun_pins(members: Mapping[str, Member], title: str) -> dict[str, Memb
     for name, part in members.items():
         if not isinstance(part, Part) or "." in name:
             continue  # what stands in a part was begun with its class
+        check_foreign(part, part.axes(members))
         if part.plan.groups and not part.stands_as_alone:
             begin(name, part, found, title)
     return found
@@ -40,6 +52,66 @@ def begin(name: str, part: Part, members: dict[str, Member], title: str) -> None
             member = members[f"{name}.{pin}"]
             if isinstance(member, Pin):
                 members[f"{name}.{pin}"] = member.renewed(near=place, drawn_at=None)
+
+
+def check_foreign(part: Part, axes: Axes | None) -> None:
+    """Raise DefinitionError for a step of another package that does not move with the axes of a part, as its class's sketch has it."""
+    steps = [] if axes is None else [step for step in part.plan.points.values() if is_foreign(step)]
+    if axes is None or not steps:
+        return
+    with np.errstate(all="ignore"):
+        reading = part.plan.read(inputs_at(part.plan, part.plan.sketch_strokes))
+        size = max(float(np.hypot(place.x, place.y)) for place in map(reading.at, part.plan.points)) or 1.0
+        moved = MovedReading(reading, axes, size)
+        for step in steps:
+            found, expected = step.place(moved), moved.place(reading.at(step.name))
+            miss = float(np.hypot(found.x - expected.x, found.y - expected.y))
+            said = f"{part.name} = {part}: {step.name} = {step} speaks of the frame"
+            remedy = f"let its place follow from points alone, or give {type(step).__name__} in_axes(axes), which says where it stands"
+            if not miss <= STAYS * size:
+                far = f"it comes {1000.0 * miss:.3g} mm beside the place that they take it to"
+                raise DefinitionError(f"{said}: where the part's axes are moved, {far}; {remedy}.", member=part.name)
+            if axes.carrier and any(FRAME_SIDE in (joint.on, joint.by) for joint in step.joints()):
+                raise DefinitionError(f"{said}: a joint of it holds the frame, and the part is carried; {remedy}.", member=part.name)
+
+
+@final
+class MovedReading:
+    """A machine's reading whose points have been moved as the axes of a part allow: shifted, turned, mirrored."""
+
+    def __init__(self, reading: ArrayReading, axes: Axes, size: float) -> None:
+        self.reading, self.mirrored = reading, axes.mirrored
+        turned = TURNED if axes.carrier or not axes.is_level else 0.0
+        self.cos, self.sin, self.aside = cos(turned), sin(turned), ASIDE * size
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.reading, name)
+
+    def _turned(self, given: Vec) -> Vec:
+        found: Vec = (Vec(-given.x, given.y) if self.mirrored else given).turned(self.cos, self.sin)
+        return found
+
+    def place(self, given: Vec) -> Vec:
+        """Return where a place comes to."""
+        found: Vec = self._turned(given) + self.aside
+        return found
+
+    def at(self, point: Reference) -> Vec:
+        """Return a point's place [m]."""
+        return self.place(self.reading.at(point))
+
+    def vector(self, vector: Reference) -> Vec:
+        """Return a vector member [m]."""
+        return self._turned(self.reading.vector(vector))
+
+    def direction(self, P: str, Q: str) -> Vec:
+        """Return the vector from one point to another [m]."""
+        return self._turned(self.reading.direction(P, Q))
+
+    def line(self, guide: Reference) -> Line:
+        """Return a guide's line."""
+        found = self.reading.line(guide)
+        return Line(self.place(found.origin), self._turned(found.direction))
 
 
 def laid_on(

@@ -370,7 +370,8 @@ class Sheets:
 def featured_place(columns: Sequence[Column], wanted: str) -> int:
     """Return the place of the column that is drawn: the one that is wanted, else the last that changes."""
     names = [each.name for each in columns]
-    changing = [place for place, each in enumerate(columns) if float(np.ptp(each.drawn[np.isfinite(each.drawn)])) > 0.0]
+    drawn = [each.drawn[np.isfinite(each.drawn)] for each in columns]
+    changing = [place for place, values in enumerate(drawn) if values.size and float(np.ptp(values)) > 0.0]
     return names.index(wanted) if wanted in names else changing[-1] if changing else len(columns) - 1
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NoReturn, final
+from typing import TYPE_CHECKING, Any, NoReturn, final
 from unicodedata import normalize
 
 from ..errors import DefinitionError, unknown
@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from ..mechanism import Mechanism
 
 NAME_LENGTH = 60
+DEEPEST_NAME = 12
+"""So many names stand in a dotted one at most: those of parts in parts, of a member, of its number."""
 
 
 def no_folder(name: str) -> NoReturn:
@@ -60,6 +62,18 @@ class Names:
     def of_kind(self, kind: str) -> list[str]:
         """Return the names of a kind."""
         return [name for name, each in self.kinds.items() if each == kind]
+
+
+def by_whole_names(given: Mapping[str, Any], words: Sequence[str] = (), depth: int = 1) -> Iterator[tuple[str, Any]]:
+    """Yield the entries of a table by whole names: `lift.bore = 1`, which TOML keeps as a table in a table, as "lift.bore".
+
+    A table with one of some `words` is a value.
+    """
+    for name, value in given.items():
+        if isinstance(value, Mapping) and value and not set(value) & set(words) and depth < DEEPEST_NAME:
+            yield from ((f"{name}.{inner}", each) for inner, each in by_whole_names(value, words, depth + 1))
+        else:
+            yield name, value
 
 
 def member_name(name: object) -> str:

@@ -11,7 +11,7 @@ from ..motion import OPTIONS, Over, stroke_unit
 from ..quantities import Number, PoseCondition, Quantity, is_number, quantity
 from .design import Design, degrees_text
 from .expression import expression
-from .names import Names, shortened
+from .names import Names, by_whole_names, shortened
 from .validators import amount_of
 
 SHAPES = ("path", "poses")
@@ -23,7 +23,7 @@ def over_read(given: object, names: Names) -> Over:
     """Return where is looked, as a table says it; DefinitionError, with the key, for what it is not."""
     if not isinstance(given, Mapping):
         raise DefinitionError(f'{shortened(given)} is not a table of strokes, such as {{ phi = ["15 deg", "80 deg"], t = 0.0 }}.')
-    known = names.strokes
+    given, known = dict(by_whole_names(given)), names.strokes
     shapes = [word for word in SHAPES if isinstance(given.get(word), bool)]
     for key in given:
         if key not in (*known, *OPTIONS, *shapes):
@@ -33,7 +33,7 @@ def over_read(given: object, names: Names) -> Over:
     if len(chosen) > 1:
         raise DefinitionError("it is a path and poses at once; a path goes on between its places, poses have nothing between them.")
     make = {"path": Over.path, "poses": Over.poses}.get(chosen[0] if chosen else "", Over)
-    options = {key: given[key] for key in ("cases", "lost") if key in given}
+    options: dict[str, Any] = {key: given[key] for key in ("cases", "lost") if key in given}
     if "only" in given:
         texts = given["only"] if isinstance(given["only"], list) else [given["only"]]
         options["only"] = [condition_of(text, names) for text in texts]

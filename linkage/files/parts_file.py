@@ -17,7 +17,7 @@ from ..plan import Part
 from ..quantities import Member, Number, label, name_of, quantity
 from ..steps import Point
 from .design import Design, degrees_text
-from .names import Names, shortened
+from .names import Names, by_whole_names, shortened
 from .validators import coordinates_of, points_of, quantity_of, switch_of
 
 OWN_KEYS = ("machine", "on", "at", "angle", "mirrored")
@@ -55,7 +55,7 @@ def part_read(given: object, names: Names) -> Part:
         options["angle"] = quantity_of(given["angle"], names)
     if "mirrored" in given:
         options["mirrored"] = switch_of(given["mirrored"], names)
-    for name, value in given.items():
+    for name, value in by_whole_names(given):
         if name in OWN_KEYS:
             continue
         if value is False:
@@ -116,7 +116,8 @@ def machines_of(members: Mapping[str, Member]) -> dict[str, type[Mechanism]]:
 
 
 def beside(folder: Path | None, load: Callable[[Path], type[Mechanism]]) -> Callable[[str], type[Mechanism]]:
-    """Return what loads the machine of a file in the folder of the one that is read; DefinitionError for one elsewhere."""
+    """Return what loads the machine of a file in the folder of the one that is read, each once; DefinitionError for one elsewhere."""
+    known: dict[str, type[Mechanism]] = {}
 
     def loaded(name: str) -> type[Mechanism]:
         if folder is None:
@@ -124,6 +125,8 @@ def beside(folder: Path | None, load: Callable[[Path], type[Mechanism]]) -> Call
         if Path(name).name != name:
             what = f"{shortened(name)}: the file of a part stands in the folder of the one that names it"
             raise DefinitionError(f"{what}; give its name alone.")
-        return load(folder / name)
+        if name not in known:
+            known[name] = load(folder / name)
+        return known[name]
 
     return loaded

@@ -17,7 +17,7 @@ from ..motion import Featured
 from ..plan import Table
 from ..quantities import Member
 from ..steps import Point
-from .names import Names, member_name, shortened
+from .names import Names, by_whole_names, member_name, shortened
 from .parts_file import beside, dotted_kinds, machine_named
 from .registry import registry
 from .source import Faults, source
@@ -153,13 +153,14 @@ def named_machines(tables: Mapping[str, Any]) -> set[str]:
 
 def with_parts_named(names: Names, sections: Mapping[str, Mapping[str, Any]], faults: Faults) -> Names:
     """Return the names with those of the members of parts; a stroke that a part is not given is one of the machine."""
-    kinds, strokes = dict(names.kinds), []
+    kinds, strokes = dict(names.kinds), list[str]()
     for name, entry in sections.get("parts", {}).items():
         if isinstance(entry, Mapping) and "machine" in entry:
             with faults.at("parts", name, "machine"):
                 machine = machine_named(entry["machine"], names)
                 kinds |= dotted_kinds(name, machine)
-                strokes += [f"{name}.{each}" for each in machine.plan.strokes if each not in entry]
+                said = dict(by_whole_names(entry))
+                strokes += [f"{name}.{each}" for each in machine.plan.strokes if each not in said]
     return replace(names, kinds=kinds, of_parts=tuple(strokes))
 
 

@@ -27,7 +27,7 @@ from ..study.space import Space, around, known_dimension
 from ..study.tolerances import Tolerance, tolerances_of
 from ..units import parse, parse_span
 from .criterion import CriterionParser
-from .names import shortened
+from .names import by_whole_names, shortened
 from .source import TEXT, Faults, source
 
 FindMachine: TypeAlias = Callable[[str, Path], type[Mechanism]]
@@ -109,14 +109,10 @@ def settings_said(plan: Plan, given: object, faults: Faults) -> dict[str, Any]:
 
 
 def flattened(given: object, plan: Plan, what: str, words: Sequence[str] = ()) -> Iterator[tuple[str, Any]]:
-    """Yield the entries of a table of dimensions; `lift.bore = 1`, which TOML keeps as a table in a table, by its whole name."""
+    """Yield the entries of a table of dimensions by their whole names."""
     if not isinstance(given, Mapping):
         raise DefinitionError(f"{what} = {shortened(given)}: a table by the names of dimensions is expected, such as [{what}] OB = ...")
-    for name, value in given.items():
-        if isinstance(value, Mapping) and not set(value) & set(words):
-            yield from ((f"{name}.{part}", each) for part, each in value.items())
-        else:
-            yield name, value
+    yield from by_whole_names(given, words)
 
 
 def measure_of_name(plan: Plan, name: str) -> str:
@@ -271,7 +267,7 @@ def over_said(head: StudyHead, given: object, *key: str) -> dict[str, Any]:
         what = 'a table of strokes is expected, such as over = { S = "0 to 200 mm" }, or the name of an Over that the machine declares.'
         head.faults.add((*key, "over"), f"{shortened(given)}: {what}")
         return found
-    for name, value in given.items():
+    for name, value in by_whole_names(given):
         with head.faults.at(*key, "over", name):
             said = part_said(head, known_name("Stroke", name, head.plan.strokes, where=head.plan.title), value)
             ranges_of(head.machine, {name: said})

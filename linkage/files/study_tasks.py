@@ -43,7 +43,7 @@ from ..study.space import Around, coordinates
 from ..study.survey import Progress
 from ..units import display_unit, parse_span, show
 from .criterion import CriterionParser, checked_text, condition_said, measure_said, quantity_said
-from .names import shortened
+from .names import by_whole_names, shortened
 from .study_file import (
     PICTURE_SUFFIXES,
     RANGE_KEYS,
@@ -130,7 +130,7 @@ class StudyTask(ABC):
         with self.at("strokes"):
             if not isinstance(given, Mapping):
                 raise DefinitionError(f'{shortened(given)}: a table of strokes is expected, such as strokes = {{ S = "100 mm" }}.')
-            for name, value in given.items():
+            for name, value in by_whole_names(given):
                 with self.at("strokes", name):
                     if name not in self.plan.strokes:
                         raise unknown("Stroke", name, self.plan.strokes, where=self.plan.title)

@@ -16,7 +16,7 @@ from ..units import SI, UNITS, parse
 from ..vectors import Side
 from .design import Design, degrees_text, option
 from .expression import arrow_in, expression, one_unit
-from .names import Names, shortened
+from .names import Names, by_whole_names, shortened
 from .source import Mistakes
 
 Read: TypeAlias = Callable[[Any, Names], Any]
@@ -216,10 +216,11 @@ def strokes_of(given: object, names: Names) -> dict[str, float]:
     strokes = names.strokes
     if not isinstance(given, Mapping):
         raise DefinitionError(f"{shortened(given)} is not a table of strokes, such as {{ S = 0.0 }}.")
-    for name in given:
+    said = dict(by_whole_names(given))
+    for name in said:
         if name not in strokes:
             raise unknown("Stroke", shortened(name, quote=False), strokes)
-    return {name: number_of(value, names) for name, value in given.items()}
+    return {name: number_of(value, names) for name, value in said.items()}
 
 
 def member_of(given: object, names: Names) -> str:

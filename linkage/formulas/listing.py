@@ -169,7 +169,7 @@ class Listing:
         if isinstance(each.value, Quantity):
             self._label(each)
         elif isinstance(each.value, Vector):
-            self.between(name_of(each.value.P), name_of(each.value.Q))
+            self.between(name_of(each.value.P), name_of(each.value.Q), each.name)
         else:
             key = each.name if isinstance(each.value, Point) else id(each.value)
             self.define(key, self.names.vector(each.name), symbolic_value(each.value, self), LENGTH)
@@ -180,11 +180,11 @@ class Listing:
         if rhs is not None:
             self.lines.append(ListingLine(symbol, rhs, unit))
 
-    def between(self, P: str, Q: str) -> Any:
-        """Return the vector PQ, written as Q - P where it is not known yet."""
+    def between(self, P: str, Q: str, called: str = "") -> Any:
+        """Return the vector PQ, written as Q - P where it is not known yet, by the name that a step has for it if it has one."""
         if (P, Q) not in self._vectors:
             vectors = self.plan.of_kind(Vector).items()
-            declared = next((name for name, each in vectors if (name_of(each.P), name_of(each.Q)) == (P, Q)), joined_names(P, Q))
+            declared = next((name for name, each in vectors if (name_of(each.P), name_of(each.Q)) == (P, Q)), called or joined_names(P, Q))
             ends = self.at(Q).expr - self.at(P).expr
             self.define((P, Q), self.names.vector(declared), ends, LENGTH)
         return self._vectors[P, Q]

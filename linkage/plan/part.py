@@ -40,7 +40,6 @@ DEEPEST = 8
 MOST_MEMBERS = 4000
 LEFT_BEHIND = ("over", "load case", "planes")
 """What speaks of a whole machine and stays with the class that says it."""
-WORDS = ("on", "at", "angle", "mirrored", "machine")
 
 
 class HasPlan(Protocol):
@@ -98,7 +97,17 @@ class Part(Member):
         x, y = (0.0, 0.0) if at is None else pair_of(at, "Part(at=...)")
         self.at, self.angle = (quantity(x), quantity(y)), quantity(angle)
         self.mirrored = is_yes("Part: mirrored", mirrored)
+        self._check_words({"on": on is not None, "at": at is not None, "angle": not is_nothing(self.angle), "mirrored": self.mirrored})
         self._check_given()
+
+    def _check_words(self, said: Mapping[str, bool]) -> None:
+        """Raise DefinitionError for a word of `Part` that is a name in the machine, too: which of them is meant cannot be told."""
+        for word in said:
+            if said[word] and word in self.plan.members:
+                kind = self.plan.members[word].kind
+                what = f"Part({self.plan.title}, {word}=...): {word} places a part, and is a {kind} of {self.plan.title}"
+                reached = f'lower["{word}"], and given as Whole(**{{"lower.{word}": ...}})'
+                raise DefinitionError(f"{what}, too; rename that in a subclass to place the part. The member is reached by {reached}.")
 
     def _set_in(self, machine: Any) -> dict[str, float]:
         """Return the dimensions that a design has set otherwise than its class."""
@@ -415,9 +424,8 @@ class Renamed:
     def _in_axes(self, given: Member, found: Member) -> Member:
         """Return a member where the part stands; DefinitionError for one of another package that does not say how it is mirrored."""
         assert self.axes is not None
-        is_own = type(given).__module__.split(".")[0] in ("linkage", "hydraulics", "mechanisms")
-        has_sides = isinstance(given, (Point, Arrow)) or (isinstance(given, Quantity) and not given.parts())
-        if self.axes.mirrored and not is_own and has_sides and type(given).in_axes is Member.in_axes:
+        has_sides = isinstance(given, Arrow) or (isinstance(given, Quantity) and not given.parts())
+        if self.axes.mirrored and is_foreign(given) and has_sides:
             what = f"{self.part.name} = {self.part}: {given.name} = {given} cannot be mirrored"
             raise DefinitionError(f"{what}: {type(given).__name__} does not say how; give that class in_axes(axes).", member=self.part.name)
         return found.in_axes(self.axes)
@@ -457,6 +465,11 @@ def with_sign(value: Any, sign: int) -> Any:
         return sign * float(value)
     found = quantity(value)
     return found if sign > 0 else -found
+
+
+def is_foreign(member: Member) -> bool:
+    """Return whether a member is of another package's class, which does not say how it stands in axes."""
+    return type(member).__module__.split(".")[0] not in ("linkage", "hydraulics", "mechanisms") and type(member).in_axes is Member.in_axes
 
 
 # -- the members of a whole ---------------------------------------------------------------------------------------

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Self
 
 from ..errors import DefinitionError
-from ..quantities import FRAME_SIDE, Axes, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, joined_names, quantity, spelled
+from ..quantities import FRAME_SIDE, Axes, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Vec
 from .primitives import Axis, Offset, Turn
 from .step import UNBOUND, Assignment, Step
@@ -58,7 +58,7 @@ class Crank(Step):
     def expansion(self) -> tuple[Assignment, ...]:
         axes = self.axes or Axes()
         arm = Turn(Axis(self.axes), -self.angle if axes.mirrored else self.angle, length=self.PX)
-        name = joined_names(self.P, self.X)
+        name = self.word(self.P, self.X)
         return Assignment(name, self.PX), Assignment(name, arm), Assignment(self.X, Offset(self.P, arm))
 
     def arguments(self) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Self
 
-from ..quantities import Axes, Operand, Quantity, Reference, Where, distance, joined_names
+from ..quantities import Axes, Operand, Quantity, Reference, Where, distance
 from ..vectors import Scalar, Side, Vec
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
 from .step import UNBOUND, Assignment, Position, Step, opposite
@@ -47,7 +47,7 @@ class Dyad(Step):
         base = (where.at(self.Q) - where.at(self.P)).length()
         sides = (base, where.value(self.PX), where.value(self.QX))
         pairs = ((self.P, self.Q), (self.P, self.X), (self.Q, self.X))
-        return tuple((joined_names(*pair), side) for pair, side in zip(pairs, sides, strict=True))
+        return tuple((self.word(*pair), side) for pair, side in zip(pairs, sides, strict=True))
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
         X, p, q = where.at(self.X), where.value(self.PX), where.value(self.QX)
@@ -66,10 +66,10 @@ class Dyad(Step):
         angle = CosineAngle(distance(self.P, self.Q), self.PX, self.QX)
         arm = Turn(base, angle if self.settled_side is Side.LEFT else -angle, length=self.PX)
         return (
-            Assignment(joined_names(self.P, self.X), self.PX),
-            Assignment(joined_names(self.Q, self.X), self.QX),
-            Assignment(joined_names(self.P, self.Q), base),
-            Assignment(joined_names(self.Q, self.P, self.X), angle),
-            Assignment(joined_names(self.P, self.X), arm),
+            Assignment(self.word(self.P, self.X), self.PX),
+            Assignment(self.word(self.Q, self.X), self.QX),
+            Assignment(self.word(self.P, self.Q), base),
+            Assignment(self.word(self.Q, self.P, self.X), angle),
+            Assignment(self.word(self.P, self.X), arm),
             Assignment(self.X, Offset(self.P, arm)),
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Self
 
 from ..errors import DefinitionError
-from ..quantities import Axes, Driven, Joint, JointSide, Number, Operand, Quantity, Reference, Turning, Where, distance, joined_names
+from ..quantities import Axes, Driven, Joint, JointSide, Number, Operand, Quantity, Reference, Turning, Where, distance
 from ..vectors import Line, Scalar, Side, Vec
 from .labels import Slot
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
@@ -90,7 +90,7 @@ class OnLink(Step):
         base = where.link_length(self.P, self.Q)
         sides = (base, where.value(self.PX), where.value(self.QX))
         pairs = ((self.P, self.Q), (self.P, self.X), (self.Q, self.X))
-        return tuple((joined_names(*pair), side) for pair, side in zip(pairs, sides, strict=True))
+        return tuple((self.word(*pair), side) for pair, side in zip(pairs, sides, strict=True))
 
     def joints(self) -> tuple[Joint, ...]:
         """Return what holds the arm that a driven label moves: along it, across it and against turning."""
@@ -121,12 +121,12 @@ class OnLink(Step):
         given = Number(0.0) if self.QPX is UNBOUND else self.QPX
         angle = CosineAngle(distance(self.P, self.Q), self.PX, self.QX) if by_sides else given
         arm = Turn(base, -angle if self.sense_of_turn < 0.0 else angle, length=self.PX)
-        lengths = (Assignment(joined_names(self.P, self.X), self.PX), Assignment(joined_names(self.Q, self.X), self.QX))
+        lengths = (Assignment(self.word(self.P, self.X), self.PX), Assignment(self.word(self.Q, self.X), self.QX))
         return (
             *lengths[: 2 if by_sides else 1],
-            Assignment(joined_names(self.P, self.Q), base),
-            Assignment(joined_names(self.X, self.P, self.Q) if by_sides else joined_names(self.Q, self.P, self.X), angle),
-            Assignment(joined_names(self.P, self.X), arm),
+            Assignment(self.word(self.P, self.Q), base),
+            Assignment(self.word(self.X, self.P, self.Q) if by_sides else self.word(self.Q, self.P, self.X), angle),
+            Assignment(self.word(self.P, self.X), arm),
             Assignment(self.X, Offset(self.P, arm)),
-            *([Assignment(joined_names(self.Q, self.X), Vector(self.Q, self.X))] if by_sides else []),
+            *([Assignment(self.word(self.Q, self.X), Vector(self.Q, self.X))] if by_sides else []),
         )

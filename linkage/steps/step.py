@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, label, name_of, quantity
+from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, joined_names, label, name_of, quantity
 from ..units import deg
 from ..vectors import Scalar, Side, Vec
 from .labels import DimensionTable, Slot, Spoken, match, relabelled, written_labels
@@ -187,6 +187,10 @@ class Step(Point):
     def fitting(self) -> tuple[Slot, ...]:
         """Return its slots as their labels are spoken."""
         return tuple(replace(slot, spoken=self.spoken) for slot in self.slots()) if self.spoken else self.slots()
+
+    def word(self, *points: str) -> str:
+        """Return the label of points as it is spoken: `upper.AO` in a part, whatever its O is fused with."""
+        return joined_names(*points) if self.spoken is None else self.spoken.word(*points)
 
     def slots(self) -> tuple[Slot, ...]:
         """Return the labels this step takes; the step knows its points' names by now."""

@@ -9,7 +9,9 @@ from numpy.testing import assert_allclose, assert_array_equal
 from hydraulics import Cylinder, LiftCircuit
 from linkage import (
     RIGHT,
+    AssemblyError,
     Carried,
+    Crank,
     DefinitionError,
     Dimension,
     Dyad,
@@ -28,6 +30,7 @@ from linkage import (
     deg,
     distance,
     equations,
+    export,
     mm,
     most,
     pin_force,
@@ -36,6 +39,8 @@ from linkage import (
     x,
 )
 from linkage.files import load, to_toml
+from linkage.steps import Point
+from linkage.vectors import Vec
 
 
 class Arm(Mechanism):
@@ -295,6 +300,97 @@ def test_a_wrong_name_fails_on_its_line():
         class Wrong(Mechanism):
             lower = Part(Arm)
             P = OnLink(lower.Q, lower.O, lower_QP=0.2)
+
+
+class Mid(Point):
+    """The middle of two points."""
+
+    def __init__(self, P, Q):
+        self.P, self.Q = P, Q
+
+    def parts(self):
+        return self.P, self.Q
+
+    def place(self, where):
+        return (where.at(self.P) + where.at(self.Q)) * 0.5
+
+
+class Aside(Mid):
+    """A point to the left of the way from one point to another."""
+
+    def place(self, where):
+        return where.at(self.P) + (where.at(self.Q) - where.at(self.P)).left() * 0.3
+
+
+class Above(Mid):
+    """A point straight above another one."""
+
+    def place(self, where):
+        return where.at(self.P) + Vec(0.0, 0.2)
+
+
+FOREIGN = {
+    "mid": (Mid, {"upright": True, "turned": True, "mirrored": True, "carried": True}),
+    "aside": (Aside, {"upright": True, "turned": True, "mirrored": False, "carried": True}),
+    "above": (Above, {"upright": True, "turned": False, "mirrored": True, "carried": False}),
+}
+STANDS = {"upright": dict(at=(1, 2)), "turned": dict(angle=0.5), "mirrored": dict(mirrored=True), "carried": dict(on=("O", "Q"))}
+
+
+@pytest.mark.parametrize("stands", STANDS)
+@pytest.mark.parametrize("kind", FOREIGN)
+def test_steps_of_other_packages_move_with_a_part_or_are_refused(kind, stands):
+    step, fits = FOREIGN[kind]
+    machine = type("Own", (Arm,), {"M": step("O", "B")})
+    members = {"t": Stroke(0, 1), "O": Ground(0, 0), "Q": Crank("O", OQ=0.5, angle="t"), "p": Part(machine, **STANDS[stands])}
+    if not fits[stands]:
+        with pytest.raises(DefinitionError, match=f"M = {step.__name__}.* speaks of the frame: .* mm beside the place"):
+            declare(**members)
+        return
+    motion, alone = declare(**members)().at(t=0.3, **{"p.S": 0.1}), machine().at(S=0.1)
+    found = [abs(complex(*(motion[f"p.{name}"] - motion["p.M"]))) for name in "OAB"]
+    assert_allclose(found, [abs(complex(*(alone[name] - alone["M"]))) for name in "OAB"], rtol=1e-12)
+
+
+def test_labels_of_fused_points_are_those_of_the_part():
+    texts = [str(each) for each in equations(Loader())]
+    assert "upper.AO = lower.T - upper.A" in texts
+    assert any(text.startswith("upper.OAB = Tcos(|upper.AO|, L_upper.AB, L_upper.OB)") for text in texts)
+    with pytest.raises(AssemblyError, match=r"upper\.AB \+ upper\.OB = .* short of upper\.AO.* lengthen upper\.OB|upper\.AO \+ upper\.OB"):
+        Loader(**{"upper.OB": 0.02}).at(**POSES)
+
+
+def test_files_say_dotted_names_with_quotes_or_without(tmp_path):
+    (tmp_path / "pair.toml").write_text(to_toml(Loader()))
+    (tmp_path / "two.toml").write_text("""
+name = "Two"
+[strokes]
+q = [0, 0.3]
+[parts]
+a = { machine = "pair.toml", s1 = "q", lower.ram.bore = "90 mm" }
+b = { machine = "pair.toml", s1 = "q", "lower.ram.bore" = "95 mm", at = [5, 0], mirrored = true }
+[over]
+o = { q = [0.1, 0.2], a.s2 = 0.1, "b.s2" = 0.1, b.twin.S = 0.2 }
+""")
+    machine = load(tmp_path / "two.toml")
+    assert machine()["a.lower.ram.bore"] == 0.09
+    assert machine()["b.lower.ram.bore"] == 0.095
+    assert machine.plan.of_kind(Over)["o"].strokes["b.twin.S"] == 0.2
+    again = load(to_toml(machine))
+    poses = {"q": 0.1, "a.s2": 0.1, "b.s2": 0.05, "a.twin.S": 0.1, "b.twin.S": 0.2}
+    assert_array_equal(again().at(**poses)["b.upper.T"], machine().at(**poses)["b.upper.T"])
+
+
+def test_a_stroke_may_leave_a_column_without_a_number(tmp_path):
+    export(Loader(), tmp_path / "pair.xlsx", at={"s2": 0.1, "twin.S": 0.1}, count=3)
+    assert (tmp_path / "pair.xlsx").stat().st_size > 10_000
+
+
+def test_a_name_that_places_a_part_is_refused_as_a_keyword():
+    named = type("Named", (Arm,), {"angle": angle("O", "B")})
+    assert declare(p=Part(named)).plan.members["p.angle"] is not None
+    with pytest.raises(DefinitionError, match=r'angle places a part, and is a quantity of Named, too.*lower\["angle"\]'):
+        Part(named, angle=0.5)
 
 
 def test_a_link_carries_a_part():

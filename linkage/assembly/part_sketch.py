@@ -9,7 +9,7 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..plan import ArrayReading, Part, is_foreign
+from ..plan import ArrayReading, Part, has_no_axes
 from ..quantities import FRAME_SIDE, Axes, Member, Reference, needs
 from ..steps import Group, Pin
 from ..vectors import Line, Vec
@@ -56,7 +56,7 @@ def begin(name: str, part: Part, members: dict[str, Member], title: str) -> None
 
 def check_foreign(part: Part, axes: Axes | None) -> None:
     """Raise DefinitionError for a step of another package that does not move with the axes of a part, as its class's sketch has it."""
-    steps = [] if axes is None else [step for step in part.plan.points.values() if is_foreign(step)]
+    steps = [] if axes is None else [step for step in part.plan.points.values() if has_no_axes(step)]
     if axes is None or not steps:
         return
     with np.errstate(all="ignore"):

@@ -5,7 +5,7 @@ from .chain import ChainBody, KinematicChain, Pair, arm_joint, arm_points, grueb
 from .measure import plan_measure
 from .members import as_written, carrying_pairs, construction_order, member_sides, needed_names, printed, strokes_text, written_out
 from .missing import Mask, called, failures, missing_words, negative, opening
-from .part import Part, check_circuits, is_foreign, with_parts
+from .part import Part, check_circuits, has_no_axes, with_parts
 from .plan import Plan
 from .reading import ArrayReading, Reading
 from .table import DesignVariable, Table

@@ -425,7 +425,7 @@ class Renamed:
         """Return a member where the part stands; DefinitionError for one of another package that does not say how it is mirrored."""
         assert self.axes is not None
         has_sides = isinstance(given, Arrow) or (isinstance(given, Quantity) and not given.parts())
-        if self.axes.mirrored and is_foreign(given) and has_sides:
+        if self.axes.mirrored and has_no_axes(given) and has_sides:
             what = f"{self.part.name} = {self.part}: {given.name} = {given} cannot be mirrored"
             raise DefinitionError(f"{what}: {type(given).__name__} does not say how; give that class in_axes(axes).", member=self.part.name)
         return found.in_axes(self.axes)
@@ -467,7 +467,7 @@ def with_sign(value: Any, sign: int) -> Any:
     return found if sign > 0 else -found
 
 
-def is_foreign(member: Member) -> bool:
+def has_no_axes(member: Member) -> bool:
     """Return whether a member is of another package's class, which does not say how it stands in axes."""
     return type(member).__module__.split(".")[0] not in ("linkage", "hydraulics", "mechanisms") and type(member).in_axes is Member.in_axes
 

@@ -24,6 +24,7 @@ HOMES = {
     "show": "show:ShowCommand",
     "table": "table:TableCommand",
     "follow": "follow:FollowCommand",
+    "chart": "chart:ChartCommand",
     "limits": "forces:LimitsCommand",
     "forces": "forces:ForcesCommand",
     "plot": "plot:PlotCommand",

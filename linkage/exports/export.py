@@ -20,10 +20,12 @@ from ..pictures.strokes import stroke_words
 from ..plugins import Plugins
 from ..quantities import as_mapping
 from ..reports import NOTHING, first_stroke, results, run_of, stroke_middles, write_csv
+from ..study import WorkingField
 from .calculation import Calculation, reached_somewhere
 from .drawing_dxf import dxf
 from .drawing_svg import svg
 from .geometry import PoseDrawing, path_parts, pose_parts
+from .load_chart import chart_content
 from .workbook import check_count, workbook
 
 MOST_ROWS, ROW = 500_000, 2000
@@ -174,7 +176,7 @@ def suffixes(option: str = "") -> list[str]:
 
 
 def export(
-    what: Mechanism | Motion,
+    what: Mechanism | Motion | WorkingField,
     path: Place,
     *,
     format: str | None = None,
@@ -192,6 +194,7 @@ def export(
     motion at its poses, its points and outputs or the `columns` given.
     .dxf (extra `cad`) and .svg: a drawing in millimetres, true size, by layers: of a machine at the strokes that `at` gives, a pose each
     (default: the start of the first stroke); of a motion all its poses. `trace` names points whose paths are drawn.
+    Of a working field .csv has a row each cell, .xlsx the chart as it is printed, too.
     Other kinds of files come with packages that are installed; `format="mjcf"` says by its name which kind is meant, whatever the ending.
 
     What stood at the path is replaced whole, or left as it was. Raises DefinitionError for another kind of file, for what does not go with
@@ -200,6 +203,12 @@ def export(
     """
     check_name(path)
     file = Path(path)
+    if isinstance(what, WorkingField):
+        check_place(path)
+        content = chart_content(what, file.suffix.lower(), file.name)
+        with replacing(path) as stream:
+            stream.write(content)
+        return file
     exporter = exporter_of(file, format)
     check_exportable(what, exporter, at, trace, columns)
     check_place(path)

@@ -142,6 +142,10 @@ class Places:
         check_targets(found, title)
         return found
 
+    def reordered(self, free: tuple[str, ...]) -> Places:
+        """Return the same with the strokes that are looked for in another order."""
+        return Places(self.plan, self.designs, self.targets, self.bound, free, self.held)
+
     @cached_property
     def program(self) -> PlaceProgram:
         """The kernels."""

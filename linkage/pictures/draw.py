@@ -13,11 +13,12 @@ from ..errors import DefinitionError
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike
 from ..reports import NOTHING
-from ..study import Optimum
+from ..study import Optimum, WorkingField
 from .chain import draw_chain
 from .curves import plot_machine, plot_motion
 from .designs import draw_designs
 from .force_arrows import force_question
+from .load_chart import plot_field
 from .mode_page import draw_modes
 from .optimum import draw_optimum, plot_optimum
 from .overlays import Overlays
@@ -129,7 +130,7 @@ def draw(
 
 
 @overload
-def plot(motion: Optimum) -> Figure: ...
+def plot(motion: Optimum | WorkingField) -> Figure: ...
 @overload
 def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = ...) -> Figure: ...
 @overload
@@ -142,7 +143,7 @@ def plot(
     count: int = ...,
 ) -> Figure: ...
 def plot(
-    motion: Motion | Mechanism | Optimum,
+    motion: Motion | Mechanism | Optimum | WorkingField,
     columns: Sequence[Column | RequestLike] = (),
     *,
     limits: Mapping[str, Sequence[Any]] | None = None,
@@ -157,8 +158,13 @@ def plot(
     `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that fails, above unless said, is shaded.
     Raises DefinitionError for a batch, a grid, or an unknown name.
 
-    Of the result of a search, the quantity of the objective and of each condition over the stroke, before and after, with its limit.
+    Of a working field it is the load chart: heights by radii, in each cell the load and a letter for what limits it. Of the result of a
+    search, the quantity of the objective and of each condition over the stroke, before and after, with its limit.
     """
+    if isinstance(motion, WorkingField):
+        if columns or limits is not None or at:
+            raise DefinitionError(f"{motion.machine.plan.title}: a working field is drawn as it is; write plot(field).")
+        return plot_field(motion)
     if isinstance(motion, Optimum):
         if columns or limits is not None or at:
             raise DefinitionError(f"{motion.problem.plan.title}: a search's result has its own curves and limits; write plot(optimum).")

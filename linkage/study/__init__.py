@@ -3,6 +3,7 @@
 from ..motion import Target
 from .box import Box
 from .infeasible import InfeasibleError
+from .load_rule import ISO_10567, ISO_14397_1, OECD_2, LoadRule
 from .monte_carlo import Band, MonteCarlo, monte_carlo
 from .optimum import Optimum
 from .pareto import Front
@@ -12,4 +13,5 @@ from .space import around
 from .survey import Survey, survey
 from .targets import Solutions
 from .tolerances import Tolerance, sigma, spread
+from .working_field import WorkingField, working_field
 from .zone import Zone, zone

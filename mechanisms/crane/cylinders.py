@@ -27,6 +27,11 @@ class Sides:
     push: float
     pull: float
 
+    @property
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Its least and its greatest thrust [N]."""
+        return np.asarray(-self.pull), np.asarray(self.push)
+
 
 def sides(motion: Motion, stroke: str) -> Sides:
     """Return what the cylinder of a stroke pushes and pulls with, of one design; p n times the area, less the back pressure's share.

@@ -2,6 +2,7 @@
 
 A load at the tip is carried as far as no cylinder needs more than its pump gives, on the side that works there; the machine's own
 weights count. At every place the telescope stands where that is most. All poses go through the machine's own statics, in few calls.
+It stays beside `working_field`: the drives end where the design and the cylinders' lengths say, not at the ends of declared strokes.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from linkage.errors import known_name
 from linkage.language import noted
 from linkage.loads.point import on_slope
 from linkage.program import FloatArray
+from linkage.statics.carried import largest
 
 from .cylinders import PLAY, sides
 from .machine import DRIVEN, Crane
@@ -124,11 +126,10 @@ class Carrying:
             force, way, grows = found[3 * k : 3 * k + 3]
             with np.errstate(divide="ignore", invalid="ignore"):  # a cylinder at its dead point holds nothing
                 own, share = force / grows, -along(self.pull, way) / grows
-            most[k] = np.where(grows == 0.0, 0.0, held_by(own, share, self.sides[stroke].push, self.sides[stroke].pull))
+            most[k] = np.where(grows == 0.0, 0.0, largest(own, share, *self.sides[stroke].bounds))
         if self.limits.stability is not None:
-            most[3] = held_by(
-                -found[0], along(self.pull, found[1]), self.limits.stability, np.inf
-            )  # all turns about O, on the axis, with phi
+            share = along(self.pull, found[1])  # all turns about O, on the axis, with phi
+            most[3] = largest(-found[0], share, np.asarray(-np.inf), np.asarray(self.limits.stability))
         if self.limits.rated is not None:
             most[4] = self.limits.rated
         return most
@@ -137,13 +138,6 @@ class Carrying:
 def along(direction: FloatArray, way: FloatArray) -> FloatArray:
     """Return how far a way, shape (2, ...), goes along a direction of length one."""
     return np.asarray(direction[0] * way[0] + direction[1] * way[1])
-
-
-def held_by(own: FloatArray, share: FloatArray, push: float, pull: float) -> FloatArray:
-    """Return the greatest load for which own + share load stays within -pull..push, shape (n,); 0 where the machine alone is too heavy."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        load = np.where(share > 0.0, (push - own) / share, np.where(share < 0.0, (-pull - own) / share, np.inf))
-    return np.where((own > push) | (own < -pull), 0.0, load)
 
 
 def best_of(carrying: Carrying, x: FloatArray, y: FloatArray, places: Sequence[FloatArray]) -> LoadMap:

@@ -1,0 +1,141 @@
+"""`hydrolinkage chart NAME --point X --x ... --y ...`: what is lifted at every place, as a table, a picture or a file."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import Any, final
+
+import numpy as np
+
+from ..disk import check_place
+from ..errors import DefinitionError
+from ..files.criterion import quantity_said
+from ..mechanism import Mechanism
+from ..motion import Target
+from ..motion.kinds import measure_of
+from ..units import parse, parse_span
+from .command import PICTURES, Command, lined_up, machine_arguments
+from .follow import strokes_said
+from .machines import find
+from .settings import design, pair, si_value
+
+SUFFIXES = (*PICTURES, ".csv", ".xlsx")
+COUNT = 11
+"""Places of an axis whose step is not said."""
+
+
+@final
+class ChartCommand(Command):
+    """Prints or writes a load chart."""
+
+    name = "chart"
+    help = "what a machine lifts at a point over radii and heights, and what limits it: a load chart"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser)
+        parser.add_argument("--point", metavar="G", required=True, help="the point that the load hangs on")
+        axis = "0:6m:0.5m from, to and step, without a step 11 places; or each, 1m,1.5m,2m; lengths without a unit are in m"
+        parser.add_argument("--x", metavar="FROM:TO:STEP", required=True, help=f"the radii: {axis}")
+        parser.add_argument("--y", metavar="FROM:TO:STEP", required=True, help="the heights, in the same way")
+        against = "the direction against which the load pulls (default 0,1: it hangs)"
+        parser.add_argument("--along", metavar="X,Y", default="0,1", help=against)
+        parser.add_argument("--hold", metavar="S=1.1m", action="append", default=[], help="hold a stroke there; repeatable")
+        parser.add_argument("--keep", metavar="tilt=0deg", action="append", default=[], help="a value kept at every place; repeatable")
+        lifting = "this cylinder lifts, those not named hold; repeatable (default: all lift)"
+        parser.add_argument("--lift", metavar="RAM", action="append", default=[], help=lifting)
+        parser.add_argument("--rule", metavar="RULE", help="the rule whose factors count: ISO 10567, ISO 14397-1, OECD Code 2")
+        parser.add_argument("--case", metavar="CASE", help="the load case of this name")
+        parser.add_argument("--without", metavar="LOAD", action="append", default=[], help="leave a declared load out; repeatable")
+        most = "a load that is not exceeded; repeatable"
+        parser.add_argument("--limit", dest="limits", metavar='"rated load=20kN"', action="append", default=[], help=most)
+        parser.add_argument("-o", "--output", metavar="FILE", help=f"write it: {', '.join(SUFFIXES)}")
+
+    def run(self, options: Namespace) -> int:
+        from ..study import working_field
+
+        path = None if options.output is None else chart_path(options.output)
+        machine = design(find(options.machine), options.settings)
+        limits = {}
+        for text in options.limits:
+            name, value = pair(text, "--limit", '"rated load=20kN"')
+            limits[name] = si_value(value, "force", f"--limit {name}")
+        field = working_field(
+            machine, options.point, axis_said("--x", options.x), axis_said("--y", options.y), along=along_said(options.along),
+            hold=strokes_said(machine, "--hold", options.hold), keep=[target_said(machine, text) for text in options.keep],
+            lifts=options.lift or None, rule=options.rule, case=options.case, without=options.without, limits=limits,
+        )  # fmt: skip
+        if path is None:
+            print_chart(field)
+            return 0
+        write_chart(field, path)
+        print(path)
+        return 0
+
+
+def chart_path(given: str) -> Path:
+    """Return where a chart is written; DefinitionError for another kind of file."""
+    path = Path(given)
+    if path.suffix.lower() not in SUFFIXES:
+        raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(SUFFIXES)}, which chooses the format.")
+    check_place(path)
+    return path
+
+
+def axis_said(option: str, text: str) -> Any:
+    """Return the places along an axis [m]; DefinitionError for what says none."""
+    span = parse_span(text, "length")
+    parts = [part.strip() for part in text.split(":")]
+    if span is None and len(parts) == 1:
+        return np.array([si_value(part, "length", option) for part in text.split(",") if part.strip()])
+    if span is None and len(parts) > 3:
+        raise DefinitionError(f"{option} {text}: from, to and step are expected, such as {option} 0:6m:0.5m.")
+    first, last, *step = span if span is not None else [si_value(part, "length", option) for part in parts]
+    if not step:
+        return np.linspace(first, last, COUNT)
+    if not step[0] * (last - first) > 0.0:
+        raise DefinitionError(f"{option} {text}: no step of {step[0]:g} m leads from {first:g} to {last:g} m; give another step.")
+    count = (last - first) / step[0]
+    if count > 1e6:
+        raise DefinitionError(f"{option} {text}: these are {count:.3g} places; give a longer step.")
+    return first + step[0] * np.arange(int(count + 1e-9) + 1)
+
+
+def along_said(text: str) -> Any:
+    """Return the direction that `--along` says."""
+    return tuple(si_value(part, "", "--along") for part in text.split(","))
+
+
+def target_said(machine: Mechanism, text: str) -> Target:
+    """Return a value that is kept, `tilt=0deg`."""
+    name, value = pair(text, "--keep", "tilt=0deg")
+    asked = quantity_said(name, machine)
+    return Target(asked, parse(value, measure_of(machine.plan, asked)))
+
+
+def print_chart(field: Any) -> None:
+    """Print a chart as text: heights from above, radii across, a letter for each limiter."""
+    from ..pictures.load_chart import ChartText
+
+    text = ChartText(field)
+    across, down = np.argsort(field.x, kind="stable"), np.argsort(-field.y, kind="stable")
+    rows = [["", *(text.length(float(field.x[n])) for n in across)]]
+    for k in down:
+        cells = (f"{text.load(float(field.load[k, n]))} {text.letters.get(str(field.limiter[k, n]), '')}".strip() for n in across)
+        rows.append([text.length(float(field.y[k])), *(cell or "-" for cell in cells)])
+    print(text.title)
+    for line in lined_up(rows):
+        print(line)
+    print(*text.legend(), sep="\n")
+
+
+def write_chart(field: Any, path: Path) -> None:
+    """Write a chart into a file."""
+    if path.suffix.lower() in PICTURES:
+        from ..pictures import plot
+
+        plot(field).savefig(path)
+        return
+    from ..exports.export import export
+
+    export(field, path)

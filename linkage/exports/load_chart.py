@@ -1,0 +1,93 @@
+"""A working field as a file: a table of its cells, a workbook with the chart as it is printed and the cells behind it."""
+
+from __future__ import annotations
+
+import csv
+import io
+from typing import Any
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..language import translated
+from ..motion import stroke_display_unit
+from ..pictures.load_chart import ChartText
+from ..study import WorkingField
+from ..study.working_field import OUT_OF_REACH
+from ..units import factor, g0, shown_in
+from .extras import missing_extra
+from .workbook import MADE
+
+SUFFIXES = (".csv", ".xlsx")
+
+
+def chart_content(field: WorkingField, suffix: str, name: str) -> bytes:
+    """Return the bytes of a field's file: .csv or .xlsx."""
+    if suffix == ".csv":
+        stream = io.StringIO(newline="")
+        csv.writer(stream).writerows([heading for heading, _ in cell_headings(field)] if k < 0 else row for k, row in cell_rows(field))
+        return stream.getvalue().encode("utf-8")
+    if suffix == ".xlsx":
+        return chart_workbook(field, name)
+    raise DefinitionError(f"{name}: a working field is written as {' or '.join(SUFFIXES)}; a picture is plot(field).savefig(...).")
+
+
+def cell_headings(field: WorkingField) -> list[tuple[str, str]]:
+    """Return the columns of the cells, each with its unit."""
+    load = ChartText(field).unit
+    strokes = [(name, shown_in(stroke_display_unit(field.machine.plan, name, "mm"))) for name in field.strokes]
+    named = [("x", shown_in("m")), ("y", shown_in("m")), ("load", shown_in(load)), ("limiter", ""), *strokes, ("why", "")]
+    return [(f"{name} [{unit}]" if unit else name, unit) for name, unit in named]
+
+
+def cell_rows(field: WorkingField) -> list[tuple[int, list[Any]]]:
+    """Return the rows of the cells in the units of their cell_headings, -1 for that of the cell_headings; empty for no number."""
+    columns = cell_headings(field)
+    weight = g0 if ChartText(field).is_weight else 1.0
+    found: list[tuple[int, list[Any]]] = [(-1, [])]
+    for k, cell in enumerate(field.cells()):
+        row: list[Any] = []
+        for (_, unit), (name, value) in zip(columns, cell.items(), strict=True):
+            if not isinstance(value, float):
+                row.append(translated(value) if name == "limiter" else value)
+            else:
+                shown = value / (weight if name == "load" else 1.0) / factor(unit)
+                row.append("" if np.isnan(value) else shown)
+        found.append((k, row))
+    return found
+
+
+def chart_workbook(field: WorkingField, name: str) -> bytes:
+    """Return the bytes of an .xlsx file: the chart, its legend, and the cells with limiters and strokes."""
+    try:
+        import xlsxwriter
+    except ImportError:
+        raise missing_extra("xlsx", "an .xlsx", "XlsxWriter") from None
+    stream, text = io.BytesIO(), ChartText(field)
+    with xlsxwriter.Workbook(stream, {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False}) as book:
+        book.set_properties({"title": field.machine.plan.heading, "comments": f"hydrolinkage: {name}", "created": MADE})
+        bold, number = book.add_format({"bold": True}), book.add_format({"num_format": "0.00"})
+        length = book.add_format({"bold": True, "num_format": "0.00"})
+        chart, letters, cells = (book.add_worksheet(each) for each in ("Chart", "Limiters", "Cells"))
+        across, down = np.argsort(field.x, kind="stable"), np.argsort(-field.y, kind="stable")
+        for sheet, title in ((chart, text.title), (letters, text.title)):
+            sheet.write_string(0, 0, title, bold)
+            for column, n in enumerate(across.tolist()):
+                sheet.write_number(1, 1 + column, float(field.x[n]) / factor(shown_in("m")), length)
+            for row, k in enumerate(down.tolist()):
+                sheet.write_number(2 + row, 0, float(field.y[k]) / factor(shown_in("m")), length)
+        scale = (g0 if text.is_weight else 1.0) * factor(shown_in(text.unit))
+        for row, k in enumerate(down.tolist()):
+            for column, n in enumerate(across.tolist()):
+                load, limiter = float(field.load[k, n]), str(field.limiter[k, n])
+                if np.isfinite(load):
+                    chart.write_number(2 + row, 1 + column, load / scale, number)
+                if limiter != OUT_OF_REACH:
+                    letters.write_string(2 + row, 1 + column, text.letters.get(limiter, ""))
+        for row, line in enumerate(text.legend()):
+            chart.write_string(3 + len(down) + row, 0, line)
+        for row, (k, values) in enumerate(cell_rows(field)):
+            for column, value in enumerate([heading for heading, _ in cell_headings(field)] if k < 0 else values):
+                cells.write(row, column, value, bold if k < 0 else None)
+        cells.freeze_panes(1, 0)
+    return stream.getvalue()

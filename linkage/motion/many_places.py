@@ -1,0 +1,279 @@
+"""Strokes of many places at once: all branches of each, from one grid of the strokes, by steps of Newton in all rows together.
+
+What is asked of one place is `places.py`'s; here the places are a grid of x and y, so that a cell of strokes is laid over those that it
+may give by looking up its bounds in rows and columns. Strokes that are left over are spare: they stand at some values each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations, product
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..plan import Mask, Plan
+from ..program import FloatArray
+from .descent import descended
+from .line import Index
+from .places import MET, SCATTERED, Places, all_known, corners_all, extremes_of_cells, held_strokes, traced_target, way_of
+from .strokes import TURN
+from .target import Target
+
+MOST_SPARE = 2
+SIDE = {0: {1: 129, 2: 33, 3: 13}, 1: {1: 65, 2: 17, 3: 9}, 2: {1: 33, 2: 13, 3: 7}}
+"""Values of each stroke that is solved for, by how many are spare and how many are solved for; 6 of more."""
+A_TURN = {1: 96, 2: 24, 3: 12}
+"""Values of a crank for each turn of it, at the least."""
+SPARE = {0: 1, 1: 17, 2: 9}
+"""Values of each spare stroke of the first look."""
+MOST_POSES = 1 << 19
+ITERATIONS = 9
+"""Steps of Newton, after which those that are not settled are looked for with damping."""
+TOLERANCE = 1e-13
+"""Of the size of what it measures: a target that is missed by no more is met."""
+FAR = 0.6
+"""How far outside the ranges, in shares of them, steps of Newton are followed."""
+LEAP = 0.35
+"""The longest step, in shares of the ranges."""
+EDGE = 1e-10
+"""How far outside the range of a stroke, in shares of it, a pose counts as at its end."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class PlacePoses:
+    """PlacePoses that give places: of which place (n,), unit coordinates of all strokes looked for (n, k), those solved for first."""
+
+    place: Index
+    unit: FloatArray
+
+    def joined(self, *others: PlacePoses) -> PlacePoses:
+        """Return these and others behind them."""
+        every = (self, *others)
+        return PlacePoses(np.concatenate([each.place for each in every]), np.concatenate([each.unit for each in every]))
+
+    def where(self, rows: Any) -> PlacePoses:
+        """Return some of them."""
+        return PlacePoses(self.place[rows], self.unit[rows])
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class ManyPlaces:
+    """Targets of one design, the first two of which are x and y of a point, for many places.
+
+    `places` has all strokes that are not held, those solved for first; the last `spare` of them stand at some values.
+    """
+
+    places: Places
+    spare: int
+
+    @classmethod
+    def of(cls, plan: Plan, designs: Mapping[str, Any], targets: Sequence[Target], hold: Any, *, where: str) -> ManyPlaces:
+        """Return targets bound to one design; DefinitionError for what is none, and for more than two strokes to spare."""
+        title = f"{plan.title}: {where}"
+        held = held_strokes(plan, hold, title)
+        free = [name for name in plan.strokes if name not in held]
+        spare = len(free) - len(targets)
+        if spare > MOST_SPARE:
+            example = f'hold={{"{free[-1]}": {plan.sketch_strokes[free[-1]]:.4g}}}'
+            what = f"{len(targets)} targets leave {spare} of the strokes {', '.join(free)} to spare"
+            raise DefinitionError(f"{title}: {what}, up to {MOST_SPARE} are looked at; hold one, {example}, or keep= something.")
+        if spare <= 0 or any(np.ndim(value) for value in designs.values()) or not all(isinstance(each, Target) for each in targets):
+            return cls(Places.of(plan, designs, targets, hold, where=where), 0)
+        bound = tuple(traced_target(plan, each, title) for each in targets)
+        every = Places(plan, {k: float(v) for k, v in designs.items()}, tuple(targets), bound, tuple(free), held)
+        loose = spared(every, spare)
+        Places.of(plan, designs, targets, {**held, **{name: plan.sketch_strokes[name] for name in loose}}, where=where)
+        return cls(every.reordered((*(name for name in free if name not in loose), *loose)), spare)
+
+    @property
+    def solved(self) -> int:
+        """How many strokes are solved for, as many as there are targets."""
+        return len(self.places.free) - self.spare
+
+    @cached_property
+    def tolerance(self) -> FloatArray:
+        """By how much each target may be missed [SI], shape (t,)."""
+        return TOLERANCE * self.places.sizes
+
+    def seen(self, unit: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the values of the targets (n, t) and their derivatives (n, t, k) by unit coordinates (n, k); NaN out of reach."""
+        places, count = self.places, len(unit)
+        strokes = (places.low + unit * places.span).T
+        found = places.program.together(places.inputs(strokes), way=way_of(count), size=(1, count)).values[:, 0]
+        t, k = len(places.targets), len(places.free)
+        return found[:t].T, found[t:].reshape(t, k, count).transpose(2, 0, 1) * places.span
+
+    # -- the first look ----------------------------------------------------------------------------------
+
+    @property
+    def spare_step(self) -> FloatArray:
+        """How far the values of each spare stroke are apart in the first look, in shares of its range."""
+        return np.full(self.spare, 1.0 / (SPARE[self.spare] - 1))
+
+    def looked_at(self, out: FloatArray | float = 0.0, ends: Sequence[FloatArray] | None = None) -> PlaceGrid:
+        """Return a grid of the strokes, which reach `out` of their ranges beyond either end; the spare ones at `ends` where given."""
+        places, k = self.places, self.solved
+        outs = np.broadcast_to(np.asarray(out, float), (len(places.free),))
+        wide = 1.0 + 2.0 * outs
+        turns = np.where(places.turning, wide * places.span / TURN, 0.0)
+        counts = np.maximum(SIDE[self.spare].get(k, 6) * wide, A_TURN.get(k, 6) * turns)
+        counts[k:] = SPARE[self.spare] * wide[k:]
+        shrink = max(1.0, float((np.prod(counts) / MOST_POSES) ** (1.0 / len(counts))))
+        axes = [np.linspace(-o, 1.0 + o, max(int(count / shrink), 4)) for o, count in zip(outs, counts, strict=True)]
+        axes[k:] = axes[k:] if ends is None else ends
+        order = [*range(k, len(axes)), *range(k)]
+        grid = np.stack([each.ravel() for each in np.meshgrid(*(axes[at] for at in order), indexing="ij")], axis=1)
+        unit = grid[:, [order.index(at) for at in range(len(axes))]]
+        strokes = (places.low + unit * places.span).T
+        values = places.program.values(places.inputs(strokes), way=way_of(len(unit)), size=(1, len(unit))).values[:, 0]
+        return PlaceGrid(self, outs, axes[:k], axes[k:], unit, values)
+
+    # -- steps -------------------------------------------------------------------------------------------
+
+    def settled(
+        self, start: PlacePoses, goals: FloatArray, outs: FloatArray, *, damped: bool = True, iterations: int = ITERATIONS
+    ) -> tuple[PlacePoses, Mask]:
+        """Return where steps of Newton lead from some poses to what their places want (places, t), and which have met it.
+
+        The spare strokes stay. Those that do not settle go on with damped steps inside the ranges, where `damped`.
+        """
+        k, places = self.solved, self.places
+        unit, wanted = start.unit.copy(), goals[start.place]
+        met, going, lost = np.zeros(len(unit), bool), np.arange(len(unit)), np.zeros(len(unit), bool)
+        low, high = -outs[:k] - FAR, 1.0 + outs[:k] + FAR
+        for _ in range(iterations):
+            if not len(going):
+                break
+            values, slopes = self.seen(unit[going])
+            off = places.off(values, wanted[going])
+            here = (np.abs(off) <= self.tolerance).all(axis=1)
+            step = solved_systems(slopes[:, :, :k], off)
+            size = np.abs(step).max(axis=1)
+            good = np.isfinite(size)
+            step *= np.minimum(1.0, LEAP / np.where(size > 0.0, size, 1.0))[:, None]
+            met[going[here]] = True
+            lost[going[~good]] = True
+            on = good & ~here
+            going = going[on]
+            unit[going, :k] -= step[on]
+            out = ((unit[going, :k] < low) | (unit[going, :k] > high)).any(axis=1)
+            lost[going[out]] = True
+            going = going[~out]
+        left = ~met & damped
+        if left.any():
+            self._damped(unit, np.flatnonzero(left), start.unit, wanted, outs, met)
+        inside = ((unit[:, :k] >= -outs[:k] - EDGE) & (unit[:, :k] <= 1.0 + outs[:k] + EDGE)).all(axis=1)
+        unit[:, :k] = np.clip(unit[:, :k], -outs[:k], 1.0 + outs[:k])
+        return PlacePoses(start.place, unit), met & inside
+
+    def _damped(self, unit: FloatArray, rows: Index, begun: FloatArray, wanted: FloatArray, outs: FloatArray, met: Mask) -> None:
+        k, places = self.solved, self.places
+        wide, sizes = 1.0 + 2.0 * outs[:k], places.sizes
+        spare = begun[rows, k:]
+
+        def whole(box: FloatArray, at: Index) -> FloatArray:
+            return np.concatenate([box * wide - outs[:k], spare[at]], axis=1)
+
+        def misses(box: FloatArray, at: Index) -> FloatArray:
+            return places.off(self.seen(whole(box, at))[0], wanted[rows[at]]) / sizes
+
+        def slopes(box: FloatArray, at: Index) -> FloatArray:
+            return self.seen(whole(box, at))[1][:, :, :k] * wide / sizes[:, None]
+
+        begin = np.clip((begun[rows, :k] + outs[:k]) / wide, 0.0, 1.0)
+        box, off = descended(misses, slopes, begin, 12, enough=TOLERANCE, begin=1e-6)
+        unit[rows, :k] = box * wide - outs[:k]
+        met[rows] = (np.abs(off) <= MET).all(axis=1)
+
+
+def spared(every: Places, count: int) -> tuple[str, ...]:
+    """Return the strokes to spare: those without which the others move the targets most, the last ones where equal."""
+    slopes = every.slopes(SCATTERED[:, : len(every.free)]) / every.sizes[:, None]
+    slopes = slopes[all_known(slopes)]
+    best, found = -1.0, every.free[-count:]
+    for loose in reversed([*combinations(range(len(every.free)), count)]):
+        kept = [at for at in range(len(every.free)) if at not in loose]
+        size = float(np.median(np.abs(np.linalg.det(slopes[:, :, kept])))) if len(slopes) else 0.0
+        if size > best * (1.0 + 1e-9):
+            best, found = size, tuple(every.free[at] for at in loose)
+    return found
+
+
+def solved_systems(matrix: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the solutions (n, k) of many small systems of equations; not finite of singular ones."""
+    if right.shape[1] == 2:
+        (a, b), (c, d) = matrix[:, 0].T, matrix[:, 1].T
+        det = a * d - b * c
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.stack([(d * right[:, 0] - b * right[:, 1]) / det, (a * right[:, 1] - c * right[:, 0]) / det], axis=1)
+    good: Mask = np.asarray(np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(right).all(axis=1))
+    good[good] = np.abs(np.linalg.det(matrix[good])) > 0.0
+    found = np.full(right.shape, np.nan)
+    found[good] = np.linalg.solve(matrix[good], right[good][:, :, None])[:, :, 0]
+    return found
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class PlaceGrid:
+    """A grid of strokes with what the targets are there (t, n): axes of the strokes that are solved for, and of those to spare.
+
+    `unit` are its places (n, k), the spare strokes running slowest.
+    """
+
+    many: ManyPlaces
+    outs: FloatArray
+    axes: Sequence[FloatArray]
+    spare: Sequence[FloatArray]
+    unit: FloatArray
+    values: FloatArray
+
+    @cached_property
+    def cells(self) -> tuple[FloatArray, FloatArray]:
+        """The least and the greatest that each target may be in each cell of each lot (t, cells); NaN where nothing is assembled."""
+        t, counts = len(self.values), tuple(map(len, self.axes))
+        lots = int(np.prod([len(axis) for axis in self.spare], dtype=int))
+        values = self.values.reshape(t * lots, *counts)
+        low, high, bend = extremes_of_cells(values)
+        known: Mask = np.asarray(np.isfinite(values).reshape(t, lots, *counts).all(axis=0))
+        whole = np.stack([corners_all(each) for each in known])
+        room = np.where(whole[None], 0.1, 1.0) * (high - low).reshape(t, lots, *whole.shape[1:])
+        room = room.reshape(low.shape) + 0.5 * bend
+        return (low - room).reshape(t, -1), (high + room).reshape(t, -1)
+
+    def starts(self, x: FloatArray, y: FloatArray, rest: FloatArray) -> PlacePoses:
+        """Return where to start for places x by y, ascending, numbered with x running fastest; `rest` (t - 2,) is kept."""
+        low, high = self.cells
+        ok = np.isfinite(low).all(axis=0) & np.isfinite(high).all(axis=0)
+        for each, (a, b), is_angle in zip(rest, zip(low[2:], high[2:], strict=True), self.many.places.angles[2:], strict=True):
+            miss = each - 0.5 * (a + b)
+            miss = miss - TURN * np.round(miss / TURN) if is_angle else miss
+            ok &= np.abs(miss) <= 0.5 * (b - a)
+        cell = np.flatnonzero(ok)
+        first = [np.searchsorted(axis, low[at, cell], "left") for at, axis in enumerate((x, y))]
+        last = [np.searchsorted(axis, high[at, cell], "right") for at, axis in enumerate((x, y))]
+        wide, tall = last[0] - first[0], last[1] - first[1]
+        count = wide * tall
+        row = np.repeat(np.arange(len(cell)), count)
+        inner = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
+        place = (first[1][row] + inner // np.maximum(wide[row], 1)) * len(x) + first[0][row] + inner % np.maximum(wide[row], 1)
+        return PlacePoses(place, self._begun(cell)[row])
+
+    def _begun(self, cell: Index) -> FloatArray:
+        """Return where it is begun in some cells, unit coordinates (n, k): in the middle of the corners that are assembled."""
+        counts = [len(axis) for axis in (*self.spare, *self.axes)]
+        inner = [len(axis) - 1 for axis in self.axes]
+        index = np.stack(np.unravel_index(cell, (*counts[: len(self.spare)], *inner)), axis=1)
+        known: Mask = np.asarray(np.isfinite(self.values).all(axis=0))
+        total, weight = np.zeros((len(cell), self.unit.shape[1])), np.zeros(len(cell))
+        for corner in product((0, 1), repeat=len(self.axes)):
+            at = np.ravel_multi_index(tuple((index + np.array([*[0] * len(self.spare), *corner])).T), counts)
+            total[known[at]] += self.unit[at[known[at]]]
+            weight += known[at]
+        return np.asarray(total / np.maximum(weight, 1.0)[:, None])

@@ -1,0 +1,148 @@
+"""A working field as dealers print it: heights down, radii across, in each cell the load and a letter for what limits it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from string import ascii_uppercase
+from typing import Any, final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from ..language import said, translated
+from ..study import WorkingField
+from ..study.load_rule import FACTORS, PLAIN_RULE
+from ..study.working_field import NOT_LIMITED, OUT_OF_REACH
+from ..units import decimals, factor, g0, shown_in, unit_sign
+from . import style
+from .sheet import panels
+
+CELL = 0.62, 0.30
+"""The size of a cell [inch]."""
+LINE = 0.2
+"""The height of a line of the legend [inch]."""
+LEFT, TOP = 0.85, 0.95
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class ChartText:
+    """What a field says in its units: loads, radii, heights, letters, lines of the legend."""
+
+    field: WorkingField
+
+    @property
+    def is_weight(self) -> bool:
+        """Whether the load hangs, so that it is told as a mass."""
+        return self.field.along == (0.0, 1.0)
+
+    @property
+    def unit(self) -> str:
+        """The unit of the loads."""
+        return "t" if self.is_weight else "kN"
+
+    @cached_property
+    def letters(self) -> Mapping[str, str]:
+        """A letter for each limiter that occurs."""
+        named = [each for each in self.field.limiters if each not in (OUT_OF_REACH, NOT_LIMITED)]
+        signs = [*ascii_uppercase, *(a + b for a in ascii_uppercase for b in ascii_uppercase)]
+        return dict(zip(named, signs, strict=False))
+
+    def load(self, value: float) -> str:
+        """Return a load [N] as it is printed."""
+        if np.isnan(value):
+            return ""
+        if np.isinf(value):
+            return "\N{INFINITY}"
+        shown = value / (g0 if self.is_weight else 1.0) / factor(shown_in(self.unit))
+        return f"{shown:.{decimals(2, self.unit)}f}"
+
+    def length(self, value: float) -> str:
+        """Return a radius or a height [m] as it is printed."""
+        digits = 2 if shown_in("m") == "m" else 0
+        return f"{value / factor(shown_in('m')):.{digits}f}".replace("-", "\N{MINUS SIGN}")
+
+    @property
+    def title(self) -> str:
+        """What the chart is of."""
+        what = said("lift capacity at {point}", point=self.field.point)
+        if not self.is_weight:
+            x, y = self.field.along
+            what = said("force at {point} against ({x}, {y})", point=self.field.point, x=f"{x:.3g}", y=f"{y:.3g}")
+        return f"{self.field.machine.plan.heading}: {what}, {unit_sign(self.unit)}"
+
+    def legend(self) -> list[str]:
+        """Return the lines under the chart."""
+        field, counts = self.field, {name: int(np.sum(self.field.limiter == name)) for name in self.letters}
+        words = [f"{letter}  {translated(name)} ({counts[name]})" for name, letter in self.letters.items()]
+        lines = [said("limited by: {letters}", letters="    ".join(words))] if words else []
+        rule = field.rule
+        if rule is not PLAIN_RULE:
+            shares = ", ".join(translated(FACTORS[name]).format(share=f"{100.0 * value:.4g} %") for name, value in rule.shares.items())
+            words = [said("rule: {title}", title=translated(rule.title)) + (f": {shares}" if shares else "")]
+            lines.append("; ".join([*words, *([translated(rule.remark)] if rule.remark else [])]))
+        pressures = field.pressures()
+        if pressures:
+            lines.append(said("pressures: {words}", words=", ".join(pressures)))
+        case = [said("load case {case}", case=field.case)] if field.case else []
+        return [*lines, "; ".join([said("over front, in the plane of the machine"), *case, *field.remarks])]
+
+
+def plot_field(field: WorkingField) -> Figure:
+    """Return a working field as a chart: rows are heights, columns radii, the letter beside a load says what limits it."""
+    text = ChartText(field)
+    across, down = np.argsort(field.x, kind="stable"), np.argsort(-field.y, kind="stable")
+    wide, tall = len(across) * CELL[0], len(down) * CELL[1]
+    width = max(LEFT + wide + 0.2, 7.0)
+    lines = [part for line in text.legend() for part in folded(line, int((width - 0.3) * 13.5))]
+    height = TOP + tall + 0.25 + LINE * len(lines) + 0.15
+    figure, (ax,) = panels((width, height), 1)
+    figure.set_layout_engine("none")
+    ax.set_position((0.0, 0.0, 1.0, 1.0))
+    ax.set(xlim=(0.0, width), ylim=(height, 0.0))
+    ax.axis("off")
+    ax.text(0.12, 0.28, text.title, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
+    heading = said("radius from the frame's origin, {unit}", unit=unit_sign("m"))
+    ax.text(LEFT + 0.5 * wide, 0.56, heading, fontsize=style.SMALL, color=style.MUTED, ha="center", va="center")
+    ax.text(LEFT - 0.1, 0.56, said("height, {unit}", unit=unit_sign("m")), fontsize=style.SMALL, color=style.MUTED, ha="right", va="center")
+    colours = {name: style.mixed(style.BODIES[place % len(style.BODIES)], style.PAPER, 0.45) for place, name in enumerate(text.letters)}
+    bold: dict[str, Any] = {"fontsize": style.SMALL, "fontweight": "bold", "color": style.INK, "va": "center"}
+    for column, n in enumerate(across.tolist()):
+        at = LEFT + (column + 0.5) * CELL[0]
+        ax.text(at, TOP - 0.14, text.length(float(field.x[n])), ha="center", **bold)
+    for row, k in enumerate(down.tolist()):
+        level = TOP + (row + 0.5) * CELL[1]
+        ax.text(LEFT - 0.1, level, text.length(float(field.y[k])), ha="right", **bold)
+        for column, n in enumerate(across.tolist()):
+            draw_cell(ax, text, colours, (LEFT + column * CELL[0], TOP + row * CELL[1]), float(field.load[k, n]), str(field.limiter[k, n]))
+    for row, line in enumerate(lines):
+        ax.text(0.12, TOP + tall + 0.3 + LINE * row, line, fontsize=style.SMALL, color=style.INK, va="center")
+    return figure
+
+
+def draw_cell(ax: Axes, text: ChartText, colours: Mapping[str, str], corner: tuple[float, float], load: float, limiter: str) -> None:
+    """Draw one cell: the load, and the letter of what limits it."""
+    colour = style.GRID if np.isnan(load) else colours.get(limiter, style.PAPER)
+    ax.add_patch(Rectangle(corner, *CELL, facecolor=colour, edgecolor=style.PAPER, linewidth=1.2, zorder=2.0))
+    x, y = corner[0], corner[1] + 0.5 * CELL[1]
+    letter = text.letters.get(limiter, "")
+    ink: dict[str, Any] = {"color": style.INK, "va": "center", "zorder": 6.0}
+    ax.text(x + (0.40 if letter else 0.5) * CELL[0], y, text.load(load), fontsize=style.SMALL, ha="center", **ink)
+    ax.text(x + 0.93 * CELL[0], y - 0.02, letter, fontsize=style.SMALL - 1.5, ha="right", **ink)
+
+
+def folded(line: str, most: int) -> Sequence[str]:
+    """Return a line in pieces of at most so many characters, parted between words."""
+    pieces, piece = [], ""
+    for word in line.split(" "):
+        if piece and len(piece) + 1 + len(word) > most:
+            pieces.append(piece)
+            piece = f"    {word}"
+        else:
+            piece = f"{piece} {word}" if piece else word
+    return [*pieces, piece]
+

@@ -1,0 +1,220 @@
+"""What bounded elements carry of the machine's own loads and of a load at a point: affine in the load, so that two solves tell it all.
+
+An element is bounded where it says so, `ForceElement.bounds`: a cylinder by its circuit, a support by being able to push alone. With
+friction, and on lines whose cylinders share otherwise while they pull, the load is found by secants on the same bounds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError, unwarned
+from ..loads import Acting, Case, Force, ForceElement, Support, TwoPoint
+from ..motion import Motion
+from ..motion.grid import not_joined
+from ..motion.places import way_of
+from ..plan import Plan
+from ..program import FloatArray, Kernel
+from ..quantities import name_of
+from .applied import case_of
+from .holding import holders_of
+from .poses import AnyMotion
+from .supports import reaction
+from .traced_loads import TracedMotion
+from .work import member_thrust
+
+IDLE = 1e-12
+"""A force for each newton of the load that is this small is none."""
+ROUNDS, SAME = 16, 1e-13
+"""How often a load is put right where forces are not affine in it, and the share of itself by which it may still change."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class LoadAt:
+    """A load at a point that pulls against a direction of length one, beside the machine's own loads of a load case.
+
+    `without` are elements that are left out; `share` is that of the pump's pressure, `lifts` the elements that lift, all for None.
+    """
+
+    plan: Plan
+    designs: Mapping[str, Any]
+    point: str
+    along: tuple[float, float]
+    case: Case = None
+    without: tuple[str, ...] = ()
+    lifts: frozenset[str] | None = None
+    share: float = 1.0
+
+    # -- what acts -----------------------------------------------------------------------------------------
+
+    @cached_property
+    def own(self) -> Acting:
+        """The machine's own loads."""
+        if not self.without:
+            return Acting(case=self.case)
+        loads = [name for name in self.plan.of_kind(ForceElement) if name not in self.without]
+        case = case_of(self.plan, self.case)
+        if case.only is not None or any(name in self.without for name in case.scale):  # a case may name what is left out
+            kept = None if case.only is None else [name_of(each) for each in case.only if name_of(each) not in self.without]
+            case = replace(case, only=kept, scale={name: value for name, value in case.scale.items() if name not in self.without})
+            return Acting(loads, case)
+        return Acting(loads, self.case)
+
+    @property
+    def two(self) -> tuple[Acting, Acting]:
+        """The own loads, and one newton of the load."""
+        return self.own, Acting([self.pull(1.0)])
+
+    def beside(self, load: FloatArray | float) -> Acting:
+        """Return the machine's own loads with a load [N], shaped as the motion."""
+        own = [*self.plan.of_kind(ForceElement)] if self.own.loads is None else [*self.own.loads]  # type: ignore[misc]
+        return replace(self.own, loads=[*own, self.pull(load)])
+
+    def pull(self, load: FloatArray | float) -> Force:
+        """Return the force of a load [N]."""
+        return Force(self.point, (-self.along[0] * load, -self.along[1] * load))
+
+    # -- what bounds ---------------------------------------------------------------------------------------
+
+    @cached_property
+    def bounded(self) -> Mapping[str, ForceElement]:
+        """The elements that say bounds, by name: cylinders that hold, supports under the frame."""
+        one = self.motion({name: np.array([value]) for name, value in self.plan.sketch_strokes.items()})
+        found = {}
+        for name, element in self.plan.of_kind(ForceElement).items():
+            if isinstance(element, TwoPoint) and not element.holds:
+                continue
+            if isinstance(element, Support) and name_of(element.point) not in self.plan.ground:
+                continue
+            low, high = element.bounds(one, self.lifting(name), share=self.share)
+            if np.any(np.isfinite(low) | np.isfinite(high)) and not np.array_equal(low, high):
+                found[name] = element
+        return found
+
+    def lifting(self, name: str) -> bool:
+        """Return whether an element lifts."""
+        return self.lifts is None or name in self.lifts
+
+    def motion(self, strokes: Mapping[str, FloatArray]) -> Motion:
+        """Return the motion of some poses that have nothing to do with each other."""
+        with unwarned():
+            return Motion(self.plan, self.designs, strokes, "nan", joining=not_joined)
+
+    @cached_property
+    def is_affine(self) -> bool:
+        """Whether forces are affine in the load."""
+        elements = [element for name, element in self.plan.of_kind(ForceElement).items() if name not in self.without]
+        one = self.motion({name: np.array([value]) for name, value in self.plan.sketch_strokes.items()})
+        return not any(each.frictions(one) for each in elements) and not any(
+            line.changes_shares for line in holders_of(self.plan, ()).lines
+        )
+
+    # -- the forces ----------------------------------------------------------------------------------------
+
+    @cached_property
+    def program(self) -> Kernel | None:
+        """The kernel of what each bounded element carries of the own loads, then of one newton of the load; None where there is none."""
+        case = self.case if self.case is None or isinstance(self.case, str) else id(self.case)
+        key = ("carried", self.point, self.along, case, self.without, tuple(self.bounded))
+        try:
+            return self.plan.made(key, self._traced)
+        except DefinitionError:
+            return None
+
+    def _traced(self, fork: Plan) -> Kernel:
+        motion = TracedMotion(fork, fork.trace)
+        found = [carried(motion, element, acting) for acting in self.two for element in self.bounded.values()]
+        return Kernel([motion.node(each) for each in found], [*motion.notes.assumed])
+
+    @cached_property
+    def fixed(self) -> tuple[FloatArray, FloatArray] | None:
+        """The lowest and highest force of each bounded element where they are the same at all poses (elements, 1), else None."""
+        three = self.motion({name: np.repeat(value, 3) for name, value in self.plan.sketch_strokes.items()})
+        found = [element.bounds(three, self.lifting(name), share=self.share) for name, element in self.bounded.items()]
+        if any(np.size(end) != 1 for each in found for end in each):
+            return None
+        low, high = (np.array([[float(np.squeeze(each[at]))] for each in found]).reshape(-1, 1) for at in (0, 1))
+        return low, high
+
+    def at(self, strokes: Mapping[str, FloatArray]) -> FloatArray:
+        """Return the greatest load that leaves each bounded element within its bounds [N], shape (elements, n), at strokes (n,).
+
+        Infinite where it does nothing to one; 0 where the machine alone is too heavy for it; NaN where what it hangs on is not reached.
+        """
+        count = len(next(iter(strokes.values())))
+        if self.is_affine and self.program is not None and self.fixed is not None and not self.plan.solved:
+            values = self._run(self.program, {**self.designs, **strokes}, count)
+            if values is not None:
+                return largest(values[0], values[1], *self.fixed)
+        return self.most(self.motion(strokes))
+
+    def _run(self, kernel: Kernel, inputs: Mapping[str, Any], count: int) -> FloatArray | None:
+        """Return the forces of the own loads and of one newton (2, elements, n); None where what is taken for granted does not hold."""
+        found = kernel(inputs, way=way_of(count), size=(1, count))
+        return found.values[:, 0].reshape(2, -1, count) if np.all(found.guards > 0.0) else None
+
+    def forces(self, motion: Motion) -> FloatArray:
+        """Return what each bounded element carries of the own loads, and of one newton of the load [N], shape (2, elements, n)."""
+        if self.is_affine and self.program is not None:
+            found = self._run(self.program, motion._grid.flat, motion.shape[0])
+            if found is not None:
+                return found
+        with unwarned():
+            each = [carried(motion, element, acting) for acting in self.two for element in self.bounded.values()]
+        return np.array(each, float).reshape(2, len(self.bounded), motion.shape[0])
+
+    def most(self, motion: Motion) -> FloatArray:
+        """Return the same at the poses of a motion, shape (elements, n)."""
+        if not self.bounded:
+            return np.empty((0, *motion.shape))
+        bounds = [element.bounds(motion, self.lifting(name), share=self.share) for name, element in self.bounded.items()]
+        low, high = (np.stack([np.broadcast_to(each[at], motion.shape) for each in bounds]) for at in (0, 1))
+        own, share = self.forces(motion)
+        if self.is_affine:
+            return largest(own, share, low, high)
+        return np.stack([self._found(motion, each, at, share[at], low[at], high[at]) for at, each in enumerate(self.bounded)])
+
+    def _found(self, motion: Motion, name: str, at: int, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+        """Return the greatest load for one element whose force is not affine in it, by secants; it moves as the load is lifted."""
+        element, ways = self.bounded[name], {1.0: "extending", -1.0: "retracting"}
+
+        def force(load: FloatArray) -> FloatArray:
+            with unwarned():
+                if not self.lifting(name) or not isinstance(element, TwoPoint):
+                    return carried(motion, element, self.beside(load))
+                out, back = (carried(motion, element, replace(self.beside(load), direction=way)) for way in ways.values())
+            return np.where(share > 0.0, out, back)
+
+        alone = force(np.zeros(motion.shape))
+        found = largest(alone, share, low, high)
+        for _ in range(ROUNDS):
+            known = np.isfinite(found) & (found > 0.0)
+            guess = np.where(known, found, 1.0)
+            slope = (force(guess) - alone) / guess
+            new = np.where(known, largest(alone, slope, low, high), found)
+            is_settled = bool(np.all(np.abs(new - found)[known] <= SAME * np.abs(new)[known]))
+            found = new
+            if is_settled:
+                break
+        return found
+
+
+def carried(motion: AnyMotion, element: ForceElement, acting: Acting) -> FloatArray:
+    """Return what an element carries in a situation, shape (...) [N]: a thrust, of a support its reaction."""
+    if isinstance(element, TwoPoint):
+        return member_thrust(motion, element, acting)
+    return reaction(motion, acting.loads, element.name, acting=replace(acting, loads=None))  # type: ignore[arg-type]
+
+
+def largest(own: FloatArray, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+    """Return the greatest load for which own + share load stays within low..high; 0 where that does not hold without it."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        load = np.where(share > IDLE, (high - own) / share, np.where(share < -IDLE, (low - own) / share, np.inf))
+        found = np.where((own > high) | (own < low), 0.0, np.maximum(load, 0.0))
+    return np.where(np.isnan(own) | np.isnan(share), np.nan, found)

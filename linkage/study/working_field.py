@@ -1,0 +1,694 @@
+"""The working field: what is lifted at every place that a point reaches, and what limits it there.
+
+A place is reached on one branch of the strokes or on several, with strokes to spare on infinitely many: the one counts on which most is
+carried. The load at a pose is the largest that leaves every bounded element within its bounds (`statics/carried.py`); factors of a rule
+come on top. Nothing here knows which kinds of elements limit a load.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations, pairwise, product
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import DefinitionError, cited, known_name, unwarned
+from ..frozen import FrozenDict, read_only, refuses_changes
+from ..language import noted, said
+from ..loads import Case, ForceElement, Support, Weight
+from ..mechanism import Mechanism
+from ..motion import Column, Motion, Target
+from ..motion.descent import descended
+from ..motion.line import Index
+from ..motion.many_places import EDGE, ManyPlaces, PlacePoses, solved_systems
+from ..motion.measures import words_of
+from ..plan import Mask, Plan
+from ..program import FloatArray
+from ..quantities import PoseCondition, Quantity, Reference, is_number, name_of, quantity, real
+from ..quantities import x as x_of
+from ..quantities import y as y_of
+from ..statics.applied import case_of
+from ..statics.carried import LoadAt, largest
+from ..units import show
+from .checks import check_one_design
+from .load_rule import LoadRule, rule_of
+
+OUT_OF_REACH = noted("out of reach")
+NOT_LIMITED = noted("not limited")
+TIPPING = noted("tipping")
+MOST_CELLS = 40_000
+NEAR = 4
+"""Positions of a spare stroke on either side of the best one, in the second look."""
+HALVINGS = {1: 24, 2: 20}
+"""How often the way to either side of the best position of spare strokes is halved."""
+FEW = 6
+"""Steps of Newton from a pose near by."""
+SETTLED = 5
+"""Halvings without anything better after which spare strokes stay at an end."""
+PROBE = 1e4
+"""The load by which it is seen how a further limit follows it [N]."""
+LINES, HALVED = 121, 36
+"""Lines across a field on which its border is looked for, and how often the way to it is halved."""
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class WorkingField:
+    """What is lifted at a point over a grid of places; arrays of the shape (heights, radii).
+
+    `load` [N] is NaN out of reach, infinite where nothing limits it; `limiter` names what does: an element, a limit by its name,
+    "tipping", "out of reach". `strokes` are those of the pose by name [m or rad], `of` the load that each limiter leaves [N], factors of
+    the rule included. `x` and `y` are the places [m]; `case`, `rule`, `remarks` say under what it holds.
+    """
+
+    machine: Mechanism
+    point: str
+    along: tuple[float, float]
+    x: FloatArray
+    y: FloatArray
+    load: FloatArray
+    limiter: NDArray[np.str_]
+    strokes: Mapping[str, FloatArray]
+    of: Mapping[str, FloatArray]
+    rule: LoadRule
+    case: str
+    remarks: tuple[str, ...]
+    search: FieldSearch
+
+    @property
+    def reached(self) -> Mask:
+        """The cells that some pose reaches."""
+        return ~np.isnan(self.load)
+
+    @property
+    def limiters(self) -> tuple[str, ...]:
+        """What may limit the load, in order, as far as it does somewhere."""
+        found = set(self.limiter.ravel().tolist())
+        return tuple(each for each in (*self.of, NOT_LIMITED, OUT_OF_REACH) if each in found)
+
+    @cached_property
+    def why(self) -> NDArray[Any]:
+        """Why a cell is out of reach: which stroke would be past which end, by how much, or how far off the nearest pose is; else ""."""
+        return self.search.reasons(self.reached)
+
+    @cached_property
+    def border(self) -> FloatArray:
+        """The border of all that the point reaches, in straight pieces, shape (n, 2, 2) [m]: pieces, their two ends, x and y."""
+        return self.search.reach.border
+
+    @cached_property
+    def area(self) -> float:
+        """The area of all that the point reaches [m2], whatever cells were asked for."""
+        return self.search.area()
+
+    def pressures(self) -> list[str]:
+        """Return the pressures that it holds for, in words: of each element that has one, with its relief valve's."""
+        one = self.search.loads.motion({name: np.array([value]) for name, value in self.machine.plan.sketch_strokes.items()})
+        words = []
+        for name, element in self.machine.plan.of_kind(ForceElement).items():
+            if element.parameters.get("pressure") == "bar":
+                given = {each: float(np.squeeze(element.number(one, each))) for each in ("pressure", "relief") if each in element.numbers}
+                shown = {each: show(value, "bar", 4) for each, value in given.items()}
+                relief = said(" (relief {relief})", relief=shown["relief"]) if "relief" in shown else ""
+                words.append(f"{name} {shown['pressure']}{relief}")
+        return words
+
+    def columns(self) -> list[Column]:
+        """Return the chart as a table, a row each radius: the load [kN] at each height."""
+        loads = [Column(f"{self.point}_y {height:.4g}", self.load[k], "kN", 2) for k, height in enumerate(self.y)]
+        return [Column(f"{self.point}_x", self.x, "m", 3), *loads]
+
+    def cells(self) -> list[dict[str, Any]]:
+        """Return each cell as a row: x, y [m], load [N], limiter, strokes [SI], why; heights from above, radii ascending."""
+        rows = []
+        for k in np.argsort(-self.y, kind="stable"):
+            for n in np.argsort(self.x, kind="stable"):
+                row: dict[str, Any] = {"x": float(self.x[n]), "y": float(self.y[k]), "load": float(self.load[k, n])}
+                row["limiter"] = str(self.limiter[k, n])
+                row |= {name: float(values[k, n]) for name, values in self.strokes.items()}
+                rows.append(row | {"why": str(self.why[k, n])})
+        return rows
+
+    def motion(self) -> Motion:
+        """Return the motion of the cells that are reached, in the order of `load[field.reached]`."""
+        return self.search.loads.motion({name: each[self.reached] for name, each in self.strokes.items()})
+
+    def __str__(self) -> str:
+        known = self.load[np.isfinite(self.load)]
+        what = said(
+            "{title}: what is lifted at {point}, {count} of {all} cells reached", title=self.machine.plan.heading, point=self.point,
+            count=int(self.reached.sum()), all=self.load.size,
+        )  # fmt: skip
+        if known.size:
+            what += said(", {low} to {high}", low=show(float(known.min()), "kN", 4), high=show(float(known.max()), "kN", 4))
+        return f"{what}."
+
+
+def working_field(
+    machine: Mechanism,
+    point: Reference,
+    x: Any,
+    y: Any,
+    *,
+    along: tuple[float, float] = (0.0, 1.0),
+    hold: Mapping[str, float] | None = None,
+    keep: Sequence[Target] = (),
+    lifts: Sequence[Reference] | None = None,
+    rule: LoadRule | str | None = None,
+    case: Case = None,
+    without: Sequence[Reference] = (),
+    limits: Mapping[str, Any] | None = None,
+) -> WorkingField:
+    """Return what a machine lifts at a point over places x by y [m]: `working_field(digger, "L", x=np.linspace(1, 6, 14), y=[0, 1, 2])`.
+
+    The load pulls against the direction `along`, beside the machine's own loads of a `case`; `without` names loads that are left out.
+    Strokes on `hold` stand still; `keep` are `Target`s that hold at every place, such as the angle of a fork; up to two strokes may be
+    spare, and stand where most is carried. `lifts` are the cylinders at pump pressure (all unless said), the others hold at their relief
+    valves.
+    `rule` is a LoadRule, its title too: ISO_10567, ISO_14397_1, OECD_2. `limits` are further ones by name: a number or a quantity that the
+    load may not exceed, {"rated load": 20 * kN}, or a comparison of a request, {"stability": drive_force("phi") >= -120 * kN}.
+    """
+    check_one_design(machine)
+    search = FieldSearch.of(machine, point, x, y, along, hold, keep, lifts, rule_of(rule), case, without, limits)
+    with unwarned(), np.errstate(all="ignore"):
+        return search.field()
+
+
+# What is asked for.
+
+
+def axis_values(given: Any, name: str, title: str) -> FloatArray:
+    """Return the places along an axis [m]; DefinitionError for what is no row of numbers."""
+    try:
+        found = np.atleast_1d(real(given))
+    except (TypeError, ValueError, OverflowError):
+        found = np.empty((0, 0))
+    if found.ndim != 1 or not found.size or not np.isfinite(found).all():
+        what = "it has no number" if found.ndim == 1 and not found.size else "numbers in a row [m] are expected"
+        raise DefinitionError(f"{title}: {name}={cited(given)}: {what}, such as {name}=np.linspace(1, 6, 14).")
+    if np.unique(found).size < found.size:
+        raise DefinitionError(f"{title}: {name}={cited(given)}: a place stands in it twice; give each once.")
+    return read_only(np.array(found, float))
+
+
+def pull_direction(along: Any, title: str) -> tuple[float, float]:
+    """Return a direction of length one; DefinitionError for none."""
+    parts = list(along) if isinstance(along, (list, tuple, np.ndarray)) else []
+    size = float(np.hypot(*parts)) if len(parts) == 2 and all(map(is_number, parts)) else 0.0
+    if not (np.isfinite(size) and size > 0.0):
+        raise DefinitionError(f"{title}: along={cited(along)} is no direction; write (x, y), such as (0, 1) for a load that hangs.")
+    return float(parts[0] / size), float(parts[1] / size)
+
+
+def names_among(given: Any, what: str, known: Mapping[str, Any], title: str, example: str) -> tuple[str, ...]:
+    """Return names; DefinitionError for one that is unknown."""
+    if isinstance(given, str) or not isinstance(given, (list, tuple, set, frozenset)):
+        raise DefinitionError(f"{title}: {what}={cited(given)}: a list of names is expected, {what}=[{example}].")
+    return tuple(known_name("Load", name_of(each), known, where=f"{title}: {what}") for each in given)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class FurtherLimit:
+    """A further limit: the load itself may not exceed `most`, or `margin`, which follows the load, may not fall below zero."""
+
+    most: Quantity | None = None
+    margin: Any = None
+
+    @classmethod
+    def of(cls, name: str, given: Any, plan: Plan, title: str) -> FurtherLimit:
+        """Return a limit as it was given; DefinitionError for what is none."""
+        if isinstance(given, PoseCondition):
+            return cls(margin=given.margin)
+        if is_number(given) and not isinstance(given, bool) and float(given) < 0.0:
+            what = f"{title}: limits: {name} = {cited(given)} is below zero"
+            raise DefinitionError(f"{what}; a load that may not be exceeded is expected [N].")
+        if is_number(given) or isinstance(given, (str, Quantity)):
+            return cls(most=quantity(given))
+        example = f'limits={{"{name}": 20 * kN}} or limits={{"{name}": drive_force("phi") >= -120 * kN}}'
+        raise DefinitionError(f"{title}: limits: {name} = {cited(given)}: a load or a comparison of a request is expected, {example}.")
+
+    def load(self, motion: Motion, loads: LoadAt) -> FloatArray:
+        """Return the greatest load that it leaves at the poses of a motion [N], shape (n,)."""
+        if self.most is not None:
+            return np.broadcast_to(np.asarray(motion.value(self.most), float), motion.shape)
+        own = self._margin(motion, loads.own)
+        share = (self._margin(motion, loads.beside(PROBE)) - own) / PROBE
+        return largest(own, share, np.zeros(()), np.asarray(np.inf))
+
+    def _margin(self, motion: Motion, acting: Any) -> FloatArray:
+        asked = self.margin if isinstance(self.margin, Quantity) else self.margin.under(acting, keep=True)
+        return np.broadcast_to(np.asarray(motion.value(asked) if isinstance(asked, Quantity) else motion[asked], float), motion.shape)
+
+
+# The search.
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class LoadsFound:
+    """PlacePoses that were found (n), and the load that each limiter leaves there, factors included (limiters, n)."""
+
+    poses: PlacePoses
+    of: FloatArray
+
+    @cached_property
+    def load(self) -> FloatArray:
+        """The load (n,)."""
+        return np.min(self.of, axis=0, initial=np.inf) if len(self.of) else np.full(len(self.poses.place), np.inf)
+
+    def best(self) -> Index:
+        """Return the row of each place at which most is carried, by place ascending; of equal ones that with the least first stroke."""
+        order = np.lexsort((-self.poses.unit[:, 0], np.where(np.isnan(self.load), -1.0, self.load), self.poses.place))
+        place = self.poses.place[order]
+        return order[np.append(place[1:] != place[:-1], True)] if len(order) else order
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class FieldSearch:
+    """A field to look for: the places, the poses, the loads."""
+
+    machine: Mechanism
+    point: str
+    x: FloatArray
+    y: FloatArray
+    rest: FloatArray
+    many: ManyPlaces
+    loads: LoadAt
+    rule: LoadRule
+    limits: Mapping[str, FurtherLimit]
+    case: str
+
+    @classmethod
+    def of(
+        cls, machine: Mechanism, point: Any, x_given: Any, y_given: Any, along: Any, hold: Any, keep: Any, lifts: Any, rule: LoadRule,
+        case: Case, without: Any, limits: Any,
+    ) -> FieldSearch:  # fmt: skip
+        plan, title = machine.plan, f"{machine.plan.title}: working_field"
+        name = known_name("Point", name_of(point), plan.points, where=title)
+        if name not in plan.moving:
+            raise DefinitionError(f"{title}: {name} stands still, so that nothing is lifted there; name a point that moves.")
+        axes = [axis_values(each, axis, title) for axis, each in (("x", x_given), ("y", y_given))]
+        count = axes[0].size * axes[1].size
+        if count > MOST_CELLS:
+            what = f"{title}: {axes[0].size} by {axes[1].size} are {count} cells"
+            raise DefinitionError(f"{what}, up to {MOST_CELLS} are looked at; give fewer.")
+        if not isinstance(keep, (list, tuple)) or not all(isinstance(each, Target) and not each.is_path for each in keep):
+            raise DefinitionError(f'{title}: keep={cited(keep)}: a list of targets is expected, such as keep=[Target("tilt", 0.0)].')
+        targets = [Target(x_of(name), float(axes[0][0])), Target(y_of(name), float(axes[1][0])), *keep]
+        many = ManyPlaces.of(plan, machine.dimensions, targets, hold, where="working_field")
+        elements = plan.of_kind(ForceElement)
+        left = names_among(without, "without", elements, title, '"load"')
+        lifting = None if lifts is None else frozenset(names_among(lifts, "lifts", elements, title, '"boom"'))
+        loads = LoadAt(plan, many.places.designs, name, pull_direction(along, title), case, left, lifting, rule.pressure)
+        label = case_of(plan, case).label if case is not None else ""
+        if lifting is not None and not lifting <= set(loads.bounded):
+            odd = next(each for each in (lifts or ()) if name_of(each) not in loads.bounded)
+            what = f"{title}: lifts: {name_of(odd)} has no pressure to lift with"
+            raise DefinitionError(f"{what}; name cylinders that hold and have a circuit: {', '.join(loads.bounded) or 'there are none'}.")
+        if limits is not None and not isinstance(limits, Mapping):
+            raise DefinitionError(f'{title}: limits={cited(limits)}: limits by name are expected, limits={{"rated load": 20 * kN}}.')
+        further = {str(each): FurtherLimit.of(str(each), value, plan, title) for each, value in (limits or {}).items()}
+        for each in further:
+            if each in loads.bounded or each in (TIPPING, OUT_OF_REACH, NOT_LIMITED):
+                raise DefinitionError(f"{title}: limits: {each} is a limiter already; give this one another name.")
+        if not loads.bounded and not further:
+            what = f"{title}: nothing says what the machine carries: no cylinder has a circuit, nothing else has bounds"
+            raise DefinitionError(f'{what}; declare one, LiftCircuit(lift, pressure=180 * bar), or give limits={{"rated load": 20 * kN}}.')
+        rest = np.array([float(each.value) for each in keep])
+        return cls(machine, name, axes[0], axes[1], rest, many, loads, rule, further, label)
+
+    # -- the places ----------------------------------------------------------------------------------------
+
+    @cached_property
+    def ascending(self) -> tuple[FloatArray, FloatArray]:
+        """The axes, ascending."""
+        return np.sort(self.x), np.sort(self.y)
+
+    @cached_property
+    def goals(self) -> FloatArray:
+        """What is wanted at each place (places, t), x running fastest, both ascending."""
+        return self.goals_over(*self.ascending)
+
+    def goals_over(self, across: FloatArray, up: FloatArray) -> FloatArray:
+        """Return what is wanted over places x by y (places, t), x running fastest."""
+        rest = np.broadcast_to(self.rest, (across.size * up.size, self.rest.size))
+        return np.concatenate([np.tile(across, up.size)[:, None], np.repeat(up, across.size)[:, None], rest], axis=1)
+
+    def ordered(self, values: FloatArray) -> FloatArray:
+        """Return values at the places in the order of the axes as they were given, shape (heights, radii)."""
+        found = values.reshape(self.y.size, self.x.size)
+        return found[np.argsort(np.argsort(self.y))][:, np.argsort(np.argsort(self.x))]
+
+    # -- the poses -----------------------------------------------------------------------------------------
+
+    @cached_property
+    def turns(self) -> list[tuple[ManyPlaces, Any, list[FloatArray] | None]]:
+        """What is looked at: the spare strokes at values over their ranges, and others at their ends in the place of them.
+
+        PlacePoses on which the strokes to spare run form curves, which end where another stroke does: with these no short one is missed.
+        """
+        many, count = self.many, len(self.many.places.free)
+        found: list[tuple[ManyPlaces, Any, list[FloatArray] | None]] = [(many, np.arange(count), None)]
+        for loose in combinations(range(count), many.spare) if many.spare else ():
+            if loose != tuple(range(many.solved, count)):
+                order = np.array([*(at for at in range(count) if at not in loose), *loose])
+                free = tuple(many.places.free[at] for at in order)
+                places = many.places.reordered(free)
+                found.append((ManyPlaces(places, many.spare), order, [np.array([0.0, 1.0])] * many.spare))
+        return found
+
+    def poses(self, across: FloatArray, up: FloatArray) -> tuple[PlacePoses, int]:
+        """Return the poses that are found for places x by y, ascending, and how many of them have spare strokes at no end but their own."""
+        goals, outs = self.goals_over(across, up), np.zeros(len(self.many.places.free))
+        found, solved = [], np.zeros(len(goals), bool)
+        for many, order, ends in self.turns:
+            start = many.looked_at(0.0, ends).starts(across, up, self.rest)
+            at, met = many.settled(start, goals, outs, damped=not many.spare)
+            solved[at.place[met]] = True
+            if many.spare:
+                again = ~met & ~solved[at.place]
+                if again.any():
+                    late, late_met = many.settled(start.where(again), goals, outs)
+                    at, met = at.joined(late), np.concatenate([met, late_met])
+                    solved[late.place[late_met]] = True
+            unit = np.empty_like(at.unit[met])
+            unit[:, order] = at.unit[met]
+            found.append(PlacePoses(at.place[met], unit))
+        return found[0].joined(*found[1:]), len(found[0].place)
+
+    # -- the loads -----------------------------------------------------------------------------------------
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """What may limit the load: elements that are bounded, "tipping" for all supports, further limits."""
+        tips = any(isinstance(each, Support) for each in self.loads.bounded.values())
+        elements = [name for name, each in self.loads.bounded.items() if not isinstance(each, Support)]
+        return (*elements, *((TIPPING,) if tips else ()), *self.limits)
+
+    def carried(self, poses: PlacePoses) -> LoadsFound:
+        """Return what each limiter leaves at poses, factors included; NaN where they are not reached."""
+        rows = self.many.places.rows(poses.unit)
+        count = len(poses.place)
+        found = self.loads.at(rows) if count else np.empty((len(self.loads.bounded), 0))
+        supports = np.array([isinstance(each, Support) for each in self.loads.bounded.values()], bool)
+        parts = [found[~supports] * self.rule.hydraulic]
+        if supports.any():
+            parts.append(np.min(found[supports], axis=0)[None] * self.rule.tipping)
+        if self.limits and count:
+            motion = self.loads.motion(rows)
+            parts.append(np.array([each.load(motion, self.loads) for each in self.limits.values()]))
+        return LoadsFound(poses, np.concatenate(parts) if count else np.empty((len(self.names), 0)))
+
+    def refined(self, found: LoadsFound, inner: int) -> LoadsFound:
+        """Return the best pose of each place with its spare strokes moved to where most is carried.
+
+        A second look around the best position of the first one, the best apart from it, and the best of the first `inner` ones, on which
+        no stroke stands at an end for the sake of the places; then the way to either side is halved.
+        """
+        many, s = self.many, self.many.spare
+        step = many.spare_step / NEAR if s == 1 else 0.5 * many.spare_step
+        best = found.best()
+        own = LoadsFound(found.poses.where(slice(inner)), found.of[:, :inner]).best()
+        rows = np.unique(np.concatenate([best, self.apart(found, best), own]))
+        base, load = found.poses.where(rows), found.load[rows]
+        near = ways(np.arange(-NEAR, NEAR + 1.0), s) if s == 1 else ways([-1.0, 0.0, 1.0], s)
+        going, still = np.arange(len(load)), np.zeros(len(load), int)
+        for look in range(1 + HALVINGS[s]):
+            better = self.improved(base, load, near * step, going)
+            step, still = 0.5 * step, np.where(better, 0, still + 1)
+            if look == 0:
+                near = ways([-1.0, 0.0, 1.0], s)
+                kept = LoadsFound(base, load[None]).best()
+                base, load, still = base.where(kept), load[kept], still[kept]
+            spare = base.unit[:, self.many.solved :]
+            going = np.flatnonzero((still < SETTLED) | ((spare > 0.0) & (spare < 1.0)).any(axis=1))
+            if not len(going):
+                break
+        return self.carried(base)
+
+    def improved(self, base: PlacePoses, load: FloatArray, aside: FloatArray, rows: Index) -> Mask:
+        """Put better poses and loads into those at some rows, with the spare strokes moved by some steps; return which are better (n,)."""
+        tried, value = self.moved(base.where(rows), aside)
+        top, each = np.argmax(value, axis=0), np.arange(len(rows))
+        better = np.zeros(len(load), bool)
+        better[rows] = value[top, each] > load[rows]
+        found = better[rows]
+        base.unit[rows[found]], load[rows[found]] = tried[top, each][found], value[top, each][found]
+        return better
+
+    def apart(self, found: LoadsFound, best: Index) -> Index:
+        """Return the row of each place at which most is carried where the spare strokes stand elsewhere than in the best one."""
+        k, place = self.many.solved, found.poses.place
+        of_place = np.zeros(self.x.size * self.y.size, int)
+        of_place[place[best]] = best
+        away = np.abs(found.poses.unit[:, k:] - found.poses.unit[of_place[place]][:, k:]) / self.many.spare_step
+        rows = np.flatnonzero((away > 1.5).any(axis=1))
+        return rows[LoadsFound(found.poses.where(rows), found.of[:, rows]).best()]
+
+    def moved(self, base: PlacePoses, aside: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return poses with the spare strokes moved by steps (m, s), unit coordinates (m, n, k), and their loads (m, n), -1 for none."""
+        k, (n, width), outs = self.many.solved, base.unit.shape, np.zeros(base.unit.shape[1])
+        _, slopes = self.many.seen(base.unit)
+        to = np.clip(base.unit[None, :, k:] + aside[:, None], 0.0, 1.0)
+        change = np.einsum("nts,mns->mnt", slopes[:, :, k:], to - base.unit[None, :, k:])
+        along = solved_systems(np.tile(slopes[:, :, :k], (len(aside), 1, 1)), change.reshape(-1, k))
+        guess = np.tile(base.unit, (len(aside), 1))
+        guess[:, :k] -= np.where(np.isfinite(along), along, 0.0)
+        guess[:, k:] = to.reshape(-1, width - k)
+        new = np.flatnonzero((to != base.unit[None, :, k:]).any(axis=2).ravel())
+        start = PlacePoses(np.tile(base.place, len(aside))[new], guess[new])
+        found, met = self.many.settled(start, self.goals, outs, damped=False, iterations=FEW)
+        load = np.full(len(guess), -1.0)
+        load[new[met]] = np.nan_to_num(self.carried(found.where(met)).load, nan=-1.0, posinf=np.inf)
+        guess[new] = found.unit
+        return guess.reshape(len(aside), n, width), load.reshape(len(aside), n)
+
+    def field(self) -> WorkingField:
+        """Return the field."""
+        poses, inner = self.poses(*self.ascending)
+        found = self.carried(poses)
+        if self.many.spare and len(poses.place):
+            found = self.refined(found, inner)
+        best, whole = found.best(), np.zeros(0, bool)
+        while len(best):  # a pose that the loads do not hang on altogether may not be assembled
+            whole = self.many.places.reached(found.poses.unit[best]) & ~np.isnan(found.load[best])
+            if whole.all() or not len(found.poses.place):
+                break
+            kept = np.ones(len(found.poses.place), bool)
+            kept[best[~whole]] = False
+            found = LoadsFound(found.poses.where(kept), found.of[:, kept])
+            best = found.best()
+        return self.gathered(found.poses.where(best), found.of[:, best])
+
+    def gathered(self, poses: PlacePoses, of: FloatArray) -> WorkingField:
+        """Return the field of one pose a place."""
+        count = self.x.size * self.y.size
+
+        def full(values: FloatArray) -> FloatArray:
+            spread = np.full(count, np.nan)
+            spread[poses.place] = values
+            return read_only(self.ordered(spread))
+
+        load = np.min(of, axis=0, initial=np.inf)
+        names = np.array([*self.names, NOT_LIMITED, OUT_OF_REACH])
+        which = np.full(count, len(names) - 1)
+        which[poses.place] = np.where(np.isfinite(load), np.argmin(of, axis=0) if len(of) else 0, len(names) - 2)
+        strokes = {name: full(values) for name, values in self.many.places.rows(poses.unit).items()}
+        return WorkingField(
+            self.machine, self.point, self.loads.along, self.x, self.y, full(load), names[self.ordered(which)], FrozenDict(strokes),
+            FrozenDict({name: full(each) for name, each in zip(self.names, of, strict=True)}), self.rule, self.case, self.remarks, self,
+        )  # fmt: skip
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What a reader of the chart has to know: what acts beside the load, which strokes stand, what is spare."""
+        plan, found = self.machine.plan, []
+        left = self.loads.without
+        staying = [
+            each for name, each in plan.of_kind(Weight).items() if name not in left and name_of(each.point) == self.point
+        ]
+        for each in staying:
+            found.append(said("{name} hangs at {point} beside the load", name=each.name, point=self.point))
+        if left:
+            found.append(said("without {names}", names=", ".join(left)))
+        held = self.many.places.held
+        if held:
+            words = ", ".join(f"{name} = {self.many.places.stroke_value(name, value)}" for name, value in held.items())
+            found.append(said("held: {words}", words=words))
+        kept = self.many.places.targets[2:]
+        if kept:
+            words = ", ".join(f"{words_of(each.quantity)} = {show(float(each.value), each.shown_in(plan))}" for each in kept)
+            found.append(said("kept: {words}", words=words))
+        if self.many.spare:
+            names = ", ".join(self.many.places.free[self.many.solved :])
+            found.append(said("{names} where most is carried", names=names))
+        if self.rule.tipping < 1.0 and TIPPING not in self.names:
+            found.append(said("tipping is not looked at, for the machine stands on no supports"))
+        return tuple(found)
+
+    # -- what is out of reach ------------------------------------------------------------------------------
+
+    def reasons(self, reached: Mask) -> NDArray[Any]:
+        """Return why each cell is out of reach, "" of those that are not."""
+        words = np.full(reached.size, "", object)
+        flat = np.zeros(reached.size, bool)
+        order = np.argsort(self.y, kind="stable")[:, None] * self.x.size + np.argsort(self.x, kind="stable")  # by place ascending
+        flat[:] = reached.ravel()[order.ravel()]
+        with unwarned(), np.errstate(all="ignore"):
+            for place, text in self._beyond(~flat).items():
+                words[place] = text
+        return read_only(self.ordered(words))
+
+    def _beyond(self, lost: Mask) -> dict[int, str]:
+        """Return why places (places,) are out of reach, by their number."""
+        places, found = self.many.places, {}
+        if not lost.any():
+            return {}
+        outs = np.where(places.turning, np.maximum(np.pi / places.span - 0.5, 0.0), 1.0)
+        start = self.many.looked_at(outs).starts(*self.ascending, self.rest)
+        start = start.where(lost[start.place])
+        at, met = self.many.settled(start, self.goals, outs, damped=False)
+        again = ~met & ~np.isin(at.place, at.place[met])
+        if again.any():
+            late, late_met = self.many.settled(start.where(again), self.goals, outs)
+            at, met = at.joined(late), np.concatenate([met, late_met])
+        at = at.where(met)
+        out = np.maximum(np.maximum(-at.unit, at.unit - 1.0), 0.0)
+        whole = places.reached(at.unit) if len(at.place) else np.zeros(0, bool)
+        at, out = at.where(whole), out[whole]
+        order = np.lexsort((out.max(axis=1), at.place))
+        first = order[np.append(True, np.diff(at.place[order]) != 0)] if len(order) else order
+        for row in first.tolist():
+            strokes = places.low + at.unit[row] * places.span
+            beyond = out[row] > EDGE
+            if beyond.any():
+                found[int(at.place[row])] = places.past_words(strokes, beyond)
+        left = [place for place in np.flatnonzero(lost).tolist() if place not in found]
+        return found | self._away(left)
+
+    def _away(self, left: Sequence[int]) -> dict[int, str]:
+        """Return how far off the nearest pose is of places that no strokes reach."""
+        if not left:
+            return {}
+        places, wanted = self.many.places, self.goals[left]
+        look = self.many.looked_at()
+        values = look.values.T
+        known = np.flatnonzero(np.isfinite(values).all(axis=1))
+        if not known.size:
+            return {place: said("no pose that was looked at can be assembled") for place in left}
+        every = np.tile(values[known], (len(left), 1))
+        apart = places.off(every, np.repeat(wanted, known.size, axis=0))
+        size = np.sum((apart / places.within) ** 2, axis=1).reshape(len(left), known.size)
+        begin = look.unit[known[np.argmin(size, axis=1)]]
+
+        def misses(unit: FloatArray, at: Index) -> FloatArray:
+            return places.off(self.many.seen(unit)[0], wanted[at]) / places.within
+
+        def slopes(unit: FloatArray, _: Index) -> FloatArray:
+            return self.many.seen(unit)[1] / places.within[:, None]
+
+        _, off = descended(misses, slopes, begin, 40)
+        off = off * places.within
+        far = np.hypot(off[:, 0], off[:, 1])
+        words = [said("the nearest pose is {far} away", far=show(each, "mm", 4)) for each in far.tolist()]
+        return dict(zip(left, words, strict=True))
+
+    # -- all that is reached -------------------------------------------------------------------------------
+
+    @cached_property
+    def reach(self) -> Reach:
+        """All that the point reaches."""
+        with unwarned(), np.errstate(all="ignore"):
+            return Reach.of(self)
+
+    def area(self) -> float:
+        """Return the area of all that is reached [m2]; where each place is reached on one branch exactly, by the slopes."""
+        with unwarned(), np.errstate(all="ignore"):
+            if not self.many.spare and self.many.solved == 2 and self.reach.is_single:
+                nodes, weights = np.polynomial.legendre.leggauss(GAUSS)
+                unit = np.stack([each.ravel() for each in np.meshgrid(0.5 + 0.5 * nodes, 0.5 + 0.5 * nodes, indexing="ij")], axis=1)
+                _, slopes = self.many.seen(unit)
+                size = np.linalg.det(slopes)
+                if np.isfinite(size).all() and (np.all(size > 0.0) or np.all(size < 0.0)):
+                    return float(np.abs(size @ np.outer(weights, weights).ravel()) * 0.25)
+        return self.reach.area
+
+
+GAUSS = 48
+"""Values of each stroke by which an area is integrated."""
+
+
+def ways(each: Any, count: int) -> FloatArray:
+    """Return all steps but none, of some values in each of so many directions (m, count)."""
+    return np.array([step for step in product(each, repeat=count) if any(step)])
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Reach:
+    """What a point reaches, as parts of level lines: the heights of the lines, and of each part (line, left, right) [m]."""
+
+    heights: FloatArray
+    spans: tuple[tuple[int, float, float], ...]
+    is_single: bool
+
+    @classmethod
+    def of(cls, search: FieldSearch) -> Reach:
+        """Return all that a field's point reaches, the ends of the parts by halving."""
+        many = search.many
+        seen = many.looked_at().values[:2]
+        seen = seen[:, np.isfinite(seen).all(axis=0)]
+        (left, low), (right, high) = seen.min(axis=1), seen.max(axis=1)
+        wide, tall = max(right - left, 1e-6), max(high - low, 1e-6)
+        across = np.linspace(left - 0.02 * wide, right + 0.02 * wide, LINES)
+        edges = np.linspace(low - 0.02 * tall, high + 0.02 * tall, LINES + 1)
+        heights = 0.5 * (edges[1:] + edges[:-1])
+        poses, _ = search.poses(across, heights)
+        poses = poses.where(many.places.reached(poses.unit)) if len(poses.place) else poses
+        inside = np.zeros(across.size * heights.size, bool)
+        inside[poses.place] = True
+        single = np.unique(np.round(np.column_stack([poses.place, poses.unit]), 6), axis=0)
+        is_single = len(np.unique(single[:, 0])) == len(single) and not many.spare
+        grid = inside.reshape(heights.size, across.size)
+        line, place = np.nonzero(grid[:, 1:] != grid[:, :-1])
+        grows = grid[line, place + 1]
+        good = np.where(grows, across[place + 1], across[place])
+        bad = np.where(grows, across[place], across[place + 1])
+        first = np.zeros(inside.size, int)
+        first[poses.place] = np.arange(len(poses.place))
+        at = first[line * across.size + place + grows]
+        base, outs = poses.unit[at], np.zeros(poses.unit.shape[1])
+        for _ in range(HALVED):
+            middle = 0.5 * (good + bad)
+            goals = np.column_stack([middle, heights[line], np.tile(search.rest, (len(middle), 1))])
+            found, met = many.settled(PlacePoses(np.arange(len(middle)), base), goals, outs)
+            base = np.where(met[:, None], found.unit, base)
+            good, bad = np.where(met, middle, good), np.where(met, bad, middle)
+        ends: list[list[float]] = [[] for _ in heights]
+        for each, end in zip(line.tolist(), (0.5 * (good + bad)).tolist(), strict=True):
+            ends[each].append(end)
+        spans = tuple((k, a, b) for k, row in enumerate(ends) for a, b in zip(row[::2], row[1::2], strict=False))
+        return cls(heights, spans, is_single)
+
+    @property
+    def area(self) -> float:
+        """The area [m2]."""
+        return float(sum(right - left for _, left, right in self.spans) * (self.heights[1] - self.heights[0]))
+
+    @property
+    def border(self) -> FloatArray:
+        """The border in straight pieces, shape (n, 2, 2) [m]: of two neighbouring lines the parts that only one of them has within."""
+        ends: list[list[tuple[float, int]]] = [[] for _ in self.heights]
+        for line, left, right in self.spans:
+            ends[line] += [(left, line), (right, line)]
+        joined = [sorted(one + other) for one, other in pairwise(ends)]
+        pieces = [pair for row in joined for pair in zip(row[::2], row[1::2], strict=True)]
+        found = [[(across, self.heights[line]) for across, line in pair] for pair in pieces]
+        return read_only(np.array(found, float).reshape(-1, 2, 2))

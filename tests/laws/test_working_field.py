@@ -1,0 +1,358 @@
+"""The working field: against a two-cylinder arm worked out by hand, brute force, and laws that hold for every field."""
+
+from math import acos, atan2, cos, hypot, pi, sin
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from hydraulics import Cylinder, LiftCircuit
+from linkage import (
+    ISO_10567,
+    ISO_14397_1,
+    LEFT,
+    OECD_2,
+    Acting,
+    Crank,
+    DefinitionError,
+    Dyad,
+    Force,
+    Ground,
+    LoadCase,
+    LoadRule,
+    Mechanism,
+    OnLink,
+    PinFriction,
+    Stroke,
+    Target,
+    Weight,
+    angle,
+    drive_force,
+    strokes_for,
+    working_field,
+    x,
+    y,
+)
+from linkage.units import bar, deg, g0, kN, mm
+from mechanisms.crane import Crane
+from mechanisms.crane.load_map import Carrying, Limits
+from tests.machines.test_excavator import Excavator
+
+ALONE = {"hold": {"S3": 0.2}, "without": ["dig"]}
+RADII, HEIGHTS = np.linspace(0.9, 3.0, 8), np.linspace(-1.7, 2.3, 9)
+
+
+class Arm(Mechanism):
+    """A boom OJ lifted by AB, an arm JK swung by CD; both cylinders are driven lengths."""
+
+    lift, fold = Stroke(0.75, 1.15), Stroke(0.70, 1.10)
+    O, A = Ground(0.0, 1.0), Ground(0.3, 0.4)
+    B = Dyad(O, A, OB=0.8, AB=lift, side=LEFT)
+    J = OnLink(O, B, OJ=2.0)
+    C = OnLink(O, B, OC=1.2)
+    D = Dyad(C, J, CD=fold, JD=0.35, side=LEFT)
+    K = OnLink(J, D, JK=1.5, DJK=140 * deg)
+    boom_mass, arm_mass = Weight(J, mass=80.0), Weight(K, mass=45.0)
+    lifter = Cylinder(A, B, bore=70 * mm, rod=40 * mm, works="both")
+    folder = Cylinder(C, D, bore=60 * mm, rod=35 * mm, works="both")
+    lift_line = LiftCircuit(lifter, pressure=170 * bar, relief=200 * bar, mechanical_efficiency=0.94)
+    fold_line = LiftCircuit(folder, pressure=160 * bar, back_pressure=5 * bar, hydraulic_efficiency=0.97)
+
+
+def area(bore, rod=0.0):
+    """Return the area of a piston or of an annulus."""
+    return pi / 4.0 * (bore**2 - rod**2)
+
+
+PUSH = 0.94 * 170e5 * area(0.07), 0.97 * 160e5 * area(0.06) - 5e5 * area(0.06, 0.035)
+PULL = 0.94 * 170e5 * area(0.07, 0.04), 0.97 * 160e5 * area(0.06, 0.035) - 5e5 * area(0.06)
+
+
+def by_hand(px, py):
+    """Return the best load of the arm at a place with what limits it, by both elbows; None out of reach."""
+    best = None
+    across = hypot(px, py - 1.0)
+    if not abs(2.0 - 1.5) < across < 3.5:
+        return None
+    for elbow in (1.0, -1.0):
+        boom = atan2(py - 1.0, px) + elbow * acos((4.0 + across**2 - 2.25) / (4.0 * across))
+        J = 2.0 * cos(boom), 1.0 + 2.0 * sin(boom)
+        arm = atan2(py - J[1], px - J[0])
+        B = 0.8 * cos(boom), 1.0 + 0.8 * sin(boom)
+        C = 1.2 * cos(boom), 1.0 + 1.2 * sin(boom)
+        lug = arm - 140.0 * pi / 180.0
+        D = J[0] + 0.35 * cos(lug), J[1] + 0.35 * sin(lug)
+        strokes = hypot(B[0] - 0.3, B[1] - 0.4), hypot(D[0] - C[0], D[1] - C[1])
+        left = [(B[0] * (0.4 - 1.0) - (B[1] - 1.0) * 0.3), None]
+        if not (0.75 <= strokes[0] <= 1.15 and 0.70 <= strokes[1] <= 1.10) or left[0] > 0.0:
+            continue
+        if (J[0] - C[0]) * (D[1] - C[1]) - (J[1] - C[1]) * (D[0] - C[0]) < 0.0:
+            continue
+        # moments about O and J: the thrust over its length times its lever, against weights and the load
+        lever = (B[0] * (B[1] - 0.4) - (B[1] - 1.0) * (B[0] - 0.3)) / strokes[0]
+        inner = ((D[0] - J[0]) * (D[1] - C[1]) - (D[1] - J[1]) * (D[0] - C[0])) / strokes[1]
+        own = (80.0 * J[0] + 45.0 * px) * g0 / lever, 45.0 * (px - J[0]) * g0 / inner
+        share = px / lever, (px - J[0]) / inner
+        loads = []
+        for k in (0, 1):
+            end = PUSH[k] if share[k] > 0.0 else -PULL[k]
+            loads.append(max((end - own[k]) / share[k], 0.0) if -PULL[k] <= own[k] <= PUSH[k] else 0.0)
+        found = min(loads), ("lifter", "folder")[int(np.argmin(loads))], strokes, loads
+        best = found if best is None or found[0] > best[0] else best
+    return best
+
+
+def test_two_cylinder_arm_by_hand():
+    radii, heights = np.linspace(0.6, 3.5, 30), np.linspace(-1.2, 3.6, 29)
+    field = working_field(Arm(), "K", radii, heights)
+    reached = 0
+    for k, height in enumerate(heights):
+        for n, radius in enumerate(radii):
+            hand = by_hand(radius, height)
+            assert (hand is None) == np.isnan(field.load[k, n]), (radius, height)
+            if hand is None:
+                assert field.limiter[k, n] == "out of reach"
+                continue
+            reached += 1
+            assert_allclose(field.load[k, n], hand[0], rtol=1e-9, atol=1e-6)
+            assert_allclose([field.of["lifter"][k, n], field.of["folder"][k, n]], hand[3], rtol=1e-8, atol=1e-6)
+            assert_allclose([field.strokes["lift"][k, n], field.strokes["fold"][k, n]], hand[2], atol=1e-10)
+            assert field.limiter[k, n] == hand[1]
+    assert reached > 80
+
+
+def forces_and_bounds(field, motion, acting, lifting=lambda name: True, share=1.0):
+    """Return of each bounded cylinder its thrust with its lowest and highest one."""
+    plan = field.machine.plan
+    for name, ram in plan.of_kind(Cylinder).items():
+        low, high = ram.bounds(motion, lifting(name), share=share)
+        yield name, ram.thrust(motion, acting=acting), low, high
+
+
+def loaded(field, own):
+    """Return the cells' motion, their loads, and what acts with the load of each."""
+    load = field.load[field.reached]
+    pull = Force(field.point, (-field.along[0] * load, -field.along[1] * load))
+    return field.motion(), load, field.limiter[field.reached], Acting([*own, pull], field.case or None)
+
+
+def own_loads(machine, without=()):
+    """Return the names of a machine's loads."""
+    return [name for name in machine.plan.members if name in {*machine.plan.of_kind(Weight)} and name not in without]
+
+
+@pytest.mark.parametrize("along", [(0.0, 1.0), (0.6, 0.8), (-1.0, 0.0), (0.3, -1.0)])
+@pytest.mark.parametrize("lifts", [None, ["boom"]])
+def test_limiter_stands_at_its_bound_and_no_other_beyond(along, lifts):
+    machine = Excavator()
+    field = working_field(machine, "M", RADII, HEIGHTS, along=along, lifts=lifts, **ALONE)
+    motion, load, limiter, acting = loaded(field, own_loads(machine))
+    limited = np.isfinite(load) & (load > 0.0)
+    assert limited.sum() > 15
+    for name, thrust, low, high in forces_and_bounds(field, motion, acting, lambda name: lifts is None or name in lifts):
+        size = max(float(np.max(np.abs(np.where(np.isfinite(end), end, 0.0)))) for end in (low, high))
+        assert np.all((thrust >= low - 1e-9 * size) & (thrust <= high + 1e-9 * size) | ~limited)
+        mine = limited & (limiter == name)
+        away = np.minimum(np.abs(thrust - low), np.abs(thrust - high))
+        assert np.all(away[mine] <= 1e-9 * size)
+
+
+class Rubbing(Excavator):
+    """The same with friction in its pins."""
+
+    friction = PinFriction("B", radius=0.04, coefficient=0.15)
+    dig = None
+
+
+def test_friction_counts_with_the_direction_of_lifting():
+    machine = Rubbing()
+    field = working_field(machine, "L", RADII, HEIGHTS, hold={"S3": 0.2})
+    plain = working_field(Excavator(), "L", RADII, HEIGHTS, **ALONE)
+    assert np.all((field.load <= plain.load + 1e-6) | np.isnan(plain.load)) and np.nanmax(plain.load - field.load) > 10.0
+    motion = field.motion()
+    circuit = machine.plan.members["boom_line"]
+    known = circuit.capacity(motion, "L")
+    mine = (field.limiter[field.reached] == "boom") & (field.load[field.reached] > 0.0)
+    assert mine.sum() > 10
+    assert_allclose(field.load[field.reached][mine], known[mine], rtol=1e-9)
+
+
+def test_what_alone_is_too_heavy_lifts_nothing():
+    heavy = Excavator().replaced(**{"boom_mass.mass": 9000.0})
+    field = working_field(heavy, "L", RADII, HEIGHTS, **ALONE)
+    assert np.all(field.load[field.reached] == 0.0) and np.all(field.limiter[field.reached] == "boom")
+
+
+def test_half_of_all_pressures_and_masses_is_half_of_all():
+    machine = Excavator()
+    names = [f"{name}.mass" for name in machine.plan.of_kind(Weight)]
+    names += [f"{line}_line.{what}" for line in ("boom", "arm", "bucket") for what in ("pressure", "relief", "back_pressure")]
+    half = machine.replaced(**{name: 0.5 * machine[name] for name in names})
+    whole, found = (working_field(each, "L", RADII, HEIGHTS, **ALONE) for each in (machine, half))
+    assert_allclose(found.load, 0.5 * whole.load, rtol=1e-12)
+    assert np.array_equal(found.limiter, whole.limiter)
+
+
+def test_factors_of_a_rule_are_factors():
+    machine = Excavator()
+    whole = working_field(machine, "L", RADII, HEIGHTS, **ALONE)
+    ruled = working_field(machine, "L", RADII, HEIGHTS, rule=ISO_10567, **ALONE)
+    assert_allclose(ruled.load, 0.87 * whole.load, rtol=1e-13)
+    assert_allclose(working_field(machine, "L", RADII, HEIGHTS, rule="ISO 10567", **ALONE).load, ruled.load, rtol=0)
+    assert (ISO_10567.hydraulic, ISO_10567.tipping, ISO_14397_1.tipping, OECD_2.pressure) == (0.87, 0.75, 0.5, 0.9)
+    assert any("no supports" in each for each in ruled.remarks)
+
+
+def test_pressure_of_a_rule_is_the_share_of_a_capacity():
+    machine = Excavator()
+    field = working_field(machine, "L", RADII, HEIGHTS, rule=OECD_2, **ALONE)
+    motion = field.motion()
+    own = own_loads(machine)
+    known = {name: machine.plan.members[f"{name}_line"].capacity(motion, "L", own, share=0.9) for name in ("boom", "arm")}
+    checked = 0
+    for name, capacity in known.items():
+        mine = (field.limiter[field.reached] == name) & np.isfinite(capacity)
+        checked += int(mine.sum())
+        assert_allclose(field.load[field.reached][mine], capacity[mine], rtol=1e-12)
+    assert checked > 20
+
+
+def test_strokes_to_spare_stand_where_most_is_carried():
+    crane = Crane(Q=0.0)
+    radii, heights = np.array([1.0, 2.4, 4.7, 7.7, 8.9, 9.9]), np.array([-1.0, 1.6, 4.8, 8.0])
+    field = working_field(crane, "T", radii, heights, case="lifting")
+    carrying, ends = Carrying(Crane(), Limits(), "lifting"), {name: (each.start, each.end) for name, each in crane.strokes.items()}
+    t, one = np.linspace(*ends["t"], 20001), np.ones(20001)
+    for k, height in enumerate(heights):
+        for n, radius in enumerate(radii):
+            phi, psi = carrying.reach.angles(radius * one, height * one, t, one)
+            fits = carrying.reach.stands(radius * one, height * one, t, one)
+            for values, name in ((phi, "phi"), (psi, "psi")):
+                fits &= (values >= ends[name][0] - 1e-9) & (values <= ends[name][1] + 1e-9)
+            assert fits.any() == field.reached[k, n], (radius, height)
+            if fits.any():
+                best = carrying(phi, psi, t).min(axis=0)[fits].max()
+                assert field.load[k, n] >= best * (1.0 - 1e-9)
+                assert field.load[k, n] <= best * (1.0 + 5e-3)
+    motion = field.motion()
+    across, up = np.meshgrid(radii, heights)
+    assert_allclose(motion["T"], np.stack([across[field.reached], up[field.reached]]), atol=1e-9)
+
+
+def test_what_is_kept_is_kept_and_branches_are_all_seen():
+    machine = Excavator()
+    tilt = angle("L", "M")
+    field = working_field(machine, "L", RADII, HEIGHTS, keep=[Target(tilt, -90 * deg)], without=["dig"])
+    motion = field.motion()
+    assert_allclose(np.cos(motion.value(tilt)), 0.0, atol=1e-9)
+    for k, height in enumerate(HEIGHTS[::3]):
+        for n, radius in enumerate(RADII[::2]):
+            found = strokes_for(machine, [Target(x("L"), radius), Target(y("L"), height), Target(tilt, -90 * deg)])
+            assert found.met == field.reached[3 * k, 2 * n]
+
+
+def test_random_places_are_rightly_called_reached():
+    rng = np.random.default_rng(5)
+    machine = Excavator()
+    for _ in range(3):
+        radii, heights = np.sort(rng.uniform(0.3, 3.3, 5)), np.sort(rng.uniform(-2.5, 2.8, 5))
+        field = working_field(machine, "M", radii, heights, **ALONE)
+        known = [[strokes_for(machine, [Target(x("M"), a), Target(y("M"), b)], hold={"S3": 0.2}).met for a in radii] for b in heights]
+        assert np.array_equal(field.reached, known)
+
+
+def test_why_a_cell_is_out_of_reach():
+    field = working_field(Excavator(), "L", [1.3, 2.0, 9.0], [0.5, 2.3], **ALONE)
+    assert field.why[0, 1] == "" and field.reached[0, 1]
+    assert "past its end at" in field.why[1, 0] and "S1" in field.why[1, 0]
+    assert field.why[0, 2].startswith("the nearest pose is") and field.why[0, 2].endswith("away")
+    assert field.limiter[0, 2] == "out of reach"
+
+
+def test_places_come_back_in_the_order_they_were_given():
+    one = working_field(Excavator(), "L", RADII, HEIGHTS, **ALONE)
+    other = working_field(Excavator(), "L", RADII[::-1], HEIGHTS[[3, 1, 2]], **ALONE)
+    assert np.array_equal(other.load, one.load[[3, 1, 2]][:, ::-1], equal_nan=True)
+    assert np.array_equal(other.why, one.why[[3, 1, 2]][:, ::-1])
+
+
+class Robot(Mechanism):
+    """Two cranks, the second one geared to the frame, so that the tip covers a part of a ring."""
+
+    shoulder, elbow = Stroke(10 * deg, 70 * deg), Stroke(20 * deg, 110 * deg)
+    O = Ground(0, 0)
+    A = Crank(O, OA=1.0, angle=shoulder)
+    B = Crank(A, AB=0.8, angle=shoulder + elbow)
+    load = Weight(B, mass=10.0)
+
+
+def test_area_of_all_that_is_reached():
+    field = working_field(Robot(), "B", [0.5, 1.0], [1.0, 1.4], limits={"rated load": 2 * kN})
+    inner, outer = (1.0 + 0.64 + 1.6 * cos(each * pi / 180.0) for each in (110.0, 20.0))
+    # every radius is swept over the same angle of the shoulder
+    assert_allclose(field.area, 0.5 * (60.0 * pi / 180.0) * (outer - inner), rtol=1e-12)
+    assert_allclose(field.search.reach.area, field.area, rtol=5e-3)
+    radius = np.hypot(*field.border.reshape(-1, 2).T)
+    assert radius.min() >= inner**0.5 - 1e-6 and radius.max() <= outer**0.5 + 1e-6
+
+
+def test_further_limits():
+    limits = {"rated load": 2 * kN, "moment": drive_force("shoulder") <= 1.5 * kN}
+    field = working_field(Robot(), "B", [0.5, 1.0], [1.0, 1.4], limits=limits)
+    own = 10.0 * g0 * field.x
+    known = np.minimum(2e3, (1.5e3 - own) / field.x)
+    assert_allclose(field.load[field.reached], np.broadcast_to(known, field.load.shape)[field.reached], rtol=1e-9)
+    assert set(field.limiters) <= {"rated load", "moment", "out of reach"}
+
+
+def test_slope_of_a_load_case_turns_the_own_weights_alone():
+    class Sloping(Excavator):
+        dig = None
+        uphill = LoadCase("uphill", slope=10 * deg)
+
+    level, steep = (working_field(Sloping(), "L", RADII, HEIGHTS, hold={"S3": 0.2}, case=case) for case in (None, "uphill"))
+    assert steep.case == "uphill" and np.nanmax(np.abs(level.load - steep.load)) > 10.0
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"x": []}, "it has no number"),
+        ({"x": "far"}, "numbers in a row"),
+        ({"y": [1.0, np.nan]}, "numbers in a row"),
+        ({"y": [1.0, 1.0]}, "twice"),
+        ({"x": np.linspace(0, 1, 10**4), "y": np.linspace(0, 1, 10**3)}, "10000000 cells"),
+        ({"point": "B"}, "stands still"),
+        ({"point": "Q"}, "Q"),
+        ({"along": (0, 0)}, "is no direction"),
+        ({"hold": {"S4": 1.0}}, "S4"),
+        ({"hold": {"S1": 0.1, "S3": 0.1}}, "2 targets and 1 free stroke"),
+        ({"rule": "ISO 1"}, "ISO 1"),
+        ({"rule": 0.9}, "a LoadRule is expected"),
+        ({"lifts": ["wheel"]}, "wheel"),
+        ({"lifts": ["boom_mass"]}, "no pressure to lift with"),
+        ({"without": ["wheel"]}, "wheel"),
+        ({"limits": {"rated load": [1.0]}}, "a load or a comparison"),
+        ({"limits": {"rated load": -1.0}}, "below zero"),
+        ({"limits": {"boom": 1.0}}, "limiter already"),
+        ({"keep": "tilt"}, "a list of targets"),
+        ({"case": "uphill"}, "uphill"),
+    ],
+)
+def test_what_a_field_refuses(given, words):
+    usual = {"point": "L", "x": RADII, "y": HEIGHTS, **ALONE}
+    with pytest.raises(DefinitionError, match=words):
+        working_field(Excavator(), **{**usual, **given})
+
+
+@pytest.mark.parametrize("given", [{"hydraulic": 1.2}, {"tipping": 0.0}, {"pressure": -0.1}, {"slipping": "half"}, {"tipping": 75}])
+def test_what_a_rule_refuses(given):
+    with pytest.raises(DefinitionError, match="above 0 and not above 1"):
+        LoadRule("own", **given)
+
+
+def test_what_has_no_bounds_has_no_field():
+    with pytest.raises(DefinitionError, match="nothing says what the machine carries"):
+        working_field(Robot(), "B", [1.0], [1.0])
+    with pytest.raises(DefinitionError, match="batch"):
+        working_field(Excavator().replaced(**{"boom_mass.mass": np.array([1.0, 2.0])}), "L", [1.0], [1.0])

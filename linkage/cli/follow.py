@@ -8,7 +8,7 @@ import re
 from argparse import ArgumentParser, Namespace
 from collections.abc import Mapping
 from pathlib import Path
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -22,14 +22,16 @@ from ..quantities import x, y
 from ..units import UNITS, parse, units_of
 from .command import Command, machine_arguments, picture, progress_bar
 from .machines import find
-from .plot import SUFFIXES
 from .settings import acting_of, columns_picked, design, force_arguments, pair, plain_value, si_value
 from .table import COLUMNS, csv_argument, write_table
 
-PICTURES = (".png", ".svg", ".pdf", *SUFFIXES)
+FILMS = (".gif", ".mp4")
+PICTURES = (".png", ".svg", ".pdf", *FILMS)
 MOST_PLACES = 100_000
 SIZE = 1 << 26
 """Bytes of a path's file."""
+STAYS = 1e-9
+"""Of its range: a stroke that changes by no more along a path is held."""
 HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:,\s*(?P<unit>[^,\[\]()]+?)|\[\s*(?P<bracketed>[^\]]*?)\s*\])?\s*")
 """A heading as tables have it, `M_x, mm`, or with its unit in square brackets."""
 
@@ -144,9 +146,13 @@ def draw_along(machine: Mechanism, motion: Motion, path: Path) -> None:
     """Write a picture of a path's ends, or an animation along the part of it that is reached."""
     from ..pictures import animate, draw
 
-    if path.suffix.lower() not in SUFFIXES:
+    if path.suffix.lower() not in FILMS:
         draw(motion).savefig(path)
         return
-    reached = {name: values[motion.reached] for name, values in motion.strokes.items()}
+    reached: dict[str, Any] = {}
+    for name, values in motion.strokes.items():
+        known, stroke = values[motion.reached], machine.strokes[name]
+        stays = np.ptp(known) <= STAYS * abs(stroke.end - stroke.start)
+        reached[name] = float(known[0]) if stays else known
     with progress_bar(f"drawing {path.name}") as progress:
         animate(machine, path, count=int(motion.reached.sum()), at=reached, progress=progress)

@@ -253,6 +253,13 @@ class Route:
         """Return whether what is missing to a goal is nothing but rounding, of which there may be so many times as much as elsewhere."""
         return all(-noise * least <= each <= noise * least for each, least in zip(missing, self.tolerance, strict=True))
 
+    def past(self, strokes: FloatArray) -> FloatArray:
+        """Return how far strokes (n, k) are past their ends [m or rad]; a crank that turns all the way round has none."""
+        places = self.places
+        whole = places.turning & (places.span >= TURN * (1.0 - 1e-9))
+        far = np.maximum(places.low - strokes, strokes - (places.low + places.span))
+        return np.where(whole | ~(far > BEYOND * places.span), 0.0, far)
+
     def motion(self, strokes: FloatArray, unreachable: str) -> Motion:
         """Return the motion at strokes (n, k)."""
         places = self.places
@@ -312,11 +319,8 @@ class Track:
 
     @cached_property
     def past(self) -> FloatArray:
-        """How far each stroke is past its ends [m or rad], shape (n, k); a crank that turns all the way round has none."""
-        places = self.route.places
-        whole = places.turning & (places.span >= TURN * (1.0 - 1e-9))
-        far = np.maximum(places.low - self.strokes, self.strokes - (places.low + places.span))
-        return np.where(whole | ~(far > BEYOND * places.span), 0.0, far)
+        """How far each stroke is past its ends [m or rad], shape (n, k)."""
+        return self.route.past(self.strokes)
 
     @cached_property
     def inside(self) -> Mask:
@@ -340,6 +344,11 @@ class Track:
         if out.any():
             return AssemblyError(self._past_words(place, out), mask=~self.inside, shortfall=float(self.past[place].max()))
         assert self.ended is not None
+        past = self.route.past(self.ended.strokes)
+        if (past > 0.0).any():
+            words = self.route.places.past_words(self.ended.strokes, past > 0.0)
+            text = said("{opening}: on the way there {words}.", opening=self._opening(place), words=words)
+            return AssemblyError(text, mask=~self.inside, shortfall=float(past.max()))
         return self._dead_point(self.ended)
 
     def _opening(self, place: int) -> str:

@@ -290,6 +290,13 @@ def test_a_path_ends_where_a_stroke_is_past_its_end():
     assert part.y("M")[:first] == pytest.approx(heights[:first], abs=1e-10)
 
 
+def test_a_dead_point_beyond_the_end_of_a_stroke_is_told_as_the_end():
+    targets = [Target(x("M"), 2.4), Target(y("M"), [0.0, 6.0]), Target("tilt", -60.0 * deg)]
+    with pytest.raises(AssemblyError, match=r"place 2 of 2, .*: on the way there .* is [\d.]+ mm past its end at [\d.]+ mm") as told:
+        Excavator().follow(targets)
+    assert not isinstance(told.value, SingularError) and told.value.mask.tolist() == [False, True]
+
+
 def test_a_branch_that_leaves_the_strokes_comes_back_to_them():
     machine, t = Excavator(), np.linspace(0.0, 2.0 * pi, 61)
     heights = 1.35 + 0.4 * np.sin(t)  # the arm's cylinder ends at about 1.68 m

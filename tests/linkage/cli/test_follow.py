@@ -84,6 +84,13 @@ def test_a_path_is_drawn(tmp_path, loader, capsys):
     assert picture.stat().st_size > 1000 and str(picture) in capsys.readouterr().out
 
 
+def test_a_path_with_a_stroke_that_is_held_is_a_film(tmp_path, loader, capsys):
+    film = tmp_path / "lift.gif"
+    path = written(tmp_path, "T_y\n1.2\n1.3\n1.4\n")
+    assert main(["follow", loader, "--path", path, "--hold", "dump=0.9m", "-o", str(film)]) == 0
+    assert film.stat().st_size > 1000 and str(film) in capsys.readouterr().out
+
+
 BAD = {
     "nothing": ("", "a first line such as M_x [mm];M_y [mm] and a row for each place are expected"),
     "no such quantity": ("T_z;tilt\n1;0\n", "path.csv: T_z: "),

@@ -4,7 +4,7 @@ USES = [
     (
         "@",
         "shw; tabel mower_lift; plots; capacty",
-        ("hydrolinkage: Command", "is unknown. Did you mean", "Known: list, show, table, follow, limits, forces, plot, "),
+        ("hydrolinkage: Command", "is unknown. Did you mean", "Known: list, show, table, follow, chart, limits, forces, plot, "),
     ),
     ("@", "--verbos", ("hydrolinkage: unrecognized arguments: --verbos; see hydrolinkage --help.",)),
     (

@@ -14,6 +14,7 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError, unwarned
+from ..language import noted
 from ..loads import Acting, Case, Force, ForceElement, Support, TwoPoint
 from ..motion import Motion
 from ..motion.grid import not_joined
@@ -24,10 +25,12 @@ from ..quantities import name_of
 from .applied import case_of
 from .holding import holders_of
 from .poses import AnyMotion
-from .supports import reaction
 from .traced_loads import TracedMotion
+from .vehicle import bare_loads, frame_supports, is_rough, standing_of, vehicle_of
 from .work import member_thrust
 
+TIPPING, SLIPPING = noted("tipping"), noted("slipping")
+"""What a vehicle's supports limit a load by."""
 IDLE = 1e-12
 """A force for each newton of the load that is this small is none."""
 ROUNDS, SAME = 16, 1e-13
@@ -83,19 +86,65 @@ class LoadAt:
     # -- what bounds ---------------------------------------------------------------------------------------
 
     @cached_property
-    def bounded(self) -> Mapping[str, ForceElement]:
-        """The elements that say bounds, by name: cylinders that hold, supports under the frame."""
-        one = self.motion({name: np.array([value]) for name, value in self.plan.sketch_strokes.items()})
+    def some(self) -> Motion:
+        """Three poses, by which it is seen what is the same at all of them."""
+        return self.motion({name: np.repeat(value, 3) for name, value in self.plan.sketch_strokes.items()})
+
+    @cached_property
+    def bounded(self) -> Mapping[str, TwoPoint]:
+        """The cylinders that hold and say bounds, by name."""
         found = {}
-        for name, element in self.plan.of_kind(ForceElement).items():
-            if isinstance(element, TwoPoint) and not element.holds:
-                continue
-            if isinstance(element, Support) and name_of(element.point) not in self.plan.ground:
-                continue
-            low, high = element.bounds(one, self.lifting(name), share=self.share)
-            if np.any(np.isfinite(low) | np.isfinite(high)) and not np.array_equal(low, high):
-                found[name] = element
+        for name, element in self.plan.of_kind(TwoPoint).items():
+            if element.holds:
+                low, high = element.bounds(self.some, self.lifting(name), share=self.share)
+                if np.any(np.isfinite(low) | np.isfinite(high)) and not np.array_equal(low, high):
+                    found[name] = element
         return found
+
+    @cached_property
+    def supports(self) -> Mapping[str, Support]:
+        """The supports that the machine stands on as a vehicle; none of one without; DefinitionError where it cannot stand on them."""
+        if not frame_supports(self.plan):
+            return {}
+        found = vehicle_of(self.plan)
+        bare_loads(self.some, found)
+        return found
+
+    @cached_property
+    def outermost(self) -> Mapping[str, Support]:
+        """The two supports between which the resultant has to lie: beyond one of them it tips."""
+        if len(self.supports) < 3:
+            return self.supports
+        ends = standing_of(self.some, self.own, self.supports).outermost
+        return {name: self.supports[name] for name in ends}
+
+    @property
+    def may_slip(self) -> bool:
+        """Whether a support says how rough the ground is."""
+        return any(map(is_rough, self.supports.values()))
+
+    @cached_property
+    def kinds(self) -> tuple[str, ...]:
+        """What each bounded force is limited by, in their order: the name of a cylinder, "tipping", "slipping"."""
+        return (*self.bounded, *(TIPPING for _ in self.outermost), *((SLIPPING, SLIPPING) if self.may_slip else ()))
+
+    def carried(self, motion: AnyMotion, acting: Acting) -> list[FloatArray]:
+        """Return the bounded forces in a situation: thrusts, axle loads, what is left of the ground's friction either way [N]."""
+        found = [member_thrust(motion, each, acting) for each in self.bounded.values()]
+        if self.supports:
+            ends = standing_of(motion, acting, self.outermost)
+            found += [ends.reactions[name] for name in self.outermost]
+            if self.may_slip:
+                ground = ends if len(self.supports) == 2 else standing_of(motion, acting, self.supports)
+                assert ground.friction is not None
+                found += [ground.friction - ground.along, ground.friction + ground.along]
+        return found
+
+    def bounds(self, motion: Motion) -> list[tuple[FloatArray, FloatArray]]:
+        """Return between which two values each bounded force stands [N]."""
+        found = [each.bounds(motion, self.lifting(name), share=self.share) for name, each in self.bounded.items()]
+        found += [each.bounds(motion, False) for each in self.outermost.values()]
+        return [*found, *((np.zeros(()), np.asarray(np.inf)) for kind in self.kinds if kind == SLIPPING)]
 
     def lifting(self, name: str) -> bool:
         """Return whether an element lifts."""
@@ -110,8 +159,7 @@ class LoadAt:
     def is_affine(self) -> bool:
         """Whether forces are affine in the load."""
         elements = [element for name, element in self.plan.of_kind(ForceElement).items() if name not in self.without]
-        one = self.motion({name: np.array([value]) for name, value in self.plan.sketch_strokes.items()})
-        return not any(each.frictions(one) for each in elements) and not any(
+        return not any(each.frictions(self.some) for each in elements) and not any(
             line.changes_shares for line in holders_of(self.plan, ()).lines
         )
 
@@ -121,7 +169,7 @@ class LoadAt:
     def program(self) -> Kernel | None:
         """The kernel of what each bounded element carries of the own loads, then of one newton of the load; None where there is none."""
         case = self.case if self.case is None or isinstance(self.case, str) else id(self.case)
-        key = ("carried", self.point, self.along, case, self.without, tuple(self.bounded))
+        key = ("carried", self.point, self.along, case, self.without, self.kinds)
         try:
             return self.plan.made(key, self._traced)
         except DefinitionError:
@@ -129,23 +177,23 @@ class LoadAt:
 
     def _traced(self, fork: Plan) -> Kernel:
         motion = TracedMotion(fork, fork.trace)
-        found = [carried(motion, element, acting) for acting in self.two for element in self.bounded.values()]
-        return Kernel([motion.node(each) for each in found], [*motion.notes.assumed])
+        found = [each for acting in self.two for each in self.carried(motion, acting)]
+        return Kernel([motion.node(np.asarray(each, object).item()) for each in found], [*motion.notes.assumed])
 
     @cached_property
     def fixed(self) -> tuple[FloatArray, FloatArray] | None:
         """The lowest and highest force of each bounded element where they are the same at all poses (elements, 1), else None."""
-        three = self.motion({name: np.repeat(value, 3) for name, value in self.plan.sketch_strokes.items()})
-        found = [element.bounds(three, self.lifting(name), share=self.share) for name, element in self.bounded.items()]
+        found = self.bounds(self.some)
         if any(np.size(end) != 1 for each in found for end in each):
             return None
         low, high = (np.array([[float(np.squeeze(each[at]))] for each in found]).reshape(-1, 1) for at in (0, 1))
         return low, high
 
     def at(self, strokes: Mapping[str, FloatArray]) -> FloatArray:
-        """Return the greatest load that leaves each bounded element within its bounds [N], shape (elements, n), at strokes (n,).
+        """Return the greatest load that leaves each bounded force within its bounds [N], shape (forces, n), at strokes (n,).
 
-        Infinite where it does nothing to one; 0 where the machine alone is too heavy for it; NaN where what it hangs on is not reached.
+        They are those of `kinds`. Infinite where the load does nothing to one; 0 where the machine alone is too heavy for it; NaN where
+        what it hangs on is not reached.
         """
         count = len(next(iter(strokes.values())))
         if self.is_affine and self.program is not None and self.fixed is not None and not self.plan.solved:
@@ -166,29 +214,30 @@ class LoadAt:
             if found is not None:
                 return found
         with unwarned():
-            each = [carried(motion, element, acting) for acting in self.two for element in self.bounded.values()]
-        return np.array(each, float).reshape(2, len(self.bounded), motion.shape[0])
+            each = [one for acting in self.two for one in self.carried(motion, acting)]
+        return np.array(each, float).reshape(2, len(self.kinds), motion.shape[0])
 
     def most(self, motion: Motion) -> FloatArray:
         """Return the same at the poses of a motion, shape (elements, n)."""
-        if not self.bounded:
+        if not self.kinds:
             return np.empty((0, *motion.shape))
-        bounds = [element.bounds(motion, self.lifting(name), share=self.share) for name, element in self.bounded.items()]
+        bounds = self.bounds(motion)
         low, high = (np.stack([np.broadcast_to(each[at], motion.shape) for each in bounds]) for at in (0, 1))
         own, share = self.forces(motion)
-        if self.is_affine:
-            return largest(own, share, low, high)
-        return np.stack([self._found(motion, each, at, share[at], low[at], high[at]) for at, each in enumerate(self.bounded)])
+        found = largest(own, share, low, high)
+        for at, name in enumerate(self.bounded if not self.is_affine else ()):
+            found[at] = self._found(motion, name, share[at], low[at], high[at])
+        return found
 
-    def _found(self, motion: Motion, name: str, at: int, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+    def _found(self, motion: Motion, name: str, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
         """Return the greatest load for one element whose force is not affine in it, by secants; it moves as the load is lifted."""
         element, ways = self.bounded[name], {1.0: "extending", -1.0: "retracting"}
 
         def force(load: FloatArray) -> FloatArray:
             with unwarned():
-                if not self.lifting(name) or not isinstance(element, TwoPoint):
-                    return carried(motion, element, self.beside(load))
-                out, back = (carried(motion, element, replace(self.beside(load), direction=way)) for way in ways.values())
+                if not self.lifting(name):
+                    return member_thrust(motion, element, self.beside(load))
+                out, back = (member_thrust(motion, element, replace(self.beside(load), direction=way)) for way in ways.values())
             return np.where(share > 0.0, out, back)
 
         alone = force(np.zeros(motion.shape))
@@ -203,13 +252,6 @@ class LoadAt:
             if is_settled:
                 break
         return found
-
-
-def carried(motion: AnyMotion, element: ForceElement, acting: Acting) -> FloatArray:
-    """Return what an element carries in a situation, shape (...) [N]: a thrust, of a support its reaction."""
-    if isinstance(element, TwoPoint):
-        return member_thrust(motion, element, acting)
-    return reaction(motion, acting.loads, element.name, acting=replace(acting, loads=None))  # type: ignore[arg-type]
 
 
 def largest(own: FloatArray, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:

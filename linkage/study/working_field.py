@@ -19,27 +19,28 @@ from numpy.typing import NDArray
 from ..errors import DefinitionError, cited, known_name, unwarned
 from ..frozen import FrozenDict, read_only, refuses_changes
 from ..language import noted, said
-from ..loads import Case, ForceElement, Support, Weight
+from ..loads import Case, ForceElement, Weight
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Target
 from ..motion.descent import descended
 from ..motion.line import Index
 from ..motion.many_places import EDGE, ManyPlaces, PlacePoses, solved_systems
 from ..motion.measures import words_of
+from ..motion.planes import Planes, clearance, pairs_of
 from ..plan import Mask, Plan
 from ..program import FloatArray
 from ..quantities import PoseCondition, Quantity, Reference, is_number, name_of, quantity, real
 from ..quantities import x as x_of
 from ..quantities import y as y_of
 from ..statics.applied import case_of
-from ..statics.carried import LoadAt, largest
+from ..statics.carried import SLIPPING, TIPPING, LoadAt, largest
 from ..units import show
 from .checks import check_one_design
 from .load_rule import LoadRule, rule_of
 
 OUT_OF_REACH = noted("out of reach")
 NOT_LIMITED = noted("not limited")
-TIPPING = noted("tipping")
+CLEARANCE = noted("clearance")
 MOST_CELLS = 40_000
 NEAR = 4
 """Positions of a spare stroke on either side of the best one, in the second look."""
@@ -316,9 +317,11 @@ class FieldSearch:
             raise DefinitionError(f'{title}: limits={cited(limits)}: limits by name are expected, limits={{"rated load": 20 * kN}}.')
         further = {str(each): FurtherLimit.of(str(each), value, plan, title) for each, value in (limits or {}).items()}
         for each in further:
-            if each in loads.bounded or each in (TIPPING, OUT_OF_REACH, NOT_LIMITED):
+            if each in loads.kinds or each in (TIPPING, SLIPPING, CLEARANCE, OUT_OF_REACH, NOT_LIMITED):
                 raise DefinitionError(f"{title}: limits: {each} is a limiter already; give this one another name.")
-        if not loads.bounded and not further:
+        if plan.of_kind(Planes) and pairs_of(plan):
+            further[CLEARANCE] = FurtherLimit(margin=clearance())
+        if not loads.kinds and not further:
             what = f"{title}: nothing says what the machine carries: no cylinder has a circuit, nothing else has bounds"
             raise DefinitionError(f'{what}; declare one, LiftCircuit(lift, pressure=180 * bar), or give limits={{"rated load": 20 * kN}}.')
         rest = np.array([float(each.value) for each in keep])
@@ -387,24 +390,24 @@ class FieldSearch:
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """What may limit the load: elements that are bounded, "tipping" for all supports, further limits."""
-        tips = any(isinstance(each, Support) for each in self.loads.bounded.values())
-        elements = [name for name, each in self.loads.bounded.items() if not isinstance(each, Support)]
-        return (*elements, *((TIPPING,) if tips else ()), *self.limits)
+        """What may limit the load: cylinders, "tipping", "slipping", further limits."""
+        return (*dict.fromkeys(self.loads.kinds), *self.limits)
 
     def carried(self, poses: PlacePoses) -> LoadsFound:
         """Return what each limiter leaves at poses, factors included; NaN where they are not reached."""
         rows = self.many.places.rows(poses.unit)
         count = len(poses.place)
-        found = self.loads.at(rows) if count else np.empty((len(self.loads.bounded), 0))
-        supports = np.array([isinstance(each, Support) for each in self.loads.bounded.values()], bool)
-        parts = [found[~supports] * self.rule.hydraulic]
-        if supports.any():
-            parts.append(np.min(found[supports], axis=0)[None] * self.rule.tipping)
+        kinds = self.loads.kinds
+        found = self.loads.at(rows) if count else np.empty((len(kinds), 0))
+        factors = {TIPPING: self.rule.tipping, SLIPPING: self.rule.slipping}
+        parts = []
+        for kind in dict.fromkeys(kinds):
+            own = found[[place for place, each in enumerate(kinds) if each == kind]]
+            parts.append(np.min(own, axis=0)[None] * factors.get(kind, self.rule.hydraulic))
         if self.limits and count:
             motion = self.loads.motion(rows)
             parts.append(np.array([each.load(motion, self.loads) for each in self.limits.values()]))
-        return LoadsFound(poses, np.concatenate(parts) if count else np.empty((len(self.names), 0)))
+        return LoadsFound(poses, np.concatenate(parts) if count and parts else np.empty((len(self.names), 0)))
 
     def refined(self, found: LoadsFound, inner: int) -> LoadsFound:
         """Return the best pose of each place with its spare strokes moved to where most is carried.

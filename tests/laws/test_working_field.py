@@ -22,12 +22,17 @@ from linkage import (
     LoadRule,
     Mechanism,
     OnLink,
+    Outline,
     PinFriction,
+    Planes,
     Stroke,
+    Support,
     Target,
     Weight,
     angle,
+    clearance,
     drive_force,
+    standing,
     strokes_for,
     working_field,
     x,
@@ -274,6 +279,97 @@ def test_places_come_back_in_the_order_they_were_given():
     other = working_field(Excavator(), "L", RADII[::-1], HEIGHTS[[3, 1, 2]], **ALONE)
     assert np.array_equal(other.load, one.load[[3, 1, 2]][:, ::-1], equal_nan=True)
     assert np.array_equal(other.why, one.why[[3, 1, 2]][:, ::-1])
+
+
+class Digger(Arm):
+    """The arm on a vehicle of two axles."""
+
+    body_place, front_axle, rear_axle = Ground(-0.4, 0.6), Ground(0.5, 0.0), Ground(-1.1, 0.0)
+    body = Weight(body_place, mass=700.0)
+    front = Support(front_axle, (0, 1), friction=0.5)
+    rear = Support(rear_axle, (0, 1), friction=0.5)
+
+
+AROUND, UP = np.linspace(0.6, 2.2, 9), np.linspace(-0.4, 0.9, 6)
+WEIGHT = {"body": (700.0, -0.4), "boom_mass": (80.0, "J"), "arm_mass": (45.0, "K")}
+
+
+def test_tipping_over_the_front_axle_by_hand():
+    field = working_field(Digger(), "K", AROUND, UP, rule=LoadRule("own", tipping=0.75, hydraulic=0.9))
+    motion, reached = field.motion(), field.reached
+    at = {name: motion.x(place) if isinstance(place, str) else place for name, (_, place) in WEIGHT.items()}
+    holds = sum(mass * g0 * (0.5 - at[name]) for name, (mass, _) in WEIGHT.items())
+    out = motion.x("K") - 0.5
+    tips = 0.75 * np.where(out > 0.0, holds / np.where(out > 0.0, out, 1.0), np.inf)
+    front = np.isfinite(tips)
+    assert_allclose(field.of["tipping"][reached][front], tips[front], rtol=1e-10)
+    plain = working_field(Arm(), "K", AROUND, UP)
+    assert_allclose(field.of["lifter"][reached], 0.9 * plain.of["lifter"][reached], rtol=1e-10)
+    assert "tipping" in field.limiters and np.sum(field.limiter == "tipping") > 5
+
+
+def test_axle_at_the_limit_bears_nothing_and_supports_bear_all():
+    machine = Digger()
+    field = working_field(machine, "K", AROUND, UP)
+    load = field.load[field.reached]
+    own = own_loads(machine)
+    found = standing(field.motion(), [*own, Force("K", (0.0, -load))])
+    total = sum(mass for mass, _ in WEIGHT.values()) * g0 + load
+    assert_allclose(found.reactions["front"] + found.reactions["rear"], total, rtol=1e-12)
+    tips = field.limiter[field.reached] == "tipping"
+    assert tips.sum() > 5
+    assert_allclose(found.reactions["rear"][tips], 0.0, atol=1e-8)
+    assert np.all(found.reactions["rear"] > -1e-8)
+
+
+def test_a_pull_along_the_ground_slips():
+    machine = Digger().replaced(**{"lift_line.pressure": 900 * bar, "fold_line.pressure": 900 * bar, "body.mass": 300.0})
+    field = working_field(machine, "K", AROUND, [-0.3, 0.0], along=(-1.0, 0.0))
+    slips = field.limiter == "slipping"
+    assert slips.sum() > 3
+    assert_allclose(field.load[slips], 0.5 * (300.0 + 125.0) * g0, rtol=1e-10)
+    with_less = working_field(machine, "K", AROUND, [-0.3, 0.0], along=(-1.0, 0.0), rule=LoadRule("own", slipping=0.5))
+    assert_allclose(with_less.of["slipping"], 0.5 * field.of["slipping"], rtol=1e-13)
+
+
+class Outrigged(Digger):
+    """On three supports that give way."""
+
+    middle_axle = Ground(-0.2, 0.0)
+    front = Support("front_axle", (0, 1), stiffness=4e6)
+    rear = Support("rear_axle", (0, 1), stiffness=2e6)
+    middle = Support(middle_axle, (0, 1), stiffness=3e6)
+
+
+def test_three_supports_tip_over_the_outermost():
+    two, three = (working_field(each, "K", AROUND, UP) for each in (Digger(), Outrigged()))
+    assert_allclose(three.of["tipping"], two.of["tipping"], rtol=1e-10)
+
+
+def test_what_stands_on_nothing_has_no_field():
+    class Floating(Digger):
+        body = None
+
+    with pytest.raises(DefinitionError, match="its frame weighs nothing"):
+        working_field(Floating(), "K", AROUND, UP)
+    with pytest.raises(DefinitionError, match="stands on nothing"):
+        working_field(Digger(body_place=(1.5, 0.6)), "K", AROUND, UP)
+
+
+class Touching(Arm):
+    """A post stands in the way of the arm."""
+
+    post = Outline([(1.55, -1.0), (1.65, -1.0), (1.65, 0.3), (1.55, 0.3)])
+    planes = Planes("JDK post")
+
+
+def test_what_touches_lifts_nothing():
+    free, found = (working_field(each, "K", AROUND, UP) for each in (Arm(), Touching()))
+    motion = Touching().at(**{name: values[found.reached] for name, values in found.strokes.items()})
+    touches = motion[clearance()] < 0.0
+    assert 3 < touches.sum() < touches.size - 3
+    assert np.all(found.load[found.reached][touches] == 0.0) and np.all(found.limiter[found.reached][touches] == "clearance")
+    assert_allclose(found.load[found.reached][~touches], free.load[found.reached][~touches], rtol=1e-12)
 
 
 class Robot(Mechanism):

@@ -307,49 +307,6 @@ def bare_loads(motion: Motion, supports: Mapping[str, Support]) -> Mapping[str, 
     return {name: float(each[0]) for name, each in found.reactions.items()}
 
 
-# What bounds a load that a vehicle carries.
-
-TIPPING, SLIPPING = "tipping", "slipping"
-
-
-@final
-@dataclass(frozen=True)
-class GroundMargin:
-    """A force [N] that is not below zero while a vehicle stands on its supports: what bounds a load beside cylinders.
-
-    Of "tipping" it is the reaction of one of the two outermost supports, `of`, were they alone; of "slipping" what friction leaves along
-    the ground, "forwards" against a push to the right or "backwards" against one to the left. `is_affine`: whether that is affine in loads.
-    """
-
-    word: str
-    of: str
-    is_affine: bool = True
-
-    def value(self, motion: AnyMotion, acting: Acting) -> FloatArray:
-        """Return it over a motion's poses, shape (...) [N]; a number of a program where the motion is traced."""
-        found = standing_of(motion, acting, vehicle_of(motion.plan, acting))
-        if self.word == TIPPING:
-            return np.asarray(found.outermost[self.of])[()]
-        assert found.friction is not None
-        return np.asarray(found.friction + (found.along if self.of == "forwards" else 0.0 - found.along))[()]
-
-
-def ground_margins(motion: Motion) -> tuple[GroundMargin, ...]:
-    """Return what a vehicle must keep to stand, of one design; nothing where no support stands under the frame.
-
-    DefinitionError where it stands on nothing before any load.
-    """
-    plan = motion.plan
-    if not frame_supports(plan):
-        return ()
-    supports = vehicle_of(plan)
-    bare_loads(motion, supports)
-    tipping = tuple(GroundMargin(TIPPING, name) for name in standing_of(motion, Acting(loads=[]), supports).outermost)
-    is_determinate = len(supports) == 2
-    ways = ("forwards", "backwards") if any(map(is_rough, supports.values())) else ()
-    return (*tipping, *(GroundMargin(SLIPPING, way, is_determinate) for way in ways))
-
-
 # What is asked of a vehicle.
 
 

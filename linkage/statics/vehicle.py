@@ -41,7 +41,7 @@ from ..units import show
 from ..verdict import Verdict
 from .applied import AppliedLoads, applied_loads, elements_of, rates_in
 from .bodies import frame_points
-from .law_requests import LawRequest, case_words
+from .law_requests import LawRequest, case_words, situation_identity
 from .poses import AnyMotion, FlatPoses, cross
 from .traced_loads import TracedMotion, traced_loads
 
@@ -78,6 +78,15 @@ def standing(motion: Motion, loads: Loads = None, **situation: Unpack[ActingKeyw
     require_motion(motion)
     acting = situation_of("standing", loads=loads, **situation)
     return standing_of(motion, acting, vehicle_of(motion.plan, acting))
+
+
+def standing_under(motion: AnyMotion, acting: Acting) -> Standing:
+    """Return how a vehicle stands in a situation, worked out once for all that ask for one of its supports."""
+    identity, supports = situation_identity(acting), vehicle_of(motion.plan, acting)
+    if isinstance(motion, TracedMotion) or identity is None:
+        return standing_of(motion, acting, supports)
+    key = ("standing", identity, acting.movement, acting.drive)
+    return require_motion(motion)._once(key, lambda: standing_of(motion, acting, supports))
 
 
 def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Support]) -> Standing:
@@ -357,12 +366,12 @@ def rough_in(plan: Plan) -> None:
 
 def load_over(name: str, motion: AnyMotion, acting: Acting) -> FloatArray:
     """Return the load of an axle over a motion's poses [N], shape (...)."""
-    return np.asarray(standing_of(motion, acting, vehicle_of(motion.plan, acting)).reactions[name])[()]
+    return np.array(standing_under(motion, acting).reactions[name])[()]
 
 
 def used_over(motion: AnyMotion, acting: Acting) -> FloatArray:
     """Return the use of the friction over a motion's poses, shape (...); infinite where nothing presses and something pushes."""
-    found = standing_of(motion, acting, vehicle_of(motion.plan, acting))
+    found = standing_under(motion, acting)
     if found.friction is None:
         rough_in(motion.plan)
     assert found.friction is not None

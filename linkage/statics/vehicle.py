@@ -127,9 +127,15 @@ def loads_over(motion: AnyMotion, acting: Acting) -> AppliedLoads:
 # Which supports a vehicle stands on.
 
 
-def vehicle_of(plan: Plan, acting: Acting = PLAIN) -> dict[str, Support]:
-    """Return the supports under a machine's frame, in a situation; DefinitionError where it cannot stand on them."""
+def vehicle_of(plan: Plan, acting: Acting = PLAIN, given: Support | None = None) -> dict[str, Support]:
+    """Return the supports under a machine's frame, in a situation; DefinitionError where it cannot stand on them.
+
+    One that is `given` beside them takes the place of that under the same point.
+    """
     found = frame_supports(plan, acting)
+    if given is not None and given not in found.values():
+        point = name_of(given.point)
+        found = {name: each for name, each in found.items() if name_of(each.point) != point} | {given.name or str(given): given}
     if not found:
         raise DefinitionError(f"{plan.title} has no support under a point of its frame; declare two, such as front = Support(A, (0, 1)).")
     first = next(iter(found))
@@ -475,11 +481,7 @@ def slipping_sentence(worst: Answer) -> str:
 
 
 def reaction_under_frame(motion: Motion, name: str, support: Support, acting: Acting) -> FloatArray:
-    """Return the load of an axle over a motion, one that is given beside those of the class among them, shape (...) [N]."""
-    supports = vehicle_of(motion.plan, acting)
-    if name not in supports:
-        point = name_of(support.point)
-        supports = {known: each for known, each in supports.items() if name_of(each.point) != point} | {name: support}
+    """Return the load of an axle over a motion, shape (...) [N]; of one that is given beside those of the class as well."""
+    supports = vehicle_of(motion.plan, acting, support)
     bare_loads(motion, supports)
     return standing_of(motion, acting, supports).reactions[name]
-

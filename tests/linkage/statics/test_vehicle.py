@@ -354,6 +354,9 @@ def test_other_mistakes_are_named():
         Digger().answers([least(axle_load("rea"))])
     with pytest.raises(DefinitionError, match="an axle load does not hang on it; leave drive_force= out"):
         reaction(motion, support="rear", drive_force=100.0)
+    with pytest.raises(DefinitionError, match=r"stands on 3 supports, .*say stiffness="):
+        reaction(motion, support=Support("G", (0, 1)))
+    assert_array_equal(reaction(motion, support=Support("R", (0, 2))), reaction(motion, support="rear"))
     with pytest.raises(DefinitionError, match="no support says friction="):
         slipping().of(Truck().sweep(S=3, s=0.1))
     with pytest.raises(DefinitionError, match="stiffness=0 carries nothing"):

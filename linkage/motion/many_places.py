@@ -137,11 +137,12 @@ class ManyPlaces:
     # -- steps -------------------------------------------------------------------------------------------
 
     def settled(
-        self, start: PlacePoses, goals: FloatArray, outs: FloatArray, *, damped: bool = True, iterations: int = ITERATIONS
+        self, start: PlacePoses, goals: FloatArray, outs: FloatArray, *, damped: bool | str = True, iterations: int = ITERATIONS
     ) -> tuple[PlacePoses, Mask]:
         """Return where steps of Newton lead from some poses to what their places want (places, t), and which have met it.
 
-        The spare strokes stay. Those that do not settle go on with damped steps inside the ranges, where `damped`.
+        The spare strokes stay. Those that do not settle go on with damped steps inside the ranges, where `damped`; "unsettled" are those
+        alone that have not left the ranges.
         """
         k, places = self.solved, self.places
         unit, wanted = start.unit.copy(), goals[start.place]
@@ -165,7 +166,7 @@ class ManyPlaces:
             out = ((unit[going, :k] < low) | (unit[going, :k] > high)).any(axis=1)
             lost[going[out]] = True
             going = going[~out]
-        left = ~met & damped
+        left = ~met & ~lost if damped == "unsettled" else ~met & bool(damped)
         if left.any():
             self._damped(unit, np.flatnonzero(left), start.unit, wanted, outs, met)
         inside = ((unit[:, :k] >= -outs[:k] - EDGE) & (unit[:, :k] <= 1.0 + outs[:k] + EDGE)).all(axis=1)

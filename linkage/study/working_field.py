@@ -44,12 +44,14 @@ CLEARANCE = noted("clearance")
 MOST_CELLS = 40_000
 NEAR = 4
 """Positions of a spare stroke on either side of the best one, in the second look."""
-HALVINGS = {1: 24, 2: 20}
-"""How often the way to either side of the best position of spare strokes is halved."""
-FEW = 6
-"""Steps of Newton from a pose near by."""
-SETTLED = 5
-"""Halvings without anything better after which spare strokes stay at an end."""
+ROUNDS = {1: 12, 2: 20}
+"""How often the way to either side of the best position of spare strokes is divided: of one stroke by four, of two by two."""
+FEW, FEWER = 6, 4
+"""Steps of Newton from a pose near by, and from one still nearer."""
+QUARTERS = 0.5 * np.arange(-3.0, 3.5)
+"""Where it is looked on either side, in halves of the way, so that the best one is known to a quarter of it."""
+SETTLED = 3
+"""Rounds without anything better after which spare strokes stay at an end."""
 PROBE = 1e4
 """The load by which it is seen how a further limit follows it [N]."""
 LINES, HALVED = 121, 36
@@ -285,12 +287,17 @@ class FieldSearch:
     rule: LoadRule
     limits: Mapping[str, FurtherLimit]
     case: str
+    asked: tuple[Any, ...]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return FieldSearch.of, self.asked
 
     @classmethod
     def of(
         cls, machine: Mechanism, point: Any, x_given: Any, y_given: Any, along: Any, hold: Any, keep: Any, lifts: Any, rule: LoadRule,
         case: Case, without: Any, limits: Any,
     ) -> FieldSearch:  # fmt: skip
+        asked = machine, point, x_given, y_given, along, hold, keep, lifts, rule, case, without, limits
         plan, title = machine.plan, f"{machine.plan.title}: working_field"
         name = known_name("Point", name_of(point), plan.points, where=title)
         if name not in plan.moving:
@@ -325,7 +332,7 @@ class FieldSearch:
             what = f"{title}: nothing says what the machine carries: no cylinder has a circuit, nothing else has bounds"
             raise DefinitionError(f'{what}; declare one, LiftCircuit(lift, pressure=180 * bar), or give limits={{"rated load": 20 * kN}}.')
         rest = np.array([float(each.value) for each in keep])
-        return cls(machine, name, axes[0], axes[1], rest, many, loads, rule, further, label)
+        return cls(machine, name, axes[0], axes[1], rest, many, loads, rule, further, label, asked)
 
     # -- the places ----------------------------------------------------------------------------------------
 
@@ -378,7 +385,7 @@ class FieldSearch:
             if many.spare:
                 again = ~met & ~solved[at.place]
                 if again.any():
-                    late, late_met = many.settled(start.where(again), goals, outs)
+                    late, late_met = many.settled(start.where(again), goals, outs, damped="unsettled")
                     at, met = at.joined(late), np.concatenate([met, late_met])
                     solved[late.place[late_met]] = True
             unit = np.empty_like(at.unit[met])
@@ -413,7 +420,7 @@ class FieldSearch:
         """Return the best pose of each place with its spare strokes moved to where most is carried.
 
         A second look around the best position of the first one, the best apart from it, and the best of the first `inner` ones, on which
-        no stroke stands at an end for the sake of the places; then the way to either side is halved.
+        no stroke stands at an end for the sake of the places; then the way to either side is divided.
         """
         many, s = self.many, self.many.spare
         step = many.spare_step / NEAR if s == 1 else 0.5 * many.spare_step
@@ -423,11 +430,11 @@ class FieldSearch:
         base, load = found.poses.where(rows), found.load[rows]
         near = ways(np.arange(-NEAR, NEAR + 1.0), s) if s == 1 else ways([-1.0, 0.0, 1.0], s)
         going, still = np.arange(len(load)), np.zeros(len(load), int)
-        for look in range(1 + HALVINGS[s]):
-            better = self.improved(base, load, near * step, going)
-            step, still = 0.5 * step, np.where(better, 0, still + 1)
+        for look in range(1 + ROUNDS[s]):
+            better = self.improved(base, load, near * step, going, FEW if look < FEWER else FEWER)
+            step, still = step * (0.5 if s == 2 or look == 0 else 0.25), np.where(better, 0, still + 1)
             if look == 0:
-                near = ways([-1.0, 0.0, 1.0], s)
+                near = ways(QUARTERS, s) if s == 1 else near
                 kept = LoadsFound(base, load[None]).best()
                 base, load, still = base.where(kept), load[kept], still[kept]
             spare = base.unit[:, self.many.solved :]
@@ -436,9 +443,9 @@ class FieldSearch:
                 break
         return self.carried(base)
 
-    def improved(self, base: PlacePoses, load: FloatArray, aside: FloatArray, rows: Index) -> Mask:
+    def improved(self, base: PlacePoses, load: FloatArray, aside: FloatArray, rows: Index, iterations: int) -> Mask:
         """Put better poses and loads into those at some rows, with the spare strokes moved by some steps; return which are better (n,)."""
-        tried, value = self.moved(base.where(rows), aside)
+        tried, value = self.moved(base.where(rows), aside, iterations)
         top, each = np.argmax(value, axis=0), np.arange(len(rows))
         better = np.zeros(len(load), bool)
         better[rows] = value[top, each] > load[rows]
@@ -455,7 +462,7 @@ class FieldSearch:
         rows = np.flatnonzero((away > 1.5).any(axis=1))
         return rows[LoadsFound(found.poses.where(rows), found.of[:, rows]).best()]
 
-    def moved(self, base: PlacePoses, aside: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def moved(self, base: PlacePoses, aside: FloatArray, iterations: int) -> tuple[FloatArray, FloatArray]:
         """Return poses with the spare strokes moved by steps (m, s), unit coordinates (m, n, k), and their loads (m, n), -1 for none."""
         k, (n, width), outs = self.many.solved, base.unit.shape, np.zeros(base.unit.shape[1])
         _, slopes = self.many.seen(base.unit)
@@ -467,7 +474,7 @@ class FieldSearch:
         guess[:, k:] = to.reshape(-1, width - k)
         new = np.flatnonzero((to != base.unit[None, :, k:]).any(axis=2).ravel())
         start = PlacePoses(np.tile(base.place, len(aside))[new], guess[new])
-        found, met = self.many.settled(start, self.goals, outs, damped=False, iterations=FEW)
+        found, met = self.many.settled(start, self.goals, outs, damped=False, iterations=iterations)
         load = np.full(len(guess), -1.0)
         load[new[met]] = np.nan_to_num(self.carried(found.where(met)).load, nan=-1.0, posinf=np.inf)
         guess[new] = found.unit

@@ -1,5 +1,6 @@
 """The working field: against a two-cylinder arm worked out by hand, brute force, and laws that hold for every field."""
 
+import pickle
 from math import acos, atan2, cos, hypot, pi, sin
 
 import numpy as np
@@ -272,6 +273,13 @@ def test_why_a_cell_is_out_of_reach():
     assert "past its end at" in field.why[1, 0] and "S1" in field.why[1, 0]
     assert field.why[0, 2].startswith("the nearest pose is") and field.why[0, 2].endswith("away")
     assert field.limiter[0, 2] == "out of reach"
+
+
+def test_a_field_is_pickled():
+    field = working_field(Excavator(), "L", RADII, HEIGHTS, rule=ISO_10567, **ALONE)
+    found = pickle.loads(pickle.dumps(field))
+    assert np.array_equal(found.load, field.load, equal_nan=True) and found.rule == ISO_10567
+    assert found.area == field.area and np.array_equal(found.why, field.why)
 
 
 def test_places_come_back_in_the_order_they_were_given():

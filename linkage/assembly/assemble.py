@@ -271,11 +271,15 @@ class Assembler:
             else:
                 self.add_group(next_group(self.parts, self.title))
 
+    def waits(self, member: Member) -> bool:
+        """Return whether a load case that something runs in is not settled yet, for the loads of the case are not."""
+        return any(each in self.pending for each in getattr(member, "cases", None) or ())
+
     def settle_ready(self) -> None:
         """Settle every member all of whose parts are settled."""
         progress = True
         while progress:
-            ready = [name for name, member in self.pending.items() if set(needs(member)) <= set(self.settled)]
+            ready = [name for name, member in self.pending.items() if set(needs(member)) <= set(self.settled) and not self.waits(member)]
             for name in ready:
                 self.settle(name, self.pending.pop(name))
             progress = bool(ready)

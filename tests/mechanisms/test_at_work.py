@@ -12,9 +12,12 @@ from hydraulics import Cylinder
 from linkage import LoadCase, Motion, Part, equations, pin_forces
 from linkage.files import load, to_toml
 from mechanisms.at_work.excavator import Excavator, HookExcavator
-from tests.machines import plane, test_excavator
+from mechanisms.at_work.telehandler import Telehandler
+from mechanisms.at_work.tipper import Tipper
+from mechanisms.at_work.wheel_loader import WheelLoader
+from tests.machines import plane, test_excavator, test_tipper, test_wheel_loader
 
-MACHINES = [Excavator, HookExcavator]
+MACHINES = [Excavator, HookExcavator, Telehandler, Tipper, WheelLoader]
 ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
 PRINTED = {"boom": (-0.4737, 1.0923), "arm": (-0.5103, -2.5848), "bucket": (0.7839, -2.8659)}  # rad, at the shortest, at the longest
 
@@ -71,7 +74,8 @@ def test_forces_are_in_equilibrium_and_equations_are_there(machine):
     for case in (None, *machine.plan.of_kind(LoadCase)):
         assert np.max(pin_forces(motion, case=case).residual) < 1e-9
     values = equations(machine()).values({name: each[1] for name, each in middle(machine).items()})
-    for name in machine.plan.moving:
+    solved = {pin for group in machine.plan.groups.values() for pin in group.pins}
+    for name in set(machine.plan.moving) - solved:
         assert_allclose(values[name], motion[name][:, 1], atol=1e-12)
 
 
@@ -126,3 +130,72 @@ def test_the_hook_stands_in_the_buckets_place():
         want = plane.balance(without_bucket, q, loads, [("C", "D"), ("E", "F")])
         motion = HookExcavator().at(**strokes)
         assert_allclose([HookExcavator.plan.members[f"{part}.ram"].thrust(motion) for part in ("boom", "arm")], want, rtol=1e-8)
+
+
+# -- the telehandler -----------------------------------------------------------------------------------------
+
+O, A = np.array([-2.600, 1.550]), np.array([-2.098, 0.993])
+DRAWN = {"forks.load": (0.70, 0.25, 3000.0), "forks.steel": (0.30, -0.10, 260.0)}
+
+
+def telehandler(q):
+    """Return every place by the boom's angle, how far it is drawn out, and the forks' angle against the boom."""
+    up, out, tilt = q
+    along = plane.turned((1.0, 0.0), up)
+    found = {"O": O, "A": A, "B": O + 1.70 * along, "R": O + 0.80 * along, "T": O + (4.0 + out) * along, "Q": O + (3.3 + out) * along}
+    found |= {"N": found["T"] + plane.turned((0.25, -0.50), up), "outer": O + 2.0 * along, "inner": O + (2.6 + out) * along}
+    found["W"] = found["N"] + plane.turned((0.28 * np.cos(np.radians(92)), 0.28 * np.sin(np.radians(92))), up + tilt)
+    return found | {name: found["N"] + plane.turned((x, y), up + tilt) for name, (x, y, _) in DRAWN.items()}
+
+
+@pytest.mark.parametrize("q", [(0.1, 0.0, 0.0), (0.6, 1.2, -0.5), (0.9, 2.7, -0.9)])
+def test_the_telehandlers_places_and_thrusts_by_hand(q):
+    p = telehandler(np.array(q))
+    strokes = {"lift": plane.length(p["A"], p["B"]) - 1.19, "extend": q[1], "tilt": plane.length(p["Q"], p["W"]) - 0.86}
+    motion = Telehandler().at(**strokes)
+    for name in "BTQN":
+        assert_allclose(motion[name], p[name], atol=1e-12)
+    assert_allclose(motion["forks.W"], p["W"], atol=1e-12)
+    masses = {"outer": 700.0, "inner": 450.0} | {name: mass for name, (_, _, mass) in DRAWN.items()}
+    loads = [(name, (0.0, -mass * plane.G)) for name, mass in masses.items()]
+    want = plane.balance(telehandler, q, loads, [("A", "B"), ("R", "T"), ("Q", "W")])
+    found = [Telehandler.plan.members[name].thrust(motion) for name in ("ram", "push", "forks.ram")]
+    assert_allclose(found, want, rtol=1e-8)
+
+
+def test_the_forks_stay_level_where_the_telehandler_stacks():
+    over = next(each for each in Telehandler().overs if each.name == "stacking")
+    motion = Telehandler().at(**{name: np.asarray(value) for name, value in over.strokes.items()})
+    assert np.max(np.abs(motion.y("forks.X") - motion.y("forks.F"))) < 0.02
+
+
+# -- the tipper and the loader: the same linkages by hand ----------------------------------------------------
+
+
+def test_the_tippers_places_and_thrust_by_hand():
+    opened = [test_tipper.opened(tip) - 1.790 for tip in test_tipper.TIPS]
+    motion = Tipper().at(S=opened)
+    for k, tip in enumerate(test_tipper.TIPS):
+        for name in "CEBG":
+            assert_allclose(motion[name][:, k], test_tipper.places([tip])[name], atol=1e-10)
+    assert_allclose(Tipper.lift.thrust(motion), [test_tipper.thrust(tip) for tip in test_tipper.TIPS], rtol=1e-9)
+
+
+def test_the_loaders_places_and_thrusts_by_hand():
+    hand = test_wheel_loader
+    strokes = dict(zip(("lift", "tilt"), hand.strokes().values(), strict=True))
+    motion = WheelLoader().at(**strokes)
+    for k, q in enumerate(hand.POSES):
+        for name in "DPNUVWZQ":
+            assert_allclose(motion[name][:, k], hand.places(q)[name], atol=1e-11)
+
+    def places(q):
+        found = hand.places(q)
+        return found | {
+            "G1": plane.on(found["A"], found["N"], 1.44, 0.17),
+            "G3": plane.on(found["N"], found["Z"], 0.44, 0.24),
+        }
+
+    want = [plane.balance(places, q, hand.CASES[None], list(hand.RAMS.values())) for q in hand.POSES]
+    found = np.stack([WheelLoader.lift_rams.thrust(motion), WheelLoader.tilt_ram.thrust(motion)], axis=1)
+    assert_allclose(found, want, rtol=1e-9)

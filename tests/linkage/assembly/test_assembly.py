@@ -7,7 +7,23 @@ import pytest
 from numpy.testing import assert_allclose
 
 import linkage
-from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke, deg, drawn
+from linkage import (
+    LEFT,
+    Crank,
+    DefinitionError,
+    Dyad,
+    Ground,
+    Link,
+    LoadCase,
+    Mechanism,
+    OnLink,
+    Over,
+    Pin,
+    Stroke,
+    Weight,
+    deg,
+    drawn,
+)
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.klann import Klann
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
@@ -299,3 +315,20 @@ def test_a_sketch_out_of_reach():
     short = {"B": Pin(near=(0.1, 0.1)), "rod": Link("A B", AB=0.05), "rocker": Link("C B", CB=0.05)}
     with pytest.raises(linkage.AssemblyError, match="cannot be assembled"):
         type("Far", (FourBar,), {"A": Crank("O", OA=0.3, angle=FourBar.phi), **short})
+
+
+def test_a_drawn_machine_says_where_it_runs_in_its_cases():
+    """What runs in a load case waits for it while the sketch is settled, and the case for its loads."""
+
+    class Drawn(Mechanism):
+        S = Stroke(0.0, 0.3)
+        sketch = drawn(S=0.1)
+        O, A = Ground(0.0, 0.0), Ground(0.3, -0.4)
+        B, T = Pin(at=(0.5, 0.3)), Pin(at=(1.2, 0.2))
+        lever = Link("O B T")
+        ram = Link("A B", AB=0.6 + S)
+        load = Weight(T, mass=100.0)
+        empty = LoadCase("empty", scale={"load": 0.0})
+        returning = Over(cases=["empty"])
+
+    assert [each.cases for each in Drawn().overs] == [("empty",)]

@@ -49,6 +49,9 @@ def reaction(
     require_motion(motion)
     name, element = support_of(motion, support)
     if is_under_frame(motion.plan, element):
+        held = motion._of_the_whole(element) if element.name else None
+        if held is not None:
+            return reaction(held[0], support=held[1], drive_force=drive_force, drive=drive, acting=acting)
         return axle_load_of(motion, name, element, acting if drive is None else replace(acting, drive=drive), drive_force)
     stroke = stroke_of(motion.plan, drive, "drive")
     applied = applied_loads(motion, acting, rates_in(motion, acting, stroke), without=name)

@@ -75,8 +75,7 @@ def standing(motion: Motion, loads: Loads = None, **situation: Unpack[ActingKeyw
 
     The supports are those of the class, and those among the loads, whose points do not move; with three or more all say a `stiffness`.
     """
-    require_motion(motion)
-    acting = situation_of("standing", loads=loads, **situation)
+    motion, acting = require_motion(motion)._whole, situation_of("standing", loads=loads, **situation)
     return standing_of(motion, acting, vehicle_of(motion.plan, acting))
 
 
@@ -371,12 +370,18 @@ def rough_in(plan: Plan) -> None:
 
 
 def load_over(name: str, motion: AnyMotion, acting: Acting) -> FloatArray:
-    """Return the load of an axle over a motion's poses [N], shape (...)."""
+    """Return the load of an axle over a motion's poses [N], shape (...); of one read as that of a part, what it is in the whole."""
+    held = motion._of_the_whole(motion.plan.members[name]) if isinstance(motion, Motion) else None
+    if held is not None:
+        whole, support = held
+        support_in(support.name, whole.plan)
+        return load_over(support.name, whole, acting)
     return np.array(standing_under(motion, acting).reactions[name])[()]
 
 
 def used_over(motion: AnyMotion, acting: Acting) -> FloatArray:
     """Return the use of the friction over a motion's poses, shape (...); infinite where nothing presses and something pushes."""
+    motion = motion._whole if isinstance(motion, Motion) else motion
     found = standing_under(motion, acting)
     if found.friction is None:
         rough_in(motion.plan)

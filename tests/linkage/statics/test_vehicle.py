@@ -222,6 +222,22 @@ def test_a_slope_is_a_vehicle_turned_as_a_part_and_a_mirrored_one_has_the_same_l
     assert_allclose(sideways[1].friction, sideways[0].friction, rtol=1e-11)
 
 
+def test_a_part_is_read_with_the_loads_of_the_whole():
+    class Towing(Mechanism):
+        own = Part(Digger, at=(1.0, 0.0), up=None, down=None, heavy=None)
+        drawbar = Weight("own.R", mass=400.0)
+        tool = Weight("own.T", mass=250.0)
+
+    motion = Towing().sweep(**{"own.S": 4, "own.s": 3})
+    part = motion.part("own")
+    for support in ("front", "rear"):
+        expected = reaction(motion, support=f"own.{support}")
+        assert_array_equal(reaction(part, support=support), expected)
+        assert_array_equal(axle_load(support).of(part), expected)
+        assert (np.abs(expected - reaction(Digger().at(S=part.strokes["S"], s=part.strokes["s"]), support=support)) > 500.0).any()
+    assert_array_equal(slipping().of(part), slipping().of(motion))
+
+
 def test_along_the_ground_it_is_held_by_friction():
     motion = Digger().sweep(S=4, s=3)
     found = standing(motion, case="up")

@@ -159,7 +159,10 @@ def _(limits: Limits) -> str:
 
 @html_of.register
 def _(equations: Equations) -> str:
-    return "".join(html_equation(each.number, each.steps) for each in equations.sheet())
+    lines = []
+    for each in equations.sheet():
+        lines += [*([f"<p><b>{escape(each.heading)}</b></p>"] if each.heading else []), html_equation(each.number, each.steps)]
+    return "".join(lines)
 
 
 def html_equation(number: int, steps: Iterable[str]) -> str:

@@ -103,5 +103,6 @@ def calculation_section(found: FilledEquations, pose_words: str) -> Section:
         )
     if listing.left_out:
         body.append(Paragraph(said("Left out of the equations: the friction of {names}.", names=", ".join(listing.left_out))))
-    body += [Equality(each.number, each.steps) for each in found.lines]
+    for each in found.lines:
+        body += [*([Paragraph(each.heading)] if each.heading else []), Equality(each.number, each.steps)]
     return Section(said("Calculation"), tuple(body))

@@ -239,7 +239,7 @@ class Calculation:
 def column_name(symbol: str) -> str:
     """Return a plain symbol's name as a heading: AB.x is AB_x, dAB/dS.x is dAB_x/dS."""
     head, dot, axis = symbol.rpartition(".")
-    if not dot:
+    if not dot or axis not in ("x", "y"):
         return symbol
     over, slash, under = head.partition("/")
     return f"{over}_{axis}{slash}{under}"

@@ -7,7 +7,7 @@ from typing import Any, final
 
 import sympy
 
-from ..plan import Plan
+from ..plan import Part, Plan
 from ..quantities import Quantity
 from ..steps import Arrow, Guide
 from .words import point_symbol, vector_symbol
@@ -19,6 +19,11 @@ class SymbolNames:
 
     def __init__(self, plan: Plan) -> None:
         self.points = sorted(plan.points, key=len, reverse=True)
+        self._parts = plan.of_kind(Part)
+        self._letters = {name: sorted(part.plan.points, key=len, reverse=True) for name, part in self._parts.items()}
+        self._fixed = {name for name in plan.ground if "." not in name}
+        self.owners: dict[str, str] = {}
+        """The parts that symbols are of, by their texts; "" for those of the machine itself."""
         self.latex: dict[str, str] = {}
         self._texts: dict[Any, str] = {}
         self._guides = plan.of_kind(Guide)
@@ -43,9 +48,16 @@ class SymbolNames:
     def quantity(self, name: str) -> Any:
         """Return the symbol of a named quantity or a stroke, or of a design variable: the label OB is the length L_OB."""
         if name in self._lengths:
-            shown = f"L_{{{self.indexed(name)}}}"
+            shown = self._length_latex(name)
             return sympy.Symbol(self._text(("variable", name), f"L_{name}", shown), positive=True)
-        text = self._text(name if name in self._members and name not in self._placed else ("variable", name), name.replace(".", "_"))
+        point, _, axis = name.rpartition(".")
+        if point in self._placed and point not in self._fixed and axis in ("x", "y") and ("." in point or point in self.points):
+            # not a component of the point, which is where it stands in the whole
+            own = self._own_latex(*self.owned(point))
+            return sympy.Symbol(self._text(("variable", name), f"{axis}_{point}", f"{axis}_{{{own}}}{self._raised(point)}"), real=True)
+        owner, inner = self.owned(name)
+        wanted = f"{owner}.{inner.replace('.', '_')}" if owner else name.replace(".", "_")
+        text = self._text(name if name in self._members and name not in self._placed else ("variable", name), wanted)
         shown = f"L_{{{self.indexed(text[2:])}}}" if text.startswith("L_") and text != name else self._scalar_latex(name)
         self.latex.setdefault(text, shown)
         return sympy.Symbol(text, real=True)
@@ -57,7 +69,7 @@ class SymbolNames:
 
     def length(self, vector: str) -> Any:
         """Return the symbol of a vector's given length: L_AB."""
-        return sympy.Symbol(self._text(("length", vector), f"L_{vector}", f"L_{{{self.indexed(vector)}}}"), real=True)
+        return sympy.Symbol(self._text(("length", vector), f"L_{vector}", self._length_latex(vector)), real=True)
 
     def angle(self, name: str) -> Any:
         """Return the symbol of an angle that a step brings: OAB."""
@@ -97,51 +109,90 @@ class SymbolNames:
         """Return the text of a thing; a stroke is added where another thing has it already."""
         if key not in self._texts:
             while wanted in self._texts.values():
-                wanted, latex = f"{wanted}'", f"{latex}'"
+                wanted, latex = f"{wanted}'", f"{{{latex}}}'" if "^" in latex else f"{latex}'"
             self._texts[key] = wanted
+            self.owners[wanted] = self._owner_of(key)
         text = self._texts[key]
         if latex:
             self.latex.setdefault(text, latex)
         return text
 
+    # -- parts -----------------------------------------------------------------------------------------
+
+    def owned(self, name: str) -> tuple[str, str]:
+        """Return the part that a name is of, "" for the machine itself, and its name there: `upper.AB` is AB, `T_upper.ram` T_ram."""
+        for sign, rest in (("", name), name.partition("_")[::2]):
+            owner = rest
+            while "." in owner:
+                owner = owner.rpartition(".")[0]
+                if owner in self._parts:
+                    return owner, f"{sign}_{rest[len(owner) + 1 :]}" if sign else rest[len(owner) + 1 :]
+        return "", name
+
+    def _owner_of(self, key: Any) -> str:
+        """Return the part that the thing of a key is of."""
+        name = key[1] if isinstance(key, tuple) else key
+        return self.owned(name)[0] if isinstance(name, str) else self.owners.get(getattr(name, "name", ""), "")
+
+    def _raised(self, name: str) -> str:
+        """Return the part that a name is of as an exponent in LaTeX."""
+        owner, _ = self.owned(name)
+        return rf"^{{\mathrm{{{escaped_latex(owner)}}}}}" if owner else ""
+
     # -- LaTeX -----------------------------------------------------------------------------------------
 
-    def pair(self, text: str) -> tuple[str, ...]:
-        """Return the points whose names make up a text, two or three of them; none where it is not one."""
-        return next((found for count in (2, 3) if (found := self._split(text, count))), ())
+    def pair(self, text: str, owner: str = "") -> tuple[str, ...]:
+        """Return the points whose names make up a text, two or three of them, those of a part by its own; none where it is not one."""
+        return next((found for count in (2, 3) if (found := self._split(text, count, owner))), ())
 
-    def _split(self, text: str, count: int) -> tuple[str, ...]:
+    def _split(self, text: str, count: int, owner: str) -> tuple[str, ...]:
         if count == 0:
             return ()
-        for point in self.points:
-            if text.startswith(point):
-                rest = self._split(text[len(point) :], count - 1)
-                if len(rest) == count - 1 and (rest or text == point):
+        for point in self._letters[owner] if owner else self.points:
+            word = point.replace(".", "_")
+            if text.startswith(word):
+                rest = self._split(text[len(word) :], count - 1, owner)
+                if len(rest) == count - 1 and (rest or text == word):
                     return (point, *rest)
         return ()
 
-    def indexed(self, text: str) -> str:
-        """Return a joined name in LaTeX: OG1 is O G_1."""
-        pair = self.pair(text) if any(each.isdigit() or each == "_" for each in text) else ()
-        return " ".join(map(self._scalar_latex, pair)) if pair else escaped_latex(text)
+    def indexed(self, name: str) -> str:
+        """Return a joined name in LaTeX: OG1 is O G_1; of a part without the part's name."""
+        owner, text = self.owned(name)
+        pair = self.pair(text, owner) if any(each.isdigit() or each == "_" for each in text) else ()
+        letter = self._own_scalar if owner else self._scalar_latex
+        return " ".join(map(letter, pair)) if pair else escaped_latex(text)
+
+    def _length_latex(self, name: str) -> str:
+        return f"L_{{{self.indexed(name)}}}{self._raised(name)}"
 
     def _vector_latex(self, name: str) -> str:
-        if len(self.pair(name)) == 2 and name not in self.points:
-            return rf"\overrightarrow{{{self.indexed(name)}}}"
-        head, _, tail = _letters_and_index(name)
+        owner, own = self.owned(name)
+        if len(self.pair(own, owner)) == 2 and name not in self.points:
+            return rf"\overrightarrow{{{self.indexed(name)}}}{self._raised(name)}"
+        head, _, tail = _letters_and_index(own)
         arrow = rf"\vec{{{head}}}" if len(head) == 1 else rf"\vec{{\mathit{{{head}}}}}"
-        return f"{arrow}_{{{tail}}}" if tail else arrow
+        return (f"{arrow}_{{{tail}}}" if tail else arrow) + self._raised(name)
 
     def _component_latex(self, name: str, axis: str) -> str:
-        if len(self.pair(name)) == 2 and name not in self.points:
+        owner, own = self.owned(name)
+        if len(self.pair(own, owner)) == 2 and name not in self.points:
             return f"{self._vector_latex(name)}_{{{axis}}}"
-        head, _, tail = _letters_and_index(name)
-        return f"{head}_{{{tail},{axis}}}" if tail else f"{head}_{{{axis}}}"
+        head, _, tail = _letters_and_index(own)
+        return (f"{head}_{{{tail},{axis}}}" if tail else f"{head}_{{{axis}}}") + self._raised(name)
 
     def _scalar_latex(self, name: str) -> str:
-        if len(self.pair(name)) == 3 and name not in self.points:
-            return rf"\angle {self.indexed(name)}"
-        head, greek, tail = _letters_and_index(name)
+        return self._own_latex(*self.owned(name)) + self._raised(name)
+
+    def _own_latex(self, owner: str, own: str) -> str:
+        """Return a scalar in LaTeX by the name that it has in its part."""
+        if len(self.pair(own, owner)) == 3 and (owner or own not in self.points):
+            return rf"\angle {self.indexed(f'{owner}.{own}' if owner else own)}"
+        return self._own_scalar(own)
+
+    @staticmethod
+    def _own_scalar(own: str) -> str:
+        head, greek, tail = _letters_and_index(own)
         shown = greek or (head if len(head) == 1 else rf"\mathit{{{head}}}")
         return f"{shown}_{{{tail}}}" if tail else shown
 

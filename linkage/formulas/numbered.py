@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from textwrap import wrap
 from types import MappingProxyType
@@ -18,10 +18,12 @@ from ..errors import DefinitionError, cited, known_name, unknown
 from ..language import translated
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..motion.requests import stroke_of
+from ..plan import Part
 from ..quantities import is_whole
 from ..shown import Shown
 from .forces import WORDS, ForceLines, GivenNumber
 from .listing import X_AXIS, Listing, ListingLine
+from .names import escaped_latex
 from .printing import Latex, Text, number_latex, plain_number
 from .rates import lines_needed, ratio_lines
 from .symbolic import LENGTH, Unit
@@ -49,16 +51,60 @@ def equations(
     check_given(design, start, at, ratio, dict(numbers=numbers, forces=forces))
     listing = Listing(design.plan)
     listing.write_members(declared(type(design)))
-    lines = list(listing.lines)
+    lines = by_parts(listing.lines, listing)
     for target in [ratio] if isinstance(ratio, str) else ratio:
         added = differentiated(design, listing, target, wrt)
-        lines += [line for line in added if line.lhs not in {each.lhs for each in lines}]
+        lines += by_parts([line for line in added if line.lhs not in {each.lhs for each in lines}], listing)
     written = ForceLines(design, listing) if forces else None
     if written is not None:
         count = len(listing.lines)
         written.write_forces()
-        lines += [line for line in (*listing.lines[count:], *written.lines) if line.lhs not in {each.lhs for each in lines}]
+        more = [line for line in (*listing.lines[count:], *written.lines) if line.lhs not in {each.lhs for each in lines}]
+        lines += by_parts(more, listing)
     return Equations(design, lines, listing, start, {} if numbers and at is None else at if numbers or at else None, written)
+
+
+def by_parts(lines: Sequence[ListingLine], listing: Listing) -> list[ListingLine]:
+    """Return lines with those of one part behind each other as far as what they hang on lets them; as they are, where there are no parts.
+
+    A part whose lines can all be written comes first, the machine's own lines last.
+    """
+    if not listing.plan.of_kind(Part):
+        return list(lines)
+    made = [{line.lhs} if hasattr(line.lhs, "name") else set() for line in lines]
+    every = set[Any]().union(*made)
+    needs = [(line.rhs.free_symbols | line.lhs.free_symbols) & every - own for line, own in zip(lines, made, strict=True)]
+    left, found, known = list(range(len(lines))), list[int](), set[Any]()
+
+    def ready(owner: str) -> list[int]:
+        """Return the lines of a part that can be written now, one behind the other."""
+        have, ours = set(known), [place for place in left if part_of(lines[place], listing) == owner]
+        taken: list[int] = []
+        for place in ours:
+            if needs[place] <= have:
+                taken.append(place)
+                have |= made[place]
+        return taken
+
+    while left:
+        owners = list(dict.fromkeys(part_of(lines[place], listing) for place in left))
+        owners.sort(key=lambda each: not each)
+        choices = {owner: ready(owner) for owner in owners}
+        counts = {owner: sum(part_of(lines[place], listing) == owner for place in left) for owner in owners}
+        whole = [owner for owner in owners if len(choices[owner]) == counts[owner]]
+        best = whole[0] if whole else next((owner for owner in owners if choices[owner]), None)
+        taken = choices[best] if best is not None else left[:1]
+        for place in taken:
+            known |= made[place]
+        found += taken
+        left = [place for place in left if place not in taken]
+    return [lines[place] for place in found]
+
+
+def part_of(line: ListingLine, listing: Listing) -> str:
+    """Return the part whose line it is; "" for the machine itself, whose are those of several parts, too."""
+    owners = {listing.names.owners.get(each.name, "") for each in ([line.lhs] if hasattr(line.lhs, "name") else line.lhs.free_symbols)}
+    return owners.pop() if len(owners) == 1 else ""
 
 
 def check_given(design: Any, start: Any, at: Any, ratio: Any, flags: Mapping[str, Any]) -> None:
@@ -116,6 +162,8 @@ class Equation:
     rhs: Any
     unit: Unit
     follows: tuple[Any, ...] = ()
+    part: str = ""
+    """The part of the machine whose equation it is."""
 
     @property
     def name(self) -> str:
@@ -177,6 +225,8 @@ class SheetLine:
     formula: str
     numbers: str
     results: tuple[str, ...]
+    heading: str = ""
+    """The part of the machine that begins with it."""
 
     @property
     def steps(self) -> tuple[str, ...]:
@@ -233,7 +283,10 @@ class Equations(Sequence[Equation], Shown):
         self.machine, self._listing, self._lines, self._poses, self._forces = machine, listing, tuple(lines), poses, forces
         strokes = [listing.names.quantity(name) for name in machine.plan.strokes]
         numbered = enumerate(lines, start)
-        self._items = tuple(Equation(number, line.lhs, line.rhs, line.unit, strokes_followed(line, strokes)) for number, line in numbered)
+        self._items = tuple(
+            Equation(number, line.lhs, line.rhs, line.unit, strokes_followed(line, strokes), part_of(line, listing))
+            for number, line in numbered
+        )
 
     def __len__(self) -> int:
         return len(self._items)
@@ -255,6 +308,15 @@ class Equations(Sequence[Equation], Shown):
         """Every SymPy symbol by its text: what is given, then the left sides."""
         given = {symbol.name: symbol for each in self._items for symbol in each.symbols}
         return given | {each.name: each.lhs for each in self._items if each.lhs.is_Symbol or each.lhs.is_Matrix}
+
+    @property
+    def headings(self) -> dict[int, str]:
+        """What stands over the equations that begin a part of the machine, by their numbers: `lower (Arm)`; none without parts."""
+        parts = self.machine.plan.of_kind(Part)
+        titles = {"": self.machine.plan.title} | {name: f"{name} ({part.plan.title})" for name, part in parts.items()}
+        before = [None, *(each.part for each in self._items)]
+        begun = [each for each, last in zip(self._items, before, strict=False) if each.part != last]
+        return {each.number: titles[each.part] for each in begun} if parts else {}
 
     # -- numbers ---------------------------------------------------------------------------------------
 
@@ -325,7 +387,11 @@ class Equations(Sequence[Equation], Shown):
         filled = numbers if numbers is not None else self._poses is not None or at is not None
         values, shown = self._filled(at or self._poses) if filled else ({}, {})
         width = len(f"({self._items[-1].number})") if self._items else 0
-        lines = [f"{f'({each.number})':<{width}} {each.filled(values, shown) if filled else each}" for each in self._items]
+        lines, headings = list[str](), self.headings
+        for each in self._items:
+            if each.number in headings:
+                lines += [*([""] if lines else []), headings[each.number]]
+            lines.append(f"{f'({each.number})':<{width}} {each.filled(values, shown) if filled else each}")
         return "\n".join([*legend(self, self._listing, shown, self._forces), "", *lines])
 
     def _filled(self, at: Mapping[str, Any] | None, known: Mapping[str, Any] | None = None) -> tuple[dict[str, str], dict[str, str]]:
@@ -362,7 +428,9 @@ class Equations(Sequence[Equation], Shown):
         """
         check_pose(self.machine, at)
         values, shown = self._filled(at or self._poses, known)
-        return [each.sheet(self._listing.names.latex, values, shown) for each in self._items]
+        headings = self.headings
+        sheet = [each.sheet(self._listing.names.latex, values, shown) for each in self._items]
+        return [replace(each, heading=headings[each.number]) if each.number in headings else each for each in sheet]
 
     @property
     def together(self) -> tuple[str, ...]:
@@ -388,7 +456,11 @@ class Equations(Sequence[Equation], Shown):
     def latex(self, definitions: bool = True) -> str:
         r"""Return the equations as a LaTeX `align` environment, numbered by `\tag`; in front the definitions of its words."""
         words = self._listing.names.latex
-        rows = [rf"  {each.latex(words)} \tag{{{each.number}}}" for each in self._items]
+        rows, headings = list[str](), self.headings
+        for each in self._items:
+            if each.number in headings:
+                rows.append(rf"  \textbf{{{escaped_latex(headings[each.number])}}} & \notag")
+            rows.append(rf"  {each.latex(words)} \tag{{{each.number}}}")
         head = latex_legend(self) if definitions else []
         return "\n".join([*head, r"\begin{align}", " \\\\\n".join(rows), r"\end{align}"])
 

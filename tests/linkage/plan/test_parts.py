@@ -360,6 +360,46 @@ def test_labels_of_fused_points_are_those_of_the_part():
         Loader(**{"upper.OB": 0.02}).at(**POSES)
 
 
+def test_equations_are_headed_by_part_and_numbers_go_on():
+    found = equations(Loader(), forces=True)
+    assert [each.number for each in found] == list(range(1, len(found) + 1))
+    assert list(found.headings.values())[:4] == ["lower (Arm)", "twin (Arm)", "upper (Arm)", "Loader"]
+    text = found.text().split("Loader\n", 1)[0]
+    assert text.index("lower (Arm)\n(1)") < text.index("\n\ntwin (Arm)\n") < text.index("\n\nupper (Arm)\n")
+    known = set(found.symbols) - {each.name for each in found}
+    for each in found:
+        assert {symbol.name for symbol in each.symbols if symbol.name != "i"} <= known
+        known.add(each.name)
+    values = found.values(dict(s1=0.1, s2=0.1, **{"twin.S": 0.1}))
+    assert_allclose(np.array(values["upper.T"], float), Loader().at(s1=0.1, s2=0.1, **{"twin.S": 0.1})["upper.T"], rtol=1e-12)
+    assert r"\textbf{twin (Arm)} & \notag" in found.latex()
+    assert r"L_{AB}^{\mathrm{lower}}" in found.latex()
+    assert [each.heading for each in found.sheet() if each.heading] == list(found.headings.values())
+    assert not equations(Arm()).headings
+
+
+def test_no_two_things_of_parts_have_one_text():
+    class Named(Mechanism):
+        S = Stroke(0, 0.3)
+        O_B, B, A = Ground(0, 0), Ground(0.5, 0), Ground(0.1, -0.4)
+        P = Dyad(A, O_B, AP=0.45 + S, O_BP=0.4, side=RIGHT)
+        n = distance(O_B, P)
+
+    class Both(Mechanism):
+        left = Part(Named)
+        left_O = Part(Named, at=(1, 0))
+        n = distance("left.O_B", "left_O.B")
+
+    found = equations(Both())
+    texts = [each.name for each in found] + [symbol for symbol in found.symbols if symbol not in {each.name for each in found}]
+    assert len(set(texts)) == len(texts)
+    shown = [each.latex(found._listing.names.latex).partition("&=")[0] for each in found]
+    assert len(set(shown)) == len(shown)
+    assert "x_left_O.B" in texts  # the number given, in the part's axes; left_O.B_x is where the point stands
+    values = found.values({"left.S": 0.1, "left_O.S": 0.2})
+    assert_allclose(float(values["n"]), 1.5)
+
+
 def test_files_say_dotted_names_with_quotes_or_without(tmp_path):
     (tmp_path / "pair.toml").write_text(to_toml(Loader()))
     (tmp_path / "two.toml").write_text("""

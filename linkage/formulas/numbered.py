@@ -78,7 +78,7 @@ def by_parts(lines: Sequence[ListingLine], listing: Listing) -> list[ListingLine
 
     def ready(owner: str) -> list[int]:
         """Return the lines of a part that can be written now, one behind the other."""
-        have, ours = set(known), [place for place in left if part_of(lines[place], listing) == owner]
+        have, ours = set(known), [place for place in left if part_of_line(lines[place], listing) == owner]
         taken: list[int] = []
         for place in ours:
             if needs[place] <= have:
@@ -87,10 +87,10 @@ def by_parts(lines: Sequence[ListingLine], listing: Listing) -> list[ListingLine
         return taken
 
     while left:
-        owners = list(dict.fromkeys(part_of(lines[place], listing) for place in left))
+        owners = list(dict.fromkeys(part_of_line(lines[place], listing) for place in left))
         owners.sort(key=lambda each: not each)
         choices = {owner: ready(owner) for owner in owners}
-        counts = {owner: sum(part_of(lines[place], listing) == owner for place in left) for owner in owners}
+        counts = {owner: sum(part_of_line(lines[place], listing) == owner for place in left) for owner in owners}
         whole = [owner for owner in owners if len(choices[owner]) == counts[owner]]
         best = whole[0] if whole else next((owner for owner in owners if choices[owner]), None)
         taken = choices[best] if best is not None else left[:1]
@@ -101,7 +101,7 @@ def by_parts(lines: Sequence[ListingLine], listing: Listing) -> list[ListingLine
     return [lines[place] for place in found]
 
 
-def part_of(line: ListingLine, listing: Listing) -> str:
+def part_of_line(line: ListingLine, listing: Listing) -> str:
     """Return the part whose line it is; "" for the machine itself, whose are those of several parts, too."""
     owners = {listing.names.owners.get(each.name, "") for each in ([line.lhs] if hasattr(line.lhs, "name") else line.lhs.free_symbols)}
     return owners.pop() if len(owners) == 1 else ""
@@ -284,7 +284,7 @@ class Equations(Sequence[Equation], Shown):
         strokes = [listing.names.quantity(name) for name in machine.plan.strokes]
         numbered = enumerate(lines, start)
         self._items = tuple(
-            Equation(number, line.lhs, line.rhs, line.unit, strokes_followed(line, strokes), part_of(line, listing))
+            Equation(number, line.lhs, line.rhs, line.unit, strokes_followed(line, strokes), part_of_line(line, listing))
             for number, line in numbered
         )
 

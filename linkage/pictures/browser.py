@@ -80,7 +80,7 @@ def page_html(machine: Mechanism, *, count: int = COUNT, language: str = "en", p
     live = live_text(machine.plan, requests.by_name, name="engine")
     data = page_data(requests, live) | {"language": language, "words": {name: words_in(name) for name in LANGUAGES[1:]}}
     program, loader = f'"use strict";{live.text}\n{page_part("judge.js")}\n{page_part("page.js")}', page_part("loader.js")
-    styles = f":root {{ {colours()} }}\n{page_part('page.css')}"
+    styles = f":root {{ {colours(max(requests.scene.colours, default=0))} }}\n{page_part('page.css')}"
     parts = {
         "LANGUAGE": language,
         "TITLE": escape(machine.plan.heading),
@@ -95,9 +95,10 @@ def page_html(machine: Mechanism, *, count: int = COUNT, language: str = "en", p
     return filled(page_part("page.html"), parts)
 
 
-def colours() -> str:
-    """Return the style's colours as properties of a style sheet."""
-    named = {name.lower(): getattr(style, name) for name in COLOURS} | {f"body{k}": fill for k, fill in enumerate(style.BODIES)}
+def colours(most: int = 0) -> str:
+    """Return the style's colours as properties of a style sheet, those of bodies up to a place in the palette, ten at least."""
+    fills = style.PALETTE[: max(len(style.BODIES), most + 1)]
+    named = {name.lower(): getattr(style, name) for name in COLOURS} | {f"body{k}": fill for k, fill in enumerate(fills)}
     return "".join(f"--{name}:{value};" for name, value in named.items())
 
 

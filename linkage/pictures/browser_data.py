@@ -22,7 +22,6 @@ from ..reports import At, Run, column_requests, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, pin_force, pin_forces, traced_loads
 from ..units import UNITS, deg, display_unit, factor, shown_in
 from ..verdict import Verdict
-from . import style
 from .browser_judge import LiveQuestions
 from .curves import check_poses, limit_of, typeset
 from .labels import offsets
@@ -439,12 +438,12 @@ def scene_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
     scene, plan = requests.scene, requests.plan
     names = list(plan.points)
     index = {name: place for place, name in enumerate(names)}
-    forms = list(zip(scene.plates, scene.bodies, strict=True))
+    forms = list(zip(scene.plates, scene.bodies, scene.colours, strict=True))
     return {
         "size": scene.size,
         "names": names,
         "box": [four_digits(side) for side in scene.box(0.0)],
-        "bodies": [body_data(plate, points, index) | {"colour": k % len(style.BODIES)} for k, (plate, points) in enumerate(forms)],
+        "bodies": [body_data(plate, points, index) | {"colour": colour} for plate, points, colour in forms],
         "tracks": [track_data(track, index, live) for track in scene.tracks],
         "contours": [mark_data(each, index) for each in (*scene.contours, *scene.sections)],
         "straights": [mark_data(each, index) for each in scene.straights],

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -49,9 +48,11 @@ def draw_chain(graph: nx.MultiGraph) -> Figure:
         beside = list(graph.get_edge_data(a, b).items())
         for place, (name, data) in enumerate(beside):
             taken.append(joint(ax, str(name), data, at[a], at[b], BOW * (place - 0.5 * (len(beside) - 1)), taken))
-    colours = cycle(style.BODIES)
+    plain = [str(name) for name, data in graph.nodes(data=True) if data["kind"] not in COLOURS]
+    places = style.body_colours([style.part_of_points(name.split(" ")) for name in plain])
+    colours = {name: style.PALETTE[place] for name, place in zip(plain, places, strict=True)}
     for name, data in graph.nodes(data=True):
-        face = COLOURS.get(data["kind"]) or next(colours)
+        face = COLOURS.get(data["kind"]) or colours[str(name)]
         body(ax, str(name), data, face, at[name])
     bodies, joints = graph.number_of_nodes(), graph.number_of_edges()
     write_title(figure, str(graph.name), f"3 ({bodies} - 1) - 2 · {joints} = {3 * (bodies - 1) - 2 * joints}")

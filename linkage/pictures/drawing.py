@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import cycle
 from pathlib import Path
-from typing import final
+from typing import Any, final
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -51,13 +50,17 @@ def mechanism(ax: Axes, motion: Motion, pose: int | tuple[int, ...] = 0, *, fain
     return drawing
 
 
+UNDER = 2.5
+"""The layer of what is written on the sheet under a mechanism."""
+
+
 @final
 class Drawing:
     """The parts of a mechanism on some axes; `update` moves them to another pose."""
 
     def __init__(self, ax: Axes, scene: Scene, look: Look = STRONG) -> None:
         self.ax, self.scene, self.look = ax, scene, look
-        plates = zip(scene.plates, cycle(style.BODIES), strict=False)
+        plates = zip(scene.plates, (style.PALETTE[place] for place in scene.colours), strict=True)
         self.parts: list[MovingPart] = [
             *(MarkPart(ax, mark, look) for mark in scene.marks if mark.on),
             *(BodyPart(ax, plate, scene.size, colour, look) for plate, colour in plates),
@@ -86,8 +89,15 @@ class Drawing:
         gap = 1.15 * size * scale + 1.5
         minor = self.scene.minor
         names = [name for name in self.scene.places if all_points or name not in minor]
-        spots = offsets(names, poses, clouds, scale, gap, font, minor=minor)
-        self.parts += [LabelPart(self.ax, name, spot, gap, self.look, name in minor, font) for name, spot in spots.items()]
+        letters = self.scene.letters
+        spots = offsets(names, poses, clouds, scale, gap, font, minor=minor, letters=letters)
+        for name, spot in spots.items():
+            self.parts.append(LabelPart(self.ax, name, spot, gap, self.look, name in minor, font, letters.get(name, name)))
+        owners = {name.rpartition(".")[0]: letter for name, letter in reversed(letters.items())}
+        if owners:
+            text = "   ".join(f"{owner}: {letter}" for owner, letter in reversed(owners.items()))
+            place: dict[str, Any] = {"transform": self.ax.transAxes, "fontsize": style.SMALL, "color": style.MUTED, "zorder": UNDER}
+            self.ax.text(0.008, 0.02, text, **place, ha="left", va="bottom")
 
     def update(self, pose: int) -> None:
         """Move to a pose, a flat index."""

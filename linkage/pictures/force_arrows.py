@@ -13,6 +13,7 @@ from ..language import noted, said, translated
 from ..loads import ForceElement
 from ..motion import Motion
 from ..program import FloatArray
+from ..quantities import joined_names
 from ..statics import JointForce, PinForces, pin_forces
 from ..units import current_system, shown_in
 from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
@@ -134,9 +135,13 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
 
 
 def short_name(forces: ForcesAt, body: str) -> str:
-    """Return a body's name as it is written at an arrow: one of many points goes by its first two."""
+    """Return a body's name as it is written at an arrow: one of many points goes by its first two, of its part's own."""
     points = next((each.points for each in forces.found._structure.bodies if each.name == body), ())
-    return body if len(body) <= 8 or len(points) < 3 else f"{points[0]}{points[1]}\N{HORIZONTAL ELLIPSIS}"
+    if len(body) <= 8 or len(points) < 3:
+        return body
+    owner = max((each.rpartition(".")[0] for each in points), key=[each.rpartition(".")[0] for each in points].count)
+    own = [each for each in points if each.rpartition(".")[0] == owner]
+    return f"{joined_names(*(own if len(own) > 1 else points)[:2])}\N{HORIZONTAL ELLIPSIS}"
 
 
 def from_words(forces: ForcesAt, body: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from types import MappingProxyType
 from typing import final
 
 import numpy as np
@@ -36,14 +37,15 @@ class LabelPart(MovingPart):
     """A point's name at an offset [points], joined to the point by a thin line where it stands away from it."""
 
     def __init__(
-        self, ax: Axes, name: str, offset: FloatArray, gap: float, look: Look, minor: bool = False, font: float = style.LABEL
-    ) -> None:
-        self.points = (name,)
+        self, ax: Axes, name: str, offset: FloatArray, gap: float, look: Look, minor: bool = False, font: float = style.LABEL,
+        text: str = "",
+    ) -> None:  # fmt: skip
+        self.points, text = (name,), text or name
         font = font * (MINOR if minor else 1.0)
         leader = {"arrowstyle": "-", "color": look.colour(style.MUTED), "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.6 * gap}
-        self.is_led = bool(distance_to_box(offset, half_of(name, font)) > LED * gap)
+        self.is_led = bool(distance_to_box(offset, half_of(text, font)) > LED * gap)
         self.text = ax.annotate(
-            name, (0, 0), xytext=(float(offset[0]), float(offset[1])), textcoords="offset points", ha="center", va="center_baseline",
+            text, (0, 0), xytext=(float(offset[0]), float(offset[1])), textcoords="offset points", ha="center", va="center_baseline",
             fontsize=font, fontstyle="italic", color=look.colour(style.MUTED if minor else style.INK), zorder=look.level + 1.0,
             annotation_clip=False,
             path_effects=[withStroke(linewidth=2.5, foreground=style.PAPER)], arrowprops=leader if self.is_led else None,
@@ -64,18 +66,19 @@ def offsets(
     gap: float,
     font: float = style.LABEL,
     minor: Collection[str] = (),
+    letters: Mapping[str, str] = MappingProxyType({}),
 ) -> dict[str, FloatArray]:
     """Return where each name stands, from its point, shape (2,) each, in the unit of `font`.
 
     One offset serves all `poses`; where there are several it stays short, so that each name keeps to its pin.
     `clouds` are the points to keep clear at each [m]; `scale` is that unit per metre and `gap` the distance from the point's centre at
-    which a label may begin; the names in `minor` are smaller. Crowded points choose first; then each chooses again, some rounds long, as
-    the others stand.
+    which a label may begin; the names in `minor` are smaller, those in `letters` are written so. Crowded points choose first; then each
+    chooses again, some rounds long, as the others stand.
     """
     far = max(gap, 0.9 * font) if len(poses) > 1 else np.inf
     taken = [cloud * scale for cloud in clouds]
     anchors = {name: np.array([at[name] for at in poses]).reshape(-1, 2) * scale for name in names}
-    halves = {name: half_of(name, font * (MINOR if name in minor else 1.0)) for name in names}
+    halves = {name: half_of(letters.get(name, name), font * (MINOR if name in minor else 1.0)) for name in names}
     tried = {name: candidates(halves[name], gap, far) for name in names}
     alone = {name: own_costs(name, tried[name], halves[name], anchors, taken, gap) for name in names}
     spots: dict[str, FloatArray] = {}

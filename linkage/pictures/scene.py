@@ -20,6 +20,7 @@ from ..quantities import Joint, Quantity, Where, is_whole, joined_names, needs
 from ..steps import Arrow, Guide, Point
 from ..surroundings import Outline
 from ..vectors import Line
+from . import style
 from .shapes import (
     APART,
     BLOCK,
@@ -233,6 +234,17 @@ class DrawnCylinder:
         return DrawnMark(joined_names(self.P, self.Q), (self.P, self.Q), lines, 0.4, cylinder=self)
 
 
+CROWDED = 20
+"""More dotted names than so many crowd a picture."""
+PRIMES = 3
+"""The points of so many parts are told apart by primes, those of further ones by raised numbers."""
+
+
+def raised(number: int) -> str:
+    """Return a whole number in small raised figures."""
+    return "".join("\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[int(each)] for each in str(number))
+
+
 @final
 @dataclass(frozen=True, eq=False)
 class Scene:
@@ -295,6 +307,20 @@ class Scene:
     def bodies(self) -> tuple[tuple[str, ...], ...]:
         """The points of each moving body; bars that close a triangle are one."""
         return rigid_together([body.points for body in self.motion.plan.links if not body.fixed and len(body.points) > 1])
+
+    @cached_property
+    def colours(self) -> list[int]:
+        """The colour of each moving body, its place in the palette of the style: those of a part are of one family."""
+        return style.body_colours([style.part_of_points(points) for points in self.bodies])
+
+    @cached_property
+    def letters(self) -> dict[str, str]:
+        """The points of parts by their letters in the part with primes, `B'`, where so many dotted names would crowd; nothing else."""
+        dotted = [name for name in self.places if "." in name]
+        owners = list(dict.fromkeys(name.rpartition(".")[0] for name in dotted))
+        signs = {owner: "'" * count if count <= PRIMES else raised(count) for count, owner in enumerate(owners, 1)}
+        short = {name: name.rpartition(".")[2] + signs[name.rpartition(".")[0]] for name in dotted}
+        return short if len(dotted) > CROWDED else {}
 
     @cached_property
     def plates(self) -> tuple[Plate, ...]:

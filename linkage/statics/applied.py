@@ -34,7 +34,7 @@ from ..motion import Motion, rates_of, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import name_of
+from ..quantities import joined_names, name_of
 from .poses import AnyMotion
 
 
@@ -185,7 +185,7 @@ def thrust_name(member: TwoPinned, owner: str) -> str:
 
 def member_title(member: TwoPinned) -> str:
     """Return the name of a two-point member as a body: its own, or its kind with its points."""
-    return member.name or f"{type(member).__name__} {''.join(member.ends)}"
+    return member.name or f"{type(member).__name__} {joined_names(*member.ends)}"
 
 
 # Which elements are meant, by name, case and kind.

@@ -24,7 +24,7 @@ from ..motion.conditions import REFUSE, WARN, condition_of_sine, is_or_are
 from ..motion.limits import where_words
 from ..plan import Plan
 from ..program import FloatArray, Traced, elementwise, eliminated, is_traced, node_of
-from ..quantities import Member
+from ..quantities import Member, joined_names
 from .poses import FlatPoses
 
 POSES = 7
@@ -100,7 +100,7 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
     for line, row in zip(lines, follows, strict=True):
         if not row.any():
             raise DefinitionError(
-                f"{plan.title}: {line_names(line)} holds nothing here: no stroke changes the distance {''.join(line[0].ends)}. "
+                f"{plan.title}: {line_names(line)} holds nothing here: no stroke changes the distance {joined_names(*line[0].ends)}. "
                 "Put it between two points that move against each other, or take it out."
             )
     best = matched(follows)

@@ -39,8 +39,11 @@ from linkage import (
     x,
 )
 from linkage.files import load, to_toml
+from linkage.pictures import style
+from linkage.pictures.scene import Scene
 from linkage.steps import Point
 from linkage.vectors import Vec
+from tests.linkage.pictures.colour_vision import SIGHT, ciede2000, contrast, lab
 
 
 class Arm(Mechanism):
@@ -376,6 +379,35 @@ def test_equations_are_headed_by_part_and_numbers_go_on():
     assert r"L_{AB}^{\mathrm{lower}}" in found.latex()
     assert [each.heading for each in found.sheet() if each.heading] == list(found.headings.values())
     assert not equations(Arm()).headings
+
+
+class Two(Mechanism):
+    """Two loaders, one opposite the other."""
+
+    left = Part(Loader)
+    right = Part(Loader, at=(5, 1), mirrored=True)
+
+
+def test_the_bodies_of_a_part_are_of_one_colour_family():
+    swept = {"left.s1": STROKES, "left.s2": 0.1, "left.twin.S": 0.1, "right.s1": 0.1, "right.s2": 0.1, "right.twin.S": 0.1}
+    scene = Scene(Two().at(**swept))
+    families = {"left": set(), "right": set()}
+    for points, colour in zip(scene.bodies, scene.colours, strict=True):
+        families[style.part_of_points(points)].add(colour)
+    assert families == {"left": {1, 10}, "right": {4, 11}}
+    assert Scene(Loader().at(**POSES)).colours == [0, 1, 2]  # parts of one body each: as the bodies of any machine
+    assert scene.letters["left.lower.B"] != scene.letters["right.lower.B"]
+    assert len(set(scene.letters.values())) == len(scene.letters) == len(scene.places)
+    assert not Scene(Loader().at(**POSES)).letters
+
+
+@pytest.mark.parametrize("sight", SIGHT)
+def test_families_of_colours_can_be_told_apart(sight):
+    families = [style.PALETTE[place] for place in (*style.FAMILIES, *range(len(style.BODIES), len(style.PALETTE)))]
+    seen = [lab(colour, sight) for colour in families]
+    least = min(ciede2000(one, other) for place, one in enumerate(seen) for other in seen[:place])
+    assert least >= (10.9 if sight == "normal" else 6.1)
+    assert min(contrast(style.INK, colour) for colour in families) > 4.5
 
 
 def test_no_two_things_of_parts_have_one_text():

@@ -215,6 +215,16 @@ def names_among(given: Any, what: str, known: Mapping[str, Any], title: str, exa
     return tuple(known_name("Load", name_of(each), known, where=f"{title}: {what}") for each in given)
 
 
+def check_strokes(plan: Plan, hold: Any, targets: Sequence[Target], title: str) -> None:
+    """Raise DefinitionError where fewer strokes are left than a place and what is kept take."""
+    free = [name for name in plan.strokes if not isinstance(hold, Mapping) or name not in hold]
+    if len(free) < len(targets):
+        kept = f" and {len(targets) - 2} kept value{'s' * (len(targets) > 3)}" if len(targets) > 2 else ""
+        what = f"{title}: x, y{kept} take {len(targets)} strokes, and {', '.join(free) or 'none'} may move"
+        remedy = "hold less, keep less" if len(free) < len(plan.strokes) or kept else "a field is of machines with two strokes and more"
+        raise DefinitionError(f"{what}; {remedy}, or ask for the load along a stroke, circuit.capacity(motion, ...).")
+
+
 @final
 @dataclass(frozen=True, eq=False)
 class FurtherLimit:
@@ -310,6 +320,7 @@ class FieldSearch:
         if not isinstance(keep, (list, tuple)) or not all(isinstance(each, Target) and not each.is_path for each in keep):
             raise DefinitionError(f'{title}: keep={cited(keep)}: a list of targets is expected, such as keep=[Target("tilt", 0.0)].')
         targets = [Target(x_of(name), float(axes[0][0])), Target(y_of(name), float(axes[1][0])), *keep]
+        check_strokes(plan, hold, targets, title)
         many = ManyPlaces.of(plan, machine.dimensions, targets, hold, where="working_field")
         elements = plan.of_kind(ForceElement)
         left = names_among(without, "without", elements, title, '"load"')

@@ -24,6 +24,7 @@ from linkage import (
     Mechanism,
     OnLink,
     Outline,
+    Part,
     PinFriction,
     Planes,
     Stroke,
@@ -289,6 +290,42 @@ def test_places_come_back_in_the_order_they_were_given():
     assert np.array_equal(other.why, one.why[[3, 1, 2]][:, ::-1])
 
 
+AROUND, UP = np.linspace(0.6, 2.2, 9), np.linspace(-0.4, 0.9, 6)
+
+
+class CarriedArm(Mechanism):
+    """The arm as a part, mirrored and moved aside."""
+
+    lift, fold = Stroke(0.75, 1.15), Stroke(0.70, 1.10)
+    crane = Part(Arm, lift=lift, fold=fold, mirrored=True, at=(0.4, 0.2))
+
+
+def test_a_mirrored_part_lifts_the_same_at_the_mirrored_place():
+    alone = working_field(Arm(), "K", AROUND, UP)
+    part = working_field(CarriedArm(), "crane.K", 0.4 - AROUND, UP + 0.2)
+    assert_allclose(part.load, alone.load, rtol=1e-10)
+    assert_allclose(part.of["crane.folder"], alone.of["folder"], rtol=1e-10)
+    assert_allclose(part.strokes["fold"], alone.strokes["fold"], atol=1e-12)
+    assert_allclose(part.area, alone.area, rtol=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_law_of_the_limiter_on_random_designs(seed):
+    rng = np.random.default_rng(seed)
+    names = ["OB", "OJ", "OC", "JD", "JK", "boom_mass.mass", "arm_mass.mass", "lifter.bore", "folder.bore"]
+    machine = Arm().replaced(**{name: Arm()[name] * rng.uniform(0.96, 1.04) for name in names})
+    turn = rng.uniform(0.0, 2.0 * pi)
+    field = working_field(machine, "K", AROUND, UP, along=(cos(turn), sin(turn)), lifts=[["lifter"], ["folder"]][seed % 2])
+    motion, load, limiter, acting = loaded(field, own_loads(machine))
+    kept = load > 0.0
+    assert kept.sum() > 5
+    for name, thrust, low, high in forces_and_bounds(field, motion, acting, lambda name: name == ("lifter", "folder")[seed % 2]):
+        size = float(np.maximum(abs(low), abs(high)))
+        assert np.all(((thrust >= low - 1e-9 * size) & (thrust <= high + 1e-9 * size))[kept & np.isfinite(load)])
+        mine = kept & (limiter == name)
+        assert np.all(np.minimum(abs(thrust - low), abs(thrust - high))[mine] <= 1e-9 * size)
+
+
 class Digger(Arm):
     """The arm on a vehicle of two axles."""
 
@@ -298,7 +335,6 @@ class Digger(Arm):
     rear = Support(rear_axle, (0, 1), friction=0.5)
 
 
-AROUND, UP = np.linspace(0.6, 2.2, 9), np.linspace(-0.4, 0.9, 6)
 WEIGHT = {"body": (700.0, -0.4), "boom_mass": (80.0, "J"), "arm_mass": (45.0, "K")}
 
 

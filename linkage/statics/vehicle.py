@@ -10,12 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import TypeAlias, Unpack, final
+from typing import Unpack, final
 
 import numpy as np
-import numpy.typing as npt
 
-from ..errors import DefinitionError, UntracedError
+from ..errors import DefinitionError
 from ..language import noted, said
 from ..loads import (
     AT_REST,
@@ -41,11 +40,11 @@ from ..units import show
 from ..verdict import Verdict
 from .applied import AppliedLoads, applied_loads, elements_of, rates_in
 from .bodies import frame_points
+from .holding import where_negative
 from .law_requests import LawRequest, case_words, situation_identity
 from .poses import AnyMotion, FlatPoses, cross
 from .traced_loads import TracedMotion, traced_loads
 
-IntArray: TypeAlias = npt.NDArray[np.intp]
 SAME_PLACE = 1e-9
 """m: supports that are nearer to each other stand at one place."""
 BEYOND = 1e-9
@@ -99,9 +98,6 @@ def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Suppor
     if len(supports) == 2:
         ends = [*carried_by_two(across, levers, outside, 0, 1)]
         found = np.stack([each for each in ends if each is not None])
-    elif isinstance(motion, TracedMotion):
-        what = f"{motion.plan.title}: axle loads of more than two supports have values"
-        raise UntracedError(f"{what}, and no program that gives derivatives. Take finite differences.")
     else:
         found, ends = by_stiffness(poses, supports, across, levers, outside)
     names = list(supports)
@@ -250,10 +246,8 @@ def by_stiffness(
     A rigid frame sinks and turns; one by one the last support of the side that rises lifts off, and the others are asked again.
     """
     motion, many = poses.motion, len(supports)
-    a, b = np.stack(across), np.stack(levers)
-    k = np.stack([poses.flattened(each.number(motion, "stiffness")) for each in supports.values()])
-    order = np.argsort(b / a, axis=0, kind="stable")
-    a, b, k = (np.take_along_axis(each, order, axis=0) for each in (a, b, k))
+    stiffnesses = [poses.flattened(each.number(motion, "stiffness")) for each in supports.values()]
+    a, b, k, order = by_place(across, levers, stiffnesses, [poses.zeros() + number for number in range(many)])
 
     def carried(low: int, high: int) -> FloatArray:
         """Return the reactions where the supports from low to before high carry, (supports, n)."""
@@ -270,18 +264,33 @@ def by_stiffness(
         """Return the reactions where supports of one side lift off, one after the other, down to two."""
         for gone in range(1, many - 1):
             last, rest = (gone - 1, (gone, many)) if left else (many - gone, (0, many - gone))
-            found = np.where(found[last] < 0.0, carried(*rest), found)
+            found = where_below(found[last], carried(*rest), found)
         return found
 
     whole = carried(0, many)
-    found = np.where(whole[-1] < 0.0, lifted(whole, False), np.where(whole[0] < 0.0, lifted(whole, True), whole))
-    back = np.argsort(order, axis=0, kind="stable")
-    return np.take_along_axis(found, back, axis=0), outer(poses, order, across, levers, outside)
+    found = where_below(whole[-1], lifted(whole, False), where_below(whole[0], lifted(whole, True), whole))
+    own = [where_below((order - number) ** 2 - 0.25, found, 0.0 * found).sum(axis=0) for number in range(many)]
+    return np.stack(own), outer(order, across, levers, outside) if order.dtype != object else [None] * many
 
 
-def outer(
-    poses: FlatPoses, order: IntArray, across: list[FloatArray], levers: list[FloatArray], outside: Outside
-) -> list[FloatArray | None]:
+def by_place(*given: list[FloatArray]) -> tuple[FloatArray, ...]:
+    """Return rows of numbers of the supports, (supports, n) each, in the order of their places: of the second row over the first one."""
+    rows = [list(row) for row in given]
+    a, b, *_ = rows
+    for last in range(len(a) - 1, 0, -1):
+        for left in range(last):
+            step = b[left + 1] / a[left + 1] - b[left] / a[left]
+            for row in rows:
+                row[left], row[left + 1] = where_below(step, row[left + 1], row[left]), where_below(step, row[left], row[left + 1])
+    return tuple(np.stack(row) for row in rows)
+
+
+def where_below(values: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
+    """Return x where values are below zero, else y; of numbers of a program too."""
+    return where_negative(values, x, y) if values.dtype == object else np.where(values < 0.0, x, y)
+
+
+def outer(order: FloatArray, across: list[FloatArray], levers: list[FloatArray], outside: Outside) -> list[FloatArray | None]:
     """Return what the two outermost supports carry alone, at their places among all, None at others; NaN where they are others."""
     found: list[FloatArray | None] = [None] * len(across)
     for i, j in {(int(i), int(j)) for i, j in zip(order[0], order[-1], strict=True)}:

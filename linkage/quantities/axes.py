@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -83,6 +83,15 @@ class Axes:
             x, y = x * cos - y * sin, x * sin + y * cos
         turn = negated(inner.angle) if self.mirrored else inner.angle
         return Axes(self.P, self.Q, (plus(self.at[0], x), plus(self.at[1], y)), plus(self.angle, turn), mirrored)
+
+    def corner(self, x: Quantity, y: Quantity) -> tuple[Quantity, Quantity]:
+        """Return the coordinates of a place of the part in the axes of what carries it."""
+        x = negated(x) if self.mirrored else x
+        if not is_nothing(self.angle):
+            angle: Any = self.angle.number if isinstance(self.angle, Number) and not self.angle.name else self.angle
+            cos, sin = np.cos(angle), np.sin(angle)
+            x, y = plus(times(x, cos), negated(times(y, sin))), plus(times(x, sin), times(y, cos))
+        return plus(self.at[0], x), plus(self.at[1], y)
 
     # -- in a reading ------------------------------------------------------------------------------------------
 
@@ -164,6 +173,14 @@ class Axes:
 def negated(given: Quantity) -> Quantity:
     """Return a quantity with its sign changed; a number as a number."""
     return Number(-given.number if given.number else 0.0) if isinstance(given, Number) and not given.name else -given
+
+
+def times(a: Quantity, factor: Any) -> Quantity:
+    """Return a product; of numbers as a number."""
+    if is_nothing(a):
+        return a
+    is_plain = isinstance(a, Number) and not a.name and not isinstance(factor, Quantity)
+    return Number(a.number * float(factor)) if is_plain and isinstance(a, Number) else a * factor
 
 
 def plus(a: Quantity, b: Quantity) -> Quantity:

@@ -8,15 +8,17 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeAlias, final
+from typing import Any, ClassVar, Self, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError, FileError, cited, is_yes
-from ..quantities import Member, Number, Operand, Quantity, Reference, Stroke, is_number, label, name_of, needs, quantity, spelled
+from ..quantities import Axes, Member, Number, Operand, Quantity, Reference, Stroke, is_number, label, name_of, needs, quantity, spelled
+from ..quantities.axes import NOTHING, negated, plus
 from ..quantities.quantity import plain
 from ..steps import Link
 from .dxf import dxf_lines
@@ -118,6 +120,21 @@ class Outline(Member):
             if stroke:
                 raise DefinitionError(f"{what}: {spelled(each)} follows the stroke {stroke}; give a fixed size, and carry it with on=.")
 
+    def in_axes(self, axes: Axes) -> Self:
+        if len(self.carriers) == 2:  # the axes of a body go with its points, which are mirrored
+            return self.moved(lambda x, y: (x, negated(y)), axes) if axes.mirrored else self
+        if self.carriers and axes.carrier:
+            what = f"{self.name} = {self} keeps directions of a part that is carried"
+            raise DefinitionError(f"{what}; let two points of a body carry it, on=({label(self._on[0])}, ...).")
+        if self.carriers:
+            return self if axes.are_upright else self.moved(replace(axes, at=(NOTHING, NOTHING)).corner, axes)
+        return self.moved(axes.corner, axes).renewed(on=axes.carrier)
+
+    def moved(self, corner: Callable[[Quantity, Quantity], tuple[Quantity, Quantity]], axes: Axes) -> Self:
+        """Return the outline with its places where a part's axes take them."""
+        points = tuple(corner(x, y) for x, y in self.points)
+        return self.renewed(points=points[::-1] if axes.mirrored and self.hatched else points)
+
     def lines(self, value: Value) -> tuple[Array, ...]:
         """Return its lines in the axes of what carries it, shape (n, 2) each [m]; a closed one does not repeat its first corner."""
         return (numbers_at(self.points, value),)
@@ -155,6 +172,13 @@ class CircleOutline(Outline):
     @property
     def _on(self) -> tuple[Reference, ...]:
         return self.on if isinstance(self.at, tuple) else (self.at,)
+
+    def in_axes(self, axes: Axes) -> Self:
+        return super().in_axes(axes) if self.centre else self
+
+    def moved(self, corner: Callable[[Quantity, Quantity], tuple[Quantity, Quantity]], axes: Axes) -> Self:
+        x, y = self.centre
+        return self.renewed(at=corner(x, y))
 
     @property
     def centre(self) -> tuple[Quantity, ...]:
@@ -200,6 +224,13 @@ class PlacedFile(Outline):
             raise DefinitionError(f"{self.form}: the path of the file is missing.")
         self.path, self.on = path, carrier(on, self.form)
         self.at, self.angle = corner_of(at, f"{self.form}(at=...)"), quantity(angle)
+
+    def moved(self, corner: Callable[[Quantity, Quantity], tuple[Quantity, Quantity]], axes: Axes) -> Self:
+        if axes.mirrored:
+            what = f"{self.name} = {self}: what a file holds is not mirrored"
+            raise DefinitionError(f"{what}; give a drawing of the other hand, or leave it out.")
+        x, y = self.at
+        return self.renewed(at=corner(x, y), angle=plus(self.angle, axes.angle))
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         """Raise FileError where the file is not there, too."""

@@ -21,6 +21,7 @@ from linkage import (
     Mechanism,
     Moment,
     OnLink,
+    Outline,
     Over,
     Part,
     Stroke,
@@ -379,6 +380,54 @@ def test_equations_are_headed_by_part_and_numbers_go_on():
     assert r"L_{AB}^{\mathrm{lower}}" in found.latex()
     assert [each.heading for each in found.sheet() if each.heading] == list(found.headings.values())
     assert not equations(Arm()).headings
+
+
+class Shaped(Arm):
+    """An arm with outlines of each kind."""
+
+    plate = Outline([(-0.1, -0.5), (0.3, -0.5), (0.2, 0.1)])
+    skin = Outline([(0.0, 0.0), (0.5, 0.1), (0.2, 0.3)], on="O B")
+    eye = Outline.circle((0.1, 0.05), 0.04, on="T")
+    ring = Outline.circle("B", radius=0.05)
+    floor = Outline.line((-1, -0.6), (1, -0.7))
+
+
+PLACED = [dict(), dict(at=(1.5, -0.7)), dict(mirrored=True), dict(angle=0.6, at=("k", 1)), dict(mirrored=True, angle=-0.4, at=(2, 0))]
+
+
+@pytest.mark.parametrize("on", [False, True])
+@pytest.mark.parametrize("how", PLACED, ids=str)
+def test_outlines_stand_where_their_part_stands(how, on):
+    if on:
+        names, how = ("plate", "skin", "ring", "floor"), {**how, "on": ("o", "q")}
+        members = {"p": Part(Shaped, eye=None, **how)}
+    else:
+        names, members = ("plate", "skin", "eye", "ring", "floor"), {"p": Part(Shaped, **how)}
+    base = {"t": Stroke(0, 1), "k": Dimension(1.5), "o": Ground(0.4, 0.1), "q": Crank("o", oq=0.7, angle="t")}
+    held = declare(**base, **members)().at(t=0.3, **{"p.S": 0.1})
+    alone = Shaped().at(S=0.1)
+    # the frame of the part as three of its points say it
+    own = np.column_stack([alone["O"], alone["A"], alone["T"]])
+    whole = np.column_stack([held["p.O"], held["p.A"], held["p.T"]])
+    turned = (whole[:, 1:] - whole[:, :1]) @ np.linalg.inv(own[:, 1:] - own[:, :1])
+    for name in names:
+        found, expected = corners(held, f"p.{name}"), corners(alone, name)
+        expected = whole[:, :1] + turned @ (expected - own[:, :1])
+        far = np.abs(found[:, :, None] - expected[:, None]).sum(axis=0).min(axis=0)  # of a circle other corners, of a line the other way
+        assert far.max() <= (0.006 if name in ("eye", "ring") else 1e-12)
+    if on:
+        with pytest.raises(DefinitionError, match=r"eye .* keeps directions of a part that is carried"):
+            declare(t=Stroke(0, 1), k=Dimension(1.5), o=Ground(0, 0), q=Crank("o", oq=0.7, angle="t"), p=Part(Shaped, **how))
+
+
+def corners(motion, name):
+    """Return the corners of an outline in the frame [m], shape (2, n)."""
+    outline = motion.plan.members[name]
+    (line,) = outline.lines(lambda each: float(motion.value(each)))
+    places = [motion[each] for each in outline.carriers]
+    start = places[0] if places else np.zeros(2)
+    along = (places[1] - start) / np.hypot(*(places[1] - start)) if len(places) > 1 else np.array([1.0, 0.0])
+    return start[:, None] + np.column_stack([along, [-along[1], along[0]]]) @ line.T
 
 
 class Two(Mechanism):

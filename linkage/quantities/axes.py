@@ -90,7 +90,7 @@ class Axes:
         if not is_nothing(self.angle):
             angle: Any = self.angle.number if isinstance(self.angle, Number) and not self.angle.name else self.angle
             cos, sin = np.cos(angle), np.sin(angle)
-            x, y = plus(times(x, cos), negated(times(y, sin))), plus(times(x, sin), times(y, cos))
+            x, y = plus(multiplied(x, cos), negated(multiplied(y, sin))), plus(multiplied(x, sin), multiplied(y, cos))
         return plus(self.at[0], x), plus(self.at[1], y)
 
     # -- in a reading ------------------------------------------------------------------------------------------
@@ -175,7 +175,7 @@ def negated(given: Quantity) -> Quantity:
     return Number(-given.number if given.number else 0.0) if isinstance(given, Number) and not given.name else -given
 
 
-def times(a: Quantity, factor: Any) -> Quantity:
+def multiplied(a: Quantity, factor: Any) -> Quantity:
     """Return a product; of numbers as a number."""
     if is_nothing(a):
         return a

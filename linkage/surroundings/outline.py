@@ -124,8 +124,9 @@ class Outline(Member):
         if len(self.carriers) == 2:  # the axes of a body go with its points, which are mirrored
             return self.moved(lambda x, y: (x, negated(y)), axes) if axes.mirrored else self
         if self.carriers and axes.carrier:
-            what = f"{self.name} = {self} keeps directions of a part that is carried"
-            raise DefinitionError(f"{what}; let two points of a body carry it, on=({label(self._on[0])}, ...).")
+            what, own = f"{self.name} = {self} keeps directions of a part that is carried", self.name.rpartition(".")[2]
+            remedy = f"let two points of a body carry it, on=({label(self._on[0])}, ...), or leave it out, Part(..., {own}=None)"
+            raise DefinitionError(f"{what}; {remedy}.")
         if self.carriers:
             return self if axes.are_upright else self.moved(replace(axes, at=(NOTHING, NOTHING)).corner, axes)
         return self.moved(axes.corner, axes).renewed(on=axes.carrier)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import Mechanism, Over, Part, SingularWarning, deg, pin_forces
+from linkage import Crank, Ground, Mechanism, Outline, Over, Part, SingularWarning, Stroke, deg, pin_forces
 from linkage.files import load, to_toml
 from linkage.loads import ForceElement, LoadCase
 from linkage.quantities import Dimension, Quantity
@@ -92,6 +92,30 @@ def test_mirrored_twice_is_not_mirrored(machine):
         assert_allclose(held[f"q.p.{name}"], alone[name], rtol=1e-14, atol=1e-14)
 
 
+@ALL
+@pytest.mark.parametrize("how", [dict(), dict(mirrored=True, at=(0.3, -0.2), angle=-40 * deg)], ids=str)
+def test_a_part_on_a_moving_body_goes_with_it(machine, how):
+    base = {"t": Stroke(-1, 1), "o": Ground(0.4, 0.1), "q": Crank("o", oq=0.7, angle="t")}
+    outlines = machine.plan.of_kind(Outline).items()
+    hanging = {name: None for name, each in outlines if len(each.carriers) == 1 and not hasattr(each, "radius")}  # keeps directions
+    carrying = type("Carrying", (Mechanism,), {**base, "p": Part(machine, on=("o", "q"), **how, **hanging)})
+    turn = np.linspace(-0.5, 0.6, 4)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SingularWarning)
+        alone = machine().at(unreachable="nan", **moved(machine))
+        held = carrying().at(unreachable="nan", t=turn, **moved(machine, "p."))
+    size = max(1.0, *(float(np.nanmax(np.abs(alone[name]))) for name in machine.plan.points))
+    for name in machine.plan.points:
+        x, y = in_the_whole(alone[name], **how)
+        expected = np.array([0.4 + x * np.cos(turn) - y * np.sin(turn), 0.1 + x * np.sin(turn) + y * np.cos(turn)])
+        assert_allclose(held[f"p.{name}"], expected, atol=1e-10 * size, rtol=0.0)
+    for name in outputs(machine):
+        difference = held[f"p.{name}"] - alone[name]
+        if getattr(machine.plan.members[name], "measures", "") == "angle":
+            difference = np.remainder(difference + np.pi, 2 * np.pi) - np.pi
+        assert np.nanmax(np.abs(difference), initial=0.0) <= 1e-9 * float(np.nanmax(np.abs(alone[name]), initial=1.0))
+
+
 LOADED = [machine for machine in MACHINES if machine.plan.of_kind(ForceElement)]
 
 
@@ -111,6 +135,25 @@ def test_pin_forces_of_a_part_are_those_of_the_machine_alone(machine):
     scale = max(float(np.nanmax(np.abs(joint.force), initial=0.0)) for joint in own.joints) or 1.0
     for joint, other in zip(sorted(found.joints, key=place_of), sorted(own.joints, key=place_of), strict=True):
         assert np.nanmax(np.abs(np.abs(joint.force) - np.abs(other.force)), initial=0.0) <= 1e-9 * scale
+
+
+@pytest.mark.parametrize("machine", LOADED, ids=lambda machine: machine.__name__)
+def test_a_mirrored_part_has_mirrored_forces(machine):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        alone, held = motions(machine, mirrored=True, at=(1, 2))
+        try:
+            own = pin_forces(alone)
+        except Exception as error:
+            with pytest.raises(type(error)):
+                pin_forces(held)
+            return
+        found = {place_of(joint): joint.force for joint in pin_forces(held).joints}
+    scale = max(float(np.nanmax(np.abs(joint.force), initial=0.0)) for joint in own.joints) or 1.0
+    assert len(found) == len(own.joints)
+    for joint in own.joints:
+        expected = joint.force * np.array([-1.0, 1.0]).reshape(2, *[1] * (joint.force.ndim - 1))
+        assert np.nanmax(np.abs(found[place_of(joint)] - expected), initial=0.0) <= 1e-11 * scale
 
 
 def place_of(joint):

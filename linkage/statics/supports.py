@@ -53,6 +53,10 @@ def reaction(
         if held is not None:
             return reaction(held[0], support=held[1], drive_force=drive_force, drive=drive, acting=acting)
         return axle_load_of(motion, name, element, acting if drive is None else replace(acting, drive=drive), drive_force)
+    beside = [word for word in ("stiffness", "friction") if getattr(element, word) is not None]
+    if beside:
+        what = f"{motion.plan.title}: {name} says {beside[0]}=, but stands under {name_of(element.point)}, which moves"
+        raise DefinitionError(f"{what}; that counts under the frame alone. Leave it out; friction of joints is PinFriction, GuideFriction.")
     stroke = stroke_of(motion.plan, drive, "drive")
     applied = applied_loads(motion, acting, rates_in(motion, acting, stroke), without=name)
     poses = FlatPoses(motion, f"The reaction of {name}")

@@ -383,6 +383,8 @@ def test_other_mistakes_are_named():
     with pytest.raises(DefinitionError, match=r"stands on 3 supports, .*say stiffness="):
         reaction(motion, support=Support("G", (0, 1)))
     assert_array_equal(reaction(motion, support=Support("R", (0, 2))), reaction(motion, support="rear"))
+    with pytest.raises(DefinitionError, match=r"says friction=, but stands under T, which moves; .*Leave it out"):
+        reaction(motion, support=Support("T", (0, 1), friction=0.3), drive="S")
     with pytest.raises(DefinitionError, match="no support says friction="):
         slipping().of(Truck().sweep(S=3, s=0.1))
     with pytest.raises(DefinitionError, match="stiffness=0 carries nothing"):

@@ -14,6 +14,7 @@ from ..errors import DefinitionError, about, cited, is_yes, unknown
 from ..frozen import FrozenDict
 from ..quantities import (
     Axes,
+    Coordinate,
     Dimension,
     Member,
     Number,
@@ -22,6 +23,7 @@ from ..quantities import (
     Ref,
     Reference,
     Stroke,
+    Variable,
     is_number,
     label,
     name_of,
@@ -401,6 +403,8 @@ class Renamed:
                 value = {f"{self.part.name}.{spelling}": self.value(each, is_word=False) for spelling, each in value.items()}
             elif attribute == "spoken":
                 continue
+            elif isinstance(given, Part) and attribute == "given":  # its keys are the inner part's own names
+                value = {name: self.value(each, is_word=False) for name, each in value.items()}
             elif not (isinstance(given, Part) and attribute in ("plan", "machine")):
                 value = self.value(value, attribute in words)
             object.__setattr__(found, attribute, value)
@@ -408,9 +412,28 @@ class Renamed:
             vars(found).update(near=None, drawn_at=None)
         if isinstance(found, (Step, Link, Group)):
             object.__setattr__(found, "spoken", self._spoken(given))
-        placed = found if self.axes is None else self._in_axes(given, found)
+        placed = found
+        if self.axes is not None:
+            coordinate = self._own_coordinate(given)
+            placed = self._in_axes(given, found) if coordinate is None else coordinate
         self.memo[id(given)] = placed
         return placed
+
+    def _own_coordinate(self, given: Member) -> Quantity | None:
+        """Return the coordinate of a fixed point of the part, for x(O) of it follows nothing that carries the part; None for all else."""
+        if not isinstance(given, Coordinate) or given.name or given.axes is not None:
+            return None
+        own = name_of(given.P)
+        point = self.plan.unbound.get(own)
+        if not isinstance(point, Point) or getattr(point, "axes", None) is not None or f"{self.part.name}.{own}" in self.aliases:
+            return None
+        place = self.part.given.get(own) or [each for _, each in point.coordinates()]
+        if not point.is_fixed or len(place) != 2:
+            return None
+        each = quantity(place["xy".index(given.axis)])
+        if each.is_constant:
+            return Variable(f"{self.part.name}.{own}.{given.axis}")
+        return each if own in self.part.given else self.member(each)  # type: ignore[return-value]
 
     def _spoken(self, given: Any) -> Spoken:
         """Return how the labels of a member are spoken in the whole."""
@@ -553,7 +576,9 @@ class Unaliased:
         words = word_arguments(type(given))
         changes = {}
         for attribute, value in vars(given).items():
-            if attribute not in ("_name", "_class", "labels", "spoken", "plan", "machine"):
+            if isinstance(given, Part) and attribute == "given":  # its keys are the part's own names
+                changes[attribute] = {name: self.value(each, is_word=False) for name, each in value.items()}
+            elif attribute not in ("_name", "_class", "labels", "spoken", "plan", "machine"):
                 changes[attribute] = self.value(value, attribute in words)
             elif attribute == "labels":
                 changes[attribute] = {name: self.value(each, is_word=False) for name, each in value.items()}

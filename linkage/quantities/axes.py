@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, final
 
 import numpy as np
@@ -32,7 +32,7 @@ class Axes:
     P: Reference | None = None
     Q: Reference | None = None
     at: tuple[Quantity, Quantity] = (NOTHING, NOTHING)
-    angle: Quantity = NOTHING
+    angle: Quantity = field(default_factory=lambda: Number(0.0))  # a default would take the name of the field
     mirrored: bool = False
 
     @property

@@ -149,13 +149,18 @@ class Structure:
         strokes: dict[str, set[str]] = {letter: set() for letter in joint.holds}
         for drive in joint.drives:
             if drive.along:
-                strokes[drive.along] |= self.plan.reaches(drive.quantity.name or drive.quantity) & set(self.plan.strokes)
+                strokes[drive.along] |= self.driving(joint, drive.quantity) & set(self.plan.strokes)
         gone = {letter: names for letter, names in strokes.items() if names and names <= self.holders.taken}
         taken = sorted(set().union(*gone.values()))
         if len(gone) > len(taken):
             what = f"{owner}.joints(): {' and '.join(gone)} are driven by {', '.join(taken)}, which a cylinder takes over"
             raise DefinitionError(f"{self.plan.title}: {what}; let one letter follow it, such as t along a line=, so that the other holds.")
         return "".join(letter for letter in joint.holds if letter not in gone)
+
+    def driving(self, joint: Joint, quantity: Quantity) -> set[str]:
+        """Return what a drive follows. A part's own angle does not follow what moves the body that carries the part."""
+        carrier = joint.by.points if joint.kind == "crank" else ()
+        return self.plan.reaches(quantity.name or quantity, within=carrier)
 
     def drives(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:
         """Yield what a contact drives: the quantity, the letter of the force that is conjugate to it, and its sign."""

@@ -12,12 +12,16 @@ from hydraulics import Cylinder
 from linkage import LoadCase, Motion, Part, equations, pin_forces
 from linkage.files import load, to_toml
 from mechanisms.at_work.excavator import Excavator, HookExcavator
+from mechanisms.at_work.forwarder import Forwarder
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.at_work.tipper import Tipper
 from mechanisms.at_work.wheel_loader import WheelLoader
+from mechanisms.crane import Crane
+from mechanisms.grapple import Grapple
 from tests.machines import plane, test_excavator, test_tipper, test_wheel_loader
 
 MACHINES = [Excavator, HookExcavator, Telehandler, Tipper, WheelLoader]
+JOINED = [*MACHINES, Forwarder]
 ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
 PRINTED = {"boom": (-0.4737, 1.0923), "arm": (-0.5103, -2.5848), "bucket": (0.7839, -2.8659)}  # rad, at the shortest, at the longest
 
@@ -82,7 +86,7 @@ def test_forces_are_in_equilibrium_and_equations_are_there(machine):
 def test_all_of_them_are_installed():
     project = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))["project"]
     installed = project["entry-points"]["hydrolinkage.machines"].values()
-    assert {f"{machine.__module__}:{machine.__name__}" for machine in MACHINES} <= set(installed)
+    assert {f"{machine.__module__}:{machine.__name__}" for machine in JOINED} <= set(installed)
 
 
 # -- the excavator -------------------------------------------------------------------------------------------
@@ -199,3 +203,34 @@ def test_the_loaders_places_and_thrusts_by_hand():
     want = [plane.balance(places, q, hand.CASES[None], list(hand.RAMS.values())) for q in hand.POSES]
     found = np.stack([WheelLoader.lift_rams.thrust(motion), WheelLoader.tilt_ram.thrust(motion)], axis=1)
     assert_allclose(found, want, rtol=1e-9)
+
+
+# -- the forwarder: two shipped machines joined --------------------------------------------------------------
+
+HELD = {"phi": 0.8, "psi": 2.0, "t": 0.5, "swing": 0.0, "theta": -0.5, "twin": -0.5}
+
+
+def test_a_plumb_grapple_pushes_as_it_does_alone_and_moves_no_head():
+    """The pushes of both levers and of the stem are in balance in the head: it hangs plumb, and the crane carries its load alone."""
+    motion, forces = Forwarder().at(**HELD), pin_forces(Forwarder().at(**HELD))
+    alone = pin_forces(Grapple().at(theta=-0.5)).thrusts["lift"]
+    assert_allclose([forces.thrusts["right.lift"], forces.thrusts["left.lift"]], [alone, alone], rtol=1e-10)
+    crane = pin_forces(Crane().at(phi=0.8, psi=2.0, t=0.5))
+    for name, thrust in crane.thrusts.items():
+        assert_allclose(forces.thrusts[f"crane.{name}"], thrust, rtol=1e-9)
+    assert abs(float(forces.drives["swing"])) < 1e-6
+    assert float(np.max(forces.residual)) < 1e-12
+    for name in "OACE":
+        right, left = motion[f"right.{name}"] - motion["crane.T"], motion[f"left.{name}"] - motion["crane.T"]
+        assert_allclose(left, right * [-1.0, 1.0], atol=1e-12)
+
+
+def test_the_levers_of_the_forwarder_are_read_as_the_grapple_is():
+    """Its own table, in its own axes, wherever the crane holds it and however the head swings."""
+    motion, alone = Forwarder().at(**HELD | {"swing": 0.2}), Grapple().at(theta=-0.5)
+    for name in ("right", "left"):
+        part = motion.part(name)
+        for point in Grapple.plan.points:
+            assert_allclose(np.ravel(part[point]), np.ravel(alone[point]), atol=1e-12)
+        for output in ("D", "EC", "room", "M_1", "OA"):
+            assert_allclose(part[output], alone[output], rtol=1e-11)

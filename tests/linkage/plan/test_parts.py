@@ -558,3 +558,43 @@ def test_a_cylinder_between_two_parts_is_told_by_both():
         tie = Cylinder(lower.T, other.T, bore=80 * mm, rod=40 * mm, closed=0.1, stroke=0.01)
 
     assert any("lower.T other.T goes from" in verdict for verdict in Joined().verdicts())
+
+
+def test_a_part_of_a_part_keeps_the_names_it_is_given():
+    """A fixed point of the inner part may go by the letter of a point of the outer one."""
+
+    class Outer(Mechanism):
+        S = Stroke(0, 0.3)
+        O, A = Ground(0, 0), Ground(0.1, -0.4)
+        B = Dyad(A, O, AB=0.45 + S, OB=0.4, side=RIGHT)
+        inner = Part(Arm, on=(O, B), O=B, A=(0.1, 0.3))
+
+    class Whole(Mechanism):
+        p = Part(Outer, at=(1, 2), mirrored=True)
+
+    alone, held = Outer().at(**{"S": 0.1, "inner.S": 0.1}), Whole().at(**{"p.S": 0.1, "p.inner.S": 0.1})
+    for name in ("B", "inner.A", "inner.T"):
+        x, y = np.ravel(alone[name])
+        assert_allclose(np.ravel(held[f"p.{name}"]), (1 - x, 2 + y), atol=1e-14)
+
+
+def test_what_a_part_says_of_its_own_fixed_points_follows_nothing_that_carries_it():
+    """A crank's angle and length out of x(O): cylinders take over its stroke, wherever the part hangs."""
+
+    class Lever(Mechanism):
+        turn = Stroke(0.2, 1.2)
+        O, E = Ground(0.1, 0.2), Ground(0.5, 0.0)
+        C = Crank(O, OC=0.3 + 0.1 * x(O), angle=turn + x(O))
+        load = Weight(C, mass=50)
+        ram = Cylinder(E, C, bore=50 * mm, rod=28 * mm)
+        pump = LiftCircuit(ram, pressure=200 * bar)
+
+    class Hung(Mechanism):
+        q = Stroke(-0.5, 0.5)
+        P = Ground(0.0, 0.0)
+        Q = Crank(P, PQ=1.0, angle=q)
+        lever = Part(Lever, on=(P, Q))
+
+    forces = pin_forces(Hung().at(**{"q": 0.0, "lever.turn": 0.7}))
+    assert_allclose(forces.thrusts["lever.ram"], pin_forces(Lever().at(turn=0.7)).thrusts["ram"], rtol=1e-12)
+    assert np.max(forces.residual) < 1e-12

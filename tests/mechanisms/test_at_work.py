@@ -13,6 +13,7 @@ from linkage import LoadCase, Motion, Part, equations, pin_forces
 from linkage.files import load, to_toml
 from mechanisms.at_work.excavator import Excavator, HookExcavator
 from mechanisms.at_work.forwarder import Forwarder
+from mechanisms.at_work.front_loader import LoadedFrontLoader
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.at_work.tipper import Tipper
 from mechanisms.at_work.wheel_loader import WheelLoader
@@ -20,7 +21,7 @@ from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
 from tests.machines import plane, test_excavator, test_tipper, test_wheel_loader
 
-MACHINES = [Excavator, HookExcavator, Telehandler, Tipper, WheelLoader]
+MACHINES = [Excavator, HookExcavator, LoadedFrontLoader, Telehandler, Tipper, WheelLoader]
 JOINED = [*MACHINES, Forwarder]
 ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
 PRINTED = {"boom": (-0.4737, 1.0923), "arm": (-0.5103, -2.5848), "bucket": (0.7839, -2.8659)}  # rad, at the shortest, at the longest
@@ -234,3 +235,23 @@ def test_the_levers_of_the_forwarder_are_read_as_the_grapple_is():
             assert_allclose(np.ravel(part[point]), np.ravel(alone[point]), atol=1e-12)
         for output in ("D", "EC", "room", "M_1", "OA"):
             assert_allclose(part[output], alone[output], rtol=1e-11)
+
+
+# -- the front loader ----------------------------------------------------------------------------------------
+
+
+def test_the_front_loaders_thrusts_are_the_slope_of_its_potential_energy():
+    """What both pairs of cylinders carry, out of heights alone; the parallelograms keep the bucket's angle while it is lifted."""
+    design, at = LoadedFrontLoader(), {"lift": 0.25, "tilt": 0.12}
+
+    def energy(lift, tilt):
+        motion = design.at(lift=lift, tilt=tilt)
+        p = {name: np.ravel(motion[name]) for name in "OBN"}
+        bucket = 160.0 * plane.on(p["B"], p["N"], 0.35, 0.15) + 800.0 * plane.on(p["B"], p["N"], 0.45, 0.25)
+        return plane.G * (180.0 * plane.on(p["O"], p["B"], 1.3, 0.1) + bucket)[1]
+
+    motion, step = design.at(**at), 1e-3
+    for name, ram in (("lift", LoadedFrontLoader.rams), ("tilt", LoadedFrontLoader.tilt_rams)):
+        ahead, behind = (energy(**at | {name: at[name] + sign * step}) for sign in (1.0, -1.0))
+        assert_allclose(ram.thrust(motion), (ahead - behind) / (2.0 * step), rtol=1e-4)
+    assert np.ptp(design.at(lift=[0.0, 0.3, 0.6], tilt=0.1)["attitude"]) < 1e-12

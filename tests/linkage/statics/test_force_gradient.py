@@ -48,7 +48,7 @@ def loaded(machine):
     last = machine.plan.moving[-1]
     body = next(each.points for each in machine.plan.links[1:] if len(each.points) > 1)[:2]
     members = {f"w{k}": Weight(point, mass=50.0 + 17.0 * k) for k, point in enumerate(machine.plan.moving)}
-    members |= {"tug": Force(last, (300.0, -120.0)), "turn": Moment(body, M=40.0), "own": LinkMass(body, mass=8.0, at=(0.1, 0.02))}
+    members |= {"tug": Force(last, (300.0, -120.0)), "twist_put_on": Moment(body, M=40.0), "own": LinkMass(body, mass=8.0, at=(0.1, 0.02))}
     members["spring"] = Spring([*machine.plan.ground, *machine.plan.moving][0], last, stiffness=900.0, free_length=0.13)
     return type(f"Loaded{machine.__name__}", (machine,), members)
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass
 from types import MappingProxyType
-from typing import Any, Protocol, TypeGuard, final, runtime_checkable
+from typing import Any, Protocol, TypeGuard, final
 
 import numpy as np
 
@@ -55,19 +55,6 @@ class HasPlan(Protocol):
 def is_mechanism(given: object) -> TypeGuard[HasPlan]:
     """Return whether something is a class of mechanisms or a design."""
     return isinstance(getattr(given, "plan", None), Plan)
-
-
-@runtime_checkable
-class FeedsOthers(Protocol):
-    """A load that gives others their force, or puts them on one line."""
-
-    name: str
-
-    def joined(self, members: Mapping[str, Member]) -> tuple[Any, ...]:
-        """Return what it puts on one line."""
-
-    def feeds(self, members: Mapping[str, Member]) -> tuple[Any, ...]:
-        """Return what it gives its force."""
 
 
 class PartNameError(DefinitionError, AttributeError):
@@ -540,8 +527,10 @@ def carriers_first(parts: Mapping[str, Part]) -> list[str]:
 def check_circuits(members: Mapping[str, Member], title: str) -> None:
     """Raise DefinitionError where something of the whole feeds a cylinder that its part feeds itself."""
     owners: dict[str, str] = {}
-    elements = {name: member for name, member in members.items() if isinstance(member, FeedsOthers)}
-    for name, element in elements.items():
+    for name, member in members.items():
+        element: Any = member
+        if member.kind != "load":
+            continue
         for fed in (*element.joined(members), *element.feeds(members)):
             first = owners.setdefault(fed.name, name)
             inner = [each for each in (first, name) if "." in each]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 import warnings
 from argparse import ArgumentParser, Namespace
@@ -118,7 +119,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def execute(arguments: list[str]) -> int:
     """Return the exit code of the command that the arguments name."""
-    arguments = behind_command(arguments)
+    arguments = with_negatives(behind_command(arguments))
     commands = commands_for(arguments)
     if arguments and not arguments[0].startswith("-"):
         (command,) = commands
@@ -148,6 +149,17 @@ def behind_command(arguments: list[str]) -> list[str]:
         count = 1 if "=" in rest[0] else 2
         first, rest = [*first, *rest[:count]], rest[count:]
     return [*rest[:1], *first, *rest[1:]] if rest and not rest[0].startswith("-") else arguments
+
+
+def with_negatives(arguments: list[str]) -> list[str]:
+    """Return arguments with a value that begins with a minus sign joined to its option, `--y -1:2` as `--y=-1:2`: it is no option."""
+    found: list[str] = []
+    for each in arguments:
+        if found and re.fullmatch(r"--\w[\w-]*", found[-1]) and re.match(r"-[\d.]", each):
+            found[-1] += f"={each}"
+        else:
+            found.append(each)
+    return found
 
 
 def common_arguments(parser: ArgumentParser) -> None:

@@ -30,6 +30,14 @@ def test_chart_is_printed(capsys):
     assert "ограничивает" in capsys.readouterr().out
 
 
+def test_heights_below_the_ground_are_no_options(capsys):
+    axes = ["--point", "K", "--x", "0.6:2.2m:0.4m", "--y", "-0.4:0.8m:0.4m"]
+    assert main(["chart", MACHINE, *axes]) == 0
+    said = capsys.readouterr().out
+    assert main(["chart", MACHINE, *AXES]) == 0
+    assert capsys.readouterr().out == said
+
+
 def test_options_say_what_the_function_takes(capsys):
     both = ["--lift", "lifter", "--without", "arm_mass", "--limit", "rated load=4kN", "--along", "1,0", "--hold", "fold=0.9m"]
     assert main(["chart", MACHINE, *AXES, *both]) == 2  # one free stroke cannot give two targets

@@ -2,7 +2,6 @@
 
 import warnings
 from functools import cache
-from importlib.metadata import entry_points
 from itertools import combinations
 
 import numpy as np
@@ -13,9 +12,10 @@ from linkage import LEFT, RIGHT, Dyad, Ground, Mechanism, OnLink, SingularWarnin
 from linkage.motion import stroke_unit
 from linkage.quantities import Dimension, Quantity
 from linkage.units import UNITS
+from tests import shipped
 from tests.linkage.random_mechanisms import random_mechanism
 
-SHIPPED = [point.load() for point in entry_points(group="hydrolinkage.machines")]
+SHIPPED = list(shipped.MACHINES.values())
 RANDOM = [random_mechanism(seed) for seed in range(6)] + [random_mechanism(seed, strokes=2) for seed in (10, 11, 12)]
 ALL = pytest.mark.parametrize("machine", SHIPPED + RANDOM, ids=lambda machine: machine.__name__)
 

@@ -2,7 +2,6 @@
 
 import math
 from functools import cache
-from importlib.metadata import entry_points
 
 import numpy as np
 import pytest
@@ -11,9 +10,10 @@ from numpy.testing import assert_allclose, assert_array_equal
 from linkage.program import Kernel, interpret
 from linkage.program.kernel import BLOCK, FEW
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests import shipped
 from tests.linkage.random_mechanisms import random_mechanism
 
-SHIPPED = [point.load() for point in entry_points(group="hydrolinkage.machines")]
+SHIPPED = list(shipped.MACHINES.values())
 CLOSED = [machine for machine in SHIPPED if not machine.plan.groups]  # a group's pins come from Newton's method, before the program
 MACHINES = CLOSED + [random_mechanism(seed, strokes=1 + seed % 3, joints=7) for seed in range(20, 29)]
 ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)

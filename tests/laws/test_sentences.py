@@ -2,7 +2,6 @@
 
 import re
 from functools import lru_cache
-from importlib.metadata import entry_points
 
 import numpy as np
 import pytest
@@ -15,8 +14,9 @@ from linkage.reports import results, text_table
 from linkage.statics import max_table
 from linkage.statics.table import table_text
 from linkage.units import SYSTEMS, UNITS, unit_system
+from tests import shipped
 
-SHIPPED = {point.name: point.load() for point in entry_points(group="hydrolinkage.machines")}
+SHIPPED = shipped.MACHINES
 SPEAKING = [name for name, machine in SHIPPED.items() if machine.rules is not Mechanism.rules]
 
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w]|\.\d)")

@@ -3,7 +3,6 @@
 import copy
 import dataclasses
 import pickle
-from importlib.metadata import entry_points
 
 import numpy as np
 import pytest
@@ -17,10 +16,11 @@ from linkage.quantities import Member
 from linkage.study import survey
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests import shipped
 from tests.linkage.files.file_machines import EveryStep, Hitch, Loaded, Parts
 from tests.linkage.study.survey_measures import travel
 
-SHIPPED = [point.load() for point in entry_points(group="hydrolinkage.machines")]
+SHIPPED = list(shipped.MACHINES.values())
 MACHINES = [*SHIPPED, EveryStep, Hitch, Loaded, Parts]
 
 

@@ -1,6 +1,5 @@
 """Every shipped machine as a file: the same plan, positions, forces and pressures to the last bit; the commands take such files."""
 
-from importlib.metadata import entry_points
 
 import numpy as np
 import pytest
@@ -13,8 +12,9 @@ from linkage.units import kgf_cm2
 from mechanisms.header_balancer import HEADERS, HeaderBalancer, with_header
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import HitchCategory1, HitchCategory2, ThreePointHitch
+from tests import shipped
 
-SHIPPED = {point.name: point.load() for point in entry_points(group="hydrolinkage.machines")}
+SHIPPED = shipped.MACHINES
 CLASSES = SHIPPED | {"hitch 1": HitchCategory1, "hitch 2": HitchCategory2}
 DESIGNS = {f"header {number}": with_header(number, n=1.4) for number in HEADERS} | {
     "hitch": ThreePointHitch(**{"OB": 0.32, "M": (0.22, 0.95), "KFG": 1.2, "load.mass": 1500.0, "lift.bore": 0.1, "circuit.flow": 0.002}),

@@ -1,6 +1,5 @@
 """Machines that turn round are drawn where their pins stand apart and nothing turns back."""
 
-from importlib.metadata import entry_points
 from itertools import combinations
 
 import numpy as np
@@ -10,8 +9,9 @@ from linkage.pictures.poses import motions
 from linkage.pictures.scene import Scene
 from linkage.pictures.strokes import is_turn
 from linkage.reports import Run, first_stroke
+from tests import shipped
 
-SHIPPED = {each.name: each.load() for each in entry_points(group="hydrolinkage.machines") if each.value.startswith("mechanisms.")}
+SHIPPED = shipped.MACHINES
 NEAR = 6.0
 """Sizes of a pin between two pins, where the machine allows it."""
 

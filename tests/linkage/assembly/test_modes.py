@@ -1,6 +1,5 @@
 """Assembly modes with the code that chooses them, as pictures and as a command; several designs over one another."""
 
-from importlib.metadata import entry_points
 
 import numpy as np
 import pytest
@@ -11,10 +10,11 @@ from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism,
 from linkage.cli import main
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests import shipped
 from tests.machines.test_gear_shift import GearShift
 from tests.machines.test_plough import Plough
 
-SHIPPED = {point.name: point.load() for point in entry_points(group="hydrolinkage.machines")}
+SHIPPED = shipped.MACHINES
 
 
 class Listed(Mechanism):

@@ -6,7 +6,6 @@ import sys
 import tomllib
 import warnings
 import xml.etree.ElementTree as ElementTree
-from importlib.metadata import entry_points
 from pathlib import Path
 
 import ezdxf
@@ -46,10 +45,11 @@ from mechanisms.classics.stephenson_two import StephensonTwo
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests import shipped
 from tests.linkage.exports.workbooks import by_office, needs_office, number_columns, row_of, same_numbers, stored, written
 
 PAPERS = {"hitch": ThreePointHitch, "header": HeaderBalancer, "mower": MowerLift}
-SHIPPED = {point.name: point.load() for point in entry_points(group="hydrolinkage.machines")}
+SHIPPED = shipped.MACHINES
 CHANGED = {"hitch": ("OB", 0.305), "header": ("charge", 36 * kgf_cm2), "mower": ("OB", 0.176)}
 
 

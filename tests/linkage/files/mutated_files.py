@@ -12,7 +12,6 @@ import warnings
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
@@ -20,12 +19,13 @@ import numpy as np
 
 from linkage import AssemblyError, DefinitionError, FileError, SingularWarning
 from linkage.files import load, to_json, to_toml
+from tests import shipped
 from tests.linkage.files.file_machines import Drawn, EveryStep, Hitch, Loaded, Parts
 
 LONGEST = 120.0
 """s; a file that takes longer hangs: the slowest sound one takes about a second."""
 
-MACHINES = [*(point.load() for point in entry_points(group="hydrolinkage.machines")), Hitch, EveryStep, Parts, Drawn, Loaded]
+MACHINES = [*shipped.MACHINES.values(), Hitch, EveryStep, Parts, Drawn, Loaded]
 SLOW = {"StephensonThreeFar", "StephensonTwo", "StephensonTwoFar", "Parts", "Drawn"}
 """Machines whose groups take so long to assemble that they are drawn a fifth as often."""
 SAMPLES = [

@@ -2,7 +2,7 @@
 
 import subprocess
 import sys
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint
 from math import pi
 from pathlib import Path
 
@@ -14,12 +14,13 @@ from linkage import LEFT, Crank, DefinitionError, Dyad, FileError, Ground, Link,
 from linkage.cli import main
 from linkage.files import from_dict, load, registry, save, to_dict, to_json, to_toml
 from linkage.quantities import Member, name_of, quantity
+from tests import shipped
 from tests.linkage.files.file_machines import Drawn, EveryStep, Hitch, Loaded, Parts
 
 DATA = Path(__file__).parents[1] / "data"
 
 
-SHIPPED = {point.name: point.load() for point in entry_points(group="hydrolinkage.machines")}
+SHIPPED = shipped.MACHINES
 MACHINES = SHIPPED | {each.__name__: each for each in (Hitch, EveryStep, Parts, Drawn, Loaded)}
 
 

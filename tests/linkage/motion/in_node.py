@@ -5,7 +5,6 @@ import shutil
 import subprocess
 from dataclasses import dataclass
 from importlib import import_module
-from importlib.metadata import entry_points
 
 import numpy as np
 import pytest
@@ -16,9 +15,10 @@ from linkage.loads import ForceElement
 from linkage.motion import LiveText, Request, Value, conditions, live_text
 from linkage.motion.live import REGULAR
 from linkage.quantities import Quantity
+from tests import shipped
 
 NEEDED = pytest.mark.skipif(shutil.which("node") is None, reason="node, which runs the JavaScript, is not installed")
-SHIPPED = {point.name: point.load() for point in entry_points(group="hydrolinkage.machines")}
+SHIPPED = shipped.MACHINES
 ELSEWHERE = {
     "axle": "Axle", "baler": "Baler", "double_wishbone": "Wishbone", "excavator": "Excavator", "forestry_crane": "Crane",
     "gear_shift": "GearShift", "lifting_arm": "Pulled", "log_splitter": "Splitter", "mast_tilt": "Mast", "needle_bar": "SewingMachine",

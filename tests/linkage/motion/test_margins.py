@@ -1,12 +1,12 @@
 """The least margins of loops: holes far narrower than any grid are found, and none where there is none."""
 
-from importlib.metadata import entry_points
 
 import numpy as np
 import pytest
 
 from linkage import LEFT, Crank, Dimension, Dyad, Ground, Mechanism, Stroke, distance
 from linkage.motion.margins import assembly_error_at, least_margins
+from tests import shipped
 
 
 class One(Mechanism):
@@ -99,7 +99,7 @@ def test_many_holes_are_found(k):
         check_hole(seed, k)
 
 
-SHIPPED = [point.load() for point in entry_points(group="hydrolinkage.machines")]
+SHIPPED = list(shipped.MACHINES.values())
 
 
 @pytest.mark.parametrize("machine", [each for each in SHIPPED if each.plan.strokes], ids=lambda machine: machine.__name__)

@@ -30,9 +30,10 @@ from linkage import (
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.roberts import Roberts
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests import shipped
 from tests.machines.test_tipper import Tipper
 
-SHIPPED = [point.load() for point in entry_points(group="hydrolinkage.machines")]
+SHIPPED = list(shipped.MACHINES.values())
 LOADED = [each for each in SHIPPED if each.plan.of_kind(Weight) or each.plan.of_kind(Moment) or each.plan.of_kind(Force)]
 
 

@@ -9,7 +9,6 @@ import sys
 import tracemalloc
 import warnings
 from functools import cache
-from importlib.metadata import entry_points
 
 import numpy as np
 import pytest
@@ -25,9 +24,10 @@ from linkage.program.loop import numba_text
 from linkage.program.numpy_backend import aligned, cache_size, with_half_angles
 from linkage.program.schedule import ancestors, lowered, schedule
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests import shipped
 from tests.linkage.random_mechanisms import random_mechanism
 
-SHIPPED = {point.name: point.load() for point in entry_points(group="hydrolinkage.machines")}
+SHIPPED = shipped.MACHINES
 MACHINES = pytest.mark.parametrize("machine", SHIPPED.values(), ids=SHIPPED)
 GROUPED = [name for name, machine in SHIPPED.items() if machine.plan.groups]
 

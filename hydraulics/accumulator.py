@@ -271,9 +271,9 @@ class AccumulatorBlock:
         DefinitionError for a negative volume, or one that leaves no gas.
         """
         held = pose_values(fluid, "Fluid held")
-        if np.any(held < 0.0):
+        if np.any(held < -ROUNDING * self._bank.total):  # `fluid` is a difference of volumes, which may round below none
             raise DefinitionError(f"Fluid held = {np.nanmin(held) / cm3:.6g} cm3 is below zero; the block cannot hold less than none.")
-        return self._pressure_in(self._gas_left(self._bank.total, held))
+        return self._pressure_in(self._gas_left(self._bank.total, np.maximum(held, 0.0)))
 
     def stiffness(self, p1: ArrayLike, withdrawn: ArrayLike = 0.0) -> Array:
         """Return -dp/d(withdrawn) [Pa/m3], exact, in the state of `pressure`; 0 where the line is empty.

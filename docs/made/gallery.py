@@ -10,6 +10,9 @@ from pathlib import Path
 from .machines import doc, title
 
 GROUPS = {
+    "Machines at work": (
+        "excavator", "hook_excavator", "telehandler", "wheel_loader", "loaded_front_loader", "forwarder", "tipper",
+    ),
     "Hitches, lifts and headers": ("three_point_hitch", "mower_lift", "header_balancer", "front_loader", "scissor_lift"),
     "Cranes and grapples": ("crane", "boom_drive", "arm_drive", "grapple"),
     "Four-bars": ("four_bar", "drag_link", "double_rocker", "triple_rocker", "parallelogram"),

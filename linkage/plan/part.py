@@ -390,6 +390,8 @@ class Renamed:
                 value = {f"{self.part.name}.{spelling}": self.value(each, is_word=False) for spelling, each in value.items()}
             elif attribute == "spoken":
                 continue
+            elif attribute == "variable" and isinstance(given, Variable):  # a coordinate of a part's own fixed point
+                value = f"{self.part.name}.{value}"
             elif isinstance(given, Part) and attribute == "given":  # its keys are the inner part's own names
                 value = {name: self.value(each, is_word=False) for name, each in value.items()}
             elif not (isinstance(given, Part) and attribute in ("plan", "machine")):

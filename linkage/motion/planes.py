@@ -23,7 +23,7 @@ from ..surroundings import Outline
 from ..units import show
 from ..verdict import Verdict
 from .answer import Answer
-from .gaps import body_points_of, gap_of, least_number, shape_named
+from .gaps import body_points_of, gap, gap_of, least_number, shape_named
 from .judge import Judge, Question
 from .judging import HasVerdicts
 from .measures import Condition, least
@@ -85,12 +85,12 @@ class Planes(HasVerdicts):
         if not np.isfinite(answer.value):
             return []
         one, other = nearest_pair(judge, answer)
-        gap = show(abs(float(answer.value)), "mm", 3)
+        size = show(abs(float(answer.value)), "mm", 3)
         if answer.value >= 0.0:
-            text = said("{one} and {other} come within {gap} of each other, {where}.", one=one, other=other, gap=gap, where=answer.where)
+            text = said("{one} and {other} come within {gap} of each other, {where}.", one=one, other=other, gap=size, where=answer.where)
             return [Verdict("clearance", True, text, answer=answer)]
         remedy = said("Change a dimension, or put them in different planes.")
-        text = said("{one} and {other} cross by {gap}, deepest {where}.", one=one, other=other, gap=gap, where=answer.where)
+        text = said("{one} and {other} cross by {gap}, deepest {where}.", one=one, other=other, gap=size, where=answer.where)
         return [Verdict("clearance", False, f"{text} {remedy}", answer=answer)]
 
     def __str__(self) -> str:
@@ -209,22 +209,6 @@ def nearest_pair(judge: Judge, answer: Answer) -> Pair:
     pairs = pairs_of(judge.plan)
     strokes = {name: np.asarray(float(value)) for name, value in answer.strokes.items()}
     motion = Motion(judge.plan, judge.designs, strokes, "nan")
-    gaps = {pair: float(np.ravel(motion[pair_gap(pair, thick)])[0]) for pair, thick in pairs.items()}
+    width = motion.value(width_of(judge.plan))
+    gaps = {pair: float(np.ravel(motion[gap(*pair)] - (width if thick else 0.0))[0]) for pair, thick in pairs.items()}
     return min(gaps, key=lambda pair: gaps[pair])
-
-
-def pair_gap(pair: Pair, thick: bool) -> NodeRequest:
-    """Return the request for the gap of one pair, less the width where it counts [m]."""
-    a, b = pair
-
-    def nodes(plan: Plan) -> tuple[Node, ...]:
-        width = plan.trace.value(width_of(plan)) if thick else 0.0
-        return (plan.trace.graph.node(gap_of(plan, a, b) - width),)
-
-    def behind(plan: Plan) -> set[str]:
-        return plan.reaches(*(name for each in pair for name in shape_named(plan, each).behind), width_of(plan))
-
-    return NodeRequest(
-        text=f"gap({a}, {b})", sentence=f"the gap between {a} and {b}", key=("pair gap", a, b, thick), measures="length", may_fail=True,
-        nodes_of=nodes, names_of=behind,
-    )  # fmt: skip

@@ -11,7 +11,6 @@ from ..quantities import body_name
 FRAME = "frame"
 
 
-
 @final
 @dataclass(frozen=True)
 class Body:

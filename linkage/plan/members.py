@@ -39,19 +39,14 @@ from .table import Table
 
 Kind = TypeVar("Kind", bound=Member)
 
+
 @final
 class Named(FrozenDict[str, Any]):
     """Members by name, those of parts by each of their names: a point that is fused with another one is that one."""
 
-    def __init__(self, members: Mapping[str, Any], known: Mapping[str, str] | None = None) -> None:
+    def __init__(self, members: Mapping[str, Any], aliases: Mapping[str, str]) -> None:
         super().__init__(members)
-        if known is not None:
-            self.aliases: Mapping[str, str] = FrozenDict({alias: name for alias, name in known.items() if name in members})
-            return
-        aliases = {alias: name for part in self.values() if part.kind == "part" for alias, name in part.aliases.items()}
-        while any(name in aliases for name in aliases.values()):
-            aliases = {alias: aliases.get(name, name) for alias, name in aliases.items()}
-        self.aliases = FrozenDict(aliases)
+        self.aliases: Mapping[str, str] = FrozenDict({alias: name for alias, name in aliases.items() if name in members})
 
     def __reduce__(self) -> tuple[type, tuple[Any, ...]]:
         return type(self), (dict(self), dict(self.aliases))
@@ -63,11 +58,26 @@ class Named(FrozenDict[str, Any]):
         return found
 
     def __contains__(self, name: object) -> bool:
-        return super().__contains__(name) or (bool(self.aliases) and name in self.aliases)
+        return super().__contains__(name) or name in self.aliases
 
     def get(self, name: str, default: Any = None) -> Any:
         known = self.aliases.get(name, name)
         return super().get(known, default)
+
+
+def aliases_among(members: Mapping[str, Member]) -> dict[str, str]:
+    """Return the names that members of parts have beside their own, each with the name it stands for in the end."""
+    aliases: dict[str, str] = {}
+    for part in members.values():
+        aliases |= getattr(part, "aliases", {}) if part.kind == "part" else {}
+    while any(name in aliases for name in aliases.values()):
+        aliases = {alias: aliases.get(name, name) for alias, name in aliases.items()}
+    return aliases
+
+
+def named_by(members: Mapping[str, Kind], aliases: Mapping[str, str]) -> Mapping[str, Kind]:
+    """Return members by each of their names, as a plain table where each has one."""
+    return Named(members, aliases) if aliases else FrozenDict(members)
 
 
 TURNS = 8
@@ -89,18 +99,18 @@ class Members:
             needed += [name.rpartition(".")[0]] if name.rpartition(".")[0] in members else []  # its part first, as it is pasted
         order = construction_order(wanted, title)
         self.table = Table(title)
-        self.members: Mapping[str, Member] = {}
         bound: dict[str, Member] = {}
         for name in order:
             with about(name):
                 bound[name] = self._bound(name, members[name])
-        self.members = Named(bound)
+        aliases = aliases_among(bound)
+        self.members = named_by(bound, aliases)
         strokes = self.of_kind(Stroke)
         self.strokes: Mapping[str, Stroke] = FrozenDict({name: strokes[name] for name in members if name in strokes})
         for name, member in self.members.items():
             with about(name):
                 self._check_kinds(name, member)
-        self.members = Named(with_bodies(self.members, self.table.lengths))
+        self.members = named_by(with_bodies(self.members, self.table.lengths), aliases)
 
     def _bound(self, name: str, member: Member) -> Member:
         """Return a member with its dimensions entered in the table."""
@@ -121,7 +131,7 @@ class Members:
     @cached_property
     def points(self) -> Mapping[str, Point]:
         """The points by name, in order."""
-        return Named(self.of_kind(Point), self.aliases)
+        return named_by(self.of_kind(Point), self.aliases)
 
     @cached_property
     def ground(self) -> tuple[str, ...]:
@@ -318,7 +328,7 @@ class Members:
     def named(self) -> Mapping[str, Member]:
         """Return what has a value, points, vectors and quantities, by name."""
         found = {name: member for name, member in self.members.items() if isinstance(member, (Point, Arrow, Quantity))}
-        return Named(found, self.aliases)
+        return named_by(found, self.aliases)
 
     def __str__(self) -> str:
         return "\n".join(f"{name} = {text}" for name, text in printed(self).items())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass
@@ -35,6 +36,7 @@ from ..quantities.axes import is_nothing
 from ..quantities.member import word_arguments
 from ..steps import Arrow, Drawn, Group, Link, Point, Step
 from ..steps.labels import Spoken
+from .members import aliases_among
 from .plan import Plan
 
 DEEPEST = 8
@@ -299,8 +301,43 @@ def carriers_of(on: Any) -> tuple[Reference, ...]:
     return found
 
 
+class Renaming(ABC):
+    """What members hold, under other names: the walk through their arguments."""
+
+    names: Mapping[str, str]
+
+    @abstractmethod
+    def named_member(self, given: Member) -> Any:
+        """Return what stands in the place of a member that an argument is or holds."""
+
+    def value(self, given: Any, is_word: bool) -> Any:
+        """Return what an argument holds under the other names; a word is no name."""
+        if isinstance(given, Member):
+            return self.named_member(given)
+        if isinstance(given, str):
+            return given if is_word else " ".join(self.names.get(word, word) for word in given.split(" "))
+        if type(given) in (tuple, list):
+            return type(given)(self.value(each, is_word) for each in given)
+        if type(given) in (dict, FrozenDict, MappingProxyType):
+            return {self.value(key, is_word): self.value(each, is_word) for key, each in given.items()}
+        if is_dataclass(given) and not isinstance(given, type):
+            return self._data(given)
+        return given
+
+    def _data(self, given: Any) -> Any:
+        """Return a value of a frozen dataclass under the other names; itself, where nothing in it has a name."""
+        words = word_arguments(type(given))
+        changed = {each.name: self.value(getattr(given, each.name), each.name in words) for each in fields(given)}
+        if all(changed[name] is getattr(given, name) for name in changed):
+            return given
+        found = copy(given)
+        for name, value in changed.items():
+            object.__setattr__(found, name, value)
+        return found
+
+
 @final
-class Renamed:
+class Renamed(Renaming):
     """The members of a part under their names in the whole."""
 
     def __init__(self, part: Part, axes: Axes | None) -> None:
@@ -442,33 +479,11 @@ class Renamed:
             raise DefinitionError(f"{what}: {type(given).__name__} does not say how; give that class in_axes(axes).", member=self.part.name)
         return found.in_axes(self.axes)
 
-    def value(self, given: Any, is_word: bool) -> Any:
-        """Return what an argument holds under the names of the whole."""
-        if isinstance(given, Member):
-            if given.name and self.names.get(given.name, given.name) in self.foreign:
-                target = self.names[given.name]
-                return Ref(target) if isinstance(given, Quantity) else target
-            return self.member(given)
-        if isinstance(given, str):
-            return given if is_word else " ".join(self.names.get(word, word) for word in given.split(" "))
-        if isinstance(given, (tuple, list)):
-            return type(given)(self.value(each, is_word) for each in given) if type(given) in (tuple, list) else given
-        if type(given) in (dict, FrozenDict, MappingProxyType):
-            return {self.value(key, is_word): self.value(each, is_word) for key, each in given.items()}
-        if is_dataclass(given) and not isinstance(given, type):
-            return self._data(given)
-        return given
-
-    def _data(self, given: Any) -> Any:
-        """Return a value of a frozen dataclass under the names of the whole; itself, where nothing in it has a name."""
-        words = word_arguments(type(given))
-        changed = {each.name: self.value(getattr(given, each.name), each.name in words) for each in fields(given)}
-        if all(changed[name] is getattr(given, name) for name in changed):
-            return given
-        found = copy(given)
-        for name, value in changed.items():
-            object.__setattr__(found, name, value)
-        return found
+    def named_member(self, given: Member) -> Any:
+        if given.name and self.names.get(given.name, given.name) in self.foreign:
+            target = self.names[given.name]
+            return Ref(target) if isinstance(given, Quantity) else target
+        return self.member(given)
 
 
 def with_sign(value: Any, sign: int) -> Any:
@@ -544,9 +559,7 @@ def check_circuits(members: Mapping[str, Member], title: str) -> None:
 
 def unaliased(members: Mapping[str, Member]) -> dict[str, Member]:
     """Return members that call fused points and shared strokes by their own names."""
-    aliases = {alias: target for part in members.values() if isinstance(part, Part) for alias, target in part.aliases.items()}
-    while any(target in aliases for target in aliases.values()):
-        aliases = {alias: aliases.get(target, target) for alias, target in aliases.items()}
+    aliases = aliases_among(members)
     if not aliases:
         return dict(members)
     renaming = Unaliased(aliases)
@@ -554,7 +567,7 @@ def unaliased(members: Mapping[str, Member]) -> dict[str, Member]:
 
 
 @final
-class Unaliased:
+class Unaliased(Renaming):
     """Members with other names for some of what they refer to."""
 
     def __init__(self, names: Mapping[str, str]) -> None:
@@ -575,23 +588,8 @@ class Unaliased:
                 changes[attribute] = {name: self.value(each, is_word=False) for name, each in value.items()}
         return given.renewed(**changes)
 
-    def value(self, given: Any, is_word: bool) -> Any:
-        """Return what an argument holds."""
-        if isinstance(given, Member):
-            return given if given.name and not isinstance(given, Group) else self.member(given)
-        if isinstance(given, str):
-            return given if is_word else " ".join(self.names.get(word, word) for word in given.split(" "))
-        if type(given) in (tuple, list):
-            return type(given)(self.value(each, is_word) for each in given)
-        if type(given) in (dict, FrozenDict, MappingProxyType):
-            return {self.value(key, is_word): self.value(each, is_word) for key, each in given.items()}
-        if is_dataclass(given) and not isinstance(given, type):
-            found = copy(given)
-            words = word_arguments(type(given))
-            for each in fields(given):
-                object.__setattr__(found, each.name, self.value(getattr(given, each.name), each.name in words))
-            return found
-        return given
+    def named_member(self, given: Member) -> Any:
+        return given if given.name and not isinstance(given, Group) else self.member(given)
 
 
 def referred(member: Member) -> Iterator[str]:

@@ -8,7 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..vectors import Line, Vec
+from ..vectors import Vec
 from .member import Reference, Turning, Where, name_of
 from .quantity import Number, Quantity, spelled
 
@@ -76,13 +76,8 @@ class Axes:
                 return inner
             x, y = inner.at
             return Axes(inner.P, inner.Q, (x, negated(y)), plus(Number(np.pi), negated(inner.angle)), not inner.mirrored)
-        x, y = inner.at
-        x = negated(x) if self.mirrored else x
-        cos, sin = (NOTHING, NOTHING) if is_nothing(self.angle) else (np.cos(self.angle), np.sin(self.angle))
-        if not is_nothing(self.angle) and not (is_nothing(x) and is_nothing(y)):
-            x, y = x * cos - y * sin, x * sin + y * cos
         turn = negated(inner.angle) if self.mirrored else inner.angle
-        return Axes(self.P, self.Q, (plus(self.at[0], x), plus(self.at[1], y)), plus(self.angle, turn), mirrored)
+        return Axes(self.P, self.Q, self.corner(*inner.at), plus(self.angle, turn), mirrored)
 
     def corner(self, x: Quantity, y: Quantity) -> tuple[Quantity, Quantity]:
         """Return the coordinates of a place of the part in the axes of what carries it."""
@@ -125,10 +120,6 @@ class Axes:
         carried: Vec = start + (along * x + along.left() * y)
         return carried
 
-    def line(self, where: Where, given: Line) -> Line:
-        """Return where a line of the part is in the frame."""
-        return Line(self.place(where, given.origin), self.vector(where, given.direction))
-
     def turn(self, where: Where, given: Turning) -> Turning:
         """Return the cosine and the sine of a direction of the part in the frame."""
         found = self.vector(where, Vec(*given))
@@ -140,10 +131,7 @@ class Axes:
         if self.carrier:
             _, along = self._base(where)
             found = Vec(along.dot(given), along.cross(given))
-        if not is_nothing(self.angle):
-            cos, sin = where.turn(self.angle)
-            found = found.turned(cos, -sin)
-        return Vec(-found.x, found.y) if self.mirrored else found
+        return self._straight(where, found)
 
     def read_place(self, where: Where, given: Vec) -> Vec:
         """Return a place in the frame as the part reads it [m]."""

@@ -177,10 +177,14 @@ class Plan(Members):
 
     def untracked(self, quantity: Quantity) -> tuple[str, ...]:
         """Return the angles that a quantity uses, other than by whole multiples, cosines and sines, and that are not followed."""
-        if not has_angles(self, (quantity,)):
-            return ()
-        trace = self._traced(self.solved)
-        return angles_that_count(trace, [trace.graph.node(trace.value(quantity))])
+
+        def look(plan: Plan) -> tuple[str, ...]:
+            if not has_angles(plan, (quantity,)):
+                return ()
+            trace = plan._traced(plan.solved)
+            return angles_that_count(trace, [trace.graph.node(trace.value(quantity))])
+
+        return self.made(("untracked", quantity.identity), look)
 
 
 REGISTRY: WeakValueDictionary[str, Plan] = WeakValueDictionary()

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import cached_property, reduce
 from itertools import permutations
 from typing import Any, cast, final
 
@@ -31,6 +31,8 @@ POSES = 7
 """Poses over the strokes at which it is looked how lengths follow them."""
 SLOWEST = 1e-9
 """A length that changes by less than this part of its end's way does not follow a stroke."""
+MOST_WRITTEN = 3
+"""Lines of cylinders that hold together in a program: whether the levers of more are near a singular pose, no formula of nodes tells."""
 
 
 @final
@@ -65,6 +67,12 @@ class Holders:
     def taken(self) -> frozenset[str]:
         """The strokes whose own drives carry nothing."""
         return frozenset(line.stroke for line in self.lines)
+
+    def check_written(self) -> None:
+        """Raise UntracedError where more lines hold together than a program is written for."""
+        if len(self.lines) > MOST_WRITTEN and not all(line.is_steady for line in self.lines):
+            count = len(self.lines)
+            raise UntracedError(f"{count} lines of cylinders hold together, and a program is written for {MOST_WRITTEN} at the most.")
 
     def line_of(self, cylinder: TwoPoint) -> PressureLine | None:
         """Return the line that a cylinder is on; None where it does not hold."""
@@ -237,7 +245,7 @@ class Levers:
             return solved_traced(turned[0], need[0])[None]
         return np.asarray(np.linalg.solve(turned, need[:, :, None])[:, :, 0])
 
-    @property
+    @cached_property
     def condition(self) -> FloatArray:
         """How near the levers are to a singular pose, relative to their sizes (n,); infinite where they are at one."""
         matrix, sizes, count = numbers_of(self.matrix), numbers_of(self.sizes), range(self.matrix.shape[1])
@@ -262,7 +270,7 @@ def with_levers(poses: FlatPoses, lines: Sequence[PressureLine], what: str) -> t
             matrix[:, i, i] = line.steady
         return poses, (Levers(matrix, np.abs(matrix), tuple((one,) for _ in lines)),)
     ways = (1, -1) if any(line.changes_shares for line in lines) else (1,)
-    found = tuple(levers_of(poses, lines, way) for way in ways)
+    found = tuple(known_levers(poses, lines, way) for way in ways)
     names = [each.name or str(each) for line in lines for each in line.cylinders]
     whose = f"the length of {names[0]} stands" if len(names) == 1 else f"the lengths of {', '.join(names)} stand"
     cond = reduce(np.maximum, [each.condition for each in found])
@@ -273,6 +281,13 @@ def with_levers(poses: FlatPoses, lines: Sequence[PressureLine], what: str) -> t
         return poses, found
     left = poses.without(lost)
     return left, tuple(levers_of(left, lines, way) for way in ways)
+
+
+def known_levers(poses: FlatPoses, lines: Sequence[PressureLine], way: int) -> Levers:
+    """Return the levers of lines, worked out once for the same poses of a motion, whichever load and whichever cylinder is asked."""
+    if not isinstance(poses.motion, Motion):
+        return levers_of(poses, lines, way)
+    return poses.motion._once(("levers", tuple(lines), way, poses.good.tobytes()), lambda: levers_of(poses, lines, way))
 
 
 def levers_of(poses: FlatPoses, lines: Sequence[PressureLine], way: int) -> Levers:
@@ -345,8 +360,6 @@ def inverse_size(rows: Sequence[Sequence[FloatArray]]) -> FloatArray:
     k = len(rows)
     with np.errstate(divide="ignore", invalid="ignore"):
         if k > 3:
-            if is_traced(rows[0][0]):
-                raise UntracedError(f"{k} lines of cylinders hold together, and a program is written for three at the most.")
             return np.asarray(1.0 / np.linalg.svd(np.moveaxis(np.array(rows), -1, 0), compute_uv=False)[:, -1])
         if k == 2:
             minors, det = [each for row in rows for each in row], rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0]

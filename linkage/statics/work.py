@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Unpack
+from typing import TypeVar, Unpack
 
 import numpy as np
 
@@ -19,9 +19,12 @@ from .agreement import AGREES, disagreeing
 from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
 from .holding import Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
+from .law_requests import situation_identity
 from .poses import AnyMotion, FlatPoses, plan_of
 from .solution import LEAST, PoseForces, locked_words
 from .traced_loads import TracedMotion, refuse_friction, traced_loads
+
+Made = TypeVar("Made")
 
 
 @takes_situation
@@ -147,7 +150,11 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
     member = standing_for(motion, member)
     holders = holders_of(plan, [*(each.element for each in applied_elements(plan, replace(acting, case=None))), member])
     line = holders.line_of(member)
-    applied = applied_on(motion, acting, member_rates(motion, member, acting, line))
+    if line is not None and isinstance(motion, TracedMotion):
+        holders.check_written()
+    rates = member_rates(motion, member, acting, line)
+    shared = shared_key(motion, acting, rates)
+    applied = made_once(motion, shared, "applied", lambda: applied_on(motion, acting, rates))
     if line is None:
         own = [each.thrust for each in applied.thrusts if same(each.member, member)]
         if not own:
@@ -162,7 +169,20 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
         return found.thrusts[member_title(member)]
     names = {name for point in (*applied.points, *(end for each in line.cylinders for end in each.ends)) for name in plan.reaches(point)}
     poses, levers = with_levers(FlatPoses(motion, what, names), holders.lines, what)
-    return poses.full(thrust_by_work(poses, applied, holders.lines, levers, member))[()]
+    what_holds = ("needs", holders.lines, poses.good.tobytes())
+    need = made_once(motion, shared, what_holds, lambda: needed_of(poses, applied, holders.lines))
+    return poses.full(thrust_of_need(need, holders.lines, levers, member))[()]
+
+
+def shared_key(motion: AnyMotion, acting: Acting, rates: Rates) -> Hashable:
+    """Return what tells loads at rest from others that act on a motion; None where they are worked out for each who asks."""
+    identity = situation_identity(acting) if rates is AT_REST and isinstance(motion, Motion) else None
+    return None if identity is None else (identity, acting.movement, acting.drive)
+
+
+def made_once(motion: AnyMotion, shared: Hashable, what: Hashable, make: Callable[[], Made]) -> Made:
+    """Return what all cylinders ask of the same loads on a motion, made once; each time where no key tells the loads."""
+    return make() if shared is None else require_motion(motion)._once(("held", what, shared), make)
 
 
 def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:
@@ -217,11 +237,13 @@ def member_rates(motion: AnyMotion, member: TwoPoint, acting: Acting, line: Pres
     return Rates({name: way * rate for name, rate in tangent.items()}, direction=direction)
 
 
-def thrust_by_work(
-    poses: FlatPoses, applied: AppliedLoads, lines: Sequence[PressureLine], levers: Sequence[Levers], member: TwoPoint
-) -> FloatArray:
-    """Return a holding cylinder's thrust by virtual work on the strokes taken over, shape (n,), frictionless."""
-    need = np.stack([by_work(poses, applied, line.stroke) for line in lines], axis=-1)
+def needed_of(poses: FlatPoses, applied: AppliedLoads, lines: Sequence[PressureLine]) -> FloatArray:
+    """Return what the strokes that are taken over need, by virtual work, shape (n, lines), frictionless."""
+    return np.stack([by_work(poses, applied, line.stroke) for line in lines], axis=-1)
+
+
+def thrust_of_need(need: FloatArray, lines: Sequence[PressureLine], levers: Sequence[Levers], member: TwoPoint) -> FloatArray:
+    """Return a holding cylinder's thrust by what the strokes taken over need, shape (n,), frictionless."""
     place = next(k for k, line in enumerate(lines) if any(same(each, member) for each in line.cylinders))
     shares = [each.share(lines[place], member, place) for each in levers]
     firsts = [each.thrusts(need)[:, place] for each in levers]

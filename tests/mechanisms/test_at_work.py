@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from hydraulics import Cylinder
 from linkage import LoadCase, Motion, Part, equations, pin_forces
 from linkage.files import load, to_toml
+from linkage.statics import holding, work
 from mechanisms.at_work.excavator import Excavator, HookExcavator
 from mechanisms.at_work.forwarder import Forwarder
 from mechanisms.at_work.front_loader import LoadedFrontLoader
@@ -224,6 +225,29 @@ def test_a_plumb_grapple_pushes_as_it_does_alone_and_moves_no_head():
     for name in "OACE":
         right, left = motion[f"right.{name}"] - motion["crane.T"], motion[f"left.{name}"] - motion["crane.T"]
         assert_allclose(left, right * [-1.0, 1.0], atol=1e-12)
+
+
+def test_what_five_cylinders_hold_is_worked_out_once_for_all_of_them(monkeypatch):
+    """Levers, loads and what the strokes need, of one motion: each thrust asked first is that of a motion on which all were asked."""
+    counts = {"levers_of": 0, "applied_loads": 0}
+
+    def counted(room, name):
+        made = getattr(room, name)
+
+        def count(*given):
+            counts[name] += 1
+            return made(*given)
+
+        monkeypatch.setattr(room, name, count)
+
+    motion, cylinders = Forwarder().at(**HELD), Forwarder.plan.of_kind(Cylinder)
+    alone = {name: each.thrust(Forwarder().at(**HELD)) for name, each in cylinders.items()}
+    counted(holding, "levers_of")
+    counted(work, "applied_loads")
+    together = {name: each.thrust(motion) for name, each in cylinders.items()}
+    assert together == alone and counts == {"levers_of": 1, "applied_loads": 1}
+    empty = {name: float(each.thrust(motion, case="empty")) for name, each in cylinders.items()}
+    assert counts == {"levers_of": 1, "applied_loads": 2} and abs(empty["right.lift"]) < abs(together["right.lift"])
 
 
 def test_the_levers_of_the_forwarder_are_read_as_the_grapple_is():

@@ -101,8 +101,19 @@ def calculation_section(found: FilledEquations, pose_words: str) -> Section:
                 )
             )
         )
+        body += [Paragraph(text) for text in axle_words(listing)]
     if listing.left_out:
         body.append(Paragraph(said("Left out of the equations: the friction of {names}.", names=", ".join(listing.left_out))))
     for each in found.lines:
         body += [*([Paragraph(each.heading)] if each.heading else []), Equality(each.number, each.steps)]
     return Section(said("Calculation"), tuple(body))
+
+
+def axle_words(listing: Equations) -> list[str]:
+    """Return what the equations of axle loads are, in words; nothing of a machine that does not stand on supports."""
+    about, given = listing.axles
+    if not about:
+        return []
+    names = ", ".join(f"R_{name}" for name in given)
+    plain = said("R is what a support carries, by the moments about {support} and by the sum across the ground.", support=about)
+    return [plain, *([said("{names} hang on how the supports give way: they are given numbers.", names=names)] if names else [])]

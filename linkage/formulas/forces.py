@@ -16,18 +16,18 @@ import numpy as np
 import sympy
 
 from ..errors import DefinitionError
-from ..loads import AT_REST, Acting, ForceElement, Rates, TwoPinned, TwoPoint
+from ..loads import AT_REST, Acting, ForceElement, Rates, Support, TwoPinned, TwoPoint
 from ..mechanism import Mechanism
 from ..motion import Motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..program import FloatArray
 from ..quantities import Angle, Distance, Quantity, Reference, joined_names, name_of
-from ..statics import applied_loads
+from ..statics import applied_loads, axle_load, standing_supports
 from ..statics.holding import Holders, PressureLine, holders_of
 from .listing import Listing, ListingLine
 from .rates import LineDerivatives
 from .symbolic import NUMBER, Term, Unit, term, unit_named
-from .words import Dot, explicit
+from .words import Cross, Dot, explicit
 
 MOST = 3
 """More cylinders that hold their strokes together have no equations that one would read."""
@@ -78,6 +78,10 @@ class ForceLines:
         self._weights: dict[str, Term] = {}
         self._members: dict[str, TwoPinned] = {}
         self._chains: Mapping[str, Chain] = {}
+        self.about = ""
+        """The support that the moments of the others are written about; "" where the machine does not stand on any."""
+        self.shared: tuple[str, ...] = ()
+        """The supports whose loads are given numbers."""
 
     def write_forces(self) -> None:
         """Write all lines; DefinitionError for what has no chain of derivatives, and for cylinders that hold strokes together."""
@@ -85,13 +89,15 @@ class ForceLines:
         for element in elements.values():
             if element.feeds(self.plan.members):
                 element.formulas(self)
-        pulled = [each for name, element in elements.items() for each in self._acting(name, element)]
+        acting = {name: list(self._acting(name, element)) for name, element in elements.items()}
+        pulled = [each for found in acting.values() for each in found]
         holders = holders_of(self.plan)
         chains = self._chains = {stroke: Chain(self, stroke, pulled, holders) for stroke in self.plan.strokes}
         for stroke, chain in chains.items():
             self.lines += chain.lines
             self._write(f"Q_{stroke}", chain.need(pulled), "Nm" if stroke_unit(self.plan, stroke) == "rad" else "kN")
         self._hold(holders.lines)
+        self._stand(acting)
         self.design.formulas(self)
 
     @property
@@ -200,6 +206,42 @@ class ForceLines:
         first = line.cylinders[0]
         return self._thrusts[first.name or joined_names(*first.ends)].expr / self._area(line, first)
 
+    # -- what a vehicle stands on ----------------------------------------------------------------------
+
+    def _stand(self, acting: Mapping[str, Sequence[Pulled]]) -> None:
+        """Write two axle loads of a vehicle: by the moments about its first support, and by the sum across the ground; others are given."""
+        supports = standing_supports(self._somewhere())
+        if not supports:
+            return
+        (first, start), *others = supports.items()
+        second = max(others, key=lambda each: self._apart(start, each[1]))[0]
+        across, moment = Term(sympy.S.Zero), Term(sympy.S.Zero)
+        pushes = {name: each.way(self) for name, each in supports.items()}
+        self.about, self.shared = first, tuple(name for name in supports if name not in (first, second))
+        for name in self.shared:
+            size = self.given(f"R_{name}", axle_load(name).of, "kN")
+            across = across + size * inner(pushes[name], pushes[first])
+            moment = moment + size * self._lever(start, supports[name].point, pushes[name])
+        for each in (each for name, found in acting.items() if name not in supports for each in found):
+            force = np.array([0.0, each.way * Term(each.symbol)] if each.way else [Term(each.symbol[k, 0]) for k in (0, 1)], object)
+            across, moment = across + inner(force, pushes[first]), moment + self._lever(start, each.point, force, each)
+        held = self._write(f"R_{second}", -moment / self._lever(start, supports[second].point, pushes[second]), "kN")
+        self._write(f"R_{first}", -across - held * inner(pushes[second], pushes[first]), "kN")
+
+    def _apart(self, one: Support, other: Support) -> float:
+        """Return how far two supports are apart [m]."""
+        motion = self._somewhere()
+        return float(np.hypot(*(motion[name_of(other.point)] - motion[name_of(one.point)])))
+
+    def _lever(self, start: Support, point: Reference, force: Any, load: Pulled | None = None) -> Any:
+        """Return the moment of a force at a point about a support; of a load that is a vector as the product of both."""
+        if name_of(point) == name_of(start.point):
+            return Term(sympy.S.Zero)
+        if load is not None and not load.way:
+            return Term(Cross(self.listing.between(name_of(start.point), name_of(point)), load.symbol))
+        arm = self.between(start.point, point)
+        return arm[0] * force[1] - arm[1] * force[0]
+
     # -- what elements write on ------------------------------------------------------------------------
 
     @property
@@ -281,6 +323,11 @@ class ForceLines:
     def between(self, P: Reference, Q: Reference) -> Any:
         vector = self.listing.between(name_of(P), name_of(Q))
         return np.array([Term(vector[0, 0]), Term(vector[1, 0])], object)
+
+
+def inner(a: Any, b: Any) -> Any:
+    """Return the scalar product of two vectors of terms or numbers."""
+    return a[0] * b[0] + a[1] * b[1]
 
 
 def next_block(lines: Sequence[PressureLine], strokes: Sequence[str], levers: Mapping[PressureLine, Mapping[str, Any]]) -> Any:

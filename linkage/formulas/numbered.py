@@ -442,6 +442,11 @@ class Equations(Sequence[Equation], Shown):
         """The elements whose dry friction is not in the equations of forces."""
         return tuple(self._forces.friction) if self._forces is not None else ()
 
+    @property
+    def axles(self) -> tuple[str, tuple[str, ...]]:
+        """The support of a vehicle that moments are written about, "" where there is none, and those whose loads are given numbers."""
+        return ("", ()) if self._forces is None else (self._forces.about, self._forces.shared)
+
     def symbol_latex(self, name: str) -> str:
         """Return the LaTeX of a stroke or a design variable."""
         given = [*self.machine.plan.strokes, *self.machine.dimensions]
@@ -522,6 +527,9 @@ def legend(equations: Any, listing: Listing, values: dict[str, str], forces: For
         lines.append(f"{', '.join(listing.unknowns)}: found together, so that the equations in which they stand hold.")
     if forces is not None:
         lines += [*WORDS, *([f"Left out: the friction of {', '.join(forces.friction)}."] if forces.friction else [])]
+        lines += [f"R: what a support carries, by the moments about {forces.about} and the sum across the ground."] if forces.about else []
+        given = ", ".join(f"R_{name}" for name in forces.shared)
+        lines += [f"{given}: they hang on how the supports give way, and are given numbers."] if given else []
     others = [] if forces is None else [each.symbol for each in forces.givens]
     return [*lines, *given_lines(equations, listing, values, others)]
 

@@ -19,7 +19,7 @@ from ..plan import Plan, opening, plan_measure
 from ..program import FloatArray, Node
 from ..quantities import as_mapping, is_number, joined_names
 from ..reports import At, Run, column_requests, run_of
-from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, pin_force, pin_forces, traced_loads
+from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, ground_loads, pin_force, pin_forces, traced_loads
 from ..units import UNITS, deg, display_unit, factor, shown_in
 from ..verdict import Verdict
 from .browser_judge import LiveQuestions
@@ -60,6 +60,16 @@ def load_part_of(place: int, axis: int, motion: AnyMotion) -> FloatArray:
     """Return a part of one of the machine's own loads on a traced motion [N]."""
     assert isinstance(motion, TracedMotion)  # it is asked for by a page alone
     return cast(FloatArray, traced_loads(motion, PLAIN, AT_REST).loads[place].force[axis])
+
+
+def ground_part(place: int, axis: int) -> LawRequest:
+    """Return the request for a part of what the ground puts on a vehicle [N], by its place among all that it does."""
+    return LawRequest(formula=partial(ground_part_of, place, axis), text=f"ground {place}", known=("ground", place, axis))
+
+
+def ground_part_of(place: int, axis: int, motion: AnyMotion) -> FloatArray:
+    """Return a part of what the ground puts on a vehicle over a motion [N]."""
+    return cast(FloatArray, ground_loads(motion, PLAIN)[place].force[axis])
 
 
 @final
@@ -146,7 +156,7 @@ class PageRequests:
 
     @cached_property
     def arrows(self) -> list[tuple[str, Request, Request, bool]]:
-        """The forces that can be drawn: their points, their parts [N], and whether it is a load; those at the pins come first."""
+        """The forces that can be drawn: their points, their parts [N], and whether it is a load; those at pins and supports come first."""
         poses = self.motion.moved({name: value[self.motion.reached][:1] for name, value in self.motion.strokes.items()})
         try:
             with unwarned():
@@ -159,6 +169,8 @@ class PageRequests:
         forces = [each for each in joints if each.has_force and each.place is None]  # an arrow of the page begins at a point
         told = [each for each in forces if alone_on(each, forces)]
         found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False) for each in told]
+        ground = enumerate(ground_loads(poses, PLAIN))
+        found += [(each.load.point, ground_part(k, 0), ground_part(k, 1), False) for k, each in ground]
         return found + [(point, load_part(k, 0), load_part(k, 1), True) for k, point in loads]
 
 

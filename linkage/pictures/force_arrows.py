@@ -18,8 +18,8 @@ from ..statics import JointForce, PinForces, pin_forces
 from ..units import current_system, shown_in
 from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
 
-PIN, LOAD, MEMBER = "#0072b2", "#d55e00", "#007f5c"
-"""The colours of pin forces, loads, and the ends of cylinders and springs: Okabe and Ito's, the last one darker."""
+PIN, LOAD, MEMBER, GROUND = "#0072b2", "#d55e00", "#007f5c", "#000000"
+"""The colours of pin forces, loads, the ends of cylinders and springs, and of the ground under supports: Okabe and Ito's, one darker."""
 
 FRAME = "frame"
 
@@ -126,11 +126,12 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
         if joint.has_force:
             arrows.append(VectorArrow(name, forces.spot(joint), force, colour, text))
         turning.append(TurningArrow(f"couple {joint.point} {place} on {on} from {by}", forces.spot(joint), couple, colour, text))
-    for element, bearer, at, force, moment in load_groups(forces):
-        arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, LOAD, element))
-        turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, LOAD, element))
-    has_members = any(arrow.colour == MEMBER for arrow in arrows)
-    keys = [(LOAD, said("load")), (PIN, said("pin force")), *([(MEMBER, said("of a cylinder or spring"))] * has_members)]
+    for element, bearer, at, force, moment, colour in load_groups(forces):
+        arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, colour, element))
+        turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, colour, element))
+    used = {arrow.colour for arrow in arrows} | {LOAD, PIN}
+    words = {LOAD: said("load"), PIN: said("pin force"), MEMBER: said("of a cylinder or spring"), GROUND: said("from the ground")}
+    keys = [(colour, text) for colour, text in words.items() if colour in used]
     return layer_of(arrows, turning, keys, translated(SENSE))
 
 
@@ -162,12 +163,13 @@ def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
                     VectorArrow(f"force {joint.point} {place} from {other}", forces.spot(joint), force, colour, from_other)
                 )
             turning.append(TurningArrow(f"couple {joint.point} {place}", forces.spot(joint), couple, colour, from_other))
-    for element, bearer, at, force, moment in load_groups(forces):
+    for element, bearer, at, force, moment, colour in load_groups(forces):
         if bearer == body:
-            arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, LOAD, element))
-            turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, LOAD, element))
+            arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, colour, element))
+            turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, colour, element))
     used = {each.colour for each in arrows} | {each.colour for each in turning}
     keys = [(LOAD, said("load")), (PIN, said("from a body or the frame")), (MEMBER, said("from a cylinder or spring"))]
+    keys += [(GROUND, said("from the ground"))]
     return layer_of(arrows, turning, [key for key in keys if key[0] in used])
 
 
@@ -177,7 +179,7 @@ def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], keys: list[
     It is in kN, or in N where the largest is less than 100 N, or in the unit of a chosen system.
     """
     largest = max((each.length for each in arrows), default=0.0)
-    shown = tuple(each for each in arrows if each.length > NOTHING_THERE * largest or (each.colour != LOAD and largest > 0.0))
+    shown = tuple(each for each in arrows if each.length > NOTHING_THERE * largest or (each.colour in (PIN, MEMBER) and largest > 0.0))
     most = max((abs(each.moment) for each in turning), default=0.0)
     turns: list[TurningArrow] = []
     for each in turning:
@@ -188,26 +190,30 @@ def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], keys: list[
     return ArrowLayer(shown, shown_in(unit), tuple(keys), tuple(turns), sense=sense)
 
 
-def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatArray, float]]:
-    """Yield each element's load on each body: element, body, place (2,) [m], force (2,) [N] and moment there [Nm].
+def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatArray, float, str]]:
+    """Yield each element's load on each body: element, body, place (2,) [m], force (2,) [N] and moment there [Nm], colour.
 
-    Several forces of an element on a body go as their resultant, on its line of action; a couple as a moment amid its points.
+    What the ground puts on a vehicle goes by the name of its support. Several forces of an element on a body go as their resultant, on
+    its line of action; a couple as a moment amid its points.
     """
     groups: dict[tuple[str, str], list[tuple[FloatArray, FloatArray]]] = {}
+    ground = {each.element for each in forces.found._ground}
     for body, acting in forces.found._loads:
         groups.setdefault((acting.element.partition("(")[0], body), []).append((forces.place(acting.load.point), forces.one(acting.force)))
     for (element, body), parts in groups.items():
+        colour = GROUND if element in ground else LOAD
         places, each_of = np.array([place for place, _ in parts]), np.array([force for _, force in parts])
         force, middle = each_of.sum(axis=0), places.mean(axis=0)
         arms = places - middle
         moment = float((arms[:, 0] * each_of[:, 1] - arms[:, 1] * each_of[:, 0]).sum())
         square = float(force @ force)
         if square <= 1e-18 * float((each_of**2).sum()):
-            yield element, body, middle, np.zeros(2), moment
+            yield element, body, middle, np.zeros(2), moment, colour
         else:
             place = middle + moment * np.array([-force[1], force[0]]) / -square
             centre = mass_centre(forces, element)
-            yield element, body, place + force * float((centre - place) @ force) / square if centre is not None else place, force, 0.0
+            place = place if centre is None else place + force * float((centre - place) @ force) / square
+            yield element, body, place, force, 0.0, colour
 
 
 def mass_centre(forces: ForcesAt, element: str) -> FloatArray | None:

@@ -63,7 +63,7 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     on_body = said("{machine}: forces on {body}", machine=heading, body=body)
     write_title(figure, said("{machine}: forces on the frame", machine=heading) if body == FRAME else on_body, ", ".join(where))
     legend_row(ax, *ax.get_legend_handles_labels())
-    footnote(figure, closing_words(layer, body))
+    footnote(figure, closing_words(layer, "" if forces.found.axle_loads else body))
     return figure
 
 
@@ -77,7 +77,7 @@ def points_on(forces: ForcesAt, body: str) -> tuple[str, ...]:
 
 
 def closing_words(layer: ArrowLayer, body: str) -> str:
-    """Return how well the forces on a body balance, in words."""
+    """Return how well the forces on a body balance, in words; of a frame that stands on no supports what the ground holds."""
     if not layer.largest > 0.0:
         return ""
     total, moment = imbalance(layer)

@@ -25,6 +25,7 @@ from .force_program import forces_at
 from .joints import Contact, Structure, acting_place, force_direction
 from .poses import FlatPoses
 from .solution import PoseForces, locked_words
+from .vehicle import ground_loads, standing_if_any, tipping_words
 from .work import by_work, poses_held, without_work, work_gap
 
 
@@ -52,6 +53,7 @@ def joint_forces(motion: Motion, acting: Acting, split: str = "refuse") -> PinFo
     applied = applied_loads(motion, acting, rates)
     found = agreeing(forces_at(poses_held(motion, applied, "The joint forces"), applied, split), split)
     remarks = [*locked_words(found, acting.movement), *lift_off_words(found), *self_locking_words(found), *at_rest_words(applied)]
+    remarks += tipping_words(motion, applied.acting)
     return PinForces(
         motion, joints_of(found.structure, found.contacts, found.poses), found.drives, found.thrusts, applied.case, acting.movement,
         found.poses.mask(found.locked), tuple(remarks), found, split,
@@ -104,11 +106,23 @@ class PinForces(Shown):
         """The bodies and joints of the machine."""
         return self._found.structure
 
+    @property
+    def axle_loads(self) -> Mapping[str, FloatArray]:
+        """The reactions of the supports under the frame by their names, shape (...) [N]; none of a machine that does not stand on any."""
+        found = standing_if_any(self.motion, self._found.applied.acting)
+        return {} if found is None else found.reactions
+
+    @cached_property
+    def _ground(self) -> tuple[AppliedLoad, ...]:
+        """What the ground puts on a vehicle's frame; nothing of a machine that stands on no supports."""
+        return ground_loads(self.motion, self._found.applied.acting)
+
     @cached_property
     def _loads(self) -> tuple[tuple[str, AppliedLoad], ...]:
-        """The loads with the names of the bodies that they act on."""
-        name, bearer = self._structure.name, self._structure.bearer
-        return tuple((name(bearer(each.load)), each) for each in self._found.applied.loads)
+        """The loads with the names of the bodies that they act on, the reactions of a vehicle's supports among them."""
+        name, bearer, axles = self._structure.name, self._structure.bearer, {each.element for each in self._ground}
+        loads = [each for each in self._found.applied.loads if each.element not in axles]
+        return tuple((name(bearer(each.load)), each) for each in (*loads, *self._ground))
 
     def at(self, point: str) -> tuple[JointForce, ...]:
         """Return the joints at a point."""
@@ -126,7 +140,8 @@ class PinForces(Shown):
     def on_body(self, name: str) -> Mapping[str, FloatArray]:
         """Return all forces on a body by the point they act at, joints and loads, shape (2, ...) [N]: they balance (for FEM).
 
-        One that acts elsewhere, such as at the mesh of two gears, goes by its joint, `A (mesh)`; `place` of that joint tells where.
+        Those on the frame balance where it stands on supports; elsewhere their sum is what the ground has to hold. One that acts
+        elsewhere than at a point, such as at the mesh of two gears, goes by its joint, `A (mesh)`; `place` of that joint tells where.
         """
         found = self.body_named(name)
         if found not in self.on_bodies:
@@ -165,6 +180,7 @@ class PinForces(Shown):
         lines = [f"  {name}: {range_text(values, units[name])}" for name, values in self.drives.items()]
         lines += [f"  thrust of {name}: {range_text(values, 'kN')}" for name, values in self.thrusts.items()]
         lines += [f"  {each}: {range_text(each.size, 'kN') if each.has_force else range_text(each.couple, 'Nm')}" for each in self.joints]
+        lines += [f"  axle load {name}: {range_text(force, 'kN')}" for name, force in self.axle_loads.items()]
         against = "" if np.isnan(self.gap) else f"; against virtual work {self.gap:.0e}"
         return "\n".join([head, *lines, f"  residual of equilibrium {self.residual:.0e}{against}", *(f"  {each}" for each in self.remarks)])
 
@@ -244,7 +260,10 @@ def joint_on(joints: Sequence[JointForce], point: str, on: str, title: str, by: 
 
 
 def residual(found: PinForces) -> float:
-    """Return the largest imbalance of any body over the largest force there is, at the worst pose; moments over the machine's size."""
+    """Return the largest imbalance of any body over the largest force there is, at the worst pose; moments over the machine's size.
+
+    The frame is one of the bodies where it stands on supports.
+    """
     motion, shape = found.motion, found.motion.shape
     places = {point: motion[point] for point in motion.plan.points}
     extent = max((float(np.nanmax(place, initial=0.0) - np.nanmin(place, initial=0.0)) for place in places.values()), default=1.0) or 1.0
@@ -259,7 +278,8 @@ def residual(found: PinForces) -> float:
         row = np.stack(np.broadcast_arrays(*force, moment))
         sums[body] = sums[body] + row if body in sums else row
         largest = np.maximum(largest, np.hypot(force[0], force[1]))
-    bodies = [np.abs(rows[: 2 if body.startswith("pin ") else 3]).max(axis=0) for body, rows in sums.items() if body != FRAME_NAME]
+    held = {body: rows for body, rows in sums.items() if body != FRAME_NAME or found._ground}
+    bodies = [np.abs(rows[: 2 if body.startswith("pin ") else 3]).max(axis=0) for body, rows in held.items()]
     worst = np.max(bodies, axis=0, initial=0.0) if bodies else np.zeros(shape)
     return float(np.nanmax(worst / np.where(largest > 0.0, largest, 1.0), initial=0.0))
 

@@ -25,6 +25,7 @@ from ..loads import (
     Case,
     ForceElement,
     LinkMass,
+    Load,
     Loads,
     Support,
     Weight,
@@ -33,12 +34,13 @@ from ..loads import (
 )
 from ..loads.case import LoadCase
 from ..motion import Answer, Column, Condition, HasVerdicts, Judge, Motion, Question, Tabled, least, most, require_motion
+from ..motion.limits import where_words
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import name_of
 from ..units import show
 from ..verdict import Verdict
-from .applied import AppliedLoads, applied_loads, elements_of, rates_in
+from .applied import AppliedLoad, AppliedLoads, applied_loads, elements_of, rates_in
 from .bodies import frame_points
 from .holding import where_negative
 from .law_requests import LawRequest, case_words, situation_identity
@@ -59,13 +61,16 @@ class Standing:
     `reactions` are the axle loads along the supports' directions: a support that lifts off among three or more has none, a negative one is
     what would have to hold it down, so that the vehicle tips over. `outermost` are those of the two outermost supports, were they alone:
     negative at one where the resultant lies beyond the other. `along` is what the ground puts on the frame along itself at the first
-    support, `friction` how much it can by friction, None where no support says one.
+    support, `friction` how much it can by friction, None where no support says one. `forces` are the reactions as vectors, shape (2, ...),
+    `brakes` what acts along the ground.
     """
 
     reactions: Mapping[str, FloatArray]
     outermost: Mapping[str, FloatArray]
     along: FloatArray
     friction: FloatArray | None
+    forces: Mapping[str, FloatArray]
+    brakes: FloatArray
 
 
 @takes_situation
@@ -101,7 +106,8 @@ def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Suppor
     else:
         found, ends = by_stiffness(poses, supports, across, levers, outside)
     names = list(supports)
-    slants = [part_along(way, to_the_right(poses, supports)) for way in ways.values()]
+    right = to_the_right(poses, supports)
+    slants = [part_along(way, right) for way in ways.values()]
     along = 0.0 - outside.along - sum((one * force for one, force in zip(slants, found, strict=True)), poses.zeros())
     rough = [(each.number(motion, "friction"), force) for each, force in zip(supports.values(), found, strict=True) if is_rough(each)]
     friction = sum((poses.flattened(number) * force for number, force in rough), poses.zeros()) if rough else None
@@ -109,7 +115,43 @@ def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Suppor
         {name: poses.full(force) for name, force in zip(names, found, strict=True)},
         {name: poses.full(force) for name, force in zip(names, ends, strict=True) if force is not None},
         poses.full(np.asarray(along)), None if friction is None else poses.full(np.asarray(friction)),
+        {name: poses.full(way * force) for (name, way), force in zip(ways.items(), found, strict=True)}, poses.full(right * along),
     )  # fmt: skip
+
+
+def standing_supports(motion: Motion) -> dict[str, Support]:
+    """Return the supports that a vehicle stands on under its own loads; none of a machine that does not stand on any."""
+    return {} if standing_if_any(motion, PLAIN) is None else vehicle_of(motion.plan)
+
+
+def standing_if_any(motion: AnyMotion, acting: Acting) -> Standing | None:
+    """Return how a vehicle stands in a situation; None for a machine without supports under its frame, or that cannot stand on them."""
+    try:
+        return standing_under(motion, acting)
+    except DefinitionError:
+        return None
+
+
+def ground_loads(motion: AnyMotion, acting: Acting) -> tuple[AppliedLoad, ...]:
+    """Return what the ground puts on a vehicle, by its supports: the axle loads, and at the first one what holds it along the ground."""
+    found = standing_if_any(motion, acting)
+    if found is None:
+        return ()
+    points = {name: name_of(each.point) for name, each in vehicle_of(motion.plan, acting).items()}
+    first = next(iter(points))
+    axles = [AppliedLoad(Load(points[name], force), force, name) for name, force in found.forces.items()]
+    return (*axles, AppliedLoad(Load(points[first], found.brakes), found.brakes, said("{support} along the ground", support=first)))
+
+
+def tipping_words(motion: Motion, acting: Acting) -> list[str]:
+    """Return the words for supports that would have to hold a vehicle down: there it tips over."""
+    found, words = standing_if_any(motion, acting), []
+    for name, force in found.reactions.items() if found is not None else ():
+        down = np.asarray(force < 0.0)
+        if down.any():
+            where, size = where_words(motion.plan, down, motion.strokes), show(-float(np.nanmin(force)), "kN", 4)
+            words.append(said("tipping {where}: {support} would have to be held down with {force}.", where=where, support=name, force=size))
+    return words
 
 
 def loads_over(motion: AnyMotion, acting: Acting) -> AppliedLoads:

@@ -6,6 +6,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
 from numpy.testing import assert_allclose
 
 from linkage import (
@@ -26,11 +27,14 @@ from linkage import (
     deg,
     draw,
     pin_forces,
+    standing,
 )
+from linkage.pictures.arrows import significant
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.roberts import Roberts
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests import shipped
+from tests.linkage.statics.test_vehicle import Digger, Truck
 from tests.machines.test_tipper import Tipper
 
 SHIPPED = list(shipped.MACHINES.values())
@@ -121,6 +125,31 @@ def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
     assert_allclose(
         total, scale * sum(acting.force for _, acting in found._loads), atol=(1e-9 + 0.012 * dots(figure, "load ")) * scale * size
     )
+
+
+def test_axle_loads_stand_at_the_supports_of_the_frame():
+    motion = Digger().at(S=0.1, s=0.1)
+    found = standing(motion, case="up")
+    figure = draw(motion, forces=True, case="up")
+    scale, drawn = scale_of(figure, "kN") / 1e3, arrows(figure, "load ")
+    for support, point in (("front", "F"), ("rear", "R")):
+        tail, vector = drawn[f"load {support} on frame"]
+        assert_allclose(tail, motion[point], atol=1e-12)
+        assert_allclose(vector, [0.0, scale * found.reactions[support]], atol=1e-12)
+        value = named(figure, f"load {support} on frame value")[f"load {support} on frame value"].get_text()
+        assert value == f"{significant(float(found.reactions[support]) / 1e3)} kN {support}"
+    assert_allclose(drawn["load front along the ground on frame"][1], [scale * found.along, 0.0], atol=1e-12)
+    level = draw(Digger(wind=(0.0, 0.0)).at(S=0.1, s=0.1), forces=True)
+    assert named(level, "load front on frame") and not named(level, "load front along the ground")
+
+
+def test_the_free_body_of_a_vehicle_closes():
+    for kind in (Digger, Truck):
+        figure = draw(kind().at(S=0.1, s=0.1), forces="frame", case="down")
+        drawn = arrows(figure, "polygon ")
+        size = max(np.hypot(*vector) for _, vector in drawn.values())
+        assert np.hypot(*sum(vector for _, vector in drawn.values())) <= 1e-12 * size
+        assert any("The forces balance" in text.get_text() for text in figure.findobj(Text))
 
 
 def test_force_of_the_hitch_by_hand():

@@ -33,14 +33,17 @@ from linkage import (
     deg,
     drive_force,
     page,
+    standing,
 )
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.files import load
 from linkage.pictures import page_html
 from linkage.pictures.browser import page_part
+from linkage.pictures.browser_data import PageRequests
 from linkage.pictures.browser_words import SAID
 from linkage.plan.trace import Trace
+from linkage.quantities import name_of
 from linkage.reports import results
 from linkage.units import MPa, mm
 from mechanisms.classics.jansen import Jansen
@@ -49,6 +52,7 @@ from mechanisms.grapple import Grapple
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.linkage.statics.test_vehicle import Digger, Truck
 
 DATA = Path(__file__).parents[1] / "data"
 CHROMIUM = Path("/usr/bin/chromium")
@@ -738,3 +742,18 @@ def test_a_few_machines_open(chromium, machine, tmp_path):
 @pytest.mark.parametrize("name", registered())
 def test_every_shipped_machine_opens(chromium, name, tmp_path):
     opens(chromium, find(name)(), tmp_path / "machine.html")
+
+
+
+@pytest.mark.parametrize("kind", [Digger, Truck])
+def test_axle_loads_are_arrows_of_the_page(kind):
+    """By the page's own requests, in another design: the reactions at the supports, and what holds the vehicle along the ground."""
+    design, strokes = kind(**{"G.x": -0.1, "F.x": 1.7}), {"S": [0.05, 0.2], "s": 0.1}
+    arrows = PageRequests(kind(), 5, at={"s": 0.1}).arrows
+    found = standing(design.at(**strokes))
+    places = {name: name_of(getattr(kind, name).point) for name in found.reactions}
+    pushes = [each for each in arrows if each[0] in places.values() and not each[3]]
+    values = np.array(design.evaluate([part for each in pushes for part in each[1:3]], **strokes)).reshape(len(pushes), 2, 2)
+    wanted = [*found.forces.values(), found.brakes]
+    assert [each[0] for each in pushes] == [*places.values(), next(iter(places.values()))]
+    assert_allclose(values, wanted, rtol=1e-12, atol=1e-9)

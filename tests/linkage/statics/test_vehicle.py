@@ -114,10 +114,41 @@ def test_the_reactions_are_what_the_joints_put_on_the_frame():
     """By another way: all that the joints, springs and weights put on the frame itself is what the ground balances."""
     motion = Digger().sweep(S=5, s=4)
     for case in (None, "up"):
-        on_frame = sum(each for each in pin_forces(motion, case=case).on_body("frame").values())
+        forces = pin_forces(motion, case=case)
         found = standing(motion, case=case)
         ground = np.stack([found.along, found.reactions["front"] + found.reactions["rear"]])
-        assert_allclose(np.asarray(on_frame) + ground, 0.0, atol=1e-9 * 4e4)
+        inside = sum(force for point, force in forces.on_body("frame").items() if point not in "FR")
+        assert_allclose(np.asarray(inside) + ground, 0.0, atol=1e-9 * 4e4)
+        assert_array_equal(forces.on_body("frame")["R"], [0.0 * found.along, found.reactions["rear"]])
+        assert f"axle load rear: {found.reactions['rear'].min() / kN:.6g} to" in str(forces)
+
+
+def test_a_declared_force_of_a_support_is_its_reaction_on_the_frame():
+    class Declared(Digger):
+        rear = Support("R", (0, 1), force=500.0)
+
+    plain, declared = (pin_forces(kind().sweep(S=3, s=2)).on_body("frame") for kind in (Digger, Declared))
+    assert_array_equal(declared["R"], plain["R"])
+
+
+def test_tipping_is_remarked_where_it_happens():
+    class Tipping(Digger):
+        R, load = Ground(-0.7, 0.0), Weight("T", mass=9000)
+
+    motion = Tipping().sweep(S=9, s=0.1)
+    force = reaction(motion, support="front")
+    assert (force < 0.0).any() and (force > 0.0).any()
+    (remark,) = pin_forces(motion).remarks
+    assert f"{np.count_nonzero(force < 0.0)} of 9 strokes" in remark
+    assert f"front would have to be held down with {-force.min() / kN:.4g} kN" in remark
+    assert pin_forces(Digger().sweep(S=3, s=2)).remarks == ()
+
+
+def test_what_cannot_stand_has_pin_forces_all_the_same():
+    for kind in (Weightless, Alone, Stiffless, Twice):
+        forces = pin_forces(kind().sweep(S=3, s=0.1))
+        assert forces.axle_loads == {} and forces.residual < 1e-12
+        assert not any(force.any() for point, force in forces.on_body("frame").items() if point in "FR")
 
 
 def test_two_supports_by_the_rule_of_levers():

@@ -12,6 +12,7 @@ from .machines import doc, title
 GROUPS = {
     "Machines at work": (
         "excavator", "hook_excavator", "telehandler", "wheel_loader", "loaded_front_loader", "forwarder", "tipper",
+        "spreader_tractor", "plough_tractor",
     ),
     "Hitches, lifts and headers": ("three_point_hitch", "mower_lift", "header_balancer", "front_loader", "scissor_lift"),
     "Cranes and grapples": ("crane", "boom_drive", "arm_drive", "grapple"),

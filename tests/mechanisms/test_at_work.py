@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from hydraulics import Cylinder
-from linkage import LoadCase, Motion, Part, equations, pin_forces
+from linkage import LoadCase, Motion, Part, equations, pin_forces, standing
 from linkage.files import load, to_toml
 from linkage.statics import holding, work
 from mechanisms.at_work.excavator import Excavator, HookExcavator
@@ -17,12 +17,13 @@ from mechanisms.at_work.forwarder import Forwarder
 from mechanisms.at_work.front_loader import LoadedFrontLoader
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.at_work.tipper import Tipper
+from mechanisms.at_work.tractor import PloughTractor, SpreaderTractor
 from mechanisms.at_work.wheel_loader import WheelLoader
 from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
 from tests.machines import plane, test_excavator, test_tipper, test_wheel_loader
 
-MACHINES = [Excavator, HookExcavator, LoadedFrontLoader, Telehandler, Tipper, WheelLoader]
+MACHINES = [Excavator, HookExcavator, LoadedFrontLoader, PloughTractor, SpreaderTractor, Telehandler, Tipper, WheelLoader]
 JOINED = [*MACHINES, Forwarder]
 ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
 PRINTED = {"boom": (-0.4737, 1.0923), "arm": (-0.5103, -2.5848), "bucket": (0.7839, -2.8659)}  # rad, at the shortest, at the longest
@@ -279,3 +280,60 @@ def test_the_front_loaders_thrusts_are_the_slope_of_its_potential_energy():
         ahead, behind = (energy(**at | {name: at[name] + sign * step}) for sign in (1.0, -1.0))
         assert_allclose(ram.thrust(motion), (ahead - behind) / (2.0 * step), rtol=1e-4)
     assert np.ptp(design.at(lift=[0.0, 0.3, 0.6], tilt=0.1)["attitude"]) < 1e-12
+
+
+# -- the tractor ---------------------------------------------------------------------------------------------
+
+MASSES = {  # kg, along FK and to its left in m, as each tool's docstring and file say
+    SpreaderTractor: [(380.0, 0.30, -0.55), (1500.0, 0.45, -0.65)],
+    PloughTractor: [(1150.0, 0.15, -1.20)],
+}
+DRAUGHT = np.array([24e3, -3e3])  # N, along the plough and up its mast
+TRACTORS = pytest.mark.parametrize("machine", MASSES, ids=lambda machine: machine.__name__)
+
+
+def acting_on(machine, motion, case):
+    """Return the forces on the tool and where they act, by hand from the places of its mast: (place, force) each."""
+    F, K = np.ravel(motion["hitch.F"]), np.ravel(motion["hitch.K"])
+    slope = np.radians(-12.0) if case == "uphill" else 0.0
+    down = plane.G * np.array([-np.sin(slope), -np.cos(slope)])
+    masses = MASSES[machine][: 1 if case == "bare" else None]
+    loads = [(plane.on(F, K, along, left), mass * down) for mass, along, left in masses]
+    if machine is PloughTractor and case != "bare":
+        up = (K - F) / np.hypot(*(K - F))
+        loads.append((plane.on(F, K, -0.48, -1.50), DRAUGHT[0] * np.array([up[1], -up[0]]) + DRAUGHT[1] * up))
+    return loads, down
+
+
+@TRACTORS
+@pytest.mark.parametrize("case", ["plain", "uphill", "bare"])
+def test_the_tractors_axle_loads_are_the_moments_about_its_wheels(machine, case):
+    for S in (0.05, 0.15, 0.25):
+        motion = machine().at(S=S)
+        loads, down = acting_on(machine, motion, case)
+        loads.append((np.array([-1.1, 1.1]), 8000.0 * down))
+        about_rear = sum(place[0] * force[1] - place[1] * force[0] for place, force in loads)
+        front = about_rear / 2.75  # the front axle stands 2.75 m before the rear one and pushes up
+        found = standing(motion, case=None if case == "plain" else case)
+        assert_allclose(found.reactions["front"], front, rtol=1e-12)
+        assert_allclose(found.reactions["rear"], -front - sum(force[1] for _, force in loads), rtol=1e-12)
+        assert_allclose(found.along, -sum(force[0] for _, force in loads), rtol=1e-12, atol=1e-9)
+
+
+@TRACTORS
+def test_the_hitchs_thrust_is_the_work_of_what_acts_on_the_tool(machine):
+    """By small steps of the stroke: the cylinders do the work that the loads take, whatever carries these in between."""
+    step = 1e-4
+    for case in ("plain", "uphill", "bare"):
+        before, at, after = (acting_on(machine, machine().at(S=0.12 + way), case)[0] for way in (-step, 0.0, step))
+        work = sum(force @ (ahead - behind) for (_, force), (behind, _), (ahead, _) in zip(at, before, after, strict=True))
+        thrust = machine.plan.members["hitch.lift"].thrust(machine().at(S=0.12), case=None if case == "plain" else case)
+        assert_allclose(thrust, -work / (2.0 * step), rtol=1e-6)
+
+
+def test_tractor_and_hitch_know_one_figure():
+    """The tractor's mass, its place and the wheelbase are the hitch's own dimensions: what is set there moves the axle loads."""
+    heavy = SpreaderTractor(**{"hitch.vehicle_mass": 9000.0}).at(S=0.1)
+    plain = SpreaderTractor().at(S=0.1)
+    for axle, share in (("front", 1.1 / 2.75), ("rear", 1.65 / 2.75)):
+        assert_allclose(standing(heavy).reactions[axle] - standing(plain).reactions[axle], 1000.0 * plane.G * share, rtol=1e-10)

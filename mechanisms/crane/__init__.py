@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .arm_drive import AngledBellCrankArmDrive as AngledBellCrankArmDrive
 from .arm_drive import ArmDrive as ArmDrive
 from .arm_drive import ArmDriveByCylinder as ArmDriveByCylinder
 from .arm_drive import BellCrankArmDrive as BellCrankArmDrive
@@ -37,6 +38,8 @@ from .load_map import load_map as load_map
 from .machine import BellCrankCrane as BellCrankCrane
 from .machine import ChainCrane as ChainCrane
 from .machine import Crane as Crane
+from .machine import DirectCrane as DirectCrane
+from .machine import DirectCraneAbove as DirectCraneAbove
 from .moments import arm_bound as arm_bound
 from .moments import boom_bound as boom_bound
 from .reach import Envelope as Envelope

@@ -5,6 +5,8 @@ Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse 
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
@@ -48,6 +50,7 @@ class DrivenArm(Mechanism):
     are the forces that the cylinder then gives, F p n, positive where it pushes.
     """
 
+    shut: ClassVar[str] = "psi_k"  # where its cylinder is closed
     psi: Quantity = Stroke(0.0, 180 * deg)
 
     D = Dimension(140 * mm, unit="mm")  # bore
@@ -60,6 +63,18 @@ class DrivenArm(Mechanism):
     l = S + f_0 + f_1 * D  # length of the closed cylinder
     push = 0.25 * np.pi * p * n * D**2  # what its sides give, N
     pull = 0.25 * np.pi * p * n * (D**2 - d**2)
+
+    wall = Dimension(5 * mm, unit="mm")  # of the barrel
+    head = Dimension(20 * mm, unit="mm")  # thickness of its end
+    eye_width = Dimension(0.50)  # B, l_2 and d_1 of an eye, over the bore
+    eye_radius = Dimension(0.50)
+    eye_hole = Dimension(0.45)
+    eyes = Dimension(1.0)  # as many as (2.60) counts; a cylinder has two
+    eye = eye_width * (4.0 * eye_radius**2 - eye_hole**2) * D**3
+    barrel = S * (d**2 + 4.0 * wall * (D + wall)) + head * D**2
+    cylinder_steel = 0.25 * np.pi * (barrel + eyes * eye)  # m3
+    steel: Quantity = cylinder_steel + 0.0  # of all that is the drive's own, m3 (2.60)
+    mass = 7800.0 * steel  # kg
 
     psi_0 = Dimension(0.0, unit="deg")  # psi of the folded arm
     psi_k = Dimension(180 * deg, unit="deg")  # and of the straight one
@@ -124,16 +139,7 @@ class ArmDrive(DrivenArm):
     gamma = CosineAngle(distance(O, C), r_1, length)
 
     section = Dimension(2700 * mm**2)  # of lever and coupler, m2
-    wall = Dimension(5 * mm, unit="mm")  # of the barrel
-    head = Dimension(20 * mm, unit="mm")  # thickness of its end
-    eye_width = Dimension(0.50)  # B, l_2 and d_1 of an eye, over the bore
-    eye_radius = Dimension(0.50)
-    eye_hole = Dimension(0.45)
-    eyes = Dimension(1.0)  # as many as (2.60) counts; a cylinder has two
-    eye = eye_width * (4.0 * eye_radius**2 - eye_hole**2) * ref("D") ** 3
-    barrel = ref("S") * (ref("d") ** 2 + 4.0 * wall * (ref("D") + wall)) + head * ref("D") ** 2
-    steel = section * (r_1 + r_2) + 0.25 * np.pi * (barrel + eyes * eye)  # volume, m3
-    mass = 7800.0 * steel  # kg
+    steel = section * (r_1 + r_2) + ref("cylinder_steel")
 
     folds, opens = ref("push"), -ref("pull")
     fold = Cylinder(C, L, bore="D", rod="d", works="both", closed="l", stroke="S")
@@ -156,7 +162,11 @@ class ArmDriveByCylinder(ArmDrive):
 
 
 class BellCrankArmDrive(ArmDrive):
-    """The cylinder CZ turns a bell crank OLZ with the sides r_1, r_8 and the third side r_7: fig. 2.13 b; the source's example."""
+    """The cylinder CZ turns a bell crank OLZ with the sides r_1, r_8 and the third side r_7: fig. 2.13 b; the source's example.
+
+    (2.60) counts no bell crank. Here its three sides are bars of half the section of a lever: it weighs what a lever of half its perimeter
+    does, which is the lever of fig. 2.13 a where Z falls on L.
+    """
 
     psi: Quantity = Stroke(0.0, 170.93262957316685 * deg)
     psi_k = Dimension(170.93262957316685 * deg, unit="deg")
@@ -167,10 +177,12 @@ class BellCrankArmDrive(ArmDrive):
     r_4 = Dimension(0.15, unit="mm")
     r_5 = Dimension(1.75, unit="mm")
     r_6 = Dimension(0.20, unit="mm")
-    r_7 = Dimension(0.22, unit="mm")
+    r_7: Quantity = Dimension(0.22, unit="mm")
     r_8 = Dimension(0.56, unit="mm")
     delta = Dimension(12 * deg, unit="deg")
     alpha_20 = Dimension(-82.2365727085356 * deg, unit="deg")
+
+    steel = ref("section") * (0.5 * (r_1 + r_7 + r_8) + r_2) + ref("cylinder_steel")
 
     Z: Point = OnLink("O", "L", OZ=r_8, LZ=r_7, side=LEFT)
     length = distance("C", Z)
@@ -190,6 +202,15 @@ class BellCrankArmDriveByCylinder(BellCrankArmDrive):
     psi = alpha_2 - ref("alpha_20") + ref("psi_0")
 
 
+class AngledBellCrankArmDrive(BellCrankArmDrive):
+    """The same with the crank's angle LOZ in the place of its third side r_7, which follows."""
+
+    psi: Quantity = Stroke(0.0, 180 * deg)
+    crank = Dimension(23.07391806563097 * deg, unit="deg")
+    r_7: Quantity = np.sqrt(ref("r_1") ** 2 + ref("r_8") ** 2 - 2.0 * ref("r_1") * ref("r_8") * np.cos(crank))
+    Z = Crank("O", OZ="r_8", angle=ref("alpha_1") + crank)
+
+
 class DirectArmDrive(DrivenArm):
     """Cylinder AB under the boom turns the arm without a four-bar, its growth opens it: fig. 2.13 c, by the boom's formulas (2.30).
 
@@ -197,6 +218,7 @@ class DirectArmDrive(DrivenArm):
     it is the boom's drive, column and boom in the place of boom and arm.
     """
 
+    shut: ClassVar[str] = "psi_0"
     psi = Stroke(60 * deg, 180 * deg)
     psi_0 = Dimension(60 * deg, unit="deg")
     D = Dimension(125 * mm, unit="mm")
@@ -227,6 +249,7 @@ class DirectArmDriveAbove(DirectArmDrive):
     B may lie behind the arm's hinge, r_3 below zero.
     """
 
+    shut: ClassVar[str] = "psi_k"
     D = Dimension(140 * mm, unit="mm")
     d = Dimension(80 * mm, unit="mm")
     S = Dimension(0.9639376633275721, unit="mm")

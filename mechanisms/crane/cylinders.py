@@ -67,12 +67,13 @@ def boom_moment(crane: Crane, phi: ArrayLike) -> FloatArray:
 
 
 def arm_moment(crane: Crane, psi: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Return M_g1 and M_g2 (psi) [N m], the shape of psi: what the arm's cylinder gives with its piston and its rod side. (2.44)
+    """Return M_g1 and M_g2 (psi) [N m], the shape of psi: what the arm's cylinder gives with its two sides. (2.44)
 
-    M_g1 folds the arm and is negative, M_g2 unfolds it.
+    M_g1 folds the arm and is negative, M_g2 unfolds it; a cylinder that opens the arm while it grows folds it by its rod side.
     """
     has, arm = sides(crane.position(1), "psi"), lever(crane, "psi", psi)
-    return has.push * arm, -has.pull * arm
+    pushes, pulls = has.push * arm, -has.pull * arm
+    return np.minimum(pushes, pulls), np.maximum(pushes, pulls)
 
 
 def drive_limits(crane: Crane) -> dict[str, tuple[float, float]]:

@@ -20,7 +20,7 @@ from linkage.quantities import is_number
 from linkage.study import InfeasibleError, Optimum
 from linkage.units import deg, kN, mm
 
-from .arm_drive import ArmDrive
+from .arm_drive import AngledBellCrankArmDrive, ArmDrive, DirectArmDrive, DirectArmDriveAbove, DrivenArm
 from .boom_drive import BoomDrive
 from .drive_duty import DriveCylinders, DriveDuty, clipped
 
@@ -251,6 +251,40 @@ ARM_BOUNDS: Mapping[str, tuple[float, float]] = MappingProxyType(
     {"r_1": (0.15, 0.80), "r_2": (0.15, 1.20), "r_3": (0.12, 0.60), "r_4": (0.10, 0.80), "r_5": (0.50, 4.00), "alpha_20": (-150 * deg, 0.0)}
 )
 """The source's bounds of the lengths [m]; of the lug's direction on the folded arm [rad]."""
+DIRECT_BOUNDS: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {"r_1": (0.15, 0.60), "r_2": (0.50, 4.00), "r_3": (0.12, 0.60), "r_4": (0.15, 0.60)}
+)
+"""Bounds of a drive without a four-bar [m], after those above: its pins stand beside boom and arm."""
+
+
+@final
+@dataclass(frozen=True)
+class ArmScheme:
+    """A scheme of fig. 2.13: its class, the bounds of its lengths [m] and angles [rad]."""
+
+    machine: type[DrivenArm]
+    bounds: Mapping[str, tuple[float, float]]
+
+    @property
+    def is_direct(self) -> bool:
+        """Whether it does without a four-bar."""
+        return issubclass(self.machine, DirectArmDrive)
+
+    @property
+    def opens_by_piston(self) -> bool:
+        """Whether the arm opens by the cylinder's piston side."""
+        return self.machine.shut == "psi_0"
+
+
+SCHEMES: Mapping[str, ArmScheme] = MappingProxyType(
+    {
+        "a": ArmScheme(ArmDrive, ARM_BOUNDS),
+        "b": ArmScheme(AngledBellCrankArmDrive, {**ARM_BOUNDS, "r_8": (0.15, 0.80)}),
+        "c": ArmScheme(DirectArmDrive, DIRECT_BOUNDS),
+        "d": ArmScheme(DirectArmDriveAbove, {**DIRECT_BOUNDS, "r_3": (-0.60, 0.60)}),
+    }
+)
+"""The arm drives of fig. 2.13, by letter."""
 
 TRAVELS = ("free", "travels", "angles")
 FINE = 10.0 * kN
@@ -266,14 +300,16 @@ class ArmRules:
     """What an arm drive has to keep beside its moments, and how the source's lost signs are read.
 
     `excess` is k_r of (2.61): M_g2 is over M_l2 by no more than (k_r - 1) K_A, from `excess_from` on, "phi_0" or "psi_0". `above` is
-    what the lever's pin stays above the boom's axis at both ends (2.63): "r_6", a height [m], or None. `angles` reads (2.65): "free" does
+    what the lever's pins stay above the boom's axis at both ends (2.63): "r_6", a height [m], or None. `angles` reads (2.65): "free" does
     not impose it, "travels" asks lever and arm for 90 and 100 deg of travel, "angles" holds alpha_1 under 90 and alpha_2 under 100 deg.
-    `transmission` is the least angle between coupler and lug [rad], 0 for none; r_6 [m], the bend delta [rad] and the eyes that
-    (2.60) counts are given.
+    `transmission` is the least angle between coupler and lug [rad], 0 for none; r_6 [m], the bend delta [rad], the bell crank's angle
+    at its pivot [rad] and the eyes that (2.60) counts are given. A drive without a four-bar keeps (2.62), (2.64) and the boom's length
+    alone: (2.61) is what a four-bar is for.
     """
 
     r_6: float = 150 * mm
     delta: float = 0.0
+    crank: float = 23.07391806563097 * deg
     eyes: float = 1.0
     excess: float = 1.6
     excess_from: str = "phi_0"
@@ -288,18 +324,25 @@ class ArmRules:
             raise DefinitionError(f"excess={cited(self.excess)}: k_r of (2.61) is a number above 1; the source's example has 1.6.")
         if not (self.above is None or self.above == "r_6" or is_number(self.above)):
             raise DefinitionError(f"above={cited(self.above)}: 'r_6', a height in m or None is expected.")
+        if not is_number(self.crank) or not 0.0 < self.crank < pi:
+            raise DefinitionError(f"crank={cited(self.crank)}: the bell crank's angle at its pivot is expected, between 0 and 180 * deg.")
         if not is_number(self.transmission) or not 0.0 <= self.transmission < 0.5 * pi:
             raise DefinitionError(f"transmission={cited(self.transmission)}: an angle below 90 * deg is expected, 0 for none.")
 
-    def conditions(self, duty: DriveDuty) -> list[Any]:
-        """Return the conditions (2.61) to (2.65) of a duty, those that are kept."""
+    def conditions(self, duty: DriveDuty, scheme: str = "a") -> list[Any]:
+        """Return the conditions (2.61) to (2.65) of a duty, those that are kept by a drive of a scheme of fig. 2.13."""
         psi_0, psi_k = duty.psi_0, duty.psi_k
-        counts = clipped(1.0 + (ref("psi") - duty.phi_0) / STEP, 0.0, 1.0) if self.excess_from == "phi_0" else 1.0
+        closed, out = (psi_0, psi_k) if SCHEMES[scheme].opens_by_piston else (psi_k, psi_0)
         found = [
-            at("length", psi=psi_k) == at("l"),
-            at("length", psi=psi_0) == at(ref("l") + ref("S")),
+            at("length", psi=closed) == at("l"),
+            at("length", psi=out) == at(ref("l") + ref("S")),
             least(OPENS - ref("M_l2") + FINE) >= FINE,
             least(FOLDS + ref("M_l1") + FINE) >= FINE,
+        ]
+        if SCHEMES[scheme].is_direct:
+            return [*found, at("r_2") <= duty.l_c]
+        counts = clipped(1.0 + (ref("psi") - duty.phi_0) / STEP, 0.0, 1.0) if self.excess_from == "phi_0" else 1.0
+        found += [
             most((OPENS - ref("M_l2")) * counts) <= (self.excess - 1.0) * duty.K_A,
             at(x("L") + (ref("r_2") - ref("r_3")) * np.cos(ref("alpha_20")), psi=psi_0) >= at("r_4"),
             at("r_2") <= at(ref("r_1") + ref("r_3") - ref("r_4")),
@@ -308,7 +351,7 @@ class ArmRules:
         ]
         if self.above is not None:
             height = self.r_6 if self.above == "r_6" else float(self.above)
-            found += [at(y("L"), psi=psi) >= height for psi in (psi_0, psi_k)]
+            found += [at(y(pin), psi=psi) >= height for pin in ("LZ" if scheme == "b" else "L") for psi in (psi_0, psi_k)]
         if self.transmission:
             found += [least("mu") >= self.transmission, most("mu") <= pi - self.transmission]
         return [*found, *self.lever_angles(duty)]
@@ -327,8 +370,8 @@ def area_of_duty(duty: DriveDuty, asked: float) -> Measure:
 
     By virtual work the integral of M_g2 is the force times the way of the cylinder; `asked` is that of M_l2 [J].
     """
-    way = at("length", psi=max(duty.phi_0, duty.psi_0)) - at("length", psi=duty.psi_k)
-    found: Measure = at("pull") * way - asked
+    way = at("length", psi=duty.psi_k) - at("length", psi=max(duty.phi_0, duty.psi_0))
+    found: Measure = at("opens") * way - asked
     return found
 
 
@@ -336,33 +379,37 @@ def design_arm_drive(
     duty: DriveDuty | None = None,
     cylinders: DriveCylinders | None = None,
     *,
+    scheme: str = "a",
     rules: ArmRules | None = None,
     objective: str = "weight",
-    bounds: Mapping[str, tuple[float, float]] = ARM_BOUNDS,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
     most_area: float | None = None,
     starts: int | None = None,
     seed: int = 0,
 ) -> DriveDesign:
-    """Return the arm's drive over a lever and a coupler, every cylinder of the series judged: lengths and stroke by `optimise`.
+    """Return the arm's drive, every cylinder of the series judged: lengths and stroke by `optimise`.
 
+    `scheme` is that of fig. 2.13: "a" over a lever and a coupler, "b" over a bell crank, "c" straight from under the boom, "d" from above.
     `objective` is "weight", the steel of (2.60), or "area", M_g2 - M_l2 integrated over the angle; `most_area` [N m rad] bounds the second
-    while the first is least. `rules` are the conditions (2.61) to (2.65), `bounds` those of r_1 to r_5 [m] and alpha_20 [rad]. `starts`
-    and `seed` are those of `optimise`. Infeasible sizes are told in words, not raised.
+    while the first is least. `rules` are the conditions (2.61) to (2.65), `bounds` those of the lengths [m] and of alpha_20 [rad], by
+    default the scheme's. `starts` and `seed` are those of `optimise`. Infeasible sizes are told in words, not raised.
     """
     duty, cylinders, rules = duty or DriveDuty(), cylinders or DriveCylinders(), rules or ArmRules()
     one_word("objective", objective, ("weight", "area"))
-    check_bounds(bounds, duty)
+    one_word("scheme", scheme, tuple(SCHEMES))
+    bounds = SCHEMES[scheme].bounds if bounds is None else bounds
+    check_bounds(bounds, duty, scheme)
     if most_area is not None and (not is_number(most_area) or most_area <= 0.0):
         raise DefinitionError(f"most_area={cited(most_area)}: a number above zero is expected, in N m rad.")
-    bound = arm_drive(duty, cylinders, rules, *cylinders.sizes[-1])
+    bound = arm_drive(duty, cylinders, rules, *cylinders.sizes[-1], scheme)
     asked = work_of(lambda psi: bound.at(psi=psi)["M_l2"], max(duty.phi_0, duty.psi_0), duty.psi_k)
     area = area_of_duty(duty, asked)
-    conditions = rules.conditions(duty) + ([] if most_area is None else [area <= most_area])
+    conditions = rules.conditions(duty, scheme) + ([] if most_area is None else [area <= most_area])
 
     def search(bore: float, rod: float) -> Optimum:
         longest = cylinders.longest * bore
         return found_by(
-            arm_drive(duty, cylinders, rules, bore, rod),
+            arm_drive(duty, cylinders, rules, bore, rod, scheme),
             minimise="steel" if objective == "weight" else area,
             vary={**bounds, "S": (0.2 * longest, longest)},
             subject_to=conditions,
@@ -371,25 +418,35 @@ def design_arm_drive(
             seed=seed,
         )
 
-    return DriveDesign("arm", objective, judged(cylinders, cylinders.swallowed, asked, search))
+    return DriveDesign("arm", objective, judged(cylinders, lambda bore, rod: swallowed(cylinders, scheme, bore, rod), asked, search))
 
 
-def arm_drive(duty: DriveDuty, cylinders: DriveCylinders, rules: ArmRules, bore: float, rod: float) -> ArmDrive:
-    """Return an arm drive for a duty, its four-bar that of the shipped one: what a search begins with."""
+def swallowed(cylinders: DriveCylinders, scheme: str, bore: float, rod: float) -> float:
+    """Return the greatest work [J] of a cylinder over its longest stroke while it opens the arm."""
+    return cylinders.swallowed(bore) if SCHEMES[scheme].opens_by_piston else cylinders.swallowed(bore, rod)
+
+
+def arm_drive(duty: DriveDuty, cylinders: DriveCylinders, rules: ArmRules, bore: float, rod: float, scheme: str = "a") -> DrivenArm:
+    """Return an arm drive for a duty, its lengths those of the shipped one: what a search begins with."""
     numbers = {name: getattr(duty, name) for name in ("l_p", "K_A", "K_A1", "phi_0", "phi_k", "psi_0", "psi_k")}
-    given = {"r_6": rules.r_6, "delta": rules.delta, "eyes": rules.eyes}
-    return ArmDrive(**cylinders.dimensions(bore, rod), **numbers, **given, S=min(0.66, 0.9 * cylinders.longest * 0.1) * 10.0 * bore)
+    given = {"eyes": rules.eyes}
+    given |= {} if SCHEMES[scheme].is_direct else {"r_6": rules.r_6, "delta": rules.delta}
+    given |= {"crank": rules.crank} if scheme == "b" else {}
+    S = min(0.66, 0.9 * cylinders.longest * 0.1) * 10.0 * bore
+    return SCHEMES[scheme].machine(**cylinders.dimensions(bore, rod), **numbers, **given, S=S)
 
 
-def check_bounds(bounds: Mapping[str, tuple[float, float]], duty: DriveDuty) -> None:
+def check_bounds(bounds: Mapping[str, tuple[float, float]], duty: DriveDuty, scheme: str = "a") -> None:
     """Raise DefinitionError for bounds that leave something out or nothing in."""
-    for name in ARM_BOUNDS:
+    for name in SCHEMES[scheme].bounds:
         ends = bounds.get(name)
         if ends is None or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
             raise DefinitionError(f"bounds[{name!r}] = {cited(ends)}: (low, high) is expected, low below high, in SI.")
-    least_length = bounds["r_4"][0] + bounds["r_5"][0]
+    lengths = ("r_2",) if SCHEMES[scheme].is_direct else ("r_4", "r_5")
+    least_length = sum(bounds[name][0] for name in lengths)
     if least_length > duty.l_c:
-        raise DefinitionError(f"bounds: r_4 + r_5 is {least_length:.4g} m at the least, more than the boom, {duty.l_c:.4g} m; lower them.")
+        what = f"bounds: {' + '.join(lengths)} is {least_length:.4g} m at the least"
+        raise DefinitionError(f"{what}, more than the boom, {duty.l_c:.4g} m; lower them.")
 
 
 @final

@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, final
@@ -15,12 +15,12 @@ from linkage import DefinitionError, least, optimise, ref
 from linkage.study import Optimum
 from linkage.units import deg
 
-from .arm_drive import ArmDrive, BellCrankArmDrive
+from .arm_drive import ArmDrive, BellCrankArmDrive, DirectArmDrive, DirectArmDriveAbove, DrivenArm
 from .boom_drive import BoomDrive
 from .drive_design import DriveDesign, design_arm_drive, design_boom_drive
 from .drive_duty import DriveCylinders, duty_of
 from .duty import Duty
-from .machine import BellCrankCrane, Crane
+from .machine import BellCrankCrane, Crane, DirectCrane, DirectCraneAbove
 from .skeleton import BackBrokenSkeleton, CraneSkeleton
 
 SKELETON: Mapping[str, tuple[float, float]] = MappingProxyType(
@@ -87,7 +87,8 @@ def design_crane(
     *,
     skeleton: CraneSkeleton | None = None,
     boom: BoomDrive | None = None,
-    arm: ArmDrive | None = None,
+    arm: DrivenArm | None = None,
+    scheme: str = "a",
     cylinders: DriveCylinders | None = None,
     reading: str = ">=",
     cab: float | None = None,
@@ -95,7 +96,8 @@ def design_crane(
 ) -> CraneDesign:
     """Return a crane for a duty, by default the source's: skeleton, boom drive, arm drive, each from what the stage before found.
 
-    `skeleton`, `boom` or `arm` stand in the place of a stage's result. `cylinders` are those the drives are chosen from; `reading`
+    `skeleton`, `boom` or `arm` stand in the place of a stage's result; `scheme` is that of the arm's drive, "a" to "d" of fig. 2.13, of
+    which c and d want an arm that folds little, such as Duty(psi_0=60 * deg). `cylinders` are those the drives are chosen from; `reading`
     and `cab` go to `design_skeleton`. DefinitionError, with all reasons, where no cylinder serves a drive.
     """
     found = None if skeleton is not None else design_skeleton(duty, reading=reading, cab=cab, progress=progress)
@@ -103,40 +105,53 @@ def design_crane(
     assert isinstance(bare, CraneSkeleton)
     asked = duty_of(bare)
     lifting = None if boom is not None else design_boom_drive(asked, cylinders)
-    folding = None if arm is not None else design_arm_drive(asked, cylinders)
+    folding = None if arm is not None else design_arm_drive(asked, cylinders, scheme=scheme)
     chosen_boom = boom if lifting is None else lifting.machine
     chosen_arm = arm if folding is None else folding.machine
-    assert isinstance(chosen_boom, BoomDrive) and isinstance(chosen_arm, ArmDrive)
+    assert isinstance(chosen_boom, BoomDrive) and isinstance(chosen_arm, DrivenArm)
     return CraneDesign(found, lifting, folding, with_drives(bare, chosen_boom, chosen_arm))
 
 
-def with_drives(skeleton: CraneSkeleton, boom: BoomDrive, arm: ArmDrive) -> Crane:
+CRANES: Sequence[tuple[type[DrivenArm], type[Crane], int]] = (
+    (BellCrankArmDrive, BellCrankCrane, 8), (DirectArmDriveAbove, DirectCraneAbove, 4), (DirectArmDrive, DirectCrane, 4),
+    (ArmDrive, Crane, 6),
+)  # fmt: skip
+"""Of each arm drive the crane that has it, and how many lengths r_1, r_2 ... it has; subclasses first."""
+
+
+def with_drives(skeleton: CraneSkeleton, boom: BoomDrive, arm: DrivenArm) -> Crane:
     """Return the whole crane of a skeleton, a boom drive and an arm drive, all of one design.
 
     The telescope's cylinder is as long as the telescope asks; its bore is that of the shipped crane. DefinitionError for an arm drive
-    without lever and coupler.
+    of none of the four schemes.
     """
-    if not isinstance(arm, ArmDrive):
-        raise DefinitionError(f"{arm.plan.title} has no lever and coupler; the whole crane takes an ArmDrive or a BellCrankArmDrive.")
-    made = BellCrankCrane if isinstance(arm, BellCrankArmDrive) else Crane
-    bars = [f"r_{k}" for k in range(1, 9 if made is BellCrankCrane else 7)]
-    own = {name: skeleton[name] for name in CraneSkeleton.plan.defaults if name in Crane.plan.defaults}
+    made, count = next(((crane, count) for drive, crane, count in CRANES if isinstance(arm, drive)), (None, 0))
+    if made is None:
+        what = f"{arm.plan.title} is no arm drive of the four schemes"
+        raise DefinitionError(f"{what}; the whole crane takes an ArmDrive or a DirectArmDrive.")
+    bars = [f"r_{k}" for k in range(1, count + 1)]
+    own = {name: skeleton[name] for name in CraneSkeleton.plan.defaults if name in made.plan.defaults}
+    lever = {"lug": 180 * deg + arm["alpha_20"] - arm["psi_0"], "bend": arm["delta"]} if isinstance(arm, ArmDrive) else {}
     numbers: dict[str, Any] = {
         **own,
         **{f"boom_{name.replace('_', '')}": boom[name] for name in bars[:4]},
-        **{f"arm_{name.replace('_', '')}": arm[name] for name in bars},
-        "lug": 180 * deg + arm["alpha_20"] - arm["psi_0"], "bend": arm["delta"],
-        **cylinder_numbers("lift", boom), **cylinder_numbers("fold", arm),
+        **{f"arm_{name.replace('_', '')}": number_of(arm, name) for name in bars},
+        **lever, **cylinder_numbers("lift", boom), **cylinder_numbers("fold", arm),
         "extend.stroke": float(skeleton["l_t"]), "extend.closed": float(skeleton["l_p"]) - Crane.plan.defaults["root_pin"],
     }  # fmt: skip
     return made(**numbers)
 
 
-def cylinder_numbers(name: str, drive: BoomDrive | ArmDrive) -> dict[str, float]:
+def number_of(drive: BoomDrive | DrivenArm, name: str) -> float:
+    """Return a number of a drive, a design variable or what follows from some."""
+    return float(drive[name]) if name in drive.dimensions else float(drive.working(2)[name][0])
+
+
+def cylinder_numbers(name: str, drive: BoomDrive | DrivenArm) -> dict[str, float]:
     """Return a drive's cylinder, its pressure and its efficiency as the whole crane calls them."""
     return {
         f"{name}.bore": drive["D"], f"{name}.rod": drive["d"],
-        f"{name}.stroke": drive["S"], f"{name}.closed": float(drive.working(2)["l"][0]),
+        f"{name}.stroke": drive["S"], f"{name}.closed": number_of(drive, "l"),
         f"{name}_line.pressure": drive["p"], f"{name}_line.mechanical_efficiency": drive["n"],
     }  # fmt: skip
 
@@ -148,13 +163,16 @@ def boom_drive_of(crane: Crane) -> BoomDrive:
     return BoomDrive(**asked, **own_numbers(crane, "lift"), **{f"r_{k}": float(crane[f"boom_r{k}"]) for k in range(1, 5)})
 
 
-def arm_drive_of(crane: Crane) -> ArmDrive:
+def arm_drive_of(crane: Crane) -> DrivenArm:
     """Return the arm's drive of a whole crane of one design on its own, with what the crane asks of it."""
-    duty, is_bell_crank = duty_of(crane), isinstance(crane, BellCrankCrane)
+    duty = duty_of(crane)
+    drive, count = next((drive, count) for drive, made, count in CRANES if isinstance(crane, made))
     asked = {name: getattr(duty, name) for name in ("l_p", "K_A", "K_A1", "phi_0", "phi_k", "psi_0", "psi_k")}
-    bars = {f"r_{k}": float(crane[f"arm_r{k}"]) for k in range(1, 9 if is_bell_crank else 7)}
-    turned = {"alpha_20": float(crane["lug"]) - 180 * deg + duty.psi_0, "delta": float(crane["bend"])}
-    return (BellCrankArmDrive if is_bell_crank else ArmDrive)(**asked, **own_numbers(crane, "fold"), **bars, **turned)
+    bars = {f"r_{k}": float(crane[f"arm_r{k}"]) for k in range(1, count + 1)}
+    turned = {}
+    if issubclass(drive, ArmDrive):
+        turned = {"alpha_20": float(crane["lug"]) - 180 * deg + duty.psi_0, "delta": float(crane["bend"])}
+    return drive(**asked, **own_numbers(crane, "fold"), **bars, **turned)
 
 
 def own_numbers(crane: Crane, name: str) -> dict[str, float]:

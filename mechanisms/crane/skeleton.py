@@ -212,7 +212,7 @@ class CraneSkeleton(Mechanism):
         if number not in POSITIONS:
             raise DefinitionError(f"Position {cited(number)} is unknown; the skeleton has {', '.join(map(str, POSITIONS))}.")
         (phi_0, phi_k), (psi_0, psi_k), (t_0, t_k) = self.limits_of().values()
-        poses = {1: (phi_k, psi_k, t_k), 2: (phi_0, phi_0, t_0), 3: (phi_0, psi_0, t_0), 4: (90 * deg, psi_0, t_0)}
+        poses = {1: (phi_k, psi_k, t_k), 2: (phi_0, max(phi_0, psi_0), t_0), 3: (phi_0, psi_0, t_0), 4: (90 * deg, psi_0, t_0)}
         phi, psi, t = poses[number]
         return self.at(phi=phi, psi=psi, t=t)
 

@@ -9,7 +9,14 @@ from scipy.optimize import minimize
 from linkage import RIGHT, DefinitionError, Dyad, OnLink, Verdict, Weight, deg, ratio
 from linkage.motion import lowest
 from linkage.study import Target, settings_for
-from mechanisms.crane.arm_drive import ArmDrive, BellCrankArmDrive, BellCrankArmDriveByCylinder, DirectArmDrive, DirectArmDriveAbove
+from mechanisms.crane.arm_drive import (
+    AngledBellCrankArmDrive,
+    ArmDrive,
+    BellCrankArmDrive,
+    BellCrankArmDriveByCylinder,
+    DirectArmDrive,
+    DirectArmDriveAbove,
+)
 from mechanisms.crane.boom_drive import BoomDrive
 from mechanisms.crane.drive_design import ArmRules, arm_drive_front, design_arm_drive, design_boom_drive
 from mechanisms.crane.drive_duty import DriveCylinders, DriveDuty, duty_of
@@ -555,6 +562,9 @@ def test_crane_whose_bound_has_another_form_is_refused():
         (lambda: ArmRules(angles="both"), "angles"),
         (lambda: ArmRules(above="r_5"), "above='r_5': 'r_6', a height in m or None"),
         (lambda: ArmRules(transmission=100 * deg), "an angle below 90"),
+        (lambda: ArmRules(crank=0.0), "the bell crank's angle at its pivot"),
+        (lambda: design_arm_drive(scheme="e"), "scheme"),
+        (lambda: design_arm_drive(duty=DriveDuty(l_c=0.4), scheme="c"), "r_2 is 0.5 m at the least"),
         (lambda: arm_drive_front(0.14, 0.08, count=1), "a front has two ends"),
         (lambda: drive_figure("forces", BoomDrive()), "forces"),
         (lambda: drive_figure("moments", BoomDrive(S=np.array([0.8, 0.9]))), "a figure shows one design"),
@@ -644,6 +654,65 @@ def test_readings_of_the_arms_conditions():
     assert usual - texts(above=None) == {"at(y(L), psi=0) >= 0.15", "at(y(L), psi=3.14159) >= 0.15"}
     assert texts(above=0.0) - usual == {"at(y(L), psi=0) >= 0", "at(y(L), psi=3.14159) >= 0"}
     assert usual - texts(transmission=0.0) == {"least(mu) >= 0.436332", "most(mu) <= 2.70526"}
+
+
+DIRECT = DriveDuty(psi_0=60 * deg)
+
+
+@pytest.mark.parametrize(("scheme", "side", "mass"), [("c", 1.0, 46.43697829), ("d", -1.0, 59.59608707)])
+def test_direct_drives_of_least_stroke_are_those_of_a_search_of_its_own(scheme, side, mass):
+    """By the boom's closed formulas and SciPy: the mass follows the stroke, and several pairs of pins have the least one."""
+    size = DriveCylinders().sizes[6]
+    found = design_arm_drive(DIRECT, DriveCylinders(sizes=[size]), scheme=scheme, starts=2)
+    assert found.best.value * 7800.0 == pytest.approx(mass, rel=1e-7)
+    psi = np.linspace(DIRECT.psi_0, DIRECT.psi_k, 241)
+    force = np.pi / 4 * np.array([size[0] ** 2, size[0] ** 2 - size[1] ** 2]) * 22e6 * 0.95
+    opens, folds = force if side > 0 else force[::-1]
+    out = K_A * np.sin(np.clip(psi - PHI_0, 0, np.pi / 2)), K_A1 * np.sin(np.clip(PHI_K - psi, 0, np.pi / 2))
+
+    def slack(v):
+        length, lever = boom_formulas(np.pi - psi, side * v[1], v[2], v[3], side * v[4])
+        return length, side * lever * opens - out[0], side * lever * folds - out[1]
+
+    closed, opened = (0, -1) if side > 0 else (-1, 0)
+    rules = [
+        {"type": "eq", "fun": lambda v: slack(v)[0][[closed, opened]] - (v[0] + 0.2 + 1.6 * size[0]) - np.array([0.0, v[0]])},
+        {"type": "ineq", "fun": lambda v: np.concatenate(slack(v)[1:]) / K_A},
+    ]
+    bounds = [(0.2, 1.25), (0.15, 0.6), (0.5, 4.0), (0.12, 0.6) if side > 0 else (-0.6, 0.6), (0.15, 0.6)]
+    begin = [found.machine["S"] + 0.05, 0.4, 1.8, 0.45 * side, 0.3]
+    alone = minimize(lambda v: v[0], begin, bounds=bounds, constraints=rules, method="SLSQP", options={"maxiter": 300, "ftol": 1e-12})
+    assert alone.success and float(found.machine["S"]) == pytest.approx(alone.x[0], rel=1e-6)
+
+
+def test_bell_crank_of_no_angle_is_the_lever():
+    """Its steel law is (2.60) where Z falls on L, and the search then finds what it finds of fig. 2.13 a."""
+    arm = arm_of(140)
+    crank = BellCrankArmDrive(**{name: value for name, value in arm.dimensions.items()}, r_8=arm["r_1"], r_7=0.0)
+    assert_allclose(crank.at(psi=1.0)["steel"], arm.at(psi=1.0)["steel"], rtol=1e-15)
+    bent = AngledBellCrankArmDrive(crank=35 * deg, r_8=0.62)
+    sides = bent["r_1"], bent["r_8"], float(bent.at(psi=1.0)["r_7"])
+    assert_allclose(bent.at(psi=1.0)["steel"] - bent.at(psi=1.0)["cylinder_steel"], 2.7e-3 * (0.5 * sum(sides) + bent["r_2"]), rtol=1e-14)
+    assert_allclose(sides[2] ** 2, sides[0] ** 2 + sides[1] ** 2 - 2 * sides[0] * sides[1] * np.cos(35 * deg), rtol=1e-14)
+
+
+def test_design_over_a_bell_crank_keeps_its_conditions():
+    """By (2.45) to (2.59): the four-bar of the design found, its cylinder at both ends, the moments it gives over those asked for."""
+    found = design_arm_drive(cylinders=DriveCylinders(sizes=BORES[7:]), scheme="b", starts=2)
+    drive = found.machine
+    r = {name: float(drive[name]) for name in ("r_1", "r_2", "r_3", "r_4", "r_5", "r_6", "r_8")}
+    motion = drive.at(psi=np.linspace(0.0, np.pi, 181))
+    R, alpha = np.hypot(r["r_5"], r["r_6"]), motion["alpha_1"]
+    gamma = np.pi - alpha - np.arctan2(r["r_6"], r["r_5"]) - float(drive["crank"])
+    length = np.sqrt(R**2 + r["r_8"] ** 2 - 2 * R * r["r_8"] * np.cos(gamma))
+    assert_allclose(alpha_2_of(alpha, *(r[f"r_{k}"] for k in range(1, 5))), motion["alpha_2"], atol=1e-7)
+    assert_allclose(length, motion["length"], rtol=1e-9)
+    S = float(drive["S"])
+    assert_allclose(length[[0, -1]], S + 0.2 + 1.6 * 0.14 + np.array([S, 0.0]), rtol=1e-9)
+    transfer = transfer_of(alpha, motion["alpha_2"], r["r_1"], r["r_3"], r["r_4"])
+    lever, (push, pull) = r["r_8"] * R * np.sin(gamma) / length, arm_forces(140)
+    assert np.min(pull * lever * transfer - motion["M_l2"]) > -1e-6 * K_A and np.min(push * lever * transfer + motion["M_l1"]) > -1e-6 * K_A
+    assert found.best.value * 7800.0 < 84.42
 
 
 @pytest.mark.slow

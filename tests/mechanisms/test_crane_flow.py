@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import DefinitionError, max_table
+from hydraulics import reserve
+from linkage import DefinitionError, driving_force, least, max_table, pin_forces
 from linkage.units import deg, kN
 from mechanisms.crane import (
     FIGURES,
@@ -15,8 +16,11 @@ from mechanisms.crane import (
     ChainCrane,
     Crane,
     CraneSkeleton,
+    DirectCrane,
+    DirectCraneAbove,
     Duty,
     arm_drive_of,
+    arm_moment,
     boom_drive_of,
     crane_figure,
     design_crane,
@@ -27,6 +31,7 @@ from mechanisms.crane import (
     strength,
     with_drives,
 )
+from mechanisms.crane.drive_report import movements_of
 from mechanisms.crane.reach import Reach
 from mechanisms.crane.strength import dragging
 
@@ -71,19 +76,38 @@ def test_stages_take_what_the_user_gives():
         assert float(found.crane[name]) == pytest.approx(float(value), rel=tolerance, abs=1e-9)
 
 
-@pytest.mark.parametrize("machine", [Crane, BellCrankCrane])
+@pytest.mark.parametrize("machine", [Crane, BellCrankCrane, DirectCrane, DirectCraneAbove])
 def test_drives_on_their_own_are_those_of_the_crane(machine):
-    crane = machine() if machine is Crane else bell_crank()
+    crane = bell_crank() if machine is BellCrankCrane else machine()
     boom, arm = boom_drive_of(crane), arm_drive_of(crane)
     again = with_drives(crane, boom, arm)
     assert type(again) is machine
     for name, value in crane.dimensions.items():
         if not name.startswith("extend."):
             assert float(again[name]) == pytest.approx(float(value), rel=1e-12)
-    phi, psi = np.linspace(0.4, 1.6, 5), np.linspace(0.2, 2.8, 5)
+    phi, psi = np.linspace(0.4, 1.6, 5), np.linspace(float(crane["psi_0"]) + 0.1, 2.8, 5)
     assert_allclose(boom.at(phi=phi)["length"], crane.at(phi=phi, psi=1.0, t=0.0).distance("A", "B"), rtol=1e-12)
     ends = machine.fold.ends
     assert_allclose(arm.at(psi=psi)["length"], crane.at(phi=1.0, psi=psi, t=0.0).distance(*ends), rtol=1e-12)
+    given = {each.name: each.given(arm.at(psi=psi)) for each in movements_of(arm.at(psi=psi))}
+    assert_allclose(arm_moment(crane, psi), (-given["folding"], given["opening"]), rtol=1e-9)
+
+
+@pytest.mark.parametrize("machine", [DirectCrane, DirectCraneAbove])
+def test_a_direct_drive_carries_the_crane_by_virtual_work(machine):
+    """The cylinder's thrust is the arm's moment over the lever (2.30); the pin E carries that thrust; the reserve is 1."""
+    crane, side = machine(), 1.0 if machine is DirectCrane else -1.0
+    psi = np.linspace(60, 180, 7) * deg
+    motion = crane.at(phi=1.2, psi=psi, t=1.0)
+    r = [float(crane[f"arm_r{k}"]) for k in range(1, 5)]
+    X, Y = r[2] * np.sin(psi) - side * r[3] * np.cos(psi), -r[2] * np.cos(psi) - side * r[3] * np.sin(psi)
+    lever = (side * r[0] * Y + r[1] * X) / np.hypot(X - side * r[0], Y + r[1])
+    moment = driving_force(motion, drive="psi", case="lifting")
+    thrust = crane.fold.thrust(motion, case="lifting")
+    assert_allclose(thrust * lever, moment, rtol=1e-9)
+    forces = pin_forces(motion, case="lifting")
+    assert {row.point: row.force for row in max_table(forces)}["E"] == pytest.approx(float(np.abs(thrust).max()), rel=1e-9)
+    assert crane.answers([least(reserve("fold"))])[0].value == pytest.approx(1.0, abs=1e-6)
 
 
 def bell_crank():
@@ -232,6 +256,6 @@ def test_command_refuses_in_words(run):
 
 
 def test_other_cranes_have_maps_too():
-    for crane in (ChainCrane(), bell_crank()):
+    for crane in (ChainCrane(), bell_crank(), DirectCrane(), DirectCraneAbove()):
         assert np.isfinite(load_map(crane, [2.0], [5.0]).load).all()
     assert CraneSkeleton(**Duty(L=9.0).dimensions())["L"] == 9.0

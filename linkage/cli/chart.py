@@ -20,7 +20,8 @@ from .follow import strokes_said
 from .machines import find
 from .settings import design, pair, si_value
 
-SUFFIXES = (*PICTURES, ".csv", ".xlsx")
+PAGE = ".html"
+SUFFIXES = (*PICTURES, ".csv", ".xlsx", PAGE)
 COUNT = 11
 """Places of an axis whose step is not said."""
 
@@ -68,7 +69,7 @@ class ChartCommand(Command):
         if path is None:
             print_chart(field)
             return 0
-        write_chart(field, path)
+        write_chart(field, path, options.language)
         print(path)
         return 0
 
@@ -129,8 +130,13 @@ def print_chart(field: Any) -> None:
     print(*text.legend(), sep="\n")
 
 
-def write_chart(field: Any, path: Path) -> None:
-    """Write a chart into a file."""
+def write_chart(field: Any, path: Path, language: str) -> None:
+    """Write a chart into a file, a page in the language that it begins with."""
+    if path.suffix.lower() == PAGE:
+        from ..pictures import page
+
+        page(field, path, language=language)
+        return
     if path.suffix.lower() in PICTURES:
         from ..pictures import plot
 

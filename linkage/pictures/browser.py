@@ -2,35 +2,28 @@
 
 from __future__ import annotations
 
-import json
 import os
-from base64 import b64encode
 from collections.abc import Mapping, Sequence
-from hashlib import sha256
-from html import escape
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
-from zlib import compress
 
 from ..disk import check_place, replacing_text
-from ..errors import DefinitionError, cited, known_name
+from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, RequestLike, live_text
 from ..reports import NOTHING
-from . import style
+from ..study import WorkingField
 from .browser_data import PageRequests, page_data
-from .browser_words import words_in
+from .browser_file import page_part, page_text
+from .chart_page import chart_page
 from .strokes import frame_count
 
-COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
-LANGUAGES = ("en", "ru")
 COUNT = 101
 """Poses of the curve."""
 
 
 def page(
-    machine: Mechanism,
+    machine: Mechanism | WorkingField,
     path: str | Path,
     *,
     vary: Sequence[str] | Mapping[str, Sequence[float] | None] | None = None,
@@ -55,16 +48,26 @@ def page(
     names points whose paths are drawn, `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))` says where one runs [m or rad],
     `count` is the number of poses of the curve. The page speaks English and Russian, `language` is the one it begins with.
 
+    Of a working field it is the load chart as it is printed, with the machine beside it in the pose of the cell that is pointed at, by the
+    mouse, a finger or the arrow keys, and all that the cell says: the load, what limits it, what each limiter leaves, the strokes, or why
+    it is out of reach. Only `language` goes with it.
+
     Raises DefinitionError for a batch of designs, an unknown name, or a file that does not end in .html, FileError for a path that cannot
     be written.
     """
-    require_mechanism(machine)
+    if not isinstance(machine, WorkingField):
+        require_mechanism(machine)
     if not isinstance(path, (str, os.PathLike)) or Path(path).suffix.lower() != ".html":
         raise DefinitionError(f"{cited(path)} is no name of a page; give one that ends in .html.")
     target = Path(path)
-    text = page_html(
-        machine, place=target, vary=vary, columns=columns, column=column, trace=trace, limit=limit, at=at, count=count, language=language
-    )  # fmt: skip
+    if isinstance(machine, WorkingField):
+        if any(each is not None for each in (vary, columns, column, trace, limit)) or at or count != COUNT:
+            raise DefinitionError(f"{machine.machine.plan.title}: the page of a working field has its cells; only language= goes with it.")
+        check_place(target)
+        text = chart_page(machine, language)
+    else:
+        given: dict[str, Any] = {"vary": vary, "columns": columns, "column": column, "trace": trace, "limit": limit, "at": at}
+        text = page_html(machine, place=target, count=count, language=language, **given)
     with replacing_text(target) as stream:
         stream.write(text)
     return target
@@ -73,55 +76,10 @@ def page(
 def page_html(machine: Mechanism, *, count: int = COUNT, language: str = "en", place: Path | None = None, **given: Any) -> str:
     """Return the HTML of a live page; `given` are the other arguments of `page`."""
     require_mechanism(machine)
-    known_name("Language", language, LANGUAGES, where="page(language=...)")
     requests = PageRequests(machine, frame_count(count), **given)
     if place is not None:
         check_place(place)
     live = live_text(machine.plan, requests.by_name, name="engine")
-    data = page_data(requests, live) | {"language": language, "words": {name: words_in(name) for name in LANGUAGES[1:]}}
-    program, loader = f'"use strict";{live.text}\n{page_part("judge.js")}\n{page_part("page.js")}', page_part("loader.js")
-    styles = f":root {{ {colours(max(requests.scene.colours, default=0))} }}\n{page_part('page.css')}"
-    parts = {
-        "LANGUAGE": language,
-        "TITLE": escape(machine.plan.heading),
-        "STYLE": styles,
-        "STYLE_HASH": source_hash(styles),
-        "LOADER": loader,
-        "LOADER_HASH": source_hash(loader),
-        "PROGRAM": packed(program),
-        "PROGRAM_HASH": source_hash(program),
-        "DATA": packed(json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)),
-    }
-    return filled(page_part("page.html"), parts)
-
-
-def colours(most: int = 0) -> str:
-    """Return the style's colours as properties of a style sheet, those of bodies up to a place in the palette, ten at least."""
-    fills = style.PALETTE[: max(len(style.BODIES), most + 1)]
-    named = {name.lower(): getattr(style, name) for name in COLOURS} | {f"body{k}": fill for k, fill in enumerate(fills)}
-    return "".join(f"--{name}:{value};" for name, value in named.items())
-
-
-def page_part(name: str) -> str:
-    """Return a file of this room."""
-    return files(__package__).joinpath(name).read_text(encoding="utf-8")
-
-
-def source_hash(text: str) -> str:
-    """Return what a content security policy names an inline script or style by."""
-    return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"
-
-
-def packed(text: str) -> str:
-    """Return a text compressed by zlib and written in base64: half of what it is or less, and nothing in it can end an element."""
-    return b64encode(compress(text.encode(), 9)).decode()
-
-
-def filled(template: str, parts: dict[str, str]) -> str:
-    """Return a template with each `{{NAME}}` replaced once; what is put in is not looked at again."""
-    pieces = template.split("{{")
-    done = [pieces[0]]
-    for piece in pieces[1:]:
-        name, _, rest = piece.partition("}}")
-        done += [parts[name], rest]
-    return "".join(done)
+    most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
+    parts = ("machine.html", "page.css", "mechanism.js", "page.js")
+    return page_text(machine.plan.heading, page_data(requests, live), parts, language=language, most=most, text=text)

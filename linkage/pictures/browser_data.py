@@ -281,8 +281,8 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "column": list(requests.columns).index(requests.column),
         "limits": {typeset(name): limit_data(requests, name) for name in requests.limits},
         "rows": {"points": [row_pair(live, f"point {name}") for name in plan.points]},
-        "scene": scene_data(requests, live),
-        "cylinders": cylinder_data(requests, live),
+        "scene": scene_data(requests.scene, track_rows(requests.scene, live)),
+        "cylinders": cylinder_data(requests.scene, {name: rows[0] for name, rows in live.rows.items()}),
         "pressureUnit": unit_data("bar"),
         "length": unit_data("mm"),
         "force": unit_data("kN"),
@@ -418,9 +418,9 @@ def arrow_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]]:
     return found
 
 
-def cylinder_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]]:
-    """Return the cylinders: where they hang, and the rows of what is read of them."""
-    plan, scene = requests.plan, requests.scene
+def cylinder_data(scene: Scene, rows: Mapping[str, int]) -> list[dict[str, Any]]:
+    """Return the cylinders: where they hang, and the rows of what is read of them, of those that there are."""
+    plan = scene.motion.plan
     points = list(plan.points)
     driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
     elements = defaultdict(list)
@@ -434,7 +434,7 @@ def cylinder_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]
             continue
         pair = frozenset((each.P, each.Q))
         name = elements[pair].pop(0) if elements[pair] else ""
-        gauges = {what: live.rows[f"gauge {name} {what}"][0] for what in GAUGES if f"gauge {name} {what}" in live.rows}
+        gauges = {what: rows[f"gauge {name} {what}"] for what in GAUGES if f"gauge {name} {what}" in rows}
         data = {"name": name or joined_names(each.P, each.Q), "P": points.index(each.P), "Q": points.index(each.Q), "aside": each.aside}
         data |= {"drawn": 1} if (each.P, each.Q, each.aside) in drawn else {}
         found.append(data | gauges | ({} if pair in driven else {"beside": 1}))
@@ -445,10 +445,9 @@ GAUGES = ("thrust", "pressure", "most", "reserve", "closed", "stroke")
 """What is read of a cylinder; see `Tabled.gauges`."""
 
 
-def scene_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
-    """Return what is drawn, by the points' places in `names`."""
-    scene, plan = requests.scene, requests.plan
-    names = list(plan.points)
+def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> dict[str, Any]:
+    """Return what is drawn, by the points' places in `names`; `lines` are the rows of each track's origin and direction."""
+    names = list(scene.motion.plan.points)
     index = {name: place for place, name in enumerate(names)}
     forms = list(zip(scene.plates, scene.bodies, scene.colours, strict=True))
     return {
@@ -456,7 +455,7 @@ def scene_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "names": names,
         "box": [four_digits(side) for side in scene.box(0.0)],
         "bodies": [body_data(plate, points, index) | {"colour": colour} for plate, points, colour in forms],
-        "tracks": [track_data(track, index, live) for track in scene.tracks],
+        "tracks": [track_data(track, index, lines[track.name]) for track in scene.tracks],
         "contours": [mark_data(each, index) for each in (*scene.contours, *scene.sections)],
         "straights": [mark_data(each, index) for each in scene.straights],
         "around": [mark_data(each, index, 0.05 * scene.size) for each in scene.surroundings],
@@ -469,10 +468,14 @@ def scene_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
     }
 
 
-def track_data(track: SlideTrack, index: Mapping[str, int], live: LiveText) -> dict[str, Any]:
+def track_rows(scene: Scene, live: LiveText) -> dict[str, list[int]]:
+    """Return the rows of each track's origin and direction."""
+    return {track.name: [live.rows[f"track {track.name} {k}"][0] for k in range(4)] for track in scene.tracks}
+
+
+def track_data(track: SlideTrack, index: Mapping[str, int], line: Sequence[int]) -> dict[str, Any]:
     """Return a track: what slides on it, and the rows of its origin and its direction."""
-    rows = [live.rows[f"track {track.name} {k}"][0] for k in range(4)]
-    return {"riders": [index[name] for name in track.riders], "fixed": track.fixed, "line": rows}
+    return {"riders": [index[name] for name in track.riders], "fixed": track.fixed, "line": [*line]}
 
 
 def body_data(plate: Plate, points: Sequence[str], index: Mapping[str, int]) -> dict[str, Any]:

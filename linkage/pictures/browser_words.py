@@ -86,6 +86,11 @@ SAID = (
     noted("Space plays; arrow keys, Home and End move the stroke. Drag a ground pin; double-click a name to put it back."),
     noted("Play"),
     noted("Pause"),
+    noted("Load chart"),
+    noted("limited by {name}"),
+    noted("What each limiter leaves"),
+    noted("Strokes"),
+    noted("Point at a cell or at a place beside the machine; arrow keys go on from there."),
 )
 
 

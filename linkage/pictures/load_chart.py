@@ -58,13 +58,26 @@ class ChartText:
             return ""
         if np.isinf(value):
             return "\N{INFINITY}"
-        shown = value / (g0 if self.is_weight else 1.0) / factor(shown_in(self.unit))
-        return f"{shown:.{decimals(2, self.unit)}f}"
+        return f"{value / self.load_size:.{self.load_digits}f}"
+
+    @property
+    def load_size(self) -> float:
+        """The load that is printed as 1 [N]."""
+        return (g0 if self.is_weight else 1.0) * factor(shown_in(self.unit))
+
+    @property
+    def load_digits(self) -> int:
+        """The decimals of a load."""
+        return decimals(2, self.unit)
 
     def length(self, value: float) -> str:
         """Return a radius or a height [m] as it is printed."""
-        digits = 2 if shown_in("m") == "m" else 0
-        return f"{value / factor(shown_in('m')):.{digits}f}".replace("-", "\N{MINUS SIGN}")
+        return f"{value / factor(shown_in('m')):.{self.length_digits}f}".replace("-", "\N{MINUS SIGN}")
+
+    @property
+    def length_digits(self) -> int:
+        """The decimals of a radius or a height."""
+        return 2 if shown_in("m") == "m" else 0
 
     @property
     def title(self) -> str:
@@ -75,12 +88,27 @@ class ChartText:
             what = said("force at {point} against ({x}, {y})", point=self.field.point, x=f"{x:.3g}", y=f"{y:.3g}")
         return f"{self.field.machine.plan.heading}: {what}, {unit_sign(self.unit)}"
 
+    @property
+    def axes(self) -> tuple[str, str]:
+        """What stands across and down the chart."""
+        unit = unit_sign("m")
+        return said("radius from the frame's origin, {unit}", unit=unit), said("height, {unit}", unit=unit)
+
+    @property
+    def counts(self) -> Mapping[str, int]:
+        """In how many cells each limiter of `letters` limits."""
+        return {name: int(np.sum(self.field.limiter == name)) for name in self.letters}
+
     def legend(self) -> list[str]:
         """Return the lines under the chart."""
-        field, counts = self.field, {name: int(np.sum(self.field.limiter == name)) for name in self.letters}
+        counts = self.counts
         words = [f"{letter}  {translated(name)} ({counts[name]})" for name, letter in self.letters.items()]
-        lines = [said("limited by: {letters}", letters="    ".join(words))] if words else []
-        rule = field.rule
+        return [*([said("limited by: {letters}", letters="    ".join(words))] if words else []), *self.terms()]
+
+    def terms(self) -> list[str]:
+        """Return the lines that say under what the chart holds: the rule, pressures, the case, what acts beside the load."""
+        lines: list[str] = []
+        field, rule = self.field, self.field.rule
         if rule is not PLAIN_RULE:
             shares = ", ".join(translated(FACTORS[name]).format(share=f"{100.0 * value:.4g} %") for name, value in rule.shares.items())
             words = [said("rule: {title}", title=translated(rule.title)) + (f": {shares}" if shares else "")]
@@ -106,9 +134,9 @@ def plot_field(field: WorkingField) -> Figure:
     ax.set(xlim=(0.0, width), ylim=(height, 0.0))
     ax.axis("off")
     ax.text(0.12, 0.28, text.title, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
-    heading = said("radius from the frame's origin, {unit}", unit=unit_sign("m"))
-    ax.text(LEFT + 0.5 * wide, 0.56, heading, fontsize=style.SMALL, color=style.MUTED, ha="center", va="center")
-    ax.text(LEFT - 0.1, 0.56, said("height, {unit}", unit=unit_sign("m")), fontsize=style.SMALL, color=style.MUTED, ha="right", va="center")
+    radius, rise = text.axes
+    ax.text(LEFT + 0.5 * wide, 0.56, radius, fontsize=style.SMALL, color=style.MUTED, ha="center", va="center")
+    ax.text(LEFT - 0.1, 0.56, rise, fontsize=style.SMALL, color=style.MUTED, ha="right", va="center")
     colours = {name: style.mixed(style.BODIES[place % len(style.BODIES)], style.PAPER, 0.45) for place, name in enumerate(text.letters)}
     bold: dict[str, Any] = {"fontsize": style.SMALL, "fontweight": "bold", "color": style.INK, "va": "center"}
     for column, n in enumerate(across.tolist()):

@@ -89,6 +89,13 @@ def test_workbook_has_the_chart(tmp_path):
     assert book["Cells"].max_row == 1 + found.load.size
 
 
+def test_a_page_is_written_in_the_language_it_begins_with(tmp_path, capsys):
+    file = tmp_path / "chart.html"
+    assert main(["chart", MACHINE, *AXES, "--language", "ru", "-o", str(file)]) == 0
+    assert capsys.readouterr().out == f"{file}\n"
+    assert '<html lang="ru">' in (text := file.read_text(encoding="utf-8")) and "<h1 id=\"title\">Arm: грузо" in text
+
+
 def test_picture_has_every_load_and_letter():
     found = field(Digger, rule="ISO 14397-1")
     texts = [each.get_text() for each in plot(found).axes[0].texts]

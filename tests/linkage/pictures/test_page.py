@@ -8,7 +8,7 @@ from zlib import decompress
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose
+from numpy.testing import assert_allclose, assert_array_equal
 
 from hydraulics import Cylinder, LiftCircuit
 from linkage import (
@@ -27,6 +27,7 @@ from linkage import (
     PinFriction,
     SliderDyad,
     Stroke,
+    Target,
     Verdict,
     Weight,
     angle,
@@ -34,24 +35,30 @@ from linkage import (
     drive_force,
     page,
     standing,
+    working_field,
 )
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.files import load
 from linkage.pictures import page_html
-from linkage.pictures.browser import page_part
 from linkage.pictures.browser_data import PageRequests
+from linkage.pictures.browser_file import page_part
 from linkage.pictures.browser_words import SAID
+from linkage.pictures.chart_page import chart_page
+from linkage.pictures.load_chart import ChartText
 from linkage.plan.trace import Trace
 from linkage.quantities import name_of
 from linkage.reports import results
-from linkage.units import MPa, mm
+from linkage.units import MPa, mm, unit_system
+from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.classics.jansen import Jansen
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from mechanisms.grapple import Grapple
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.laws.test_working_field import Digger as LiftingDigger
+from tests.laws.test_working_field import Robot
 from tests.linkage.statics.test_vehicle import Digger, Truck
 
 DATA = Path(__file__).parents[1] / "data"
@@ -235,7 +242,8 @@ def test_a_second_page_of_a_machine_traces_nothing_again(tmp_path, monkeypatch):
 
 
 def test_what_a_page_says_is_what_is_translated():
-    script, text = page_part("page.js"), page_part("page.html")
+    script = "".join(map(page_part, ("mechanism.js", "page.js", "chart.js")))
+    text = "".join(map(page_part, ("machine.html", "chart.html")))
     said = re.findall(r'say\("((?:[^"\\]|\\.)*)"', script) + re.findall(r'"(\{name\} = [^"]*)"', script)
     said += re.findall(r'data-(?:say|tip|name)="([^"]+)"', text)
     assert set(said) <= set(SAID) and len(said) > 50
@@ -716,6 +724,122 @@ def test_what_a_balancer_and_a_grapple_are_about_is_followed(tmp_path):
         assert names <= {name for name, row in rows.items() if row >= 0}
         limits = list(data["limits"].values())
         assert limits and all(re.search("[\u0430-\u044f]", each[3]) for each in limits)
+
+
+# -- load charts -------------------------------------------------------------------------------------------
+
+
+def digger_field(**options):
+    """Return a field with heights and radii out of order, of cells by each cylinder, tipping, and out of reach."""
+    return working_field(LiftingDigger(), "K", [2.2, 0.6, 1.0, 1.4, 1.8], [0.8, -0.4, 0.0, 0.4], rule="ISO 14397-1", **options)
+
+
+def telehandler_field():
+    """Return a field of a part's point with its angle kept, limited by the boom's cylinder and out of reach."""
+    x, y = np.arange(1.0, 6.6, 1.1), np.arange(0.5, 7.0, 1.3)
+    return working_field(Telehandler(), "forks.G", x, y, keep=[Target("forks.tilt", 0.0)], without=["forks.load"])
+
+
+def robot_field():
+    """Return a field of two cranks that a rated load limits alone."""
+    return working_field(Robot(), "B", [0.5, 0.9, 1.1, 3.0], [0.5, 0.8, 1.0], limits={"rated load": 2e3})
+
+
+@pytest.mark.parametrize("made", [digger_field, telehandler_field, robot_field])
+def test_a_charts_page_has_the_numbers_of_its_field_and_the_poses_of_its_strokes(made):
+    field = made()
+    data = data_of(chart_page(field, "en"))
+    cells = [(k, n) for k in np.argsort(-field.y) for n in np.argsort(field.x)]
+    reached = [cell for cell in cells if field.reached[cell]]
+    assert 0 < len(reached) < len(cells)
+    assert data["x"] == sorted(field.x) and data["y"] == sorted(field.y, reverse=True)
+    assert data["load"] == [None if np.isnan(load := field.load[cell]) else "\u221e" if np.isinf(load) else load for cell in cells]
+    names = data["said"]["en"]["limiters"]
+    assert [names[each] for each in data["limiter"]] == [field.limiter[cell] for cell in cells]
+    for name, loads in field.of.items():
+        found = np.array([np.inf if each == "\u221e" else each for each in data["of"][str(names.index(name))]], float)
+        assert_array_equal(found, [loads[cell] for cell in cells])
+    assert data["said"]["en"]["why"] == [field.why[cell] for cell in cells]
+    assert all(bool(why) != bool(field.reached[cell]) for why, cell in zip(data["said"]["en"]["why"], cells, strict=True))
+    strokes = {each["name"]: each["values"] for each in data["strokes"]}
+    assert strokes == {name: [values[cell] for cell in reached] for name, values in field.strokes.items()}
+    for pose, (k, n) in enumerate(reached):
+        place = field.machine.at(**{name: values[pose] for name, values in strokes.items()})
+        places = ([data["values"][row][pose] for row in pair] for pair in data["rows"]["points"])
+        found = dict(zip(data["scene"]["names"], places, strict=True))
+        for name, at in found.items():
+            assert_allclose(at, place[name].ravel(), rtol=0, atol=1e-9)
+        assert_allclose(found[field.point], (field.x[n], field.y[k]), rtol=0, atol=1e-8)
+
+
+def test_a_charts_page_speaks_both_languages_and_shows_units_as_they_are_chosen():
+    field = digger_field()
+    with unit_system("us"):
+        data, text = data_of(chart_page(field, "ru")), ChartText(field)
+        assert data["loads"] == {"factor": text.load_size, "digits": 0} and data["said"]["en"]["unit"] == "lb"
+        assert data["lengths"]["unit"] == data["strokes"][0]["unit"] == "in"
+        assert data["said"]["en"]["terms"] == text.terms() and data["said"]["en"]["title"] == text.title
+    data = data_of(chart_page(field, "ru"))
+    assert data["language"] == "ru" and data["said"]["ru"]["unit"] == "\u0442"
+    others = [each for each in (*data["said"]["ru"]["terms"], *data["said"]["ru"]["why"], data["said"]["ru"]["title"]) if each]
+    assert all(re.search("[\u0430-\u044f]", each) for each in others)
+    assert field.remarks == digger_field().remarks and "past its end" in "".join(field.why.ravel())
+
+
+def test_the_machine_stands_in_the_cell_that_is_pointed_at(chromium, tmp_path):
+    field, random = digger_field(), np.random.default_rng(8)
+    text, cells = ChartText(field), [(k, n) for k in np.argsort(-field.y) for n in np.argsort(field.x)]
+    with Shown(chromium, page(field, tmp_path / "chart.html")) as shown:
+        assert shown.said == [] and len(shown.asked) == 1
+        texts = shown("[...document.querySelectorAll('#chart td')].map((each) => each.textContent)")
+        assert texts == [text.load(field.load[cell]) + text.letters.get(field.limiter[cell], "") for cell in cells]
+        assert shown("hydrolinkage.data.load")[shown("hydrolinkage.cell()")] == np.nanmax(field.load)
+        for i in random.permutation(len(cells))[:6].tolist():
+            cell = k, n = cells[i]
+            shown.tab.hover(f"#cell{i}")
+            assert shown("hydrolinkage.cell()") == i
+            assert shown.text("#place") == f"x = {text.length(field.x[n])}\u2009m, y = {text.length(field.y[k])}\u2009m"
+            if not field.reached[cell]:
+                assert shown.text("#load") == "out of reach" and shown.text("#why") == field.why[cell]
+                assert shown("document.getElementById('mechanism').dataset.away") == "1"
+                continue
+            assert shown.text("#load b") == f"{text.load(field.load[cell])}\u2009t" and str(field.limiter[cell]) in shown.text("#load")
+            rows = shown("[...document.querySelectorAll('#of tr')].map((row) => row.lastChild.textContent)")
+            assert rows == [f"{text.load(loads[cell])}\u2009t" for loads in field.of.values()]
+            motion = field.machine.at(**{name: values[cell] for name, values in field.strokes.items()})
+            for name, place in shown("hydrolinkage.points()").items():
+                assert_allclose(place, motion[name].ravel(), rtol=0, atol=1e-9)
+        shown("hydrolinkage.point(0)")
+        for key, cell in (("ArrowRight", 1), ("ArrowDown", 6), ("ArrowUp", 1), ("ArrowUp", 1), ("End", 4), ("ArrowRight", 4), ("Home", 0)):
+            shown.tab.keyboard.press(key)
+            assert shown("hydrolinkage.cell()") == cell
+        where = shown(  # the place of a cell beside the machine is pointed at, too
+            "(() => { const dot = document.querySelectorAll('#mechanism .field circle')[7].getBoundingClientRect();"
+            " return [dot.x + dot.width / 2, dot.y + dot.height / 2]; })()"
+        )
+        shown.tab.mouse.move(*where)
+        assert shown("hydrolinkage.cell()") == 7
+        assert shown("document.documentElement.scrollWidth") <= LAPTOP[0]
+
+
+def test_a_cell_is_pointed_at_by_a_finger(chromium, tmp_path):
+    with Shown(chromium, page(digger_field(), tmp_path / "chart.html"), PHONE, has_touch=True, is_mobile=True) as shown:
+        shown.tab.locator("#cell3").tap()
+        assert shown("hydrolinkage.cell()") == 3 and shown("document.documentElement.scrollWidth") <= PHONE[0]
+        shown.tab.locator("#language").tap()
+        assert "\u0433\u0440\u0443\u0437\u043e" in shown.text("h1") and shown.said == []
+
+
+def test_what_does_not_go_with_a_chart_is_refused(tmp_path):
+    field = digger_field()
+    for options in ({"vary": ["OB"]}, {"at": {"lift": 0.8}}, {"count": 5}, {"trace": ["K"]}):
+        with pytest.raises(DefinitionError, match="page of a working field has its cells"):
+            page(field, tmp_path / "chart.html", **options)
+    with pytest.raises(DefinitionError, match="'de' is unknown"):
+        page(field, tmp_path / "chart.html", language="de")
+    with pytest.raises(DefinitionError, match=r"one that ends in \.html"):
+        page(field, tmp_path / "chart.pdf")
+    assert not any(tmp_path.iterdir())
 
 
 # -- all machines ------------------------------------------------------------------------------------------

@@ -9,8 +9,8 @@ import pytest
 from hydraulics import Cylinder, LiftCircuit
 from linkage import LoadCase, Over, Stroke
 from linkage.motion import live_text
-from linkage.pictures.browser import page_part
 from linkage.pictures.browser_data import PageRequests, page_data
+from linkage.pictures.browser_file import page_part
 from linkage.reports import is_column
 from linkage.units import bar, mm
 from mechanisms.crane import Crane

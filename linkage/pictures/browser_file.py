@@ -1,0 +1,76 @@
+"""A page as one file without network access: its text, its style and its program, packed, under a content security policy."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Sequence
+from hashlib import sha256
+from html import escape
+from importlib.resources import files
+from typing import Any
+from zlib import compress
+
+from ..errors import known_name
+from . import style
+from .browser_words import words_in
+
+COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
+LANGUAGES = ("en", "ru")
+
+
+def page_text(title: str, data: dict[str, Any], parts: Sequence[str], *, language: str, most: int = 0, text: str = "") -> str:
+    """Return the HTML of a page: its title, its data, and its parts, the files of its body (.html), styles and program.
+
+    `text` is a program before them, `most` the highest place in the palette that is used, `language` the one it begins with.
+    """
+    known_name("Language", language, LANGUAGES, where="page(language=...)")
+    given = data | {"language": language, "words": {name: words_in(name) for name in LANGUAGES[1:]}}
+    body, css, own = ("\n".join(page_part(each) for each in parts if each.endswith(end)) for end in (".html", ".css", ".js"))
+    program, loader = f'"use strict";{text}\n(async () => {{\n{own}}})();\n', page_part("loader.js")
+    styles = f":root {{ {colours(most)} }}\n{css}"
+    filled_in = {
+        "LANGUAGE": language,
+        "TITLE": escape(title),
+        "BODY": filled(body, {"TITLE": escape(title)}),
+        "STYLE": styles,
+        "STYLE_HASH": source_hash(styles),
+        "LOADER": loader,
+        "LOADER_HASH": source_hash(loader),
+        "PROGRAM": packed(program),
+        "PROGRAM_HASH": source_hash(program),
+        "DATA": packed(json.dumps(given, ensure_ascii=False, separators=(",", ":"), allow_nan=False)),
+    }
+    return filled(page_part("page.html"), filled_in)
+
+
+def colours(most: int = 0) -> str:
+    """Return the style's colours as properties of a style sheet, those of bodies up to a place in the palette, ten at least."""
+    fills = style.PALETTE[: max(len(style.BODIES), most + 1)]
+    named = {name.lower(): getattr(style, name) for name in COLOURS} | {f"body{k}": fill for k, fill in enumerate(fills)}
+    return "".join(f"--{name}:{value};" for name, value in named.items())
+
+
+def page_part(name: str) -> str:
+    """Return a file of this room."""
+    return files(__package__).joinpath(name).read_text(encoding="utf-8")
+
+
+def source_hash(text: str) -> str:
+    """Return what a content security policy names an inline script or style by."""
+    return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"
+
+
+def packed(text: str) -> str:
+    """Return a text compressed by zlib and written in base64: half of what it is or less, and nothing in it can end an element."""
+    return b64encode(compress(text.encode(), 9)).decode()
+
+
+def filled(template: str, parts: dict[str, str]) -> str:
+    """Return a template with each `{{NAME}}` replaced once; what is put in is not looked at again."""
+    pieces = template.split("{{")
+    done = [pieces[0]]
+    for piece in pieces[1:]:
+        name, _, rest = piece.partition("}}")
+        done += [parts[name], rest]
+    return "".join(done)

@@ -33,39 +33,39 @@ def chart_page(field: WorkingField, begins: str) -> str:
     return page_text(title, chart_data(field, scene), PARTS, language=begins, most=max(scene.colours, default=0))
 
 
-def printed(field: WorkingField, values: Any) -> Any:
+def as_printed(field: WorkingField, values: Any) -> Any:
     """Return what stands in the cells as the chart is printed, from above and ascending, shape (cells,)."""
     return values[np.ix_(np.argsort(-field.y, kind="stable"), np.argsort(field.x, kind="stable"))].ravel()
 
 
 def cell_poses(field: WorkingField) -> Motion:
     """Return the poses of the cells that are reached, as they are printed; that of the sketch where none is."""
-    reached = printed(field, field.reached)
+    reached = as_printed(field, field.reached)
     if not reached.any():
         return field.search.loads.motion({name: np.array([value]) for name, value in field.machine.plan.sketch_strokes.items()})
-    return field.search.loads.motion({name: printed(field, values)[reached] for name, values in field.strokes.items()})
+    return field.search.loads.motion({name: as_printed(field, values)[reached] for name, values in field.strokes.items()})
 
 
 def chart_data(field: WorkingField, scene: Scene) -> dict[str, Any]:
     """Return all that the page's script reads: cells as they are printed, lengths in m, angles in rad, loads in N."""
     text, plan, names = ChartText(field), field.machine.plan, list(dict.fromkeys((*field.of, *field.limiters)))
     units = {name: shown_in(stroke_display_unit(plan, name, "mm")) for name in field.strokes}
-    known = printed(field, field.reached)
-    values, lines = pose_rows(scene)
+    known = as_printed(field, field.reached)
+    values, lines = point_rows(scene)
     drawn = scene_data(scene, lines)
     left, right, bottom, top = drawn["box"]
     drawn["box"] = [min(left, field.x.min()), max(right, field.x.max()), min(bottom, field.y.min()), max(top, field.y.max())]
     return {
         "x": np.sort(field.x).tolist(),
         "y": np.sort(field.y)[::-1].tolist(),
-        "load": [number_or_none(each) for each in printed(field, field.load).tolist()],
-        "limiter": [names.index(each) for each in printed(field, field.limiter).tolist()],
-        "of": {names.index(name): [number_or_none(each) for each in printed(field, of).tolist()] for name, of in field.of.items()},
+        "load": [number_or_none(each) for each in as_printed(field, field.load).tolist()],
+        "limiter": [names.index(each) for each in as_printed(field, field.limiter).tolist()],
+        "of": {names.index(name): [number_or_none(each) for each in as_printed(field, of).tolist()] for name, of in field.of.items()},
         "letters": [text.letters.get(name, "") for name in names],
         "counts": [text.counts.get(name, 0) for name in names],
         "strokes": [
             {"name": name, "start": stroke.start, "end": stroke.end, "unit": typeset(units[name]), "factor": factor(units[name])}
-            | {"values": printed(field, field.strokes[name])[known].tolist()}
+            | {"values": as_printed(field, field.strokes[name])[known].tolist()}
             for name, stroke in plan.strokes.items()
         ],
         "loads": {"factor": text.load_size, "digits": text.load_digits},
@@ -80,7 +80,7 @@ def chart_data(field: WorkingField, scene: Scene) -> dict[str, Any]:
     }
 
 
-def pose_rows(scene: Scene) -> tuple[FloatArray, dict[str, list[int]]]:
+def point_rows(scene: Scene) -> tuple[FloatArray, dict[str, list[int]]]:
     """Return rows over all poses, x and y of each point [m], then each track's origin [m] and direction, and the rows of the tracks."""
     places = [scene.places[name] for name in scene.motion.plan.points]
     tracks = [each for track in scene.tracks for each in (track.origin, track.along)]
@@ -105,5 +105,5 @@ def words_of_chart(field: WorkingField, names: list[str], name: str) -> dict[str
             "down": text.axes[1],
             "limiters": [translated(each) for each in names],
             "terms": text.terms(),
-            "why": printed(spoken, spoken.why).tolist(),
+            "why": as_printed(spoken, spoken.why).tolist(),
         }

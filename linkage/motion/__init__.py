@@ -4,7 +4,7 @@ from .answer import Answer, Lost, places_text
 from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
 from .featured import Featured
 from .follow import followed
-from .gaps import gap
+from .gaps import gap, nearest_places
 from .grid import Grid
 from .judge import Judge, Question, case_named
 from .judging import HasVerdicts, geometry_verdicts, judge_verdicts
@@ -14,7 +14,7 @@ from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst
 from .motion import Motion, OnePose, each_at_its_stroke, out_of_reach, require_motion
 from .over import OPTIONS, Over
-from .planes import Planes, clearance
+from .planes import Planes, clearance, pair_at
 from .poles import whole_body
 from .pose_requests import condition, transmission
 from .positions import Positions, positions_for

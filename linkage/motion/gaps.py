@@ -19,6 +19,7 @@ from itertools import combinations, pairwise, product
 from typing import TypeAlias, final
 
 import numpy as np
+import numpy.typing as npt
 
 from ..errors import DefinitionError, unknown
 from ..loads import TwoPoint
@@ -91,11 +92,10 @@ class BodyShape:
         """What it is built from."""
         return self.points if self.outline is None else (self.outline, *self.points)
 
-    def pieces(self, plan: Plan) -> list[Piece]:
-        """Return its convex pieces in the plan's trace."""
-        where = plan.trace
+    def pieces(self, plan: Plan, where: Reading) -> list[Piece]:
+        """Return its convex pieces in a reading, such as the plan's trace."""
         if self.outline is not None:
-            return outline_pieces(plan, self.outline)
+            return outline_pieces(plan, self.outline, where)
         if self.each_alone:
             return [Piece((where.at(P),)) for P in self.points]
         return [Piece(tuple(where.at(P) for P in self.points))]
@@ -105,12 +105,12 @@ def gap_of(plan: Plan, a: str, b: str) -> Scalar:
     """Return the gap of two bodies or outlines in a plan's trace [m]."""
     one, other = two_shapes(plan, a, b)
     pick = plan.trace.graph.pick
-    return least_number([signed_gap(p, q, pick) for p, q in product(one.pieces(plan), other.pieces(plan))])
+    return least_number([signed_gap(p, q, pick) for p, q in product(one.pieces(plan, plan.trace), other.pieces(plan, plan.trace))])
 
 
-def outline_pieces(plan: Plan, outline: Outline) -> list[Piece]:
-    """Return the convex pieces of an outline in a plan's trace, cut as they are in the class's own design."""
-    where, carriers = plan.trace, outline.carriers
+def outline_pieces(plan: Plan, outline: Outline, where: Reading) -> list[Piece]:
+    """Return the convex pieces of an outline in a reading, cut as they are in the class's own design."""
+    carriers = outline.carriers
 
     def place(x: Scalar, y: Scalar) -> Vec:
         if len(carriers) < 2:
@@ -204,17 +204,25 @@ def signed_gap(one: Piece, other: Piece, pick: Pick) -> Scalar:
     if not any(edges):
         return np.sqrt((a[0] - b[0]).square()) - rounded
     squares = [square_to_edge(P, edge) for points, own in ((a, edges[1]), (b, edges[0])) for P in points for edge in own]
-    ways = [(start - end).left() for own in edges for start, end in own]
-    ways += [own[0][1] - own[0][0] for own in edges if own]  # bars in line are parted along it
-    overlap = reduce(np.maximum, [separation(a, b, way) for way in ways])
+    overlap = reduce(np.maximum, [separation(a, b, way) for own in edges for way in ways_across(own)])
     return pick(overlap, 0.0, overlap, np.sqrt(least_number(squares))) - rounded
+
+
+def ways_across(edges: Sequence[tuple[Vec, Vec]]) -> list[Vec]:
+    """Return the directions along which two pieces may be parted for the edges of one of them: bars in line are parted along it."""
+    return [*((start - end).left() for start, end in edges), *(end - start for start, end in edges[:1])]
 
 
 def square_to_edge(P: Vec, edge: tuple[Vec, Vec]) -> Scalar:
     """Return the square of a point's distance from a straight edge [m2]."""
+    return (P - nearest_on(edge, P)).square()
+
+
+def nearest_on(edge: tuple[Vec, Vec], P: Vec) -> Vec:
+    """Return the place of a straight edge that is nearest to a point."""
     start, along, arm = edge[0], edge[1] - edge[0], P - edge[0]
-    share = np.minimum(np.maximum(arm.dot(along) / np.maximum(along.square(), SMALLEST), 0.0), 1.0)
-    return (P - (start + along * share)).square()
+    found: Vec = start + along * np.minimum(np.maximum(arm.dot(along) / np.maximum(along.square(), SMALLEST), 0.0), 1.0)
+    return found
 
 
 def separation(a: Sequence[Vec], b: Sequence[Vec], way: Vec) -> Scalar:
@@ -228,3 +236,47 @@ def separation(a: Sequence[Vec], b: Sequence[Vec], way: Vec) -> Scalar:
 def least_number(values: Sequence[Scalar]) -> Scalar:
     """Return the least of some numbers, pose by pose."""
     return reduce(np.minimum, values)
+
+
+# Where two bodies come nearest.
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class NearestPlaces:
+    """The places of two bodies that are nearest to each other, shape (2,) each [m], and their gap [m].
+
+    Where the bodies cross it is below zero: the first place lies in the other body, the second where the first one would leave it.
+    """
+
+    gap: float
+    one: npt.NDArray[np.float64]
+    other: npt.NDArray[np.float64]
+
+
+def nearest_places(plan: Plan, where: Reading, a: str, b: str) -> NearestPlaces:
+    """Return where two bodies, points or outlines come nearest at the pose of a reading."""
+    one, other = two_shapes(plan, a, b)
+    return min((between(p, q) for p, q in product(one.pieces(plan, where), other.pieces(plan, where))), key=lambda each: each.gap)
+
+
+def between(one: Piece, other: Piece) -> NearestPlaces:
+    """Return where two convex pieces come nearest: the same numbers as `signed_gap`, with their places."""
+    a, b, edges = one.places, other.places, (one.edges, other.edges)
+    found = [(separation(a, b, way), way, k) for k, own in enumerate(edges) for way in ways_across(own)]
+    deepest = max(found, key=lambda each: float(each[0]), default=None)
+    if deepest is not None and deepest[0] <= 0.0:
+        size, way, owner = deepest
+        unit = way * (1.0 / float(np.sqrt(max(way.square(), SMALLEST))))
+        if max(P.dot(unit) for P in a) - min(P.dot(unit) for P in b) > max(P.dot(unit) for P in b) - min(P.dot(unit) for P in a):
+            unit = -unit
+        start, end = (min(b, key=unit.dot),) * 2 if owner == 0 else (max(a, key=unit.dot),) * 2
+        start, end = (start - unit * size, end) if owner == 0 else (start, end + unit * size)
+    else:
+        ends = [(P, nearest_on(edge, P)) for P in a for edge in edges[1]] + [(nearest_on(edge, Q), Q) for Q in b for edge in edges[0]]
+        start, end = min([*ends, *([] if ends else [(a[0], b[0])])], key=lambda pair: float((pair[1] - pair[0]).square()))
+        size = float(np.sqrt((end - start).square()))
+        unit = (end - start) * (1.0 / max(size, SMALLEST))
+    places = start + unit * one.radius, end - unit * other.radius
+    first, second = (np.array([float(place.x), float(place.y)]) for place in places)
+    return NearestPlaces(float(size - one.radius - other.radius), first, second)

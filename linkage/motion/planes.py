@@ -206,9 +206,14 @@ def passing(plan: Plan, lie: Mapping[str, set[int]]) -> dict[str, set[int]]:
 
 def nearest_pair(judge: Judge, answer: Answer) -> Pair:
     """Return the pair that comes nearest where the clearance is least."""
-    pairs = pairs_of(judge.plan)
     strokes = {name: np.asarray(float(value)) for name, value in answer.strokes.items()}
-    motion = Motion(judge.plan, judge.designs, strokes, "nan")
-    width = motion.value(width_of(judge.plan))
-    gaps = {pair: float(np.ravel(motion[gap(*pair)] - (width if thick else 0.0))[0]) for pair, thick in pairs.items()}
-    return min(gaps, key=lambda pair: gaps[pair])
+    return pair_at(Motion(judge.plan, judge.designs, strokes, "nan"))[0]
+
+
+def pair_at(motion: Motion) -> tuple[Pair, float]:
+    """Return the pair that comes nearest at a motion's first pose, and what of their gap the width of bars takes [m]."""
+    width = float(np.ravel(motion.value(width_of(motion.plan)))[0])
+    widths = {pair: width if thick else 0.0 for pair, thick in pairs_of(motion.plan).items()}
+    gaps = {pair: float(np.ravel(motion[gap(*pair)])[0]) - taken for pair, taken in widths.items()}
+    nearest = min(gaps, key=lambda pair: gaps[pair])
+    return nearest, widths[nearest]

@@ -58,6 +58,7 @@ def draw(
     drive: str | None = ...,
     velocities: Mapping[str, Any] | None = ...,
     pole: bool | str | tuple[str, str] = ...,
+    clearance: bool | tuple[str, str] = ...,
 ) -> Figure: ...
 @overload
 def draw(machine: nx.MultiGraph) -> Figure: ...
@@ -77,6 +78,7 @@ def draw(
     drive: str | None = None,
     velocities: Mapping[str, Any] | None = None,
     pole: bool | str | tuple[str, str] = False,
+    clearance: bool | tuple[str, str] = False,
 ) -> Figure | Drawing:
     """Return a figure of a mechanism at chosen strokes, the last one bold and the others faint; or a motion at one of its poses.
 
@@ -94,7 +96,9 @@ def draw(
     a body, `forces="OBC"`, that body alone with all forces on it and their polygon; `loads`, `case`, `direction`, `drive` as `pin_forces`
     takes them. `velocities=dict(S=0.05)` gives the points' velocities at these stroke rates [1/s], which dampers get too. `pole="EDF"` is
     the body's instant centre, `pole=("EDF", "FKG")` that of two bodies, `pole=True` that of each body no fixed pin holds. Where a pose is
-    refused the picture says why, for a motion without `unreachable="nan"` this raises SingularError.
+    refused the picture says why, for a motion without `unreachable="nan"` this raises SingularError. With `clearance=True` a dimension
+    stands between what comes nearest of all that the machine's `Planes` keep apart, with `clearance=("OBC", "MK")` between these two. A
+    machine without `at` is then drawn where they come nearest in all that it runs; of a motion its own worst pose is drawn, faint.
 
     Of several designs, `draw([hitch, hitch.replaced(OB=0.32)])`, or a batch, all at the same strokes, in their middle unless `at` says
     others; of two the first one is faint, of more each has its own colour; up to 12. Of `machine.assemblies()`, a small picture of each
@@ -104,7 +108,8 @@ def draw(
 
     Of `machine.graph`, the kinematic chain: its bodies, and the pins and slides between them.
     """
-    is_laid = ax is not None or velocities is not None or any(each is not None and each is not False for each in (faint, forces, pole))
+    laid = (faint, forces, pole, clearance)
+    is_laid = ax is not None or velocities is not None or any(each is not None and each is not False for each in laid)
     is_laid = is_laid or not (isinstance(pose, int) and pose == 0)
     if isinstance(machine, Sequence):
         modes = [each for each in machine if isinstance(each, Assembly)]
@@ -125,7 +130,7 @@ def draw(
             title = machine.problem.plan.title
             raise DefinitionError(f"{title}: a search's result is drawn at the ends of its stroke; it takes count= alone.")
         return draw_optimum(machine, count)
-    overlays = Overlays(force_question(forces, loads, case, direction, drive, velocities), velocities, pole)
+    overlays = Overlays(force_question(forces, loads, case, direction, drive, velocities), velocities, pole, clearance)
     return draw_machine(machine, at, path, count, overlays, ax=ax, pose=pose, faint=faint)
 
 

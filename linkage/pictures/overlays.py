@@ -30,8 +30,10 @@ from .arrows import (
     wordings,
 )
 from .force_arrows import ForceQuestion, force_layer, forces_at_pose, refusal
+from .gap_marks import GapMark, draw_gap, gap_mark, worst_pose
 from .paper import footnote
 from .scene import Bounds
+from .strokes import stroke_words
 
 VELOCITY, POLE = "#9a3a86", "#8a5a00"
 """The colours of velocities and of poles."""
@@ -46,14 +48,25 @@ BEYOND = 0.6
 @final
 @dataclass(frozen=True, eq=False)
 class Overlays:
-    """What to lay over a mechanism: forces, velocities at stroke rates, poles of bodies."""
+    """What to lay over a mechanism: forces, velocities at stroke rates, poles of bodies, what comes nearest."""
 
     forces: ForceQuestion | None = None
     rates: Mapping[str, Any] | None = None
     pole: Any = None
+    clearance: Any = None
 
     def __bool__(self) -> bool:
-        return self.forces is not None or self.rates is not None or self.pole not in (None, False)
+        return self.forces is not None or self.rates is not None or any(each not in (None, False) for each in (self.pole, self.clearance))
+
+    @property
+    def has_gap(self) -> bool:
+        """Whether what comes nearest is asked for."""
+        return self.clearance not in (None, False)
+
+    def worst(self, motion: Motion, pose: int) -> int | None:
+        """Return the pose of a motion, a flat index, where the gap is least; None where it is the one shown, or not asked for."""
+        found = worst_pose(motion, self.clearance, pose) if self.has_gap and motion.reached.size > 1 else pose
+        return None if found == pose else found
 
     def over(self, motion: Motion, pose: int, box: Bounds) -> Overlay:
         """Return what is laid over a motion's pose, a flat index, on a sheet that shows a box [m]."""
@@ -73,7 +86,10 @@ class Overlays:
             layers.append(velocity_layer(motion, pose, self.rates))
             notes += layers[-1].notes
         marks = pole_marks(motion, pose, self.pole, self.rates) if self.pole not in (None, False) else []
-        return Overlay(tuple(layers), tuple(marks), tuple(notes), box)
+        gaps = [gap_mark(one_pose(motion, pose), self.clearance)] if self.has_gap else []
+        worst = self.worst(motion, pose)
+        gaps += [] if worst is None else [gap_mark(one_pose(motion, worst), self.clearance, place_words(motion, worst))]
+        return Overlay(tuple(layers), tuple(marks), tuple(notes), box, tuple(gaps))
 
     def centrodes(self, ax: Axes, swept: Motion) -> None:
         """Draw the paths of the poles that are asked for over a motion."""
@@ -106,12 +122,13 @@ class PoleMark:
 @final
 @dataclass(frozen=True, eq=False)
 class Overlay:
-    """What is laid over one pose on a sheet: arrows to their scales, poles, notes."""
+    """What is laid over one pose on a sheet: arrows to their scales, poles, notes, gaps."""
 
     layers: tuple[ArrowLayer, ...]
     marks: tuple[PoleMark, ...]
     notes: tuple[str, ...]
     sheet: Bounds
+    gaps: tuple[GapMark, ...] = ()
 
     def box(self, size: float) -> Bounds:
         """Return the sheet made larger, so that all arrows and near poles are on it; `size` is that of a pin [m]."""
@@ -134,6 +151,7 @@ class Overlay:
         for layer in self.layers:
             share = np.linspace(0.0, 1.0, 24)[:, None]
             lines += [each.at + share * layer.scale(self.sheet) * each.vector for each in layer.arrows]
+        lines += [gap.outer(0.0) for gap in self.gaps]
         return np.concatenate([*lines, *(mark.at[None] for mark in self.marks if mark.is_near(self.sheet))])
 
     def draw(self, ax: Axes, size: float, keep_clear: FloatArray) -> None:
@@ -146,6 +164,9 @@ class Overlay:
         for mark in self.marks:
             texts += draw_pole(ax, mark, self.sheet, size)
             covered.append(np.repeat(mark.at[None], 12 * mark.is_near(self.sheet), axis=0))
+        for gap in self.gaps:
+            texts += draw_gap(ax, gap, size)
+            covered.append(np.repeat(gap.outer(size), 6, axis=0))
         everything = np.concatenate(covered)
         for place, layer in enumerate(self.layers):
             scale_bar(ax, layer, layer.scale(self.sheet), everything, place)
@@ -170,6 +191,12 @@ def sheet_note(ax: Axes, sentences: Sequence[str]) -> None:
             zorder=21.0,            bbox={"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 1.5},
         )  # fmt: skip
         text.set_gid("note")
+
+
+def place_words(motion: Motion, pose: int) -> str:
+    """Return the strokes of a pose that are not the same all over a motion, in words."""
+    moving = {name: np.ravel(values) for name, values in motion.strokes.items() if np.ptp(values) > 0.0}
+    return ", ".join(stroke_words(motion.plan, name, float(values[pose])) for name, values in moving.items())
 
 
 # Velocities of the points, from rates of the strokes.

@@ -20,6 +20,7 @@ from ..reports import Run, first_stroke, stroke_middles
 from . import style
 from .drawing import Drawing, mechanism
 from .free_body import draw_free_body
+from .gap_marks import worst_strokes
 from .layout import cloud, surrounding_points
 from .overlays import NO_OVERLAYS, Overlays
 from .paper import empty_page, legend_row, remark, write_title
@@ -45,7 +46,7 @@ def draw_machine(
 ) -> Figure | Drawing:
     """Return a mechanism's figure at chosen strokes, or a motion at one of its poses, on axes if they are given; see `draw`."""
     if ax is not None and overlays:
-        raise DefinitionError("draw(ax=...): forces, velocities and poles have a figure of their own; leave out ax=.")
+        raise DefinitionError("draw(ax=...): forces, velocities, poles and gaps have a figure of their own; leave out ax=.")
     if isinstance(machine, Motion):
         is_plain = at is None and isinstance(path, (list, tuple)) and not path and is_whole(count) and count == 101
         if not is_plain:
@@ -82,6 +83,8 @@ def draw_pose(
 def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, overlays: Overlays = NO_OVERLAYS) -> Figure:
     """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint, what is laid over it at that one."""
     path = named_points(machine, path, "path")
+    if overlays.has_gap and at is None:
+        at = at_the_worst(machine, overlays)
     if not is_whole(count) or not 2 <= count <= MANY:
         raise DefinitionError(f"count={cited(count)}: a path is drawn through 2 poses or more; give a whole number such as 101.")
     moving, shown, swept = motions(machine, at, count)
@@ -107,11 +110,22 @@ def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, o
     return figure
 
 
+def at_the_worst(machine: Mechanism, overlays: Overlays) -> dict[str, Any]:
+    """Return the strokes of what is drawn where nothing says them: both ends of the first stroke, and last the pose of the least gap."""
+    first, worst = first_stroke(machine), worst_strokes(machine, overlays.clearance)
+    ends = machine.strokes[first].start, machine.strokes[first].end
+    near = 1e-3 * abs(ends[1] - ends[0])
+    return {**worst, first: [*(end for end in ends if abs(end - worst[first]) > near), worst[first]]}
+
+
 def draw_laid_over(motion: Motion, swept: Motion, pose: int, overlays: Overlays) -> Figure:
     """Return a figure of a motion at a pose, a flat index, with what is laid over it and what its colours mean."""
     scene = Scene(motion)
     laid = overlays.over(motion, pose, scene.box())
     figure, ax = empty_page(laid.box(scene.size))
+    worst = overlays.worst(motion, pose)
+    if worst is not None:
+        Drawing(ax, scene, FAINT).update(worst)
     drawing = Drawing(ax, scene, STRONG)
     drawing.ground()
     if pose in scene.reached:

@@ -25,6 +25,7 @@ from linkage import (
     x,
 )
 from linkage.files import load, to_toml
+from linkage.motion.gaps import nearest_places
 from linkage.motion.planes import pairs_of
 from linkage.surroundings import convex_pieces, crosses_itself
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -253,3 +254,31 @@ def test_a_machine_of_planes_is_drawn_and_printed():
 def test_what_is_no_plane_is_refused_in_words(make, words):
     with pytest.raises(DefinitionError, match=words):
         make()
+
+
+# -- where they come nearest -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_nearest_places_are_as_far_apart_as_the_gap(seed):
+    """The same number as the program's, between a place of the one and a place of the other; moved by it they just touch."""
+    rng = np.random.default_rng(40 + seed)
+    one, other = star(rng, int(rng.integers(4, 11))), star(rng, int(rng.integers(3, 9)))
+    motion = facing(one, other)().sweep(s=9)
+    gaps = motion[gap("one", "other")]
+    for k in range(9):
+        at = motion.moved({"s": motion.strokes["s"][k]})
+        found = nearest_places(at.plan, at._placed, "one", "other")
+        assert_allclose(found.gap, gaps[k], rtol=1e-9, atol=1e-13)
+        assert_allclose(np.hypot(*(found.other - found.one)), abs(found.gap), rtol=1e-9, atol=1e-13)
+        if found.gap > 0.0:
+            bodies = in_the_frame(one, at["A"], at["O"]), in_the_frame(other, at["C"], at["B"])
+            for place, corners in zip((found.one, found.other), bodies, strict=True):
+                ends = zip(corners, np.roll(corners, -1, axis=0), strict=True)
+                assert min(from_edge(place, a, b) for a, b in ends) < 1e-12
+
+
+def from_edge(place, a, b):
+    """Return how far a place is from a straight edge."""
+    share = np.clip((place - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0)
+    return np.hypot(*(place - a - share * (b - a)))

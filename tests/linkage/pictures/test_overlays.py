@@ -6,6 +6,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from numpy.testing import assert_allclose
 
@@ -20,12 +21,17 @@ from linkage import (
     Mechanism,
     Moment,
     OnLink,
+    Planes,
     SingularError,
     Spring,
     Stroke,
     Weight,
+    clearance,
     deg,
     draw,
+    gap,
+    least,
+    mm,
     pin_forces,
     standing,
 )
@@ -422,3 +428,63 @@ def test_header_and_path_are_of_the_same_strokes():
     for place in range(3):
         assert np.hypot(*(path - shown[:, place, None])).min() < 1e-12
     assert_allclose(path[:, [0, -1]], shown[:, [0, -1]], atol=1e-12)
+
+
+# -- what comes nearest ------------------------------------------------------------------------------------
+
+
+class Beside(ThreePointHitch):
+    """A hitch whose bodies lie in three planes."""
+
+    planes = Planes("OBC lift", "EDF MK", "CD", width=20 * mm)
+
+
+def gap_lines(figure, pair):
+    """Return the lines of the dimensions between a pair, from one place to the other, and what is written at them."""
+    lines = figure.findobj(lambda artist: artist.get_gid() == f"gap {pair}" and isinstance(artist, Line2D))
+    texts = [text.get_text() for text in figure.findobj(Text) if text.get_gid() == f"gap {pair} value"]
+    return [np.array(line.get_xydata()) for line in lines[::3]], texts
+
+
+def test_the_worst_pose_is_drawn_with_what_comes_nearest_there():
+    hitch = Beside()
+    (answer,) = hitch.answers([least(clearance())])
+    figure = draw(hitch, clearance=True)
+    (line,), (words,) = gap_lines(figure, "C MK")
+    assert_allclose(np.hypot(*(line[1] - line[0])), abs(answer.value), rtol=1e-6)
+    assert words == f"{abs(answer.value) * 1e3:.3g} mm between C and MK"
+    assert any(f"{answer.strokes['S'] * 1e3:.4g} mm" in text.get_text() for text in figure.findobj(Text))
+
+
+def test_a_motion_shows_the_gap_at_its_pose_and_faint_where_it_is_least():
+    motion = Beside().sweep(21)
+    values = motion[clearance()]
+    figure = draw(motion, pose=3, clearance=True)
+    lines, words = gap_lines(figure, "C MK")
+    lengths = sorted(np.hypot(*(line[1] - line[0])) for line in lines)
+    assert_allclose(lengths, sorted(abs(values[[int(np.argmin(values)), 3]])), rtol=1e-9)
+    assert sum("S = " in text for text in words) == 1
+    (alone,), _ = gap_lines(draw(motion, pose=int(np.argmin(values)), clearance=True), "C MK")
+    assert_allclose(np.hypot(*(alone[1] - alone[0])), abs(values.min()), rtol=1e-9)
+
+
+def test_two_bodies_are_named_without_planes():
+    motion = ThreePointHitch().sweep(5)
+    lines, words = gap_lines(draw(motion, pose=4, clearance=("lift", "CD")), "lift CD")
+    wanted = motion[gap("lift", "CD")]
+    assert_allclose(sorted(np.hypot(*(line[1] - line[0])) for line in lines), sorted({wanted[4], wanted.min()}), rtol=1e-9)
+    assert any(word.endswith("between lift and CD") for word in words)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (True, "it does not say which bodies lie in one plane; declare one"),
+        ("OBC", r"clearance='OBC': say clearance=True for what .*, or two bodies"),
+        (("MK", "XY"), "Body 'XY' is unknown"),
+    ],
+)
+def test_what_has_no_gap_is_refused(given, words):
+    for asked in (ThreePointHitch().sweep(3), ThreePointHitch()):
+        with pytest.raises(DefinitionError, match=words):
+            draw(asked, clearance=given)

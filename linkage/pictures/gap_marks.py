@@ -1,0 +1,116 @@
+"""What comes nearest: a short dimension between the two nearest places of two bodies, with its length in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from ..errors import DefinitionError, cited, unwarned
+from ..language import said
+from ..mechanism import Mechanism
+from ..motion import Motion, Request, clearance, gap, least, nearest_places, pair_at
+from ..plan import Plan
+from ..program import FloatArray
+from ..units import show
+from . import style
+from .arrows import Wording
+
+SHORT = 5.0
+"""A gap that is shorter than so many sizes has its arrows outside."""
+REACH, BARB = 2.4, 0.34
+"""How far an outer arrow reaches, and half the width of a tick at a gap's end, in sizes."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class GapMark:
+    """The gap of two bodies at a pose: its name, its two places, shape (2, 2) [m], and what is written at it; another pose's is faint."""
+
+    name: str
+    ends: FloatArray
+    words: str
+    faint: bool = False
+
+    @property
+    def middle(self) -> FloatArray:
+        """The place amid both [m]."""
+        return np.asarray(self.ends.mean(axis=0))
+
+    def outer(self, size: float) -> FloatArray:
+        """Return all places that its lines reach, shape (4, 2) [m]."""
+        out = REACH * size * self.way
+        return np.array([self.ends[0] - out, *self.ends, self.ends[1] + out])
+
+    @property
+    def way(self) -> FloatArray:
+        """The direction from its first place to the second, of length one; to the right where both are one."""
+        arm = self.ends[1] - self.ends[0]
+        length = float(np.hypot(*arm))
+        return arm / length if length > 0.0 else np.array([1.0, 0.0])
+
+
+def asked_pair(given: object, plan: Plan) -> tuple[str, str] | None:
+    """Return the two bodies that `draw(clearance=...)` names, None for those that come nearest; DefinitionError for what is neither."""
+    if given is True:
+        return None
+    if isinstance(given, (list, tuple)) and len(given) == 2 and all(isinstance(each, str) for each in given):
+        return str(given[0]), str(given[1])
+    what = f"{plan.title}: clearance={cited(given)}"
+    raise DefinitionError(f'{what}: say clearance=True for what the machine\'s Planes keep apart, or two bodies, clearance=("OBC", "MK").')
+
+
+def gap_request(given: object, plan: Plan) -> Request:
+    """Return the request whose least value `draw(clearance=...)` is about."""
+    pair = asked_pair(given, plan)
+    return clearance() if pair is None else gap(*pair)
+
+
+def worst_pose(motion: Motion, given: object, shown: int) -> int:
+    """Return the pose of a motion, a flat index, at which the gap is least: the one shown, where it is no greater there."""
+    with unwarned():
+        values = np.ravel(motion[gap_request(given, motion.plan)])
+    values = np.where(np.isfinite(values), values, np.inf)
+    worst = int(np.argmin(values))
+    return worst if values[worst] < values[shown] else shown
+
+
+def worst_strokes(machine: Mechanism, given: object) -> dict[str, float]:
+    """Return the strokes at which the gap is least wherever the machine runs."""
+    (answer,) = machine.answers([least(gap_request(given, machine.plan))])
+    return {name: float(value) for name, value in answer.strokes.items()}
+
+
+def gap_mark(at: Motion, given: object, place: str = "") -> GapMark:
+    """Return the mark of the gap at a motion of one pose; faint with the `place` of another pose than the one shown."""
+    gap_request(given, at.plan).bound(at.plan)  # DefinitionError where no planes are declared
+    pair, width = asked_pair(given, at.plan), 0.0
+    if pair is None:
+        pair, width = pair_at(at)
+    found = nearest_places(at.plan, at._placed, *pair)
+    size, names = found.gap - width, dict(one=pair[0], other=pair[1], gap=show(abs(found.gap - width), "mm", 3))
+    words = said("{one} and {other} cross by {gap}", **names) if size < 0.0 else said("{gap} between {one} and {other}", **names)
+    line = GapMark(f"gap {pair[0]} {pair[1]}", np.array([found.one, found.other]), f"{words}, {place}" if place else words, bool(place))
+    half = (0.5 if found.gap > 0.0 else -0.5) * width * line.way
+    return replace(line, ends=line.ends + np.array([half, -half]))
+
+
+def draw_gap(ax: Axes, mark: GapMark, size: float) -> list[Wording]:
+    """Draw a gap as a dimension, a short one with its arrows outside, and return what is written at it."""
+    colour = style.mixed(style.ACCENT, style.PAPER, 0.4) if mark.faint else style.ACCENT
+    level, (start, end), way = 14.0 if mark.faint else 18.0, mark.ends, mark.way
+    across = BARB * size * np.array([-way[1], way[0]])
+    is_short = float(np.hypot(*(end - start))) < SHORT * size
+    lines = [np.array([start, end]), *(np.array([place - across, place + across]) for place in (start, end))]
+    for line in lines:
+        ax.add_line(Line2D(*line.T, color=colour, linewidth=1.8, solid_capstyle="round", zorder=level, gid=mark.name))
+    for tip, out in ((start, -way), (end, way)):
+        tail = tip + (REACH * size * out if is_short else -min(REACH * size, 0.5 * float(np.hypot(*(end - start)))) * out)
+        ax.annotate(
+            "", (float(tip[0]), float(tip[1])), xytext=(float(tail[0]), float(tail[1])), zorder=level, annotation_clip=False,
+            arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.4, "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0},
+        )  # fmt: skip
+    return [Wording(mark.words, mark.middle, np.array([-way[1], way[0]]), colour, mark.name)]

@@ -6,10 +6,13 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
+import numpy as np
 from matplotlib.figure import Figure
 
-from linkage import animate
+from linkage import ISO_10567, LoadRule, Target, animate, plot, working_field
 from mechanisms import demo
+from mechanisms.at_work.excavator import HookExcavator
+from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.crane import ArmDrive, BoomDrive
 from mechanisms.crane.drive_figures import drive_figure
 from mechanisms.crane.figures import crane_figure
@@ -25,10 +28,28 @@ def lift_film(path: Path) -> None:
     animate(MowerLift(), path, column="kz", trace=["G"], limit=demo.RESERVE)
 
 
+def excavator_chart() -> Figure:
+    """Return the load chart of the excavator with a hook."""
+    radii, heights = np.arange(1.0, 3.01, 0.25), np.arange(-1.5, 2.01, 0.5)
+    field = working_field(
+        HookExcavator(), "arm.L", x=radii, y=heights, rule=ISO_10567, lifts=["boom.ram"], without=["tool.load"]
+    )  # fmt: skip
+    return plot(field)
+
+
+def telehandler_chart() -> Figure:
+    """Return the load chart of the telehandler with level forks."""
+    rule, level = LoadRule("works rule", tipping=0.75), [Target("level", 0.0)]
+    radii, heights = np.arange(1.0, 5.3, 0.3), np.arange(0.0, 7.6, 0.5)
+    return plot(working_field(Telehandler(), "forks.G", x=radii, y=heights, keep=level, rule=rule, without=["forks.load"]))
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     **{f"crane_{name}": partial(crane_figure, name) for name in ("positions", "map", "reach")},
     **{f"crane_boom_{name}": partial(drive_figure, name, BoomDrive()) for name in ("moments", "positions")},
     **{f"crane_arm_{name}": partial(drive_figure, name, ArmDrive()) for name in ("moments", "positions")},
+    "at_work_excavator_chart": excavator_chart,
+    "at_work_telehandler_chart": telehandler_chart,
     **{f"grapple_{name}": partial(grapple.figure, name) for name in ("moments", "stems")},
     **{f"three_point_hitch_{name}": partial(hitch.figure, name) for name in ("capacity", "lift", "zones")},
 }

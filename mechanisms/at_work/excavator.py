@@ -27,6 +27,7 @@ from linkage import (
     Over,
     Part,
     Stroke,
+    Support,
     Weight,
     angle,
 )
@@ -106,6 +107,11 @@ class HookExcavator(Mechanism):
     tool = Part(Hook, on=(arm.A, arm.L), L=arm.L)
 
     loading = Over.path(lift=[0.08, 0.30, 0.30], swing=[0.30, 0.30, 0.10])
+
+    track_front, track_rear, M = Ground(0.02, -0.72), Ground(-1.52, -0.72), Ground(-0.90, 0.10)  # M of what slews and what stands
+    body = Weight(M, mass=2300.0)
+    front = Support(track_front, (0, 1), friction=0.7)
+    rear = Support(track_rear, (0, 1), friction=0.7)
 
     ground = Outline.line((-2.2, -0.72), (4.0, -0.72))
     track = Outline([(-1.6, -0.72), (0.1, -0.72), (0.28, -0.56), (0.1, -0.34), (-1.6, -0.34), (-1.78, -0.53)])

@@ -19,6 +19,7 @@ from linkage import (
     Over,
     Part,
     Stroke,
+    Support,
     Weight,
     angle,
 )
@@ -63,6 +64,7 @@ class Telehandler(Mechanism):
     N = OnLink(T, Q, TN=hypot(0.25, 0.50), QTN=atan2(-0.50, 0.25) + 180 * deg)
 
     forks = Part(Forks, S=tilt, on=(O, T), Q=Q, N=N)
+    level = angle(forks.F, forks.X)  # of the forks to the ground
 
     outer = LinkMass((O, B), mass=700.0, at=(2.0, 0.0))
     inner = LinkMass((Q, T), mass=450.0, at=(-0.7, 0.0))
@@ -75,9 +77,14 @@ class Telehandler(Mechanism):
     stacking = Over.path(lift=[0.0, 0.2, 0.4, 0.6], extend=0.0, tilt=[0.056, 0.131, 0.206, 0.281], cases=["plain"])
     reaching = Over.path(lift=0.3, extend=[0.0, 3.0], tilt=0.169, cases=["far"])
 
+    front_axle, rear_axle, M = Ground(0.0, 0.0), Ground(-2.85, 0.0), Ground(-1.75, 0.85)  # M of the chassis
+    body = Weight(M, mass=6100.0)
+    front = Support(front_axle, (0, 1))
+    rear = Support(rear_axle, (0, 1))
+
     ground = Outline.line((-4.2, 0.0), (7.0, 0.0))
-    front = Outline.circle(at=(0.0, 0.58), radius=0.58)
-    rear = Outline.circle(at=(-2.85, 0.58), radius=0.58)
+    front_wheel = Outline.circle(at=(0.0, 0.58), radius=0.58)
+    rear_wheel = Outline.circle(at=(-2.85, 0.58), radius=0.58)
     outer_tube = Outline([(-0.12, -0.12), (3.9, -0.14), (3.9, 0.14), (-0.12, 0.14)], on=(O, B))
     inner_tube = Outline([(-2.6, -0.10), (0.8, -0.10), (1.05, -0.58), (0.85, -0.58), (0.6, 0.10), (-2.6, 0.10)], on=(Q, T))
     chassis = Outline([(-3.3, 0.55), (0.45, 0.55), (0.45, 0.95), (-2.3, 0.95), (-2.3, 1.75), (-2.9, 1.75), (-3.3, 1.2)])

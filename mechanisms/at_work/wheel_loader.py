@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import dist
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import Featured, Ground, Link, LinkMass, LoadCase, Mechanism, Outline, Over, Pin, Stroke, Weight, angle, drawn
+from linkage import Featured, Ground, Link, LinkMass, LoadCase, Mechanism, Outline, Over, Pin, Planes, Stroke, Support, Weight, angle, drawn
 from linkage.units import bar, litre, minute, mm
 
 
@@ -44,9 +44,16 @@ class WheelLoader(Mechanism):
     loading = Over.path(lift=[0.05, 0.30, 0.55, 0.80], tilt=[0.36, 0.25, 0.15, 0.05], cases=["plain"])
     returning = Over.path(lift=[0.80, 0.05], tilt=[0.0, 0.20], cases=["empty"])
 
+    front_axle, rear_axle, M = Ground(0.35, 0.0), Ground(-2.55, 0.0), Ground(-1.55, 1.05)  # M of all behind the arm
+    body = Weight(M, mass=8400.0)
+    front = Support(front_axle, (0, 1))
+    rear = Support(rear_axle, (0, 1))
+
+    planes = Planes("PUV VW tilt_ram NWZQ", "ADPN lift_rams NWZQ", "front_wheel NWZQ", width=90 * mm)  # the bucket in all three
+
     ground = Outline.line((-3.6, 0.0), (4.2, 0.0))
-    front = Outline.circle(at=(0.35, 0.72), radius=0.72)
-    rear = Outline.circle(at=(-2.55, 0.72), radius=0.72)
+    front_wheel = Outline.circle(at=(0.35, 0.72), radius=0.72)
+    rear_wheel = Outline.circle(at=(-2.55, 0.72), radius=0.72)
     shell = Outline([(-0.05, -0.06), (1.16, 0.0), (0.78, 0.40), (0.40, 0.85), (0.0, 0.80), (-0.12, 0.30)], on=(N, Z))
 
     def featured(self) -> Featured:

@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from hydraulics import Cylinder
-from linkage import LoadCase, Motion, Part, equations, pin_forces, standing
+from linkage import LoadCase, LoadRule, Motion, Part, Target, equations, pin_forces, standing, working_field
 from linkage.files import load, to_toml
 from linkage.statics import holding, work
 from mechanisms.at_work.excavator import Excavator, HookExcavator
@@ -280,6 +280,82 @@ def test_the_front_loaders_thrusts_are_the_slope_of_its_potential_energy():
         ahead, behind = (energy(**at | {name: at[name] + sign * step}) for sign in (1.0, -1.0))
         assert_allclose(ram.thrust(motion), (ahead - behind) / (2.0 * step), rtol=1e-4)
     assert np.ptp(design.at(lift=[0.0, 0.3, 0.6], tilt=0.1)["attitude"]) < 1e-12
+
+
+# -- on tracks and axles -------------------------------------------------------------------------------------
+
+STANDING = {  # kg and m: each mass along and to the left of two points of its body, or at a place of the frame; where front and rear stand
+    HookExcavator: (
+        [(227.343, "boom.B", "boom.A", 1.025, 0.384), (130.123, "boom.A", "arm.L", 0.225, 0.227)], (2300.0, -0.90), (0.02, -1.52),
+    ),
+    Telehandler: (
+        [(700.0, "O", "B", 2.0, 0.0), (450.0, "Q", "T", -0.7, 0.0), (260.0, "forks.F", "forks.X", 0.20, 0.15)],
+        (6100.0, -1.75), (0.0, -2.85),
+    ),
+    WheelLoader: ([(900.0, "A", "N", 1.44, 0.17), (700.0, "N", "Z", 0.44, 0.24)], (8400.0, -1.55), (0.35, -2.55)),
+}  # fmt: skip
+LOADS = {HookExcavator: ("arm.L", "tool.load", 400.0), Telehandler: ("forks.G", "forks.load", 3000.0), WheelLoader: ("Q", "load", 3000.0)}
+VEHICLES = pytest.mark.parametrize("machine", STANDING, ids=lambda machine: machine.__name__)
+
+
+def own_moment(machine, motion, about):
+    """Return the moment of all weights but the load about a place of the ground [Nm], by hand, and the sum of the weights [N]."""
+    masses, (frame, x), _ = STANDING[machine]
+    place = {name: np.moveaxis(np.broadcast_to(motion[name], (2, *motion.shape)), 0, -1) for each in masses for name in each[1:3]}
+    moment, total = frame * (about - x), frame
+    for mass, P, Q, along, left in masses:
+        reach = place[Q] - place[P]
+        e = reach / np.linalg.norm(reach, axis=-1, keepdims=True)
+        moment = moment + mass * (about - (place[P][..., 0] + along * e[..., 0] - left * e[..., 1]))
+        total += mass
+    return plane.G * moment, plane.G * total
+
+
+@VEHICLES
+def test_axle_loads_are_the_moments_about_the_axles(machine):
+    motion, (_, _, (front, rear)) = machine().at(**middle(machine)), STANDING[machine]
+    point, _, mass = LOADS[machine]
+    found, weight = standing(motion).reactions, mass * plane.G
+    about_front, total = own_moment(machine, motion, front)
+    on_rear = (about_front + weight * (front - motion.x(point))) / (front - rear)
+    assert_allclose(found["rear"], on_rear, rtol=1e-11)
+    assert_allclose(found["front"], total + weight - on_rear, rtol=1e-11)
+
+
+@VEHICLES
+def test_where_tipping_limits_the_chart_the_rear_axle_carries_nothing(machine):
+    """In every such cell the load is the share of the rule of what balances the machine over its front axle."""
+    point, load, _ = LOADS[machine]
+    keep = {Telehandler: [Target("level", 0.0)], WheelLoader: []}.get(machine, [])
+    heights = np.linspace(1.0, 3.0, 5) if machine is not HookExcavator else np.linspace(-1.0, 1.0, 5)
+    field = working_field(
+        machine(), point, x=np.linspace(1.0, 3.0, 9), y=heights, keep=keep, rule=LoadRule("works rule", tipping=0.6), without=[load]
+    )
+    tips, (_, _, (front, _)) = field.limiter == "tipping", STANDING[machine]
+    assert np.count_nonzero(tips) >= 5
+    strokes = {name: values[tips] for name, values in field.strokes.items()}
+    motion = machine().at(**strokes)
+    moment, _ = own_moment(machine, motion, front)
+    assert_allclose(field.load[tips], 0.6 * moment / (motion.x(point) - front), rtol=1e-8)
+
+
+def test_the_loaders_bucket_stays_clear_of_lever_and_wheel():
+    """The least clearance is that of lever and bucket; where the bucket is curled farther its shell comes nearer, by corners and edges."""
+    design = WheelLoader()
+    found = next(each for each in design.verdicts() if "clearance" in each)
+    assert found.ok and "PUV and shell" in str(found)
+    motion = design.at(**found.answer.strokes)
+    N, Z = np.ravel(motion["N"]), np.ravel(motion["Z"])
+    corners = [plane.on(N, Z, *each) for each in ((-0.05, -0.06), (1.16, 0.0), (0.78, 0.40), (0.40, 0.85), (0.0, 0.80), (-0.12, 0.30))]
+    lever = [np.ravel(motion[name]) for name in "PUV"]
+
+    def apart(A, B, C):
+        share = np.clip((C - A) @ (B - A) / ((B - A) @ (B - A)), 0.0, 1.0)
+        return np.hypot(*(C - A - share * (B - A)))
+
+    pairs = [(corners, lever), (lever, corners)]
+    least = min(apart(side[k - 1], side[k], C) for side, others in pairs for k in range(len(side)) for C in others)
+    assert_allclose(found.answer.value, least - 0.09, atol=1e-9)
 
 
 # -- the tractor ---------------------------------------------------------------------------------------------

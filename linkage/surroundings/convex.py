@@ -28,7 +28,8 @@ def signed_area(corners: Corners) -> float:
 def convex_pieces(corners: Corners) -> tuple[tuple[int, ...], ...]:
     """Return convex pieces that make up a closed line, the numbers of their corners counter-clockwise; none of one that crosses itself.
 
-    Ears are cut off until a triangle is left, then neighbours are joined again while they stay convex.
+    Ears are cut off until a triangle is left, that with the shortest cut first; then neighbours are joined again while they stay convex,
+    across the longest cut first. So the pieces do not hang on which corner is counted first, on the sense, nor on where the line stands.
     Source: J. O'Rourke, Computational geometry in C (1998), 1.4; S. Hertel, K. Mehlhorn, FCT 1983, LNCS 158, 207-218.
     """
     order = list(range(len(corners)))
@@ -36,9 +37,10 @@ def convex_pieces(corners: Corners) -> tuple[tuple[int, ...], ...]:
         order.reverse()
     triangles: list[tuple[int, ...]] = []
     while len(order) > 3:
-        ear = next((place for place in range(len(order)) if is_ear(corners, order, place)), None)
-        if ear is None:
+        ears = [place for place in range(len(order)) if is_ear(corners, order, place)]
+        if not ears:
             return ()
+        ear = min(ears, key=lambda place: squared_length(corners, order[place - 1], order[(place + 1) % len(order)]))
         a, b, c = (order[(ear + step) % len(order)] for step in (-1, 0, 1))
         if turn(corners, a, b, c) > FLAT * squared_extent(corners):
             triangles.append((a, b, c))
@@ -46,6 +48,11 @@ def convex_pieces(corners: Corners) -> tuple[tuple[int, ...], ...]:
     if len(order) == 3 and turn(corners, *order) > FLAT * squared_extent(corners):
         triangles.append((order[0], order[1], order[2]))
     return joined_pieces(corners, triangles)
+
+
+def squared_length(corners: Corners, a: int, b: int) -> float:
+    """Return the square of the distance of two corners [m2]."""
+    return float(np.square(corners[b] - corners[a]).sum())
 
 
 def squared_extent(corners: Corners) -> float:
@@ -74,31 +81,24 @@ def joined_pieces(corners: Corners, pieces: list[tuple[int, ...]]) -> tuple[tupl
     """Return convex pieces, neighbours joined across an edge where both together are convex."""
     found = list(pieces)
     while True:
-        pair = next(
-            (
-                (i, j, both)
-                for i in range(len(found))
-                for j in range(i + 1, len(found))
-                if (both := across_edge(found[i], found[j])) and is_convex(corners, both)
-            ),
-            None,
-        )
-        if pair is None:
+        shared = [(i, j, *across_edge(found[i], found[j])) for j in range(len(found)) for i in range(j)]
+        pairs = [(squared_length(corners, *edge), i, j, both) for i, j, both, edge in shared if both and is_convex(corners, both)]
+        if not pairs:
             return tuple(found)
-        i, j, both = pair
+        _, i, j, both = max(pairs, key=lambda each: each[0])
         del found[j], found[i]
         found.append(both)
 
 
-def across_edge(one: tuple[int, ...], other: tuple[int, ...]) -> tuple[int, ...]:
-    """Return two pieces as one, without the edge that they share; empty where they share none."""
+def across_edge(one: tuple[int, ...], other: tuple[int, ...]) -> tuple[tuple[int, ...], tuple[int, int]]:
+    """Return two pieces as one, without the edge that they share, and that edge; an empty one where they share none."""
     for k, edge in enumerate(pairwise((*one, one[0]))):
         for m, back in enumerate(pairwise((*other, other[0]))):
             if edge == (back[1], back[0]):
                 first = one[k + 1 :] + one[: k + 1]
                 second = other[m + 1 :] + other[: m + 1]
-                return first + second[1:-1]
-    return ()
+                return first + second[1:-1], edge
+    return (), (0, 0)
 
 
 def is_convex(corners: Corners, piece: tuple[int, ...]) -> bool:

@@ -98,18 +98,6 @@ def test_the_gap_of_outlines_against_points_along_them(seed):
             assert apart - gaps[k] <= 0.02
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_exchanging_the_two_changes_nothing(seed):
-    rng = np.random.default_rng(100 + seed)
-    one, other = star(rng, 7), star(rng, 5)
-    motion = facing(one, other)().sweep(s=11)
-    assert_allclose(motion[gap("one", "other")], motion[gap("other", "one")], rtol=1e-13, atol=1e-15)
-    again = facing(one[::-1], np.roll(other, 2, axis=0))().sweep(s=11)[gap("one", "other")]
-    apart = motion[gap("one", "other")] > 0.0
-    assert_allclose(again[apart], motion[gap("one", "other")][apart], rtol=1e-12)
-    assert np.array_equal(again > 0.0, apart)
-
-
 def test_a_convex_outline_is_the_hull_of_its_points():
     class Hull(Mechanism):
         s = Stroke(0.0, 1.4)

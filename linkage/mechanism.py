@@ -96,6 +96,16 @@ def of_own_motion(method: Callable[[Mechanism, Motion], Result]) -> Callable[[Me
     return checked
 
 
+def design_of_motion(motion: Motion) -> Mechanism:
+    """Return the design that a motion is of; DefinitionError where its class is not there any more."""
+    classes: list[type[Mechanism]] = [Mechanism]
+    for each in classes:
+        if each.plan is motion.plan:
+            return each(**motion.designs)
+        classes += each.__subclasses__()
+    raise DefinitionError(f"{motion.plan.title}: the class of this motion is not there any more; give its machine.")
+
+
 def check_motion(machine: Mechanism, motion: object, what: str) -> None:
     """Raise DefinitionError for what is no motion, or one of a machine that has not what this one has."""
     found = require_motion(motion)

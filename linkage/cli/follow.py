@@ -26,7 +26,8 @@ from .settings import acting_of, columns_picked, design, force_arguments, pair, 
 from .table import COLUMNS, csv_argument, write_table
 
 FILMS = (".gif", ".mp4")
-PICTURES = (".png", ".svg", ".pdf", *FILMS)
+PAGE = ".html"
+PICTURES = (".png", ".svg", ".pdf", *FILMS, PAGE)
 MOST_PLACES = 100_000
 SIZE = 1 << 26
 """Bytes of a path's file."""
@@ -56,7 +57,8 @@ class FollowCommand(Command):
         parser.add_argument("--start", metavar="S=1.1m,T=0.2m", action="append", default=[], help=begun)
         parser.add_argument("--gaps", action="store_true", help="leave places empty that are not reached, instead of saying why")
         csv_argument(parser)
-        parser.add_argument("-o", "--output", metavar="FILE", help=f"a picture of the path or an animation along it: {', '.join(PICTURES)}")
+        shown = f"a picture, an animation along the path, its live page: {', '.join(PICTURES)}"
+        parser.add_argument("-o", "--output", metavar="FILE", help=shown)
         force_arguments(parser)
 
     def run(self, options: Namespace) -> int:
@@ -73,7 +75,7 @@ class FollowCommand(Command):
             columns = [*columns_picked(machine, motion, list(motion.strokes), []), *path_columns(motion, targets)]
         write_table(columns, motion.reached.size, options.csv)
         if path is not None:
-            draw_along(machine, motion, path)
+            draw_along(machine, motion, path, options.language)
             print(path)
         return 0
 
@@ -142,10 +144,13 @@ def path_columns(motion: Motion, targets: Mapping[str, Target]) -> list[Column]:
     ]  # fmt: skip
 
 
-def draw_along(machine: Mechanism, motion: Motion, path: Path) -> None:
-    """Write a picture of a path's ends, or an animation along the part of it that is reached."""
-    from ..pictures import animate, draw
+def draw_along(machine: Mechanism, motion: Motion, path: Path, language: str) -> None:
+    """Write a picture of a path's ends, its live page, or an animation along the part of it that is reached."""
+    from ..pictures import animate, draw, page
 
+    if path.suffix.lower() == PAGE:
+        page(motion, path, language=language)
+        return
     if path.suffix.lower() not in FILMS:
         draw(motion).savefig(path)
         return

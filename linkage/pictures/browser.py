@@ -9,9 +9,9 @@ from typing import Any
 
 from ..disk import check_place, replacing_text
 from ..errors import DefinitionError, cited
-from ..mechanism import Mechanism, require_mechanism
-from ..motion import Column, RequestLike, live_text
-from ..reports import NOTHING
+from ..mechanism import Mechanism, design_of_motion, require_mechanism
+from ..motion import Column, Motion, RequestLike, live_text
+from ..reports import NOTHING, At
 from ..study import WorkingField
 from .browser_data import PageRequests, page_data
 from .browser_file import page_part, page_text
@@ -23,7 +23,7 @@ COUNT = 101
 
 
 def page(
-    machine: Mechanism | WorkingField,
+    machine: Mechanism | Motion | WorkingField,
     path: str | Path,
     *,
     vary: Sequence[str] | Mapping[str, Sequence[float] | None] | None = None,
@@ -48,6 +48,11 @@ def page(
     names points whose paths are drawn, `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))` says where one runs [m or rad],
     `count` is the number of poses of the curve. The page speaks English and Russian, `language` is the one it begins with.
 
+    Several strokes that run together, `at=dict(lift=[...], dump=[...])`, are a path with places from 1 on, straight in the strokes between
+    two of them: it has a slider, the curve is drawn over it, and a stroke that is moved by its own slider leaves it. Of a motion along one
+    path, `machine.follow(...)`, that is its page: the curves and the verdicts are along it; of one that is not reached everywhere, along
+    the longest part that is.
+
     Of a working field it is the load chart as it is printed, with the machine beside it in the pose of the cell that is pointed at, by the
     mouse, a finger or the arrow keys, and all that the cell says: the load, what limits it, what each limiter leaves, the strokes, or why
     it is out of reach. Only `language` goes with it.
@@ -55,7 +60,7 @@ def page(
     Raises DefinitionError for a batch of designs, an unknown name, or a file that does not end in .html, FileError for a path that cannot
     be written.
     """
-    if not isinstance(machine, WorkingField):
+    if not isinstance(machine, (Motion, WorkingField)):
         require_mechanism(machine)
     if not isinstance(path, (str, os.PathLike)) or Path(path).suffix.lower() != ".html":
         raise DefinitionError(f"{cited(path)} is no name of a page; give one that ends in .html.")
@@ -66,17 +71,23 @@ def page(
         check_place(target)
         text = chart_page(machine, language)
     else:
-        given: dict[str, Any] = {"vary": vary, "columns": columns, "column": column, "trace": trace, "limit": limit, "at": at}
-        text = page_html(machine, place=target, count=count, language=language, **given)
+        given: dict[str, Any] = {"vary": vary, "columns": columns, "column": column, "trace": trace, "limit": limit}
+        text = page_html(machine, place=target, count=count, language=language, at=at, **given)
     with replacing_text(target) as stream:
         stream.write(text)
     return target
 
 
-def page_html(machine: Mechanism, *, count: int = COUNT, language: str = "en", place: Path | None = None, **given: Any) -> str:
+def page_html(
+    machine: Mechanism | Motion, *, count: int = COUNT, language: str = "en", place: Path | None = None, at: At = NOTHING, **given: Any
+) -> str:
     """Return the HTML of a live page; `given` are the other arguments of `page`."""
+    if isinstance(machine, Motion):
+        if at:
+            raise DefinitionError(f"{machine.plan.title}: page(motion): a motion has its poses; at= goes with a machine.")
+        machine, given = design_of_motion(machine), given | {"along": machine}
     require_mechanism(machine)
-    requests = PageRequests(machine, frame_count(count), **given)
+    requests = PageRequests(machine, frame_count(count), at=at, **given)
     if place is not None:
         check_place(place)
     live = live_text(machine.plan, requests.by_name, name="engine")

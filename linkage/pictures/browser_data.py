@@ -17,8 +17,8 @@ from ..motion import Column, LiveText, Motion, Request, RequestLike, Tabled, spe
 from ..motion.requests import NodeRequest
 from ..plan import Plan, opening, plan_measure
 from ..program import FloatArray, Node
-from ..quantities import as_mapping, is_number, joined_names
-from ..reports import At, Run, column_requests, run_of
+from ..quantities import is_number, joined_names
+from ..reports import NOTHING, At, column_requests, run_along, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, ground_loads, pin_force, pin_forces, traced_loads
 from ..units import UNITS, deg, display_unit, factor, shown_in
 from ..verdict import Verdict
@@ -36,6 +36,10 @@ ACROSS = 720.0
 SHOWN = 6
 """How many dimensions a page shows at first."""
 STEPS = ("length", "angle")
+ALONG = "along the path"
+"""What the place on a path is called among the strokes; no stroke can be called so."""
+ROUND = 1e-9
+"""A path whose strokes end so near to where they began, of what they pass, goes round."""
 
 
 def track_number(track: SlideTrack, part: str, axis: str) -> NodeRequest:
@@ -86,12 +90,16 @@ class PageRequests:
         column: str | None = None,
         trace: Sequence[str] | None = None,
         limit: Any = None,
-        at: At,
+        at: At = NOTHING,
+        along: Motion | None = None,
     ) -> None:
-        self.machine, self.plan, self.count = machine, machine.plan, count
-        self.run = run_of(machine, at)
-        self.ends = one_way(machine, self.run)
-        values: dict[str, Any] = {**self.run.held, self.run.stroke: np.linspace(*self.ends, count)}
+        self.machine, self.plan, self.along = machine, machine.plan, along
+        self.run, self.first = (run_of(machine, at), 0) if along is None else run_along(along)
+        self.ends = self.run.ways[self.run.stroke]
+        values: dict[str, Any] = {**self.run.held, self.run.stroke: np.linspace(self.ends[0], self.ends[-1], count)}
+        if self.run.is_path:
+            values = self.run.divided(count)
+        self.count = len(values[self.run.stroke])
         self.motion = machine.at(unreachable="nan", **values)
         if not self.motion.reached.any():
             machine.at(**values)
@@ -104,7 +112,7 @@ class PageRequests:
             self.columns = chosen_columns(machine, self.motion, columns)
         self.column = self._column(column)
         self.limits = self._limits(limit)
-        self.questions = LiveQuestions(machine, {name: limit[:3] for name, limit in self.limits.items()}, self.columns)
+        self.questions = LiveQuestions(machine, {name: limit[:3] for name, limit in self.limits.items()}, self.columns, along)
         self.by_name: dict[str, RequestLike] = {}
         self._ask()
 
@@ -188,16 +196,6 @@ def joint_part(joint: JointForce, joints: Sequence[JointForce], axis: str) -> Re
     return found
 
 
-def one_way(machine: Mechanism, run: Run) -> tuple[float, float]:
-    """Return the two ends of the one stroke that runs [m or rad]; DefinitionError where several run, or one turns back."""
-    way = run.ways[run.stroke]
-    if len(run.ways) > 1 or len(way) != 2:
-        said = f"{machine.plan.title}: on a page one stroke runs between two values, and each has a slider"
-        ends = as_mapping({run.stroke: f"({way[0]:.4g}, {way[-1]:.4g})"})
-        raise DefinitionError(f"{said}; hold the others, at={ends}, or animate them as a .gif.")
-    return way[0], way[1]
-
-
 def acting_points(plan: Plan) -> list[tuple[int, str]]:
     """Return the places of a machine's own loads among all that act, with their points; none where they have no program."""
     try:
@@ -275,8 +273,8 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "dims": dims,
         "units": {typeset(unit): factor(unit) for unit in ("", *UNITS) if typeset(unit) in used},
         "shown": [names.index(name) for name in shown_first(requests, names)],
-        "strokes": [stroke_data(requests, name) for name in machine.strokes],
-        "run": list(machine.strokes).index(run.stroke),
+        "strokes": [*(stroke_data(requests, name) for name in machine.strokes), *([path_data(requests)] if run.is_path else [])],
+        "run": len(machine.strokes) if run.is_path else list(machine.strokes).index(run.stroke),
         "columns": columns,
         "column": list(requests.columns).index(requests.column),
         "limits": {typeset(name): limit_data(requests, name) for name in requests.limits},
@@ -292,7 +290,7 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "paths": [list(plan.points).index(name) for name in requests.trace],
         "grips": grip_data(plan, names),
         "steps": {name: opening(plan, name) for name in plan.points},
-        "verdicts": verdict_data(machine),
+        "verdicts": verdict_data(machine, requests.along),
         "judge": requests.questions.data(live),
         "domain": "; ".join(place.over.words(place.motion) for place in requests.questions.judge.places),
     }
@@ -367,11 +365,21 @@ def stroke_data(requests: PageRequests, name: str) -> dict[str, Any]:
     """Return a stroke: its range, where it stands, its unit, and whether it goes round."""
     stroke, run = requests.machine.strokes[name], requests.run
     unit = shown_in(stroke_display_unit(requests.plan, name, "mm"))
-    runs = name == run.stroke
-    start, end = requests.ends if runs else (stroke.start, stroke.end)
+    way = run.ways.get(name, (run.held.get(name, 0.0),))
+    runs = name == run.stroke and not run.is_path
+    start, end = (way[0], way[-1]) if runs else (stroke.start, stroke.end)
     turn = runs and is_turn(requests.machine, run) and bool(requests.motion.reached.all()) and ends_where_begun(requests.motion)
-    at = start if runs else run.held[name]
-    return {"name": name, "start": start, "end": end, "at": at, "unit": unit, "factor": factor(unit), "turn": int(turn)}
+    return {"name": name, "start": start, "end": end, "at": way[0], "unit": unit, "factor": factor(unit), "turn": int(turn)}
+
+
+def path_data(requests: PageRequests) -> dict[str, Any]:
+    """Return the path as one more stroke: the numbers of its places, and the values of the strokes that it drives, by their places."""
+    run, names = requests.run, list(requests.machine.strokes)
+    first, last = requests.first + 1, requests.first + len(requests.ends)
+    turn = all(abs(way[-1] - way[0]) <= ROUND * np.ptp(way) for way in run.ways.values())
+    path = {names.index(name): list(way) for name, way in run.ways.items()}
+    given = {"name": ALONG, "start": first, "end": last, "at": first, "unit": "", "factor": 1.0}
+    return given | {"turn": int(turn), "path": path}
 
 
 def column_data(name: str, found: tuple[Column, RequestLike, str], live: LiveText, motion: Motion) -> list[Any]:
@@ -525,8 +533,8 @@ def label_offsets(scene: Scene) -> list[list[float]]:
     return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
 
 
-def verdict_data(machine: Mechanism) -> list[list[Any]]:
-    """Return the machine's verdicts over all that it runs, as they stand for the design that is delivered.
+def verdict_data(machine: Mechanism, along: Motion | None) -> list[list[Any]]:
+    """Return the machine's verdicts over all that it runs, or along a motion, as they stand for the design that is delivered.
 
     Each is 1 where it is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence, then
     what differs in Russian.
@@ -535,7 +543,7 @@ def verdict_data(machine: Mechanism) -> list[list[Any]]:
     for name in ("en", "ru"):
         with language(name), unwarned():
             try:
-                said[name] = [verdict_parts(each) for each in machine.verdicts()]
+                said[name] = [verdict_parts(each) for each in machine.verdicts(along)]
             except LinkageError as error:
                 said[name] = [(2, "", str(error))]
     pairs = zip(said["en"], said["ru"], strict=True) if len(said["en"]) == len(said["ru"]) else [(each, each) for each in said["en"]]

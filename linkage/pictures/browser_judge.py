@@ -47,8 +47,8 @@ def where_true(request: Request, which: str) -> NodeRequest:
 class LiveQuestions:
     """The questions of a page, and the rows that they ask the program for, by names of their own."""
 
-    def __init__(self, machine: Mechanism, limits: Mapping[str, Any], columns: Mapping[str, Any]) -> None:
-        self.machine, self.judge = machine, machine.judge()
+    def __init__(self, machine: Mechanism, limits: Mapping[str, Any], columns: Mapping[str, Any], over: Motion | None) -> None:
+        self.machine, self.judge = machine, machine.judge(over)
         self.by_name: dict[str, RequestLike] = {}
         self.only = [self.rows_of_conditions(place.over.only) for place in self.judge.places]
         self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Any]]]] = []

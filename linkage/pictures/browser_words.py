@@ -86,6 +86,7 @@ SAID = (
     noted("Space plays; arrow keys, Home and End move the stroke. Drag a ground pin; double-click a name to put it back."),
     noted("Play"),
     noted("Pause"),
+    noted("place"),
     noted("Load chart"),
     noted("limited by {name}"),
     noted("What each limiter leaves"),

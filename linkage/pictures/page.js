@@ -17,12 +17,27 @@ const vector = (design) => order.map((i) => design[i]);
 function sweep(design, at, run) {
   const { start, end } = strokes[run];
   const along = Float64Array.from({ length: COUNT }, (_, i) => (i === COUNT - 1 ? end : start + ((end - start) * i) / (COUNT - 1)));
-  const found = engine.sweep(vector(design), at.map((value, k) => (k === run ? along : new Float64Array(COUNT).fill(value))));
+  const poses = Array.from(along, (value) => followed(at.map((stands, k) => (k === run ? value : stands)), run));
+  const found = engine.sweep(vector(design), own.map((_, k) => Float64Array.from(poses, (pose) => pose[k])));
   return { ...found, along, reached: [...along.keys()].filter((i) => found.reason[i] === 0) };
 }
-const single = (design, at) => engine.sweep(vector(design), at.map((value) => [value]));
+/* Along a path all strokes that it drives follow the place on it, in straight lines from one of its places to the next. */
+const own = strokes.filter((each) => !each.path);
+function followed(at, run = runs) {
+  const { path, start } = strokes[run], found = [...at];
+  for (const k in path) {
+    const i = min(max(floor(at[run] - start), 0), path[k].length - 2);
+    found[k] = path[k][i] + (path[k][i + 1] - path[k][i]) * (at[run] - start - i);
+  }
+  return found;
+}
+const single = (design, at) => engine.sweep(vector(design), followed(at).slice(0, own.length).map((value) => [value]));
+const titled = (each) => (each.path ? say("place") : each.name);
 const isChanged = () => dims.some((each, i) => present[i] !== each.value);
-const isMoved = () => runs !== data.run || strokes.some((each, k) => k !== runs && stands[k] !== each.at);
+const isDriven = (k) => k === runs || k in (strokes[runs].path || {});
+const isMoved = () => runs !== data.run || own.some((each, k) => !isDriven(k) && stands[k] !== each.at);
+/* Let another stroke, or the place on the path, run from where the machine stands. */
+function runsOn(run) { stands = followed(stands); runs = run; }
 
 /* Return why a pose cannot be had. */
 function why(found, i, what) {
@@ -222,7 +237,7 @@ function plotted() {
   }
   rule(L, T, L, H - B, "rule"); rule(L, H - B, W - R, H - B, "rule");
   const compares = was && !isMoved();
-  write(compares ? L : 0.5 * (L + W - R), H - 6, `${stroke.name}, ${signed(stroke.unit)}`, { anchor: compares ? "start" : "middle" });
+  write(compares ? L : 0.5 * (L + W - R), H - 6, stroke.unit ? `${titled(stroke)}, ${signed(stroke.unit)}` : titled(stroke), { anchor: compares ? "start" : "middle" });
   if (compares) line(was, y, "muted", 2, { dash: "3 4" });
   if (others) line(others, same ? y : y2, "other", 2.2, {});
   chart = { one, two, values, others, along, x, y, y2: same ? y : y2 };
@@ -264,7 +279,7 @@ function mark(each, list, up, dot, out) {
 
 /* ---- verdicts ---- */
 
-const strokeText = (value) => { const stroke = strokes[runs]; return `${stroke.name} = ${shown(value, stroke, 4)}`; };
+const strokeText = (value) => { const stroke = strokes[runs]; return `${titled(stroke)} = ${shown(value, stroke, 4)}`; };
 const mm = (value) => fixed(value / data.length.factor, data.length.factor > 0.01 ? 2 : 1) + unitText(data.length.unit);
 /* Return the least and the greatest of some values with their strokes, a parabola laid through the poses next to them. */
 function extremes(values) {
@@ -287,7 +302,7 @@ function asked(n) {
   if (known.key !== key) known = { key, ...asking.ask(design, n, n === STILL) };
   return known;
 }
-const placeText = (at) => strokes.map((each, k) => `${each.name} = ${shown(at[k], each, 4)}`).join(", ");
+const placeText = (at) => own.map((each, k) => `${each.name} = ${shown(at[k], each, 4)}`).join(", ");
 function situationText(each) {
   const words = [];
   if (each.direction) {
@@ -315,13 +330,13 @@ function verdicts(n = STILL) {
   if (!all) {
     const lost = [...now.along.keys()].filter((i) => now.reason[i]), worst = lost.reduce((a, b) => (now.missing[b] > (now.missing[a] || 0) ? b : a), lost[0]);
     const spans = stretches(lost).map(([a, b]) => say("{from} to {to}", { from: shown(now.along[a], stroke, 4), to: shown(now.along[b], stroke, 4) })).join(", ");
-    add(false, say("assembly"), why(now, worst, say("not assembled at {stroke} = {spans}", { stroke: stroke.name, spans })));
+    add(false, say("assembly"), why(now, worst, say("not assembled at {stroke} = {spans}", { stroke: titled(stroke), spans })));
     for (const text of ends(lost)) add(null, say("dead point"), text);
   } else if (deepest) {
     const what = say("{share} of the places looked at are lost, deepest at {place}", { share: `${fixed(100 * deepest.share, 1)}\u2009%`, place: placeText(deepest.strokes) });
     add(false, say("assembly"), why({ reason: [deepest.reason], missing: [deepest.missing] }, 0, what));
-  } else add(true, say("assembly"), say("assembled over the whole stroke, {stroke} from {from} to {to}", { stroke: stroke.name, from, to }));
-  const far = all ? beyond() : null;
+  } else add(true, say("assembly"), say("assembled over the whole stroke, {stroke} from {from} to {to}", { stroke: titled(stroke), from, to }));
+  const far = all && !stroke.path ? beyond() : null;
   if (far) add(null, say("dead point"), say("the nearest is of {step} at {where}, {away} beyond the stroke", far));
   let tight = null;
   for (const { point, row } of data.joints) { const ext = extremes(now.values[row]); if (ext && (!tight || ext.low.value < tight.value)) tight = { ...ext.low, point }; }
@@ -433,24 +448,28 @@ function list(parent, found) {
 
 const sizeRows = new Map();
 function strokeSliders() {
-  byId("strokes").replaceChildren(...strokes.map((each, k) => {
+  const rows = strokes.map((each, k) => {
     const row = make("label"), slider = make("input"), out = make("output"), label = make("span");
     row.className = "stroke"; label.textContent = each.name;
+    if (each.path) label.dataset.say = "place";
     Object.assign(slider, { type: "range", min: 0, max: 1000, step: "any" });
     slider.setAttribute("aria-label", each.name);
     slider.dataset.stroke = each.name;
     on(slider, "input", () => {
+      const turns = k !== runs && (isDriven(k) || each.path);
+      if (turns) { runsOn(k); choosers(); }
       if (k === runs) play(false);
       const at = [...stands];
       at[k] = Number(slider.value) >= 1000 ? each.end : each.start + ((each.end - each.start) * Number(slider.value)) / 1000;
-      moved(present, at, each.name);
+      moved(present, at, titled(each));
       if (k === runs) clock = phaseNow();
-      soon(k === runs ? "pose" : "sweep"); remember();
+      soon(k === runs && !turns ? "pose" : "sweep"); remember();
     });
     row.append(label, slider, out);
     each.slider = slider; each.out = out;
     return row;
-  }));
+  });
+  byId("strokes").replaceChildren(...rows.slice(own.length), ...rows.slice(0, own.length));
 }
 const nice = (each) => { const wide = (each.high - each.low) / each.factor / 400, power = 10 ** floor(log10(wide)); return [1, 2, 5, 10].map((k) => k * power).find((k) => k >= wide) * each.factor; };
 const LENGTHS = { mm: 1e-3, cm: 1e-2, m: 1, in: 0.0254, ft: 0.3048 };
@@ -523,7 +542,7 @@ function choosers() {
   const all = columns.map((each, i) => option(heading(each) + (each.row === undefined ? " *" : ""), i));
   byId("column").replaceChildren(...all); byId("column").value = String(column);
   byId("second").replaceChildren(option("\u2013", -1), ...all.map((each) => each.cloneNode(true))); byId("second").value = String(second);
-  byId("run").replaceChildren(...strokes.map((each, k) => option(each.name, k))); byId("run").value = String(runs);
+  byId("run").replaceChildren(...strokes.map((each, k) => option(titled(each), k))); byId("run").value = String(runs);
   byId("runs").hidden = strokes.length < 2;
   byId("runs").style.display = strokes.length < 2 ? "none" : "";
   byId("forces").style.display = data.arrows.length ? "" : "none";
@@ -531,7 +550,7 @@ function choosers() {
 }
 on(byId("column"), "change", (event) => { column = Number(event.target.value); soon("curve"); remember(); });
 on(byId("second"), "change", (event) => { second = Number(event.target.value); soon("curve"); remember(); });
-on(byId("run"), "change", (event) => { runs = Number(event.target.value); clock = phaseNow(); soon("design"); remember(); });
+on(byId("run"), "change", (event) => { runsOn(Number(event.target.value)); clock = phaseNow(); soon("design"); remember(); });
 on(byId("forces"), "click", () => { showsForces = !showsForces; choosers(); soon("fit"); remember(); });
 on(byId("reset"), "click", () => { present = [...original]; stands = firstStand(); runs = data.run; begin(); chosen = [...data.shown]; column = data.column; second = -1; play(false); warn(""); listSizes(); choosers(); soon("fit"); remember(); });
 on(byId("copy"), "click", async () => {
@@ -556,7 +575,7 @@ function speak() {
 
 function told() {
   const said = new URLSearchParams();
-  strokes.forEach((each, k) => said.set(`s.${each.name}`, String(stands[k])));
+  followed(stands).forEach((value, k) => said.set(`s.${strokes[k].name}`, String(value)));
   dims.forEach((each, i) => { if (present[i] !== each.value) said.set(`d.${each.name}`, String(present[i])); });
   if (runs !== data.run) said.set("run", strokes[runs].name);
   if (column !== data.column) said.set("column", columns[column].name);
@@ -637,9 +656,10 @@ function render(work) {
   for (const part of parts) part(at);
   mark(chart.one, chart.values, chart.y, chart.marker, "value");
   mark(chart.two, chart.others, chart.y2, chart.second, "other");
-  strokes.forEach((each, k) => {
-    each.slider.value = String((1000 * (stands[k] - each.start)) / (each.end - each.start));
-    const text = fixed(stands[k] / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
+  followed(stands).forEach((value, k) => {
+    const each = strokes[k];
+    each.slider.value = String((1000 * (value - each.start)) / (each.end - each.start));
+    const text = fixed(value / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
     each.out.textContent = text; each.slider.setAttribute("aria-valuetext", text);
   });
   if (anew || sized || work.has("size")) showSizes();
@@ -685,7 +705,7 @@ play(!restored && !window.matchMedia("(prefers-reduced-motion: reduce)").matches
 /* For tests and for pages around this one: read and set what is shown. */
 window.hydrolinkage = {
   engine, data, timing,
-  state: () => ({ design: Object.fromEntries(dims.map((each, i) => [each.name, present[i]])), at: Object.fromEntries(strokes.map((each, k) => [each.name, stands[k]])), playing, language, column, second, forces: showsForces }),
+  state: () => ({ design: Object.fromEntries(dims.map((each, i) => [each.name, present[i]])), at: Object.fromEntries(followed(stands).map((value, k) => [strokes[k].name, value])), playing, language, column, second, forces: showsForces }),
   set: ({ design = {}, at = {} }) => {
     const ok = moved(dims.map((each, i) => design[each.name] ?? present[i]), strokes.map((each, k) => at[each.name] ?? stands[k]), "set");
     render(new Set(["design"]));

@@ -101,6 +101,35 @@ class Run:
             passed[np.argmin(np.abs(passed - mark))] = mark
         return {**self.held, **{name: np.interp(passed, self.marks, way) for name, way in self.ways.items()}}
 
+    @property
+    def is_path(self) -> bool:
+        """Whether it is more than one stroke from end to end: several together, or one that passes other values on its way."""
+        return len(self.ways) > 1 or len(self.ways[self.stroke]) != 2
+
+    def divided(self, count: int) -> dict[str, Any]:
+        """Return all strokes at so many poses or a few more: what is passed, and as many poses between any two of them."""
+        legs = len(self.ways[self.stroke]) - 1
+        place = np.linspace(0.0, legs, legs * max(1, -(-(count - 1) // legs)) + 1)
+        return {**self.held, **{name: np.interp(place, np.arange(legs + 1), way) for name, way in self.ways.items()}}
+
+
+def run_along(motion: Motion) -> tuple[Run, int]:
+    """Return what moves along a motion of one axis, through all its places, and the number from 0 of the first of them.
+
+    Of one that is not reached at all its places it is the longest part that is. DefinitionError for a grid, a batch, fewer than two places.
+    """
+    title, shape = require_motion(motion).plan.title, motion.shape
+    if len(shape) != 1 or motion._design_shape:
+        said = f"one design along one path is expected, and this motion is of shape {shape}"
+        raise DefinitionError(f"{title}: {said}; choose one path of it.")
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], motion.reached, [False]])))
+    first, last = max(zip(ends[::2].tolist(), ends[1::2].tolist(), strict=True), key=lambda part: part[1] - part[0], default=(0, 0))
+    ways = {name: tuple(values[first:last].tolist()) for name, values in motion.strokes.items()}
+    moving = {name: way for name, way in ways.items() if len(set(way)) > 1}
+    if not moving:
+        raise DefinitionError(f"{title}: nothing moves along this motion; it has {last - first} places in reach.")
+    return Run(moving, {name: way[0] for name, way in ways.items() if name not in moving}), first
+
 
 def run_of(machine: Mechanism, at: At = NOTHING) -> Run:
     """Return what moves: the strokes that `at` gives two values or more, else the first that it does not hold, over its range.

@@ -116,3 +116,9 @@ def test_a_stroke_that_is_not_there_is_told(tmp_path, loader, capsys):
     assert "Did you mean dump?" in capsys.readouterr().err
     assert main(["follow", loader, "--path", str(tmp_path / "nowhere.csv")]) == 2
     assert "nowhere.csv" in capsys.readouterr().err
+
+
+def test_the_page_along_a_path(tmp_path, loader, capsys):
+    file = tmp_path / "lift.html"
+    assert main(["follow", loader, "--path", written(tmp_path, heights(2400)), "--language", "ru", "-o", str(file)]) == 0
+    assert str(file) in capsys.readouterr().out and '<html lang="ru">' in file.read_text(encoding="utf-8")

@@ -33,9 +33,11 @@ from linkage import (
     angle,
     deg,
     drive_force,
+    driving_force,
     page,
     standing,
     working_field,
+    y,
 )
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
@@ -49,7 +51,7 @@ from linkage.pictures.load_chart import ChartText
 from linkage.plan.trace import Trace
 from linkage.quantities import name_of
 from linkage.reports import results
-from linkage.units import MPa, mm, unit_system
+from linkage.units import MPa, bar, mm, unit_system
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.classics.jansen import Jansen
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
@@ -221,7 +223,6 @@ def test_wrong_questions_are_answered_in_words(tmp_path):
         ({"language": "de"}, r"Language 'de' is unknown"),
         ({"count": 1}, r"at least 2 poses"),
         ({"trace": ["H"]}, r"Point 'H' is unknown"),
-        ({"at": {"phi": (0.0, 1.0, 0.5)}}, r"one stroke runs between two values"),
     ):
         with pytest.raises(DefinitionError, match=said):
             page(machine, file, **options)
@@ -724,6 +725,116 @@ def test_what_a_balancer_and_a_grapple_are_about_is_followed(tmp_path):
         assert names <= {name for name, row in rows.items() if row >= 0}
         limits = list(data["limits"].values())
         assert limits and all(re.search("[\u0430-\u044f]", each[3]) for each in limits)
+
+
+# -- along a path ------------------------------------------------------------------------------------------
+
+
+class LevelLoader(Mechanism):
+    """One cylinder lifts the boom, the other one, on the boom, tips the bucket; a third stroke pushes a tooth out."""
+
+    lift, dump, push = Stroke(0.80, 1.30), Stroke(0.78, 1.15), Stroke(0.7, 0.9)
+    O, A = Ground(0, 1.5), Ground(0.45, 0.75)
+    B = Dyad(O, A, OB=1.1, AB=lift, side=LEFT)
+    T = OnLink(O, B, OT=2.4)
+    C = OnLink(O, B, OC=1.4, BOC=12 * deg)
+    D = Dyad(T, C, TD=0.35, CD=dump, side=RIGHT)
+    E = OnLink(T, D, TE=push, DTE=-120 * deg)
+    tilt = angle("T", "E")
+    load = Weight(T, mass=900)
+    lifter = Cylinder(A, B, bore=90 * mm, rod=40 * mm, works="both")
+    line = LiftCircuit("lifter", pressure=180 * bar)
+
+
+def level_lift(**options):
+    """Return the motion of a bucket that is lifted level."""
+    targets = [Target(y("T"), np.linspace(1.2, options.pop("top", 2.3), 9)), Target("tilt", 0.0)]
+    return LevelLoader(OB=1.11).follow(targets, hold={"push": 0.75}, **options)
+
+
+def test_the_page_of_a_motion_runs_along_its_path(chromium, tmp_path):
+    motion = level_lift()
+    with Shown(chromium, page(motion, tmp_path / "follow.html", column="pressure", trace=["T"])) as shown:
+        assert shown.said == []
+        sweep, data = shown("hydrolinkage.sweep()"), shown("hydrolinkage.data")
+        along, values = np.array(sweep["along"]), np.array(sweep["values"])
+        assert (along[0], along[-1]) == (1.0, 9.0) and not any(sweep["reason"]) and len(along) == 105
+        at_places = np.searchsorted(along, np.arange(1.0, 9.5))
+        assert_allclose(along[at_places], np.arange(1.0, 10.0), rtol=0, atol=1e-12)
+        for name, (x_row, y_row) in zip(data["scene"]["names"], data["rows"]["points"], strict=True):
+            assert_allclose(values[[x_row, y_row]][:, at_places], np.broadcast_to(motion[name], (2, 9)), rtol=0, atol=1e-12)
+        rows = {each[0]: each[2] for each in data["columns"]}
+        pressures = driving_force(motion, drive="lift") / (0.25 * np.pi * 0.09**2)
+        assert pressures.min() > 0.0
+        assert_allclose(values[rows["pressure"], at_places], pressures, rtol=1e-9)
+        for share, place in ((0.0, 1.0), (500.0, 5.0), (1000.0, 9.0)):
+            shown.slide('[data-stroke="along the path"]', share)
+            at = {name: float(value[int(place) - 1]) for name, value in motion.strokes.items()}
+            assert shown.state["at"] == pytest.approx({**at, "along the path": place}, rel=0, abs=1e-12)
+            assert_allclose(shown("hydrolinkage.points()")["E"], motion["E"][:, int(place) - 1], rtol=0, atol=1e-12)
+        assert shown("document.getElementById('run').selectedOptions[0].textContent") == "place"
+        told = shown("hydrolinkage.verdicts()")
+        assert told[0]["text"] == "assembled over the whole stroke, place from 1 to 9"
+        told = {each.rule: each.sentence for each in LevelLoader(OB=1.11).verdicts(motion) if isinstance(each, Verdict)}
+        assert [each[2] for each in data["verdicts"] if each[1] in told] == [*told.values()]
+
+
+def test_a_stroke_of_its_own_leaves_the_path_and_the_link_restores_the_place(chromium, tmp_path):
+    motion = level_lift()
+    with Shown(chromium, page(motion, tmp_path / "follow.html")) as shown:
+        shown.slide('[data-stroke="along the path"]', 250)
+        shown.tab.wait_for_timeout(350)
+        mark, before = shown("location.hash"), shown.state["at"]
+        assert before["along the path"] == 3.0
+        shown.slide('[data-stroke="push"]', 500)
+        assert shown.state["at"] == pytest.approx({**before, "push": 0.8}) and shown("document.getElementById('run').value") == "3"
+        shown.slide('[data-stroke="lift"]', 500)
+        assert shown.state["at"] == pytest.approx({**before, "push": 0.8, "lift": 1.05})
+        assert shown("document.getElementById('run').value") == "0"
+        assert "lift, mm" in shown("document.getElementById('curve').textContent")
+        shown.slide('[data-stroke="along the path"]', 250)
+        assert shown.state["at"] == pytest.approx({**before, "push": 0.8})
+        shown.tab.locator("#language").click()
+        assert shown("document.querySelector('.stroke span').textContent") == "\u043c\u0435\u0441\u0442\u043e"
+        assert shown.said == []
+    with Shown(chromium, tmp_path / "follow.html", mark=mark) as shown:
+        assert shown.state["at"] == pytest.approx(before)
+
+
+def test_a_path_that_is_reached_in_part_keeps_the_numbers_of_its_places():
+    motion = level_lift(top=2.9, unreachable="nan")
+    count = int(motion.reached.sum())
+    assert 3 < count < 9
+    *_, along = data_of(page_html(motion))["strokes"]
+    assert (along["start"], along["end"]) == (1, count) and along["turn"] == 0
+    assert along["path"]["0"] == motion.strokes["lift"][:count].tolist()
+    back = motion.moved({name: values[::-1] for name, values in motion.strokes.items()})
+    *_, along = data_of(page_html(back))["strokes"]
+    assert (along["start"], along["end"]) == (10 - count, 9)
+
+
+def test_several_strokes_that_run_together_are_a_path():
+    machine = LevelLoader()
+    data = data_of(page_html(machine, at={"lift": [0.9, 1.1, 0.9], "dump": [0.8, 0.9, 0.8], "push": 0.8}, count=11))
+    *_, along = data["strokes"]
+    assert along["path"] == {"0": [0.9, 1.1, 0.9], "1": [0.8, 0.9, 0.8]} and along["turn"] == 1 and data["count"] == 11
+    assert data["verdicts"] == data_of(page_html(machine))["verdicts"]
+
+
+def test_what_is_no_path_has_no_page(tmp_path):
+    machine, file = LevelLoader(), tmp_path / "path.html"
+    for motion, said in (
+        (machine.at(lift=1.0, dump=0.9, push=0.8), r"of shape \(\)"),
+        (machine.at(lift=[[1.0], [1.1]], dump=[0.9, 1.0], push=0.8), r"of shape \(2, 2\)"),
+        (LevelLoader(OB=[1.1, 1.12]).at(lift=[1.0, 1.1], dump=0.9, push=0.8), "one design along one path"),
+        (machine.at(lift=[1.0, 1.0], dump=0.9, push=0.8), "nothing moves along this motion"),
+        (machine.at(lift=[9.0, 9.1], dump=0.9, push=0.8, unreachable="nan"), "0 places in reach"),
+    ):
+        with pytest.raises(DefinitionError, match=said):
+            page(motion, file)
+    with pytest.raises(DefinitionError, match="a motion has its poses"):
+        page(level_lift(), file, at={"lift": 1.0})
+    assert not file.exists()
 
 
 # -- load charts -------------------------------------------------------------------------------------------

@@ -473,7 +473,7 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> dict[str, An
         "dots": [index[name] for name in scene.dots],
         "grounds": [{"point": index[name], "way": round(way, 4)} for name, way in props(scene).items()],
         "labels": label_offsets(scene),
-    }
+    } | ({"letters": [scene.letters.get(name, name) for name in names], "legend": scene.letter_legend} if scene.letters else {})
 
 
 def track_rows(scene: Scene, live: LiveText) -> dict[str, list[int]]:
@@ -529,7 +529,8 @@ def label_offsets(scene: Scene) -> list[list[float]]:
     poses = scene.some(9)
     left, right, bottom, top = scene.box()
     scale = min(ACROSS / (right - left), 0.7 * ACROSS / (top - bottom))
-    spots = offsets(list(scene.places), poses, label_free(scene, poses), scale, 1.15 * scene.size * scale + 2.0, FONT)
+    gap = 1.15 * scene.size * scale + 2.0
+    spots = offsets(list(scene.places), poses, label_free(scene, poses), scale, gap, FONT, letters=scene.letters)
     return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
 
 

@@ -93,9 +93,8 @@ class Drawing:
         spots = offsets(names, poses, clouds, scale, gap, font, minor=minor, letters=letters)
         for name, spot in spots.items():
             self.parts.append(LabelPart(self.ax, name, spot, gap, self.look, name in minor, font, letters.get(name, name)))
-        owners = {name.rpartition(".")[0]: letter for name, letter in reversed(letters.items())}
-        if owners:
-            text = "   ".join(f"{owner}: {letter}" for owner, letter in reversed(owners.items()))
+        if letters:
+            text = "   ".join(self.scene.letter_legend)
             place: dict[str, Any] = {"transform": self.ax.transAxes, "fontsize": style.SMALL, "color": style.MUTED, "zorder": UNDER}
             self.ax.text(0.008, 0.02, text, **place, ha="left", va="bottom")
 

@@ -216,7 +216,7 @@ function ground({ point, way }) {
 }
 function name(index) {
   const text = draw(sheet, "text", { class: "name-of" }), [dx, dy] = scene.labels[index];
-  text.textContent = scene.names[index];
+  text.textContent = (scene.letters || scene.names)[index];
   return (at) => set(text, { x: min(max(at[index][0] + dx, 8), sheetWide - 8), y: min(max(at[index][1] + dy, 10), sheetTall - 10) });
 }
 const scale = { most: 0 };
@@ -258,4 +258,13 @@ function drawn({ first = () => [], under = () => [], over = () => [] }) {
     ...scene.pins.map((i) => circle(i, 0.5 * unit0, "paper", "ink", 1.3 * EDGE)), ...scene.dots.map((i) => circle(i, 0.48 * unit0, "ink", "paper", 1)), ...loads(false), ...over(),
   ];
 }
-const named = () => scene.names.map((_, i) => name(i));
+/* The points' names; where these are letters with primes, what they mean stands in lines at the top of the sheet. */
+function named() {
+  const lines = [[]], most = (sheetWide - 24) / 7;
+  for (const each of scene.legend || []) {
+    if (lines[lines.length - 1].join("  ").length + each.length + 3 > most) lines.push([]);
+    lines[lines.length - 1].push(each);
+  }
+  lines.forEach((each, i) => { draw(sheet, "text", { x: 12, y: 20 + 16 * i, class: "letters halo" }).textContent = each.join("\u2003"); });
+  return scene.names.map((_, i) => name(i));
+}

@@ -322,6 +322,12 @@ class Scene:
         short = {name: name.rpartition(".")[2] + signs[name.rpartition(".")[0]] for name in dotted}
         return short if len(dotted) > CROWDED else {}
 
+    @property
+    def letter_legend(self) -> list[str]:
+        """What the letters mean, a part each, `lower: B'`, by the first of its points."""
+        owners = {name.rpartition(".")[0]: letter for name, letter in reversed(self.letters.items())}
+        return [f"{owner}: {letter}" for owner, letter in reversed(owners.items())]
+
     @cached_property
     def plates(self) -> tuple[Plate, ...]:
         """The form of each moving body."""

@@ -24,6 +24,7 @@ from linkage import (
     Link,
     Mechanism,
     OnLink,
+    Part,
     PinFriction,
     SliderDyad,
     Stroke,
@@ -32,6 +33,7 @@ from linkage import (
     Weight,
     angle,
     deg,
+    draw,
     drive_force,
     driving_force,
     page,
@@ -835,6 +837,36 @@ def test_what_is_no_path_has_no_page(tmp_path):
     with pytest.raises(DefinitionError, match="a motion has its poses"):
         page(level_lift(), file, at={"lift": 1.0})
     assert not file.exists()
+
+
+# -- machines of parts ---------------------------------------------------------------------------------------
+
+
+class Row(Mechanism):
+    """Five four-bars in a row, driven together."""
+
+    phi = Stroke(0, 360 * deg)
+    a, b, c, d, e = (Part(FourBar, phi="phi", at=(0.8 * each, 0.0), load=None) for each in range(5))
+
+
+class Pair(Row):
+    """Two of them."""
+
+    c = d = e = None
+
+
+def test_crowded_points_of_parts_go_by_the_letters_of_pictures(chromium, tmp_path):
+    with Shown(chromium, page(Row(), tmp_path / "row.html")) as shown:
+        drawn = draw(Row().at(phi=1.0))
+        in_picture = {each.get_text() for each in drawn.axes[0].texts}
+        names = shown("[...document.querySelectorAll('#mechanism .name-of')].map((each) => each.textContent)")
+        assert len(set(names)) == len(Row.plan.points) and set(names) <= in_picture and {"B'", "B\u2074"} <= set(names)
+        (legend,) = in_picture - set(names)
+        lines = shown("[...document.querySelectorAll('#mechanism .letters')].map((each) => each.textContent)")
+        assert "\u2003".join(lines).split("\u2003") == legend.split("   ")
+        assert shown("hydrolinkage.data.scene.names") == list(Row.plan.points) and shown.said == []
+    scene = data_of(page_html(Pair()))["scene"]
+    assert "letters" not in scene and "a.B" in scene["names"]
 
 
 # -- load charts -------------------------------------------------------------------------------------------

@@ -54,6 +54,8 @@ class WheelLoader(Mechanism):
     ground = Outline.line((-3.6, 0.0), (4.2, 0.0))
     front_wheel = Outline.circle(at=(0.35, 0.72), radius=0.72)
     rear_wheel = Outline.circle(at=(-2.55, 0.72), radius=0.72)
+    chassis = Outline([(-3.35, 0.62), (0.35, 0.62), (0.3, 2.3), (-0.1, 2.4), (-0.55, 1.25), (-0.95, 1.25), (-0.95, 1.75), (-3.30, 1.60)])
+    cab = Outline([(-0.95, 1.75), (-0.62, 1.30), (-0.62, 2.55), (-0.85, 3.05), (-1.85, 3.05), (-1.95, 1.68)])
     shell = Outline([(-0.05, -0.06), (1.16, 0.0), (0.78, 0.40), (0.40, 0.85), (0.0, 0.80), (-0.12, 0.30)], on=(N, Z))
 
     def featured(self) -> Featured:

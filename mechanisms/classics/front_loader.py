@@ -2,7 +2,26 @@
 
 from __future__ import annotations
 
-from linkage import LEFT, RIGHT, Dimension, Dyad, Featured, Ground, Link, Mechanism, OnLink, Outline, Pin, Stroke, angle, deg, drawn
+from hydraulics import Cylinder, LiftCircuit
+from linkage import (
+    LEFT,
+    RIGHT,
+    Dimension,
+    Dyad,
+    Featured,
+    Ground,
+    Link,
+    LinkMass,
+    Mechanism,
+    OnLink,
+    Outline,
+    Pin,
+    Stroke,
+    angle,
+    deg,
+    drawn,
+)
+from linkage.units import bar, mm
 
 
 class FrontLoader(Mechanism):
@@ -40,6 +59,14 @@ class FrontLoader(Mechanism):
     N = Pin(near=(3.3, 0.6))
     boom = angle(O, B)
     attitude = angle(B, N)
+
+    boom_mass = LinkMass(("O", "B"), mass=180.0, at=(1.3, 0.1))
+    bucket_mass = LinkMass(("B", "N"), mass=160.0, at=(0.35, 0.15))
+    load = LinkMass(("B", "N"), mass=800.0, at=(0.45, 0.25))
+    rams = Cylinder("K", "L", bore=80 * mm, rod=45 * mm, count=2, closed=1.0, stroke=0.6)
+    tilt_rams = Cylinder("M", "T", bore=63 * mm, rod=36 * mm, count=2, works="both", closed=0.7, stroke=0.35)
+    lift_line = LiftCircuit(rams, pressure=180 * bar, relief=200 * bar)
+    tilt_line = LiftCircuit(tilt_rams, pressure=180 * bar, relief=200 * bar)
 
     ground = Outline.line((-4.0, -0.05), (7.0, -0.05))  # what stands around is drawn only; its figures are illustrative
     wheel = Outline.circle(at=(0.05, 0.45), radius=0.5)  # the front wheel

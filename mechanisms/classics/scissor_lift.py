@@ -6,7 +6,25 @@ dimensions are illustrative.
 
 from __future__ import annotations
 
-from linkage import LEFT, RIGHT, Dimension, Dyad, Featured, Ground, Guide, Mechanism, OnLink, Outline, SliderDyad, Stroke, angle, y
+from hydraulics import Cylinder, LiftCircuit
+from linkage import (
+    LEFT,
+    RIGHT,
+    Dimension,
+    Dyad,
+    Featured,
+    Ground,
+    Guide,
+    Mechanism,
+    OnLink,
+    Outline,
+    SliderDyad,
+    Stroke,
+    Weight,
+    angle,
+    y,
+)
+from linkage.units import bar, litre, minute, mm
 
 
 class ScissorLift(Mechanism):
@@ -35,6 +53,11 @@ class ScissorLift(Mechanism):
     E = OnLink(C, N, CE=2.0 * half)
     h = y(D)  # platform, m
     level = angle(D, E)
+
+    on_pin = Weight(D, mass=280.0)  # table and load, midway between pin and roller; illustrative, as cylinder and circuit are
+    on_roller = Weight(E, mass=280.0)
+    ram = Cylinder(K, J, bore=100 * mm, rod=56 * mm, closed=0.575, stroke=0.260)
+    line = LiftCircuit(ram, pressure=160 * bar, flow=12 * litre / minute)
 
     ground = Outline.line((-3.0, -0.12), (5.0, -0.12))  # what stands around is drawn only; its figures are illustrative
     platform = Outline([(-0.1, 0.04), (1.7, 0.04), (1.7, 0.12), (-0.1, 0.12)], on=(D, E))

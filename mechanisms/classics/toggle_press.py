@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from linkage import Dimension, Featured, Ground, Guide, Link, Mechanism, Pin, Slide, Stroke, deg, y
+from hydraulics import Cylinder, LiftCircuit
+from linkage import Dimension, Featured, Force, Ground, Guide, Link, Mechanism, Pin, Slide, Stroke, deg, y
+from linkage.units import bar, kN, litre, minute, mm
 
 
 class TogglePress(Mechanism):
@@ -26,6 +28,10 @@ class TogglePress(Mechanism):
     A = Pin(near=(-0.12, 0.52))
     B = Pin(near=(0.0, 0.25))
     travel = 0.200 - y(B)  # m below the straight toggle's end, negative above
+
+    load = Force("B", (0.0, 25 * kN))  # what resists is illustrative, and so are the cylinder and its circuit
+    push = Cylinder("C", "A", bore=63 * mm, rod=36 * mm, closed=0.450, stroke=0.150)
+    line = LiftCircuit(push, pressure=160 * bar, flow=12 * litre / minute)
 
     def featured(self) -> Featured:
         """Return travel and the path of A."""

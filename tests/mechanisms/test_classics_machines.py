@@ -129,6 +129,17 @@ def test_the_lower_the_lift_the_greater_the_force():
     assert (np.diff(ratio) < 0.0).all()
 
 
+def test_the_lifts_cylinder_carries_table_and_load_by_the_height_it_raises_them():
+    """2 (280 kg) g dh/dS of the closed formulas, which the pump holds all the way; pin and roller carry half each."""
+    motion = ScissorLift().sweep(101)
+    alpha, slope = scissor(motion.strokes["S"])
+    thrust = 2 * 280.0 * 9.80665 * 2 * 1.6 * np.cos(alpha) * slope
+    assert_allclose(ScissorLift.ram.thrust(motion), thrust, rtol=1e-10)
+    least = next(each for each in ScissorLift().verdicts() if "lifting" in each)
+    assert f"{160e5 * np.pi / 4 * 0.100**2 / thrust[0]:.3f}" in least
+    assert [verdict for verdict in ScissorLift().verdicts() if verdict.startswith("FAIL")] == []
+
+
 # -- front loader ---------------------------------------------------------------------------------------------
 
 

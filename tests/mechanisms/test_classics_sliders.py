@@ -126,6 +126,17 @@ def test_mechanical_advantage_at_the_toggle():
     assert (np.diff(gain) > 0.0).all() and gain[0] < 1.0 and gain[-1] > 25.0
 
 
+def test_the_presss_cylinder_carries_what_the_toggle_leaves_of_the_load():
+    """2 F tan(alpha) sideways, and a little more as the cylinder leans and loads one arm more than the other."""
+    motion = TogglePress().sweep(101)
+    alpha = np.abs(press(motion.strokes["S"])[2])
+    lean = np.arctan2(motion.y("A") - 0.500, motion.x("A") + 0.600)
+    found = TogglePress.push.thrust(motion)
+    assert_allclose(found, 2 * 25e3 * np.tan(alpha) / (np.cos(lean) - np.tan(alpha) * np.sin(lean)), rtol=1e-10)
+    assert found[0] > 30e3 and found[-1] < 1e3
+    assert [verdict for verdict in TogglePress().verdicts() if verdict.startswith("FAIL")] == []
+
+
 def test_press_plan_is_two_dyads():
     steps = [type(TogglePress.plan.members[name]).__name__ for name in "AB"]
     assert steps == ["Dyad", "SliderDyad"]

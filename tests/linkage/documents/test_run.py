@@ -14,6 +14,7 @@ from linkage.pictures.strokes import StrokeAxis, playback, unreached_words
 from linkage.reports import results, run_of
 from linkage.statics import driving_force
 from mechanisms.classics.front_loader import FrontLoader
+from mechanisms.classics.pantograph import Pantograph
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.mower_lift import MowerLift
 
@@ -176,7 +177,7 @@ def test_a_dead_point_leaves_a_gap_in_the_force_and_not_in_the_table():
 
 
 def test_a_machine_without_loads_or_with_a_table_of_its_own_keeps_it():
-    for machine in (FrontLoader(), MowerLift()):
+    for machine in (Pantograph(), MowerLift()):
         motion = machine.at(**{name: stroke.start for name, stroke in machine.strokes.items()})
         assert [column.name for column in results(machine, motion)] == [column.name for column in machine.columns(motion)]
 

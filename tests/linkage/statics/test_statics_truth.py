@@ -122,7 +122,7 @@ def test_toggle_press():
     c, s = (A - C) / np.hypot(*(A - C))                      # the cylinder's direction
     expected = 2 * F * tangent / (c - s * tangent)
     assert_allclose(driving_force(motion, [Support("B", (0, 1), force=F)]), expected, rtol=1e-11)
-    assert_allclose(reaction(motion, support=Support("B", (0, 1)), drive_force=expected), F, rtol=1e-11)
+    assert_allclose(reaction(motion, [], support=Support("B", (0, 1)), drive_force=expected), F, rtol=1e-11)
 
 
 class Table(Mechanism):

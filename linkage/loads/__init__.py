@@ -22,6 +22,8 @@ from .element import (
     Push,
     Rate,
     Rates,
+    Share,
+    Tie,
     TwoPinned,
     check_together,
     couple,

@@ -79,6 +79,31 @@ class Push:
 
 @final
 @dataclass(frozen=True, eq=False)
+class Share:
+    """What one unit of a tie's force is in a straight member: its thrust, positive where it pushes; it broadcasts against the poses."""
+
+    member: Any
+    of: Callable[[Any], Array]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Tie:
+    """Straight members whose thrusts follow one force, each with its share: the sum of their lengths, by these shares, is its way.
+
+    One that is `held` takes over a stroke. A closed one keeps its sum, which changes with the input `cut` alone, and gives the quantity
+    `gives`; without that it adds nothing to what others keep already.
+    """
+
+    name: str
+    shares: tuple[Share, ...]
+    held: bool
+    cut: str = ""
+    gives: str = ""
+
+
+@final
+@dataclass(frozen=True, eq=False)
 class Friction:
     """Dry friction in a pin of a radius [m], or on the guides a point runs on (radius None; one guide where it is named)."""
 
@@ -300,6 +325,10 @@ class ForceElement(Jointed):
     def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         """Return the holding elements that this one puts on one pressure line; the class's members by name."""
         return ()
+
+    def tie(self, members: Mapping[str, Member]) -> Tie | None:
+        """Return how one force of this element acts on straight members, where `joined` does not tell; the class's members by name."""
+        return None
 
     def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
         """Return what no other element may have beside it, in words with the remedy; the class's members by name."""

@@ -278,6 +278,8 @@ def stroke_of(plan: Plan, name: str | None, keyword: str = "wrt") -> str:
         return next(iter(plan.strokes))
     if name is None:
         raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say {keyword}= one of {', '.join(plan.strokes)}.")
+    if name in plan.cuts:
+        return name
     return checked_name("Stroke", name, plan.strokes, plan.title)
 
 

@@ -94,7 +94,9 @@ class Members:
         self.title = title
         self.unbound: Mapping[str, Member] = FrozenDict(members)
         self._behind: dict[str, frozenset[str]] = {}
+        members = {name: member.among(members) for name, member in members.items()}
         wanted = {name: needed_names(name, member, title) for name, member in members.items()}
+        with_inner(members, wanted, title)
         for name, needed in wanted.items():
             needed += [name.rpartition(".")[0]] if name.rpartition(".")[0] in members else []  # its part first, as it is pasted
         order = construction_order(wanted, title)
@@ -300,6 +302,11 @@ class Members:
         return foreign or any(isinstance(part, Function) or (isinstance(part, Operation) and part.symbol != "*") for part in parts)
 
     @cached_property
+    def cuts(self) -> tuple[str, ...]:
+        """The inputs beside the strokes by which members move the machine: what is differentiated by for the force that holds them."""
+        return tuple(name for member in self.members.values() for name in member.cuts(self.members))
+
+    @cached_property
     def groups(self) -> dict[str, Group]:
         """The groups whose pins are found together, in order."""
         return self.of_kind(Group)
@@ -342,6 +349,22 @@ def needed_names(name: str, member: Member, title: str) -> list[str]:
         return list(needs(member))
     except DefinitionError as error:
         raise DefinitionError(f"{title}.{name}: {error}", member=name) from None
+
+
+def with_inner(members: dict[str, Member], wanted: dict[str, list[str]], title: str) -> None:
+    """Enter what members hold by names of their own, `lift.length`, where another one needs it, with the names that it needs."""
+    lost = [name for needed in wanted.values() for name in needed if name not in wanted]
+    while lost:
+        name = lost.pop()
+        owner, _, own = name.rpartition(".")
+        if name in wanted or owner not in members:
+            continue
+        with about(name):
+            found = members[owner].inner(own, members)
+        if found is not None:
+            members[name] = found.renewed(_name=name)
+            wanted[name] = needed_names(name, members[name], title)
+            lost += [each for each in wanted[name] if each not in wanted]
 
 
 def construction_order(needs: Mapping[str, Iterable[str]], title: str) -> list[str]:

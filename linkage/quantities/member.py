@@ -122,6 +122,18 @@ class Member:
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         """Raise DefinitionError for what only the whole class tells to be wrong: its members by name, its title."""
 
+    def among(self, members: Mapping[str, Member]) -> Self:
+        """Return this member as it is among those of its class; itself, where none of them says something of it."""
+        return self
+
+    def inner(self, name: str, members: Mapping[str, Member]) -> Member | None:
+        """Return what this member holds by a name of its own, as `lift.length` is meant; None where there is no such thing."""
+        return None
+
+    def cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
+        """Return the inputs beside the strokes by which it moves the machine, as the oil of a closed line does."""
+        return ()
+
     def in_axes(self, axes: Any) -> Self:
         """Return this member of a part as it stands in the machine that has the part; itself, where it speaks of no axes and no side."""
         return self

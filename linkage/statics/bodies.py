@@ -16,7 +16,7 @@ from ..plan import Plan, arm_joint, arm_points, carrying_pairs, holds_an_arm, me
 from ..quantities import Quantity, body_name, joined_names, name_of
 from ..steps import Link
 from .applied import AppliedThrust, member_title
-from .holding import Holders, PressureLine, sampled
+from .holding import Holders, PressureLine, same, sampled
 
 FRAME = -1
 FRAME_NAME = "frame"
@@ -123,8 +123,9 @@ def two_point_members(
     plan: Plan, holders: Holders, thrusts: Sequence[AppliedThrust], links: Sequence[FreeBody]
 ) -> tuple[tuple[Strut, ...], dict[str, FreeBody]]:
     """Return the two-point members, and by their names the declared bodies that they are together with the points along them."""
-    cylinders = [Strut(member_title(each), *each.ends, line=line) for line in holders.lines for each in line.cylinders]
-    struts = [*driven_lengths(plan, holders), *cylinders, *known_struts(thrusts)]
+    cylinders = [Strut(member_title(each), *each.ends, line=holders.line_of(each)) for each in holders.cylinders]
+    given = [each for each in thrusts if not any(same(one, each.member) for one in holders.cylinders)]
+    struts = [*driven_lengths(plan, holders), *cylinders, *known_struts(added_up(given))]
     twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
     if twice:
         raise DefinitionError(f"{plan.title}: two elements are called {twice}; give each a name of its own in the class.")
@@ -137,7 +138,7 @@ def driven_lengths(plan: Plan, holders: Holders) -> list[Strut]:
     found = []
     for bar in plan.cylinders:
         strokes = {name for name in plan.strokes if name == bar.length.name or name in plan.reaches(bar.length)}
-        if strokes - holders.taken:
+        if strokes - holders.taken and not holders.given & plan.reaches(bar.length):
             found.append(Strut(joined_names(bar.P, bar.Q), bar.P, bar.Q, bar.length))
     return found
 
@@ -201,6 +202,18 @@ def places_on(plan: Plan, strut: Strut, points: Iterable[str]) -> dict[tuple[str
         parts = np.stack([arm[0] * along[0] + arm[1] * along[1], along[0] * arm[1] - along[1] * arm[0]])[:, motion.reached]
         size = float(np.max(np.hypot(parts[0], parts[1]), initial=0.0)) or 1.0
         found[point, end] = float(np.max(np.ptp(parts, axis=1), initial=0.0)) / size if parts.size else 0.0
+    return found
+
+
+def added_up(thrusts: Sequence[AppliedThrust]) -> list[AppliedThrust]:
+    """Return what members of the class carry, each once: what several laws put on one counts together."""
+    found: list[AppliedThrust] = []
+    for each in thrusts:
+        place = next((k for k, other in enumerate(found) if each.member.name and same(each.member, other.member)), None)
+        if place is None:
+            found.append(each)
+        else:
+            found[place] = replace(found[place], thrust=found[place].thrust + each.thrust)
     return found
 
 

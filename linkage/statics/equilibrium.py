@@ -13,11 +13,12 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError
+from ..loads import TwoPoint
 from ..program import FloatArray
 from ..quantities import Distance, Quantity, name_of
-from .applied import AppliedLoad
+from .applied import AppliedLoad, member_title
 from .bodies import FRAME, Strut
-from .holding import areas
+from .holding import areas, same, share_of, solved, tie_pivots
 from .joints import Contact, Structure, Wrench, follows_points, force_direction, wrenches
 from .poses import FlatPoses, cross
 
@@ -239,8 +240,34 @@ class System:
         """
         found = [(self.thrust(each), self.poses.flattened(each.known.thrust)) for each in self.structure.struts if each.known is not None]
         for line in self.structure.holders.lines:
+            if line.tie is not None:
+                continue
             struts = [each for each in self.structure.struts if each.line is line]
             (first, *others) = [(self.thrust(each), area) for each, area in zip(struts, areas(line, self.poses, way), strict=True)]
             none = self.poses.zeros()
             found += [(form.multiplied(first[1]).plus(first[0].multiplied(-1.0 * area)), none) for form, area in others]
-        return found
+        return found + list(self.tied())
+
+    def tied(self) -> Iterator[tuple[LinearForm, FloatArray]]:
+        """Yield what the thrusts of members on ties are bound to: there are less forces than members."""
+        ties = [line for line in self.structure.holders.all if line.tie is not None]
+        if not ties:
+            return
+        members = [each for each in self.structure.holders.cylinders if any(line.has(each) for line in ties)]
+        forms = [self.thrust(next(strut for strut in self.structure.struts if strut.name == member_title(each))) for each in members]
+        given = [self.given(each) for each in members]
+        shares = [share_of(each, ties, [areas(line, self.poses, 1) for line in ties]) for each in members]
+        none = self.poses.zeros()
+        rows = [[none if each is None else each for each in row] for row in shares]
+        pivots = tie_pivots(self.structure.plan, ties, members)
+        for place, form in enumerate(forms):
+            if place not in [row for row, _ in pivots]:
+                factors = solved([[rows[row][column] for row, _ in pivots] for _, column in pivots], [rows[place][c] for _, c in pivots])
+                others = [forms[row].multiplied(-1.0 * factor) for factor, (row, _) in zip(factors, pivots, strict=True)]
+                right = reduce(np.subtract, (factor * given[row] for factor, (row, _) in zip(factors, pivots, strict=True)), given[place])
+                yield reduce(LinearForm.plus, others, form), right
+
+    def given(self, member: TwoPoint) -> FloatArray:
+        """Return the thrust that laws put on a member which holds, too (n,)."""
+        own = [each.thrust for each in self.structure.thrusts if same(member, each.member)]
+        return self.poses.flattened(sum(own)) if own else self.poses.zeros()

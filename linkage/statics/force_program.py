@@ -107,7 +107,7 @@ def program_of(structure: Structure, applied: AppliedLoads, places: Sequence[int
     """
     loads = tuple((each.load.point, *each.load.on) for each in applied.loads)
     struts = tuple((each.name, each.P, each.Q, each.known is None) for each in structure.struts)
-    lines = tuple((line.stroke, line.cylinders) for line in structure.holders.lines)
+    lines = tuple((line.stroke, line.cylinders, line.tie) for line in structure.holders.all)
     blocks = tuple(body.name for body in structure.blocks)
     key = ("joint forces", loads, struts, lines, blocks, tuple(places))
     try:

@@ -18,7 +18,7 @@ from typing import Any, cast, final
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, SingularWarning, UntracedError, unwarned, warn
-from ..loads import ForceElement, TwoPinned, TwoPoint
+from ..loads import ForceElement, Tie, TwoPinned, TwoPoint
 from ..motion import Motion
 from ..motion.conditions import REFUSE, WARN, condition_of_sine, is_or_are
 from ..motion.limits import where_words
@@ -42,6 +42,8 @@ class PressureLine:
 
     cylinders: tuple[TwoPoint, ...]
     stroke: str
+    tie: Tie | None = None
+    """How its pressure acts on them; None where each acts as it works."""
     steady: float = 0.0
     """How a single cylinder's length follows its stroke, where it is driven in proportion to that and to no other; else 0."""
 
@@ -53,20 +55,43 @@ class PressureLine:
     @property
     def changes_shares(self) -> bool:
         """Whether its cylinders carry other shares while it pulls than while it pushes: several, one of which works with both sides."""
-        return len(self.cylinders) > 1 and any(each.works_both for each in self.cylinders)
+        return self.tie is None and len(self.cylinders) > 1 and any(each.works_both for each in self.cylinders)
+
+    def has(self, member: TwoPoint) -> bool:
+        """Return whether a cylinder is on this line."""
+        return any(same(member, each) for each in self.cylinders)
 
 
 @final
 @dataclass(frozen=True)
 class Holders:
-    """The lines that hold, in the order declared."""
+    """The lines that hold, in the order declared, and those that keep what is in them, each with the input that changes that."""
 
     lines: tuple[PressureLine, ...] = ()
+    closed: tuple[PressureLine, ...] = ()
+
+    @property
+    def all(self) -> tuple[PressureLine, ...]:
+        """The lines that hold, then the closed ones."""
+        return (*self.lines, *self.closed)
+
+    @property
+    def cylinders(self) -> tuple[TwoPoint, ...]:
+        """The cylinders on any of the lines, each once."""
+        found: list[TwoPoint] = []
+        for line in self.all:
+            found += [each for each in line.cylinders if not any(same(each, other) for other in found)]
+        return tuple(found)
 
     @property
     def taken(self) -> frozenset[str]:
         """The strokes whose own drives carry nothing."""
-        return frozenset(line.stroke for line in self.lines)
+        return frozenset(line.stroke for line in self.all)
+
+    @property
+    def given(self) -> frozenset[str]:
+        """The quantities that closed lines give."""
+        return frozenset(line.tie.gives for line in self.closed if line.tie is not None)
 
     def check_written(self) -> None:
         """Raise UntracedError where more lines hold together than a program is written for."""
@@ -75,8 +100,8 @@ class Holders:
             raise UntracedError(f"{count} lines of cylinders hold together, and a program is written for {MOST_WRITTEN} at the most.")
 
     def line_of(self, cylinder: TwoPoint) -> PressureLine | None:
-        """Return the line that a cylinder is on; None where it does not hold."""
-        return next((line for line in self.lines if any(same(cylinder, each) for each in line.cylinders)), None)
+        """Return the line that a cylinder is on, one that holds where it can be; None where it does not hold."""
+        return next((line for line in self.all if line.has(cylinder)), None)
 
 
 def holders_of(plan: Plan, elements: Iterable[ForceElement] = ()) -> Holders:
@@ -100,11 +125,19 @@ def same(a: TwoPinned | Member, b: TwoPinned | Member) -> bool:
 
 def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
     """Return the lines with the strokes they take."""
-    lines = joined_lines(plan, elements)
-    if not lines:
+    ties = [tie for tie in (each.tie(plan.members) for each in elements) if tie is not None]
+    closed = tuple(PressureLine(on_tie(tie), tie.cut, tie) for tie in ties if not tie.held and tie.gives)
+    cuts = {line.stroke for line in closed}
+    held = {on_tie(tie): tie for tie in ties if tie.held}
+    lines = [*joined_lines(plan, elements, ties), *held]
+    if not lines and not ties:
         return Holders()
     motion, strokes = sampled(plan), list(plan.strokes)
+    for tie in ties:
+        if not tie.held and not tie.gives:
+            check_kept(motion, tie)
     follows = line_shares(motion, lines)
+    follows[:, [name in cuts for name in strokes]] = 0.0  # the oil that is put in is driven by the closed line itself
     for line, row in zip(lines, follows, strict=True):
         if not row.any():
             raise DefinitionError(
@@ -128,12 +161,44 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
                 f"{plan.title}: {line_names(line)} are on one line, but {line_names(apart)} does not move with {stroke}: one pressure "
                 f"cannot hold several strokes. Give each a circuit of its own, LiftCircuit({line_names(apart[:1])}, pressure=...)."
             )
-    return Holders(tuple(PressureLine(line, stroke, steady_rate(plan, line, stroke)) for line, stroke in pairs))
+    taking = (PressureLine(line, stroke, held.get(line), steady_rate(plan, line, stroke, line in held)) for line, stroke in pairs)
+    return Holders(tuple(taking), closed)
 
 
-def joined_lines(plan: Plan, elements: Sequence[ForceElement]) -> list[tuple[TwoPoint, ...]]:
-    """Return the cylinders that hold, those of one pressure line together."""
+def on_tie(tie: Tie) -> tuple[TwoPoint, ...]:
+    """Return the members of a tie, each once."""
+    found: list[TwoPoint] = []
+    for share in tie.shares:
+        found += [] if any(same(share.member, each) for each in found) else [share.member]
+    return tuple(found)
+
+
+KEPT = 1e-6
+"""A sum that changes by less than this part of its terms' ways is kept."""
+
+
+def check_kept(motion: Motion, tie: Tie) -> None:
+    """Raise DefinitionError for a closed tie whose sum the strokes change, though it gives nothing that could follow."""
+    plan = motion.plan
+    for stroke in plan.strokes:
+        with unwarned():
+            parts = [np.asarray(each.of(motion)) * each.member.growth(motion, {stroke: 1.0}) for each in tie.shares]
+        whole, size = np.abs(sum(parts)), sum(map(np.abs, parts))
+        if np.any(np.nan_to_num(whole) > KEPT * np.nan_to_num(size)):
+            at = int(np.argmax(np.nan_to_num(whole)))
+            takes = [np.ravel(part)[at] for part in parts]
+            ways = " and ".join(f"{each.member.name} {way:+.4g}" for each, way in zip(tie.shares, takes, strict=True))
+            what = f"{tie.name} locks the machine: it is closed, and a unit of {stroke} would change what is in it by {ways} [SI]"
+            raise DefinitionError(
+                f"{plan.title}: {what}. Let a step follow it, such as Dyad(U, P, UW={tie.shares[-1].member.name}.length), make the ratios "
+                "of its areas those of the other line, or open it by a Tank."
+            )
+
+
+def joined_lines(plan: Plan, elements: Sequence[ForceElement], ties: Sequence[Tie] = ()) -> list[tuple[TwoPoint, ...]]:
+    """Return the cylinders that hold, those of one pressure line together; without those whose thrust a tie tells."""
     fed = [member for each in elements for member in each.feeds(plan.members)]
+    fed += [share.member for tie in ties for share in tie.shares]
     free = [each for each in elements if each.holds and isinstance(each, TwoPoint) and not any(same(each, other) for other in fed)]
     lines: list[tuple[TwoPoint, ...]] = [(each,) for each in free]
     for circuit in elements:
@@ -150,9 +215,9 @@ def line_names(line: Sequence[TwoPoint]) -> str:
     return " and ".join(each.name or str(each) for each in line)
 
 
-def steady_rate(plan: Plan, line: Sequence[TwoPoint], stroke: str) -> float:
+def steady_rate(plan: Plan, line: Sequence[TwoPoint], stroke: str, is_tied: bool = False) -> float:
     """Return how the declared length of a single cylinder follows its stroke: a number, of all designs and poses; else 0."""
-    length = plan.table.lengths.get(frozenset(line[0].ends)) if len(line) == 1 else None
+    length = plan.table.lengths.get(frozenset(line[0].ends)) if len(line) == 1 and not is_tied else None
     if length is None or {name for name in plan.strokes if name == length.name or name in plan.reaches(length)} != {stroke}:
         return 0.0
     (slope,) = plan.made(("slope", *line[0].ends, stroke), lambda twin: twin.derived(twin.nodes(length), (stroke,)))
@@ -220,21 +285,33 @@ def stroke_followed(plan: Plan, member: TwoPoint) -> str:
 class Levers:
     """The work of each line's first cylinder, with what the others of its line add, on a unit of each stroke taken: (n, lines, strokes).
 
-    `sizes` are those of its parts, `shares` the thrusts of each line's cylinders over that of its first, (n,) each.
+    `sizes` are those of its parts, `shares` the thrusts of each line's cylinders over that of its first, (n,) each; of a tie, the work
+    and the thrusts at one unit of its force. `cuts` is the work of each line on a unit of what changes a closed one, `kept` the
+    shares in the closed ones.
     """
 
     matrix: FloatArray
     sizes: FloatArray
     shares: tuple[tuple[FloatArray, ...], ...]
+    cuts: tuple[tuple[FloatArray, ...], ...] = ()
+    kept: tuple[tuple[FloatArray, ...], ...] = ()
 
     @property
     def is_traced(self) -> bool:
         """Whether they are numbers of a program."""
         return self.matrix.dtype == object
 
-    def share(self, line: PressureLine, member: TwoPoint, place: int) -> FloatArray:
-        """Return the thrust of a cylinder of a line over that of its first."""
-        return next(part for each, part in zip(line.cylinders, self.shares[place], strict=True) if same(each, member))
+    def thrust(self, holders: Holders, member: TwoPoint, need: FloatArray, cuts: Sequence[FloatArray]) -> FloatArray:
+        """Return what all lines together put on a cylinder (n,), where strokes need (n, lines), and what changes closed lines (n,) each."""
+        units = self.thrusts(need) if holders.lines else need
+        firsts = [units[:, place] for place in range(len(holders.lines))]
+        parts = [unit * each for unit, each in zip(firsts, share_of(member, holders.lines, self.shares), strict=True) if each is not None]
+        for line, asked, works, shares in zip(holders.closed, cuts, self.cuts, self.kept, strict=True):
+            (share,) = share_of(member, [line], [shares])
+            if share is not None:
+                left = reduce(np.subtract, (unit * work for unit, work in zip(firsts, works, strict=True)), asked)
+                parts.append(left * share)
+        return reduce(np.add, parts)
 
     def thrusts(self, need: FloatArray) -> FloatArray:
         """Return the thrusts of the lines' first cylinders (n, lines) that give the strokes what they need (n, strokes)."""
@@ -254,63 +331,87 @@ class Levers:
         scaled = [[matrix[i][j] / columns[j] / rows[i] for j in count] for i in count]
         return condition_of_sine(scaled[0][0]) if len(scaled) == 1 else inverse_size(scaled)
 
-    def kept(self, regular: Any) -> Levers:
+    def where(self, regular: Any) -> Levers:
         """Return the same, of a program, with no value where it is not regular."""
         return replace(self, matrix=elementwise(lambda each: np.where(regular, each, np.nan), (self.matrix,)))
 
 
-def with_levers(poses: FlatPoses, lines: Sequence[PressureLine], what: str) -> tuple[FlatPoses, tuple[Levers, ...]]:
+def share_of(
+    member: TwoPoint, lines: Sequence[PressureLine], shares: Sequence[Sequence[FloatArray]]
+) -> list[FloatArray | None]:
+    """Return the share of a cylinder in each line; None where it is not on it."""
+    pairs = [zip(line.cylinders, own, strict=True) for line, own in zip(lines, shares, strict=True)]
+    return [next((part for each, part in pair if same(each, member)), None) for pair in pairs]
+
+
+def with_levers(poses: FlatPoses, holders: Holders, what: str) -> tuple[FlatPoses, tuple[Levers, ...]]:
     """Return the poses at which the cylinders hold, and their levers there: a second time where first cylinders pull.
 
     SingularError at the others unless NaN was asked for; `what` opens the sentence.
     """
-    if all(line.is_steady for line in lines):
+    lines = holders.lines
+    if not holders.closed and all(line.is_steady for line in lines):
         matrix, one = np.zeros((poses.count, len(lines), len(lines))), np.ones(poses.count)
         for i, line in enumerate(lines):
             matrix[:, i, i] = line.steady
         return poses, (Levers(matrix, np.abs(matrix), tuple((one,) for _ in lines)),)
     ways = (1, -1) if any(line.changes_shares for line in lines) else (1,)
-    found = tuple(known_levers(poses, lines, way) for way in ways)
+    found = tuple(known_levers(poses, holders, way) for way in ways)
+    if not lines:
+        return poses, found
     names = [each.name or str(each) for line in lines for each in line.cylinders]
     whose = f"the length of {names[0]} stands" if len(names) == 1 else f"the lengths of {', '.join(names)} stand"
     cond = reduce(np.maximum, [each.condition for each in found])
     if is_traced(cond):
-        return poses, tuple(each.kept(cond <= REFUSE) for each in found)
+        return poses, tuple(each.where(cond <= REFUSE) for each in found)
     lost = np.isnan(refused_where(poses, np.zeros(poses.count), cond, what, f"{whose} still against the drive there"))
     if not lost.any():
         return poses, found
     left = poses.without(lost)
-    return left, tuple(levers_of(left, lines, way) for way in ways)
+    return left, tuple(levers_of(left, holders, way) for way in ways)
 
 
-def known_levers(poses: FlatPoses, lines: Sequence[PressureLine], way: int) -> Levers:
+def known_levers(poses: FlatPoses, holders: Holders, way: int) -> Levers:
     """Return the levers of lines, worked out once for the same poses of a motion, whichever load and whichever cylinder is asked."""
     if not isinstance(poses.motion, Motion):
-        return levers_of(poses, lines, way)
-    return poses.motion._once(("levers", tuple(lines), way, poses.good.tobytes()), lambda: levers_of(poses, lines, way))
+        return levers_of(poses, holders, way)
+    return poses.motion._once(("levers", holders.all, way, poses.good.tobytes()), lambda: levers_of(poses, holders, way))
 
 
-def levers_of(poses: FlatPoses, lines: Sequence[PressureLine], way: int) -> Levers:
+def levers_of(poses: FlatPoses, holders: Holders, way: int) -> Levers:
     """Return the levers of lines whose first cylinders push (`way` 1) or pull (-1)."""
+    lines = holders.lines
     count = len(lines)
     matrix, sizes, shares = poses.zeros(count, count), poses.zeros(count, count), []
     for i, line in enumerate(lines):
         weights = areas(line, poses, way)
-        shares.append(tuple(weight / weights[0] for weight in weights))
+        shares.append(tuple(weights) if line.tie is not None else tuple(weight / weights[0] for weight in weights))
         for cylinder, part in zip(line.cylinders, shares[-1], strict=True):
             for j, other in enumerate(lines):
                 lever, size = lever_of(poses, cylinder, other.stroke)
                 matrix[:, i, j] += part * lever
                 sizes[:, i, j] += np.abs(part) * size
-    return Levers(matrix, sizes, tuple(shares))
+    cuts = tuple(
+        tuple(
+            reduce(np.add, (part * lever_of(poses, each, line.stroke)[0] for each, part in zip(other.cylinders, own, strict=True)))
+            for other, own in zip(lines, shares, strict=True)
+        )
+        for line in holders.closed
+    )
+    return Levers(matrix, sizes, tuple(shares), cuts, tuple(tuple(areas(line, poses, way)) for line in holders.closed))
 
 
 def areas(line: PressureLine, poses: FlatPoses, way: int) -> list[FloatArray]:
     """Return the thrust of each cylinder of a line at one unit of the line's pressure [m2], shape (n,).
 
     Along the stroke that the line holds, some cylinders grow with the first and some against it: where the first one pushes
-    (`way` 1), the others drive the stroke the same way.
+    (`way` 1), the others drive the stroke the same way. Of a tie it is what its shares say.
     """
+    if line.tie is not None:
+        return [
+            reduce(np.add, (poses.flattened(share.of(poses.motion)) for share in line.tie.shares if same(share.member, each)))
+            for each in line.cylinders
+        ]
     if len(line.cylinders) == 1:
         return [np.ones(poses.count)]
     if not any(each.works_both for each in line.cylinders):
@@ -378,6 +479,49 @@ def crossed(a: Sequence[FloatArray], b: Sequence[FloatArray]) -> list[FloatArray
 def scalar_product(a: Sequence[FloatArray], b: Sequence[FloatArray]) -> FloatArray:
     """Return the scalar product of two rows."""
     return reduce(np.add, [x * y for x, y in zip(a, b, strict=True)])
+
+
+# Ties: members whose thrusts follow fewer forces.
+
+
+def tie_pivots(plan: Plan, ties: Sequence[PressureLine], members: Sequence[TwoPoint]) -> list[tuple[int, int]]:
+    """Return members and ties, by their places, such that the thrusts of these members tell the forces of these ties and all others."""
+    motion = Motion(plan, plan.defaults, {name: np.asarray(value) for name, value in plan.sketch_strokes.items()}, "nan")
+    matrix = np.zeros((len(members), len(ties)))
+    for column, line in enumerate(ties):
+        for share in line.tie.shares if line.tie is not None else ():
+            row = next(k for k, each in enumerate(members) if same(each, share.member))
+            matrix[row, column] += float(np.ravel(share.of(motion))[0])
+    return pivots_of(matrix)
+
+
+def pivots_of(matrix: FloatArray) -> list[tuple[int, int]]:
+    """Return the rows and columns by which a matrix is eliminated, the largest left first, as many as its rank."""
+    left, found = np.array(matrix, float), list[tuple[int, int]]()
+    size = np.max(np.abs(left), initial=0.0)
+    while left.size and len(found) < min(left.shape):
+        row, column = np.unravel_index(int(np.argmax(np.abs(left))), left.shape)
+        if not np.abs(left[row, column]) > DEPENDENT * size:
+            break
+        found.append((int(row), int(column)))
+        left = left - np.outer(left[:, column], left[row]) / left[row, column]
+        left[row], left[:, column] = 0.0, 0.0
+    return found
+
+
+DEPENDENT = 1e-9
+"""A pivot below this part of the largest entry says that a row depends on others."""
+
+
+def solved(A: Sequence[Sequence[FloatArray]], b: Sequence[FloatArray]) -> list[FloatArray]:
+    """Return the solution of a few equations in their order, each number (n,) or of a program; no pivot may be nothing."""
+    rows = [[*row, right] for row, right in zip(A, b, strict=True)]
+    for k, row in enumerate(rows):
+        row[k:] = [each / row[k] for each in row[k:]]
+        for other in rows:
+            if other is not row:
+                other[k:] = [each - other[k] * own for each, own in zip(other[k:], row[k:], strict=True)]
+    return [row[-1] for row in rows]
 
 
 # The same of a program: one pose stands for all.

@@ -87,7 +87,7 @@ class Structure:
     """Bodies, lone pins and contacts of a plan. An index -1 is the frame; lone pins come after the bodies."""
 
     def __init__(self, plan: Plan, elements: Iterable[ForceElement] = (), thrusts: Sequence[AppliedThrust] = ()) -> None:
-        self.plan, elements = plan, tuple(elements)
+        self.plan, self.thrusts, elements = plan, tuple(thrusts), tuple(elements)
         self.fixed = frame_points(plan)
         self.holders: Holders = holders_of(plan, elements)
         bodies, self.struts = free_bodies(plan, self.holders, thrusts)

@@ -18,7 +18,7 @@ from ..quantities import is_number
 from .agreement import AGREES, disagreeing
 from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
-from .holding import Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
+from .holding import Holders, Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
 from .law_requests import situation_identity
 from .poses import AnyMotion, FlatPoses, plan_of
 from .solution import LEAST, PoseForces, locked_words
@@ -152,7 +152,7 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
     line = holders.line_of(member)
     if line is not None and isinstance(motion, TracedMotion):
         holders.check_written()
-    rates = member_rates(motion, member, acting, line)
+    rates = member_rates(motion, member, acting, line if line in holders.lines else None)
     shared = shared_key(motion, acting, rates)
     applied = made_once(motion, shared, "applied", lambda: applied_on(motion, acting, rates))
     if line is None:
@@ -167,11 +167,13 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
         found = forces_at(poses_held(require_motion(motion), applied, what), applied)
         locked_words(found, acting.movement)
         return found.thrusts[member_title(member)]
-    names = {name for point in (*applied.points, *(end for each in line.cylinders for end in each.ends)) for name in plan.reaches(point)}
-    poses, levers = with_levers(FlatPoses(motion, what, names), holders.lines, what)
-    what_holds = ("needs", holders.lines, poses.good.tobytes())
-    need = made_once(motion, shared, what_holds, lambda: needed_of(poses, applied, holders.lines))
-    return poses.full(thrust_of_need(need, holders.lines, levers, member))[()]
+    needed = holders.cylinders if holders.closed else line.cylinders
+    names = {name for point in (*applied.points, *(end for each in needed for end in each.ends)) for name in plan.reaches(point)}
+    poses, levers = with_levers(FlatPoses(motion, what, names), holders, what)
+    what_holds = ("needs", holders.all, poses.good.tobytes())
+    need = made_once(motion, shared, what_holds, lambda: needed_of(poses, applied, holders))
+    own = [poses.flattened(each.thrust) for each in applied.thrusts if same(each.member, member)]
+    return poses.full(sum(own, thrust_of_need(need, holders, levers, member)))[()]
 
 
 def shared_key(motion: AnyMotion, acting: Acting, rates: Rates) -> Hashable:
@@ -208,8 +210,8 @@ def all_numbers(applied: AppliedLoads) -> list[FloatArray]:
 def poses_held(motion: Motion, applied: AppliedLoads, what: str) -> FlatPoses:
     """Return the poses at which a motion's forces can be worked out: not singular, and held by the cylinders that hold."""
     poses = FlatPoses(motion, what)
-    lines = holders_of(motion.plan, applied.elements).lines
-    return poses if not lines else with_levers(poses, lines, what)[0]
+    holders = holders_of(motion.plan, applied.elements)
+    return with_levers(poses, holders, what)[0] if holders.lines else poses
 
 
 def standing_for(motion: AnyMotion, member: TwoPoint) -> TwoPoint:
@@ -237,16 +239,25 @@ def member_rates(motion: AnyMotion, member: TwoPoint, acting: Acting, line: Pres
     return Rates({name: way * rate for name, rate in tangent.items()}, direction=direction)
 
 
-def needed_of(poses: FlatPoses, applied: AppliedLoads, lines: Sequence[PressureLine]) -> FloatArray:
-    """Return what the strokes that are taken over need, by virtual work, shape (n, lines), frictionless."""
-    return np.stack([by_work(poses, applied, line.stroke) for line in lines], axis=-1)
+def needed_of(poses: FlatPoses, applied: AppliedLoads, holders: Holders) -> tuple[FloatArray, list[FloatArray]]:
+    """Return what the strokes that are taken over need, by virtual work, shape (n, lines), and what changes closed lines, (n,) each."""
+    needs = [by_work(poses, applied, line.stroke) for line in holders.lines]
+    need = np.stack(needs, axis=-1) if needs else np.zeros((poses.count, 0))
+    return need, [by_work(poses, applied, line.stroke) for line in holders.closed]
 
 
-def thrust_of_need(need: FloatArray, lines: Sequence[PressureLine], levers: Sequence[Levers], member: TwoPoint) -> FloatArray:
-    """Return a holding cylinder's thrust by what the strokes taken over need, shape (n,), frictionless."""
-    place = next(k for k, line in enumerate(lines) if any(same(each, member) for each in line.cylinders))
-    shares = [each.share(lines[place], member, place) for each in levers]
-    firsts = [each.thrusts(need)[:, place] for each in levers]
+def thrust_of_need(
+    needed: tuple[FloatArray, list[FloatArray]], holders: Holders, levers: Sequence[Levers], member: TwoPoint
+) -> FloatArray:
+    """Return a holding cylinder's thrust by what the strokes taken over need, shape (n,), frictionless.
+
+    Of closed lines by the work on what changes them, as much as the lines that hold leave.
+    """
+    need, cuts = needed
+    found = [each.thrust(holders, member, need, cuts) for each in levers]
     if len(levers) == 1:
-        return firsts[0] * shares[0]
-    return where_negative(firsts[0], firsts[1] * shares[1], firsts[0] * shares[0])
+        return found[0]
+    place = next((k for k, line in enumerate(holders.lines) if line.has(member)), None)
+    if place is None:
+        place = next(k for k, line in enumerate(holders.lines) if line.changes_shares)
+    return where_negative(levers[0].thrusts(need)[:, place], found[1], found[0])

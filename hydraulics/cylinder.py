@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import pi
-from typing import Literal, final
+from typing import Literal, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -86,10 +86,12 @@ def _next(size: float, series: tuple[float, ...], what: str) -> float:
     return larger[0]
 
 
+Works: TypeAlias = Literal["piston", "rod", "both", "regenerative"]
+"""What a cylinder works with: a side, both on lines of their own, or both on one line, which pushes with the area of the rod."""
 MOST = 10_000
 """More cylinders side by side than any machine has."""
 
-SIDES = ("piston", "rod", "both")
+SIDES = ("piston", "rod", "both", "regenerative")
 
 
 @final
@@ -106,7 +108,7 @@ class CylinderSize:
     bore: float | Array
     rod: float | Array
     count: int = 1
-    works: Literal["piston", "rod", "both"] = "piston"
+    works: Works = "piston"
 
     def __post_init__(self) -> None:
         keep_own(self)
@@ -124,7 +126,7 @@ class CylinderSize:
 
     def __str__(self) -> str:
         many = "1 cylinder" if self.count == 1 else f"{self.count} cylinders"
-        side = "both sides" if self.works == "both" else f"{self.works} side"
+        side = {"both": "both sides", "regenerative": "both sides on one line"}.get(self.works, f"{self.works} side")
         return f"{many} {self.bore / mm:.4g}/{self.rod / mm:.4g} mm, {side}"
 
     @property
@@ -145,12 +147,22 @@ class CylinderSize:
     @property
     def area(self) -> float | Array:
         """The area the pressure acts on, all cylinders, m2; of both sides that which pushes."""
-        return self.pull_area if self.works == "rod" else self.push_area
+        return self.pull_area if self.works == "rod" else self.outward_area
 
     @property
     def back_area(self) -> float | Array:
-        """The area on the other side of the pistons, all cylinders, m2."""
-        return self.push_area if self.works == "rod" else self.pull_area
+        """The area on the other side of the pistons, all cylinders, m2; none where both are on one line."""
+        return self.push_area if self.works == "rod" else self.inward_area
+
+    @property
+    def outward_area(self) -> float | Array:
+        """The area that the line pushes the ends apart with: all pistons, or all rods where both sides are on one line, m2."""
+        return self.push_area - self.pull_area if self.works == "regenerative" else self.push_area
+
+    @property
+    def inward_area(self) -> float | Array:
+        """The area that a line of its own pulls the ends together with: all annuli, none where both sides are on one line, m2."""
+        return 0.0 * self.pull_area if self.works == "regenerative" else self.pull_area
 
     @property
     def push_area(self) -> float | Array:

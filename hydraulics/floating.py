@@ -7,6 +7,7 @@ Source: Rekhlitski, Chuprynin (2013), (36), (37), (39).
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
@@ -19,7 +20,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import refuses_changes
 from linkage.language import said
-from linkage.loads import AT_REST, Acting, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
+from linkage.loads import AT_REST, Acting, Declared, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Judge, Motion, least, most
@@ -36,85 +37,45 @@ from .gas import Polytropic
 from .inputs import Array, all_finite, follows, in_pascals, number_set
 from .member import Circuit, Cylinder, the_cylinder
 
+Feeds: TypeAlias = "Reference | Sequence[Reference]"
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 
 
-@final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
-class FloatCircuit(Circuit):
-    """A cylinder on a closed accumulator block: `FloatCircuit(lift, block, charge_pressure=94 * kgf_cm2, at=h_horizon)`.
+class GasLine(Circuit):
+    """The base of lines whose pressure is that of gas, as much as is drawn from it: what `FloatCircuit` and `OilLine` share."""
 
-    The line has `charge_pressure` [Pa gauge] where the stroke that the cylinder follows is `at` [m], other strokes at the sketch;
-    `seal_friction` is what the seals take off that pressure [Pa]. `exponent` 1 is a slow movement, by the block's own gas law; above 1
-    the block has settled at the charge pressure and moves fast, by p V^exponent. `block` is an AccumulatorBlock, whose charges and volumes
-    may follow dimensions, or a function of the motion that returns one. The cylinder works with one side, and has no other force than
-    the gas's; what its stroke still needs is the drive's.
-    """
+    charge_pressure: Parameter | None
 
-    cylinder: Reference
-    block: Block
-    charge_pressure: Parameter
-    at: Parameter = 0.0
-    seal_friction: Parameter = 0.0
-    exponent: Parameter = 1.0
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
-        {"charge_pressure": "bar", "at": "m", "seal_friction": "bar", "exponent": ""}
-    )
-    not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
-    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"block": AccumulatorBlock})
+    @abstractmethod
+    def gas_block(self, plan: Declared) -> Block:
+        """Return the accumulators on it."""
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        for name in ("charge_pressure", "seal_friction"):
-            if not follows(getattr(self, name)):
-                in_pascals(getattr(self, name), name.replace("_", " ").capitalize())
-        if not follows(self.exponent) and np.any(all_finite(cast(ArrayLike, self.exponent), "Exponent") < 1.0):
-            raise DefinitionError(f"FloatCircuit: exponent={cited(self.exponent)} is below 1; 1 is a slow movement, 1.4 a fast one.")
-        if not isinstance(self.block, AccumulatorBlock) and (not callable(self.block) or isinstance(self.block, type)):
-            said = f"block={cited(self.block)} is no AccumulatorBlock"
-            raise DefinitionError(f"FloatCircuit: {said}; write AccumulatorBlock([Accumulator(...)]).")
+    @abstractmethod
+    def charged_at(self, motion: Poses, ram: Cylinder) -> Mapping[str, Array]:
+        """Return the strokes [SI] at which the block has its charge pressure, for one of its cylinders."""
 
-    def parts(self) -> tuple[Reference, ...]:
-        followed = self.block.following if isinstance(self.block, AccumulatorBlock) else ()
-        return (*super().parts(), *followed)
+    @abstractmethod
+    def withdrawn(self, motion: Poses) -> Array:
+        """Return the fluid [m3] that has left the block since it was charged, shape (...); negative: pushed in."""
 
-    @property
-    def references(self) -> tuple[Reference, ...]:
-        return (self.cylinder,)
+    def ram(self, motion: Poses) -> Cylinder:
+        """Return its only cylinder, as the motion's class has it; DefinitionError where it has several."""
+        rams = self.rams(motion)
+        if len(rams) > 1:
+            names = ", ".join(each.name or str(each) for each in rams)
+            raise DefinitionError(f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
+        return rams[0]
 
-    def examine(self, members: Mapping[str, Member], title: str) -> None:
-        super().examine(members, title)
-        if any(found.works == "both" for found in self.members(members)):
-            what = f"{title}.{self.name}: {label(self.cylinder)} works with both sides, but a charged line fills one"
-            raise DefinitionError(f'{what}; say works="piston" or works="rod".')
-
-    def __str__(self) -> str:
-        block = str(self.block) if isinstance(self.block, AccumulatorBlock) else getattr(self.block, "__name__", "block")
-        return f"FloatCircuit({', '.join([label(self.cylinder), block, *self.words()])})"
-
-    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
-        count = len(self.block.accumulators) if isinstance(self.block, AccumulatorBlock) else 1
-        return tuple(Glyph("accumulator", cylinder.ends, count) for cylinder in self.members(members))
-
-    def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
-        return self.members(members)
-
-    def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
-        (ram,) = self.members(members)
-        doubled = f"feed {ram.name or ram}, whose thrust would count double: one chamber has one line"
-        filled = "are given the same block, which would be filled twice: gas stands in one line"
-        return {
-            ("gas line", ram.name or id(ram)): f"{doubled}. Take one out, or put the vessels of both into one AccumulatorBlock.",
-            ("block", id(self.block)): f"{filled}. Give each circuit a block of its own, AccumulatorBlock([Accumulator(...)]).",
-        }
+    def rams(self, motion: Poses) -> tuple[Cylinder, ...]:
+        """Return its cylinders, as the motion's class has them."""
+        return tuple(the_cylinder(motion, each) for each in self.references)
 
     def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
         return self.pressure(motion)
 
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return the gas's force twice: its cylinder has no other [N]."""
-        thrust = self.thrust(motion)
+        thrust = self.thrust(motion, cylinder=cylinder)
         return thrust, thrust
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
@@ -141,23 +102,13 @@ class FloatCircuit(Circuit):
         found = "; ".join(f"{each.heading}: {each.sentence.rstrip('.')}" for each in faults)
         return [Verdict("line", False, f"{says}; {found}.", answer=high)]
 
-    def ram(self, motion: Poses) -> Cylinder:
-        """Return its cylinder, as the motion's class has it."""
-        return the_cylinder(motion, self.cylinder)
-
     def accumulators(self, motion: Poses) -> AccumulatorBlock:
         """Return its block as the motion's designs have it, before a movement: settled at the charge pressure, by its own gas law."""
         require_poses(motion)
-        return self.block(motion) if callable(self.block) else self.block.sized(motion)
+        block = self.gas_block(motion.plan)
+        return block(motion) if callable(block) else block.sized(motion)
 
     # -- over the stroke -----------------------------------------------------------------------------------
-
-    def withdrawn(self, motion: Poses) -> Array:
-        """Return the fluid [m3] that has left the block since the charging stroke, shape (...); negative: pushed in. (36)"""
-        ram = self.ram(motion)
-        size = ram.sized(motion)
-        charged = length_at(motion, ram, self.number(motion, "at"))
-        return np.asarray((motion.distance(ram.A, ram.B) - charged) * size.area * size.sense)
 
     def pressure(self, motion: Poses) -> Array:
         """Return the block's pressure [Pa gauge], shape (...); 0 where the line is empty."""
@@ -169,44 +120,58 @@ class FloatCircuit(Circuit):
         fast = block.settled(number_set(self, motion, "charge_pressure"), exponent).pressure(charge, left)
         return np.where(exponent == 1.0, block.pressure(charge, left), fast) if is_traced(exponent) or np.any(exponent == 1.0) else fast
 
-    def thrust(self, motion: Poses, rates: Mapping[str, Rate] = AT_REST) -> Array:
-        """Return the thrust [N], shape (...): frictionless at rest, or while strokes move at rates, with the seals' friction. (37), (39)"""
+    def thrust(self, motion: Poses, rates: Mapping[str, Rate] = AT_REST, *, cylinder: Reference | None = None) -> Array:
+        """Return the thrust of a cylinder [N], shape (...), its only one unless one is named.
+
+        Frictionless at rest, or while strokes move at rates, with the seals' friction. (37), (39)
+        """
         if not isinstance(rates, Mapping):
             raise DefinitionError(f"FloatCircuit: rates={cited(rates)}: a speed for each stroke is expected, such as dict(S=0.05).")
-        ram = self.ram(motion)
-        size = ram.sized(motion)
-        free = size.thrust(self.pressure(motion))
-        if not rates:
-            return np.asarray(free)
-        friction = all_finite(self.number(motion, "seal_friction"), "Seal friction") * size.area
-        return np.asarray(free - np.sign(ram.growth(motion, rates)) * friction)
+        ram = self.ram(motion) if cylinder is None else the_cylinder(motion, cylinder)
+        return self.thrust_of(ram, motion, rates)
+
+    @abstractmethod
+    def thrust_of(self, ram: Cylinder, motion: Poses, rates: Mapping[str, Rate]) -> Array:
+        """Return what the line puts on a cylinder [N], at rest or while strokes move at rates."""
+
+    def rubbing(self, ram: Cylinder, area: ArrayLike, motion: Poses, rates: Mapping[str, Rate]) -> Array:
+        """Return the seals' friction in a cylinder, with the area of its chamber, against its movement at rates [N]."""
+        friction = all_finite(self.number(motion, "seal_friction"), "Seal friction") * area
+        return np.asarray(np.sign(ram.growth(motion, rates)) * friction)
 
     def formulas(self, written: Formulas) -> None:
         """Write the line's pressure, by the isothermal law or as a given number, and the cylinder's thrust of it. (17)-(33), (36), (37)"""
-        ram = self.ram(written)
+        rams = self.members(written.plan.members)
+        if len(rams) > 1:
+            pressure = written.given(f"p_{self.name}", self.pressure, "bar")
+            for ram in rams:
+                area, _ = ram.sides_written(written, np.ones(()))
+                written.carry(ram, -pressure * area if ram.side == "rod" else pressure * area)
+            return
+        (ram,) = rams
         area, _ = ram.sides_written(written, np.ones(()))
         left = self._withdrawn_written(written, ram, area)
         pressure = written.given(f"p_{ram.name}", self.pressure, "bar") if left is None else self._pressure_written(written, ram, left)
-        written.carry(ram, -pressure * area if ram.works == "rod" else pressure * area)
+        written.carry(ram, -pressure * area if ram.side == "rod" else pressure * area)
 
     def _withdrawn_written(self, written: Formulas, ram: Cylinder, area: Array) -> Array | None:
         """Return the fluid that has left the block [m3] as a formula, None where there is none.
 
         There is one for an ideal gas that moves slowly, where a label gives the cylinder's length.
         """
-        block, plan = self.block, written.plan
+        block, plan = self.gas_block(written.plan), written.plan
         if not isinstance(block, AccumulatorBlock) or not isinstance(block.gas, Polytropic) or np.any(block.gas.n != 1.0):
             return None
         length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
         if length is None or not written.equals(self.number(written, "exponent"), 1.0):
             return None
-        charged = length_at(written, ram, self.number(written, "at"))
-        sense = -1.0 if ram.works == "rod" else 1.0
+        charged = length_at(written, ram, self.charged_at(written, ram))
+        sense = -1.0 if ram.side == "rod" else 1.0
         return written.line(f"dV_{ram.name}", (written.distance(ram.A, ram.B) - charged) * area * sense, "l")
 
     def _pressure_written(self, written: Formulas, ram: Cylinder, left: Array) -> Array:
         """Write p (V - V_idle) = sum of V_i C_i over the gases that work; one works up to the volume at which its charge C_i is left."""
-        block = self.block
+        block = self.gas_block(written.plan)
         assert isinstance(block, AccumulatorBlock)
         atmosphere = number_written(written, block.atmosphere)
         charges = [
@@ -224,13 +189,115 @@ class FloatCircuit(Circuit):
         return written.line(f"p_{ram.name}", pressure, "bar")
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
-        return [Push(self.ram(motion), self.thrust(motion, rates if rates.has_friction else AT_REST))]
+        given = rates if rates.has_friction else AT_REST
+        return [Push(ram, self.thrust_of(ram, motion, given)) for ram in self.rams(motion)]
 
     def loads(self, motion: Poses) -> list[Load]:
         return self.moving(motion, AT_REST)
 
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class FloatCircuit(GasLine):
+    """A cylinder on a closed accumulator block: `FloatCircuit(lift, block, charge_pressure=94 * kgf_cm2, at=h_horizon)`.
+
+    Several on one block, `FloatCircuit([left, right], block, ...)`, have one pressure. The line has `charge_pressure` [Pa gauge] where the stroke that the cylinder follows is `at` [m], other strokes at the sketch;
+    `seal_friction` is what the seals take off that pressure [Pa]. `exponent` 1 is a slow movement, by the block's own gas law; above 1
+    the block has settled at the charge pressure and moves fast, by p V^exponent. `block` is an AccumulatorBlock, whose charges and volumes
+    may follow dimensions, or a function of the motion that returns one. The cylinder works with one side, and has no other force than
+    the gas's; what its stroke still needs is the drive's.
+    """
+
+    cylinder: Feeds
+    block: Block
+    charge_pressure: Parameter
+    at: Parameter = 0.0
+    seal_friction: Parameter = 0.0
+    exponent: Parameter = 1.0
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {"charge_pressure": "bar", "at": "m", "seal_friction": "bar", "exponent": ""}
+    )
+    not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "loads", "block": AccumulatorBlock})
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("charge_pressure", "seal_friction"):
+            if not follows(getattr(self, name)):
+                in_pascals(getattr(self, name), name.replace("_", " ").capitalize())
+        if not follows(self.exponent) and np.any(all_finite(cast(ArrayLike, self.exponent), "Exponent") < 1.0):
+            raise DefinitionError(f"FloatCircuit: exponent={cited(self.exponent)} is below 1; 1 is a slow movement, 1.4 a fast one.")
+        if not isinstance(self.block, AccumulatorBlock) and (not callable(self.block) or isinstance(self.block, type)):
+            said = f"block={cited(self.block)} is no AccumulatorBlock"
+            raise DefinitionError(f"FloatCircuit: {said}; write AccumulatorBlock([Accumulator(...)]).")
+
+    def kind_in(self, members: Mapping[str, Member]) -> str:
+        return "given"
+
+    def gas_block(self, plan: Declared) -> Block:
+        return self.block
+
+    def line_pressure(self, motion: AnyMotion, acting: Acting | None = None) -> Array:
+        return self.pressure(motion)
+
+    def parts(self) -> tuple[Reference, ...]:
+        followed = self.block.following if isinstance(self.block, AccumulatorBlock) else ()
+        return (*super().parts(), *followed)
+
+    @property
+    def references(self) -> tuple[Reference, ...]:
+        given = self.cylinder
+        return tuple(given) if isinstance(given, (list, tuple)) else (cast(Reference, given),)
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        super().examine(members, title)
+        if any(found.side == "both" for found in self.members(members)):
+            names = ", ".join(map(label, self.references))
+            what = f"{title}.{self.name}: {names} works with both sides, but a charged line fills one"
+            raise DefinitionError(f'{what}; say works="piston" or works="rod".')
+
+    def __str__(self) -> str:
+        block = str(self.block) if isinstance(self.block, AccumulatorBlock) else getattr(self.block, "__name__", "block")
+        names = ", ".join(map(label, self.references))
+        return f"FloatCircuit({', '.join([f'[{names}]' if len(self.references) > 1 else names, block, *self.words()])})"
+
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        count = len(self.block.accumulators) if isinstance(self.block, AccumulatorBlock) else 1
+        return tuple(Glyph("accumulator", cylinder.ends, count) for cylinder in self.members(members))
+
+    def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
+        return self.members(members)
+
+    def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
+        filled = "are given the same block, which would be filled twice: gas stands in one line"
+        found: dict[Hashable, str] = {
+            ("block", id(self.block)): f"{filled}. Give each circuit a block of its own, AccumulatorBlock([Accumulator(...)])."
+        }
+        for ram in self.members(members):
+            doubled = f"feed {ram.name or ram}, whose thrust would count double: one chamber has one line"
+            found["gas line", ram.name or id(ram)] = f"{doubled}. Take one out, or put the vessels of both into one AccumulatorBlock."
+        return found
+
+    def withdrawn(self, motion: Poses) -> Array:
+        """Return the fluid [m3] that has left the block since the charging stroke, shape (...); negative: pushed in. (36)"""
+        return reduce(np.add, (self._drawn(ram, motion) for ram in self.rams(motion)))
+
+    def charged_at(self, motion: Poses, ram: Cylinder) -> Mapping[str, Array]:
+        return {stroke_followed(plan_of(motion), ram): self.number(motion, "at")}
+
+    def _drawn(self, ram: Cylinder, motion: Poses) -> Array:
+        size = ram.sized(motion)
+        charged = length_at(motion, ram, self.charged_at(motion, ram))
+        return np.asarray((motion.distance(ram.A, ram.B) - charged) * size.area * size.sense)
+
+    def thrust_of(self, ram: Cylinder, motion: Poses, rates: Mapping[str, Rate]) -> Array:
+        size = ram.sized(motion)
+        free = size.thrust(self.pressure(motion))
+        return np.asarray(free - self.rubbing(ram, size.area, motion, rates) if rates else free)
 
 
 def number_written(written: Formulas, value: Any) -> Array:
@@ -243,31 +310,35 @@ def gas_written(charges: Sequence[Array], vessels: Sequence[Array], pressure: Ar
     return reduce(np.add, (V * np.minimum(1.0, C / pressure) for C, V in zip(charges, vessels, strict=True)))
 
 
-def length_at(motion: Poses, ram: Cylinder, at: Array) -> Scalar:
-    """Return a cylinder's length [m] where the line is charged: the stroke that it follows at `at`, others at the sketch; broadcasts."""
+def length_at(motion: Poses, ram: Cylinder, at: Mapping[str, Array]) -> Scalar:
+    """Return a cylinder's length [m] where the line is charged: with some strokes there, others at the sketch; broadcasts."""
     plan = plan_of(motion)
-    stroke = stroke_followed(plan, ram)
-    reading = ArrayReading(plan.members, plan.table.lengths, {**motion.inputs, **plan.sketch_strokes, stroke: at})
+    reading = ArrayReading(plan.members, plan.table.lengths, {**motion.inputs, **plan.sketch_strokes, **at})
     length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
     if length is not None:
         return reading.value(length)
     if plan.followed or (plan.reaches(name_of(ram.A)) | plan.reaches(name_of(ram.B))) & set(plan.groups):
-        return length_by_groups(motion, ram, stroke, at)
+        return length_by_groups(motion, ram, at)
     with np.errstate(all="ignore"):
         found = (reading.at(name_of(ram.B)) - reading.at(name_of(ram.A))).length()
     if not np.all(np.isfinite(found)):
-        raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {stroke} = {np.ravel(at)[0]:.6g}.")
+        raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {charging_words(at)}.")
     return found
 
 
-def length_by_groups(motion: Poses, ram: Cylinder, stroke: str, at: Array) -> Array:
+def charging_words(at: Mapping[str, Array]) -> str:
+    """Return where a line is charged: the strokes with their first values, or that it is the sketch."""
+    return " and ".join(f"{name} = {np.ravel(value)[0]:.6g}" for name, value in at.items()) or "of the sketch"
+
+
+def length_by_groups(motion: Poses, ram: Cylinder, at: Mapping[str, Array]) -> Array:
     """Return a cylinder's length [m] where its line is charged, its ends found with groups of links; broadcasts against the motion."""
-    if not isinstance(motion, Motion) or np.size(at) != 1:
+    if not isinstance(motion, Motion) or any(np.size(value) != 1 for value in at.values()):
         what = f"{ram}: its length follows from a group of links, which has no closed form"
         raise DefinitionError(f"{what}; give the circuit one charging stroke for all designs, and ask for arrays.")
-    value = float(np.ravel(at)[0])
-    strokes = {name: np.asarray(place) for name, place in {**motion.plan.sketch_strokes, stroke: value}.items()}
+    values = {name: float(np.ravel(value)[0]) for name, value in at.items()}
+    strokes = {name: np.asarray(place) for name, place in {**motion.plan.sketch_strokes, **values}.items()}
     found = Motion(motion.plan, motion.designs, {name: strokes[name] for name in motion.strokes}, "nan").distance(ram.A, ram.B)
     if not np.all(np.isfinite(found)):
-        raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {stroke} = {value:.6g}.")
+        raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {charging_words(at)}.")
     return np.asarray(found.reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape))))

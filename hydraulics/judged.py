@@ -173,7 +173,7 @@ class LiftingCylinder:
         return {
             "lifting": least(reserve_request(*asked)) >= 1.0,
             "holding": most(pressure_request(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held,
-            "lowering": back <= supply if self.ram.works == "both" else back <= 0.0,
+            "lowering": back <= supply if self.ram.side == "both" else back <= 0.0,
         }
 
     def show(self, pressure: Any) -> str:
@@ -198,7 +198,7 @@ class LiftingCylinder:
         driven = self.parts(found, lambda reserve: np.where(np.isnan(reserve), -1.0, 1.0)) if found.unlimited else ()
         free = said(
             "; the load drives {where}, there it is not limited by this cylinder{remedy}", where=with_and(driven), remedy=self.other_side()
-        ) if driven and self.ram.works != "both" else ""  # fmt: skip
+        ) if driven and self.ram.side != "both" else ""  # fmt: skip
         says = said("at {pump} the least reserve is {least:.3f}, {where}", pump=pump, least=found.value, where=found.place)
         if found.ok:
             return Verdict("lifting", True, f"{says}{free}.", answer=found)
@@ -216,7 +216,7 @@ class LiftingCylinder:
 
     def other_side(self) -> str:
         """Return the remedy where the thrust changes its sign and one side alone is declared."""
-        return said('; works="both" judges the other side as well') if self.ram.works != "both" else ""
+        return said('; works="both" judges the other side as well') if self.ram.side != "both" else ""
 
     def remedy(self, reserve: float) -> str:
         """Return what makes up for a reserve below 1: a pressure, or a standard bore with its reserve."""
@@ -241,8 +241,8 @@ class LiftingCylinder:
     def larger(self, reserve: float) -> list[float]:
         """Return the standard bores (ISO 3320) to try [m], from the first that may give a reserve of 1."""
         size = one_size(self.ram.sized(self.judge.motion))
-        area = size.bore**2 - (size.rod**2 if self.ram.works == "rod" else 0.0)
-        wanted = np.sqrt(area / reserve + (size.rod**2 if self.ram.works == "rod" else 0.0))
+        area = size.bore**2 - (size.rod**2 if self.ram.side == "rod" else 0.0)
+        wanted = np.sqrt(area / reserve + (size.rod**2 if self.ram.side == "rod" else 0.0))
         bores = [bore for bore in standard_bores() if bore > max(size.bore, size.rod) * (1.0 + 1e-9)]
         return [bore for bore in bores if bore >= 0.9 * wanted][:TRIES]
 
@@ -251,7 +251,7 @@ class LiftingCylinder:
     def holding(self) -> Verdict:
         """Return the pressures that the load makes with the pump off, and whether they stay below the relief valve's."""
         circuit, limit = self.circuit, float(self.circuit.held(self.judge.motion))
-        order = SIDES if self.ram.works != "rod" else SIDES[::-1]
+        order = SIDES if self.ram.side != "rod" else SIDES[::-1]
         asked = [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), circuit, side)) <= limit for side in order]
         working, other = self.judge.answers(asked)
         endless = next((each for each in (working, other) if each.unbounded), None)
@@ -259,14 +259,14 @@ class LiftingCylinder:
             text = said("the pressure grows without bounds {where}: nothing holds there; keep away from that pose.", where=endless.place)
             return Verdict("holding", False, text, answer=endless)
         words = [said("piston side") if side == PISTON else said("rod side") for side in order]
-        drives = "" if self.ram.works == "both" else said(" where the load drives")
+        drives = "" if self.ram.side == "both" else said(" where the load drives")
         parts = [
             said("up to {pressure} stand in the {side}, {where}", pressure=self.show(each.value), side=side, where=each.place)
             for each, side in ((working, words[0]), (other, f"{words[1]}{drives}"))
             if each.value > 0.0
         ]
         stands = ", ".join(parts) or said("no pressure stands on either side")
-        given, pump = self.show(limit), circuit.relief is None
+        given, pump = self.show(limit), not circuit.relieves(self.judge.plan)
         valve = said("the pump, for no relief= is given, {limit}", limit=given) if pump else said("the relief valve, {limit}", limit=given)
         worst = max((working, other), key=lambda each: each.value)
         if working.ok and other.ok:
@@ -303,7 +303,7 @@ class LiftingCylinder:
                 where=where, against=against, pose=push.place,
             )  # fmt: skip
             return Verdict("lowering", False, text, answer=push)
-        if self.ram.works == "both":
+        if self.ram.side == "both":
             enough = push.value <= float(self.circuit.supply(judge.motion)) * (1.0 + 1e-9)
             text = said(
                 "{direction}, the load does not drive it back {where} {against}: the other side must push with up to {push}, {place}.",
@@ -339,7 +339,7 @@ def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     if np.isnan(ways).any():
         return Verdict("oil", None, said("nothing is left to judge: every place is unlimited, left out or lost"))
     oil = sum(way * float(np.ravel(ram.sized(judge.motion).area)[0]) for ram, way in zip(rams, ways, strict=True))
-    both = [(ram, way) for ram, way in zip(rams, ways, strict=True) if ram.works == "both"]
+    both = [(ram, way) for ram, way in zip(rams, ways, strict=True) if ram.side == "both"]
     back = sum(way * float(np.ravel(ram.sized(judge.motion).pull_area)[0]) for ram, way in both)
     says = said("{oil} from end to end", oil=show(oil, "l", ".2f"))
     if back:

@@ -10,11 +10,12 @@ Source: worksheet of the mower lift; Dyuzhev, Kotov, Chuprynin (2008), (28), (29
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
+from typing import Any, ClassVar, Unpack, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +23,21 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, one_word
 from linkage.frozen import refuses_changes
 from linkage.language import with_and
-from linkage.loads import Acting, Case, Force, ForceElement, Load, Loads, Parameter, Poses, require_poses, situation_of
+from linkage.loads import (
+    Acting,
+    Case,
+    Declared,
+    Force,
+    ForceElement,
+    Load,
+    Loads,
+    Parameter,
+    Poses,
+    Share,
+    Tie,
+    require_poses,
+    situation_of,
+)
 from linkage.loads.element import Formulas
 from linkage.motion import Condition, Judge, Motion, Question
 from linkage.program import is_traced
@@ -30,6 +45,7 @@ from linkage.quantities import Member, Reference, label, name_of
 from linkage.statics import AnyMotion, elements_of, member_thrust, same
 from linkage.verdict import Verdict
 
+from .floating import Feeds
 from .inputs import (
     Array,
     direction_of,
@@ -45,15 +61,334 @@ from .inputs import (
 )
 from .judged import line_conditions, line_questions, line_verdicts
 from .line import Choice, Holding, LiftLine, Lowering, WayBack, Work
-from .member import Cylinder, Reading, the_cylinder, thrust_along
+from .member import Circuit, Cylinder, Reading, by_other_lines, line_thrust, lines_of, the_cylinder, thrust_along
 
-Feeds: TypeAlias = "Reference | Sequence[Reference]"
+
+class PumpLine(LiftLine):
+    """The base of lines that a pump holds: what `LiftCircuit` and `OilLine` share. A subclass says where its numbers come from."""
+
+    @abstractmethod
+    def number(self, motion: Poses, name: str) -> Array:
+        """Return a number of the pump, the relief valve or the tank as a motion's designs have it [SI], the same at all poses.
+
+        DefinitionError for one that follows a stroke.
+        """
+
+    @abstractmethod
+    def written(self, written: Formulas, name: str) -> Array:
+        """Return the same for the equations."""
+
+    @abstractmethod
+    def pump_pressure(self, plan: Declared) -> Parameter:
+        """Return the pump's pressure as it is given."""
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return []
+
+    def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
+        return () if self.tie(members) is not None else self.members(members)
+
+    def tie(self, members: Mapping[str, Member]) -> Tie | None:
+        """Return how its pressure acts on its cylinders, where a closed line has another side of one of them."""
+        own = self.members(members)
+        closed = [line for ram in own for line, _ in lines_of(ram, members) if line.kind_in(members) == "closed"]
+        if not closed:
+            return None
+        return Tie(self.name, tuple(Share(ram, partial(working_area, ram)) for ram in own), held=True)
+
+    @property
+    def scales(self) -> bool:
+        return False
+
+    def formulas(self, written: Formulas) -> None:
+        """Write of each of its cylinders, while it lifts against the load: rod force, pressure, greatest rod force and reserve.
+
+        Efficiencies of one and a back pressure of none are left out.
+        """
+        for ram in self.members(written.plan.members):
+            thrust = written.thrust(ram)
+            if thrust is not None:
+                self._written_of(ram, thrust, written)
+
+    def _written_of(self, ram: Cylinder, thrust: Array, written: Formulas) -> None:
+        number = partial(self.written, written)
+        k_m, k_h = (divisor(written, number(f"{kind}_efficiency")) for kind in ("mechanical", "hydraulic"))
+        area, other = ram.sides_written(written, thrust)
+        against: Any = 0.0 if written.equals(number("back_pressure"), 0.0) else number("back_pressure") * other
+        supply = np.minimum(number("pressure"), number("relief")) if self.relieves(written.plan) else number("pressure")
+        force = written.line(f"F_{ram.name}", thrust_along(ram, thrust) / k_m, "kN")
+        written.line(f"p_{ram.name}", (force + against) / (area * k_h), "bar")
+        most = written.line(f"Fmax_{ram.name}", supply * area * k_h - against, "kN")
+        written.line(f"kz_{ram.name}", most / force)
+
+    # -- what it is made of --------------------------------------------------------------------------------
+
+    def rams(self, motion: Poses) -> tuple[Cylinder, ...]:
+        """Return its cylinders, as the motion's class has them."""
+        return tuple(the_cylinder(motion, each) for each in self.references)
+
+    def ram(self, motion: Poses) -> Cylinder:
+        """Return its only cylinder; DefinitionError where it has several."""
+        return self.one(motion, None)
+
+    def one(self, motion: Poses, cylinder: Reference | None) -> Cylinder:
+        """Return the cylinder that is meant: its only one, or the one named; DefinitionError where that leaves a choice."""
+        rams = self.rams(motion)
+        if cylinder is None and len(rams) == 1:
+            return rams[0]
+        names = ", ".join(each.name or str(each) for each in rams)
+        named = [each for each in rams if cylinder is not None and (each is cylinder or (each.name and each.name == name_of(cylinder)))]
+        if not named:
+            raise DefinitionError(f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
+        return named[0]
+
+    def meant(self, motion: Poses, cylinder: Reference | None) -> tuple[Cylinder, ...]:
+        """Return all its cylinders, or the one named."""
+        return self.rams(motion) if cylinder is None else (self.one(motion, cylinder),)
+
+    def supply(self, motion: Poses) -> Array:
+        """Return the highest pressure that lifts [Pa]: the pump's, as far as the relief valve lets it; DefinitionError for none."""
+        pump = self._pressure_set(motion, "pressure")
+        return np.minimum(pump, self._pressure_set(motion, "relief")) if self.relieves(motion.plan) else pump
+
+    def held(self, motion: Poses) -> Array:
+        """Return the pressure at which the relief valve opens [Pa], the pump's where none is given."""
+        return self._pressure_set(motion, "relief" if self.relieves(motion.plan) else "pressure")
+
+    def _pressure_set(self, motion: Poses, name: str) -> Array:
+        what = f"{self.name or type(self).__name__}.{name}"
+        return in_pascals(positive(self.number(motion, name), what), what)
+
+    def efficiency(self, motion: Poses, kind: str) -> Array:
+        """Return the "mechanical" or "hydraulic" efficiency; DefinitionError unless it is above 0 and not above 1."""
+        one_word("kind", kind, ("mechanical", "hydraulic"))
+        what = f"{self.name or type(self).__name__}.{kind}_efficiency"
+        return efficient(self.number(motion, f"{kind}_efficiency"), what)
+
+    def back(self, motion: Poses) -> Array:
+        """Return the pressure of the returning oil [Pa]; DefinitionError where it is negative."""
+        value = in_pascals(self.number(motion, "back_pressure"), "Back pressure")
+        if np.any(value < 0.0):
+            raise DefinitionError(f"Back pressure = {np.min(value):.6g} Pa is below zero; give zero or more.")
+        return value
+
+    # -- lifting -------------------------------------------------------------------------------------------
+
+    def work(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Work:
+        """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
+        cylinder = choice.pop("cylinder", None)
+        return self.work_of(self.one(motion, cylinder), motion, situation_of("work", loads=loads, **choice))
+
+    def work_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Work:
+        size, k_m = cylinder.sized(motion), self.efficiency(motion, "mechanical")
+        if size.works == "both" and acting.direction is None:
+            out, back = both_ways(cylinder, self, motion, acting)
+            pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
+            return Work(np.where(pushes, out, back), np.where(pushes, 1.0, -1.0), size, k_m)
+        way = acting.direction or ("retracting" if size.works == "rod" else "extending")
+        thrust = line_thrust(cylinder, self, motion, replace(acting, direction=way))
+        sense = np.sign(thrust) if way == "frictionless" else np.full(np.shape(thrust), 1.0 if way == "extending" else -1.0)
+        return Work(thrust, sense, size, k_m)
+
+    def works(self, what: str, motion: AnyMotion, loads: Loads, choice: Choice) -> list[Work]:
+        """Return what the cylinder that is named has to do, or each of them; `what` is the function that is asked."""
+        rams = self.meant(motion, choice.pop("cylinder", None))
+        acting = situation_of(what, loads=loads, **choice)
+        return [self.work_of(ram, motion, acting) for ram in rams]
+
+    def rod_force(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
+        """Return the rod force in the working direction [N], shape (...): T / k_m against a load, T k_m under one that drives."""
+        return self.work(motion, loads, **choice).force
+
+    def pressure_for(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
+        """Return the pressure on the side that works [Pa gauge], shape (...): the pump's while it lifts; 0 where the load drives.
+
+        `choice`: `case=`, `direction=` of the cylinder where it is not its working direction, `cylinder=` of a line of several (else
+        the one that needs most).
+        """
+        return np.asarray(np.max([self._pressure(motion, work) for work in self.works("pressure_for", motion, loads, choice)], axis=0))
+
+    def _pressure(self, motion: AnyMotion, work: Work) -> Array:
+        back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
+        share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
+        return np.asarray(np.maximum(work.force + back, 0.0) / (work.area * share))[()]
+
+    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
+        return self._pressure(motion, self.work_of(self.one(motion, cylinder), motion, acting))
+
+    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array | None:
+        return self.reserve(motion, cylinder=cylinder, acting=acting)
+
+    def questions(self, judge: Judge) -> list[Question]:
+        """Return what is asked of each of its cylinders: whether it carries anything, lifts, holds."""
+        return line_questions(self, judge)
+
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return that each of its cylinders lifts, holds and goes back."""
+        return line_conditions(self, judge)
+
+    def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return the verdicts on lifting, oil, holding and lowering."""
+        try:
+            return line_verdicts(self, judge, unit=self.unit_in(judge))
+        except DefinitionError as error:
+            return [Verdict("lifting", False, " ".join(str(error).split()))]
+
+    def unit_in(self, judge: Judge) -> str:
+        """Return the unit in which its pressures are told: that of the dimension which its pump's pressure follows, else bar."""
+        pressure = self.pump_pressure(judge.plan)
+        given = judge.plan.members.get(pressure) if isinstance(pressure, str) else pressure
+        return str(getattr(given, "unit", "")) or "bar"
+
+    def gauges_of(self, cylinder: Cylinder) -> dict[str, Reading]:
+        return {"most": self.supply, "reserve": lambda motion: self.reserve(motion, cylinder=cylinder)}
+
+    def largest(self, motion: AnyMotion, loads: Loads = None, *, share: float = 1.0, **choice: Unpack[Choice]) -> Array:
+        """Return the greatest rod force in the working direction [N]: k_h p area, less the back pressure's share."""
+        proper_share(share)
+        return self.most(motion, self.work(motion, loads, **choice), share)
+
+    def most(self, motion: AnyMotion, work: Work, share: float = 1.0) -> Array:
+        """Return the greatest rod force [N] with the areas of a work, at a share of the pump's pressure."""
+        force = self._given(motion, work, share)
+        if np.any(force <= 0.0):
+            raise DefinitionError(f"{self}: the back pressure eats up the pump's; lower it or raise the pressure.")
+        return force
+
+    def _given(self, motion: Poses, work: Work, share: float) -> Array:
+        """Return what the pressures on both sides give with the areas of a work [N], below zero where the back pressure is the stronger."""
+        pushes = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * work.area
+        return np.asarray(pushes - self.back(motion) * work.other_area)[()]
+
+    def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
+        """Return between which two thrusts one of its cylinders lifts, at a `share` of the pump's pressure, or holds [N].
+
+        Lifting takes both efficiencies and the back pressure off, and the side that does not work gives nothing; holding takes none of
+        them, and oil stands on both sides, each up to the relief valve's pressure.
+        """
+        proper_share(share)
+        ram = self.one(motion, cylinder)
+        size = ram.sized(motion)
+        others = by_other_lines(ram, self, motion, None)  # type: ignore[arg-type]
+        if not lifting:
+            held = self.held(motion)
+            low, high = np.asarray(-held * size.inward_area), np.asarray(held * size.outward_area)
+        else:
+            k_m, nothing = self.efficiency(motion, "mechanical"), np.zeros(())
+            pull, push = (self._given(motion, Work(way, way, size, k_m), share) * k_m for way in (np.asarray(-1.0), np.asarray(1.0)))
+            low, high = (-pull if size.works in ("rod", "both") else nothing), (nothing if size.works == "rod" else push)
+        return (low, high) if others is None else (low + others, high + others)
+
+    def reserve(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
+        """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder.
+
+        Of a line of several cylinders the least, unless one is named.
+        """
+        with np.errstate(invalid="ignore"):
+            works = self.works("reserve", motion, loads, choice)
+            return least_of([self.most(motion, work) / only_where(work.force > 0.0, work.force) for work in works])
+
+    def capacity(
+        self,
+        motion: AnyMotion,
+        point: str,
+        loads: Loads = None,
+        *,
+        along: tuple[float, float] = (0.0, 1.0),
+        share: float = 1.0,
+        cylinder: Reference | None = None,
+        case: Case = None,
+        acting: Acting | None = None,
+    ) -> Array:
+        """Return the largest load [N] at a point that the pump lifts beside the machine's own, shape (...), at a `share` of its pressure.
+
+        The load pulls against the direction `along`; the machine's own `loads` are those declared unless others are given ([] for
+        none). NaN where the load drives or does nothing: not limited by this cylinder; 0 where the machine alone is too heavy. Declared
+        friction counts with the load's own share. Source: Dyuzhev, Kotov, Chuprynin (2008), (28).
+        """
+        require_poses(motion)
+        proper_share(share)
+        unit = direction_of(along)
+        given = situation_of("capacity", acting, loads=loads, case=case)
+        return least_of([self._capacity(motion, point, unit, share, ram, given) for ram in self.meant(motion, cylinder)])
+
+    def _capacity(self, motion: AnyMotion, point: str, unit: Array, share: float, ram: Cylinder, acting: Acting) -> Array:
+        own = [element for _, element in elements_of(motion.plan, acting.loads)]
+        size = ram.sized(motion)
+        lever = member_thrust(motion, ram, Acting([Force(point, (-unit[0], -unit[1]))]))  # what one newton there asks of it
+        sense = np.sign(lever) if size.works == "both" else np.full(np.shape(lever), float(size.sense))
+        lifts, lever = lever * sense > IDLE, lever * sense
+        low, high = self.bounds_of(ram, motion, True, share=share)
+        most = np.where(sense < 0.0, -low, high)
+
+        def carried(load: Array) -> Array:
+            """Return the thrust that the machine and a load there need, in the direction in which it lifts."""
+            loads = [*own, Force(point, (-unit[0] * load, -unit[1] * load))]
+            out, back = both_ways(ram, None, motion, replace(acting, loads=loads))
+            return np.where(sense > 0.0, out, -back)
+
+        alone, safe = carried(np.zeros(motion.shape)), np.where(lifts, lever, 1.0)
+        found = (most - alone) / safe
+        if any(each.frictions(motion) for each in own):
+            for _ in range(ROUNDS):  # friction grows with the load: a line through two states, again until it stays
+                guess = np.where(lifts & (found > 0.0), found, 1.0)
+                slope = (carried(guess) - alone) / guess
+                found = (most - alone) / np.where(slope > 0.0, slope, safe)
+        return only_where(lifts, np.maximum(found, 0.0))
+
+    # -- oil and time --------------------------------------------------------------------------------------
+
+    def taken(self, motion: Motion) -> Array:
+        """Return the oil [m3] that the working sides take over the motion's range of lengths, between its poses too; one a design.
+
+        Of a cylinder that works with both sides it is that outwards; `size.pull_area` over the same way is that inwards.
+        """
+        return np.asarray(sum(for_designs(motion, ram.sized(motion).area) * ram.travel(motion) for ram in self.rams(motion)))[()]
+
+    def time(self, motion: Motion) -> Array:
+        """Return the time [s] that the pump's flow takes for it, one value a design; DefinitionError without a flow."""
+        flow = positive(self.number(motion, "flow"), "Flow of the pump", "give it in m3/s, such as flow=60 * litre / minute")
+        in_cubic_metres(flow, "Flow of the pump")
+        return np.asarray(self.taken(motion) / for_designs(motion, flow))[()]
+
+    # -- holding and lowering ------------------------------------------------------------------------------
+
+    def holding(
+        self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None
+    ) -> Holding:
+        """Return the pressures that hold the thrust with the pump off; neither friction nor an efficiency is counted on.
+
+        Of a line of several cylinders the greatest, unless one is named.
+        """
+        given = situation_of("holding", acting, loads=loads, case=case)
+        working, other = [], []
+        for ram in self.meant(motion, cylinder):
+            size, thrust = ram.sized(motion), line_thrust(ram, self, motion, Acting(given.loads, given.case))
+            force = size.sense * thrust
+            working.append(np.maximum(force, 0.0) / size.area)
+            other.append(np.maximum(-force, 0.0) / size.back_area)
+        return Holding(np.max(working, axis=0), np.max(other, axis=0))
+
+    def lowering(
+        self, motion: Motion, loads: Loads = None, *, resistance: ArrayLike = 0.0, cylinder: Reference | None = None, case: Case = None,
+        acting: Acting | None = None,
+    ) -> Lowering:  # fmt: skip
+        """Return how it goes back against its working direction, the oil flowing out against a `resistance` [Pa].
+
+        Of a cylinder that works with both sides it is the way that the load drives it at most of the poses. Of a line of several cylinders
+        it is the one that goes back hardest, unless one is named.
+        """
+        given = situation_of("lowering", acting, loads=loads, case=case)
+        against, k_m = fitted(motion, not_negative(resistance, "Return resistance")), self.efficiency(motion, "mechanical")
+        found = [WayBack.of(ram, self, motion, given, ram.way_back(motion, given), against, k_m) for ram in self.meant(motion, cylinder)]
+        push = np.max([each.push for each in found], axis=0)
+        return Lowering(np.min([each.working for each in found], axis=0), np.maximum(push, 0.0), np.asarray(push < 0.0))
 
 
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class LiftCircuit(LiftLine):
+class LiftCircuit(PumpLine):
     """A pump on a cylinder: `circuit = LiftCircuit(lift, pressure=180 * bar, flow=60 * litre / minute, mechanical_efficiency=0.9)`.
 
     Several cylinders on one line, `LiftCircuit([lift, aux], ...)`, share one pressure and carry thrust by area. `pressure` is the
@@ -113,303 +448,25 @@ class LiftCircuit(LiftLine):
                 says = "what shares a chamber is one line with one pressure"
                 raise DefinitionError(f"{title}: {what}; {says}. Name all of them in one LiftCircuit, or none in both.")
 
-    def loads(self, motion: Poses) -> list[Load]:
-        return []
-
-    def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
-        return self.members(members)
-
-    @property
-    def scales(self) -> bool:
-        return False
-
     def __str__(self) -> str:
         names = ", ".join(label(each) for each in self.references)
         return f"LiftCircuit({', '.join([f'[{names}]' if len(self.references) > 1 else names, *self.words()])})"
 
-    def formulas(self, written: Formulas) -> None:
-        """Write of each of its cylinders, while it lifts against the load: rod force, pressure, greatest rod force and reserve.
-
-        Efficiencies of one and a back pressure of none are left out.
-        """
-        for ram in self.members(written.plan.members):
-            thrust = written.thrust(ram)
-            if thrust is not None:
-                self._written_of(ram, thrust, written)
-
-    def _written_of(self, ram: Cylinder, thrust: Array, written: Formulas) -> None:
-        number = partial(ForceElement.number, self, written)
-        k_m, k_h = (divisor(written, number(f"{kind}_efficiency")) for kind in ("mechanical", "hydraulic"))
-        area, other = ram.sides_written(written, thrust)
-        against: Any = 0.0 if written.equals(number("back_pressure"), 0.0) else number("back_pressure") * other
-        supply = number("pressure") if self.relief is None else np.minimum(number("pressure"), number("relief"))
-        force = written.line(f"F_{ram.name}", thrust_along(ram, thrust) / k_m, "kN")
-        written.line(f"p_{ram.name}", (force + against) / (area * k_h), "bar")
-        most = written.line(f"Fmax_{ram.name}", supply * area * k_h - against, "kN")
-        written.line(f"kz_{ram.name}", most / force)
-
-    # -- what it is made of --------------------------------------------------------------------------------
-
-    def rams(self, motion: Poses) -> tuple[Cylinder, ...]:
-        """Return its cylinders, as the motion's class has them."""
-        return tuple(the_cylinder(motion, each) for each in self.references)
-
-    def ram(self, motion: Poses) -> Cylinder:
-        """Return its only cylinder; DefinitionError where it has several."""
-        return self.one(motion, None)
-
-    def one(self, motion: Poses, cylinder: Reference | None) -> Cylinder:
-        """Return the cylinder that is meant: its only one, or the one named; DefinitionError where that leaves a choice."""
-        rams = self.rams(motion)
-        if cylinder is None and len(rams) == 1:
-            return rams[0]
-        names = ", ".join(each.name or str(each) for each in rams)
-        named = [each for each in rams if cylinder is not None and (each is cylinder or (each.name and each.name == name_of(cylinder)))]
-        if not named:
-            raise DefinitionError(f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
-        return named[0]
-
-    def meant(self, motion: Poses, cylinder: Reference | None) -> tuple[Cylinder, ...]:
-        """Return all its cylinders, or the one named."""
-        return self.rams(motion) if cylinder is None else (self.one(motion, cylinder),)
-
     def number(self, motion: Poses, name: str) -> Array:
         """Return a parameter as a motion's designs have it [SI], the same at all poses; DefinitionError for one that follows a stroke."""
-        return number_set(self, motion, name) if follows(getattr(self, name)) else super().number(motion, name)
+        return number_set(self, motion, name) if follows(getattr(self, name)) else ForceElement.number(self, motion, name)
 
-    def supply(self, motion: Poses) -> Array:
-        """Return the highest pressure that lifts [Pa]: the pump's, as far as the relief valve lets it; DefinitionError for none."""
-        pump = self._pressure_set(motion, "pressure")
-        return pump if self.relief is None else np.minimum(pump, self._pressure_set(motion, "relief"))
-
-    def held(self, motion: Poses) -> Array:
-        """Return the pressure at which the relief valve opens [Pa], the pump's where none is given."""
-        return self._pressure_set(motion, "pressure" if self.relief is None else "relief")
-
-    def _pressure_set(self, motion: Poses, name: str) -> Array:
-        what = f"{self.name or 'LiftCircuit'}.{name}"
-        return in_pascals(positive(self.number(motion, name), what), what)
-
-    def efficiency(self, motion: Poses, kind: str) -> Array:
-        """Return the "mechanical" or "hydraulic" efficiency; DefinitionError unless it is above 0 and not above 1."""
-        one_word("kind", kind, ("mechanical", "hydraulic"))
-        what = f"{self.name or 'LiftCircuit'}.{kind}_efficiency"
-        return efficient(self.number(motion, f"{kind}_efficiency"), what)
-
-    def back(self, motion: Poses) -> Array:
-        """Return the pressure of the returning oil [Pa]; DefinitionError where it is negative."""
-        value = in_pascals(self.number(motion, "back_pressure"), "Back pressure")
-        if np.any(value < 0.0):
-            raise DefinitionError(f"Back pressure = {np.min(value):.6g} Pa is below zero; give zero or more.")
-        return value
-
-    # -- lifting -------------------------------------------------------------------------------------------
-
-    def work(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Work:
-        """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
-        cylinder = choice.pop("cylinder", None)
-        return self.work_of(self.one(motion, cylinder), motion, situation_of("work", loads=loads, **choice))
-
-    def work_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Work:
-        size, k_m = cylinder.sized(motion), self.efficiency(motion, "mechanical")
-        if size.works == "both" and acting.direction is None:
-            out, back = both_ways(cylinder, motion, acting)
-            pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
-            return Work(np.where(pushes, out, back), np.where(pushes, 1.0, -1.0), size, k_m)
-        way = acting.direction or ("extending" if size.works == "piston" else "retracting")
-        thrust = member_thrust(motion, cylinder, replace(acting, direction=way))
-        sense = np.sign(thrust) if way == "frictionless" else np.full(np.shape(thrust), 1.0 if way == "extending" else -1.0)
-        return Work(thrust, sense, size, k_m)
-
-    def works(self, what: str, motion: AnyMotion, loads: Loads, choice: Choice) -> list[Work]:
-        """Return what the cylinder that is named has to do, or each of them; `what` is the function that is asked."""
-        rams = self.meant(motion, choice.pop("cylinder", None))
-        acting = situation_of(what, loads=loads, **choice)
-        return [self.work_of(ram, motion, acting) for ram in rams]
-
-    def rod_force(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
-        """Return the rod force in the working direction [N], shape (...): T / k_m against a load, T k_m under one that drives."""
-        return self.work(motion, loads, **choice).force
-
-    def pressure_for(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
-        """Return the pressure on the side that works [Pa gauge], shape (...): the pump's while it lifts; 0 where the load drives.
-
-        `choice`: `case=`, `direction=` of the cylinder where it is not its working direction, `cylinder=` of a line of several (else
-        the one that needs most).
-        """
-        return np.asarray(np.max([self._pressure(motion, work) for work in self.works("pressure_for", motion, loads, choice)], axis=0))
-
-    def _pressure(self, motion: AnyMotion, work: Work) -> Array:
-        back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
-        share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
-        return np.asarray(np.maximum(work.force + back, 0.0) / (work.area * share))[()]
-
-    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
-        return self._pressure(motion, self.work_of(self.one(motion, cylinder), motion, acting))
-
-    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array | None:
-        return self.reserve(motion, cylinder=cylinder, acting=acting)
-
-    def questions(self, judge: Judge) -> list[Question]:
-        """Return what is asked of each of its cylinders: whether it carries anything, lifts, holds."""
-        return line_questions(self, judge)
-
-    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
-        """Return that each of its cylinders lifts, holds and goes back."""
-        return line_conditions(self, judge)
-
-    def verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return the verdicts on lifting, oil, holding and lowering."""
-        try:
-            return line_verdicts(self, judge, unit=self.unit_in(judge))
-        except DefinitionError as error:
-            return [Verdict("lifting", False, " ".join(str(error).split()))]
-
-    def unit_in(self, judge: Judge) -> str:
-        """Return the unit in which its pressures are told: that of the dimension which its pump's pressure follows, else bar."""
-        given = judge.plan.members.get(self.pressure) if isinstance(self.pressure, str) else self.pressure
-        return str(getattr(given, "unit", "")) or "bar"
-
-    def gauges_of(self, cylinder: Cylinder) -> dict[str, Reading]:
-        return {"most": self.supply, "reserve": lambda motion: self.reserve(motion, cylinder=cylinder)}
-
-    def largest(self, motion: AnyMotion, loads: Loads = None, *, share: float = 1.0, **choice: Unpack[Choice]) -> Array:
-        """Return the greatest rod force in the working direction [N]: k_h p area, less the back pressure's share."""
-        proper_share(share)
-        return self.most(motion, self.work(motion, loads, **choice), share)
-
-    def most(self, motion: AnyMotion, work: Work, share: float = 1.0) -> Array:
-        """Return the greatest rod force [N] with the areas of a work, at a share of the pump's pressure."""
-        force = self._given(motion, work, share)
-        if np.any(force <= 0.0):
-            raise DefinitionError(f"{self}: the back pressure eats up the pump's; lower it or raise the pressure.")
-        return force
-
-    def _given(self, motion: Poses, work: Work, share: float) -> Array:
-        """Return what the pressures on both sides give with the areas of a work [N], below zero where the back pressure is the stronger."""
-        pushes = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * work.area
-        return np.asarray(pushes - self.back(motion) * work.other_area)[()]
-
-    def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
-        """Return between which two thrusts one of its cylinders lifts, at a `share` of the pump's pressure, or holds [N].
-
-        Lifting takes both efficiencies and the back pressure off, and the side that does not work gives nothing; holding takes none of
-        them, and oil stands on both sides, each up to the relief valve's pressure.
-        """
-        proper_share(share)
-        ram = self.one(motion, cylinder)
-        size = ram.sized(motion)
-        if not lifting:
-            held = self.held(motion)
-            return np.asarray(-held * size.pull_area), np.asarray(held * size.push_area)
-        k_m, nothing = self.efficiency(motion, "mechanical"), np.zeros(())
-        pull, push = (self._given(motion, Work(way, way, size, k_m), share) * k_m for way in (np.asarray(-1.0), np.asarray(1.0)))
-        return (nothing if size.works == "piston" else -pull), (nothing if size.works == "rod" else push)
-
-    def reserve(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
-        """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder.
-
-        Of a line of several cylinders the least, unless one is named.
-        """
-        with np.errstate(invalid="ignore"):
-            works = self.works("reserve", motion, loads, choice)
-            return least_of([self.most(motion, work) / only_where(work.force > 0.0, work.force) for work in works])
-
-    def capacity(
-        self,
-        motion: AnyMotion,
-        point: str,
-        loads: Loads = None,
-        *,
-        along: tuple[float, float] = (0.0, 1.0),
-        share: float = 1.0,
-        cylinder: Reference | None = None,
-        case: Case = None,
-        acting: Acting | None = None,
-    ) -> Array:
-        """Return the largest load [N] at a point that the pump lifts beside the machine's own, shape (...), at a `share` of its pressure.
-
-        The load pulls against the direction `along`; the machine's own `loads` are those declared unless others are given ([] for
-        none). NaN where the load drives or does nothing: not limited by this cylinder; 0 where the machine alone is too heavy. Declared
-        friction counts with the load's own share. Source: Dyuzhev, Kotov, Chuprynin (2008), (28).
-        """
-        require_poses(motion)
-        proper_share(share)
-        unit = direction_of(along)
-        given = situation_of("capacity", acting, loads=loads, case=case)
-        return least_of([self._capacity(motion, point, unit, share, ram, given) for ram in self.meant(motion, cylinder)])
-
-    def _capacity(self, motion: AnyMotion, point: str, unit: Array, share: float, ram: Cylinder, acting: Acting) -> Array:
-        own = [element for _, element in elements_of(motion.plan, acting.loads)]
-        size = ram.sized(motion)
-        lever = member_thrust(motion, ram, Acting([Force(point, (-unit[0], -unit[1]))]))  # what one newton there asks of it
-        sense = np.sign(lever) if size.works == "both" else np.full(np.shape(lever), float(size.sense))
-        lifts, lever = lever * sense > IDLE, lever * sense
-        low, high = self.bounds_of(ram, motion, True, share=share)
-        most = np.where(sense < 0.0, -low, high)
-
-        def carried(load: Array) -> Array:
-            """Return the thrust that the machine and a load there need, in the direction in which it lifts."""
-            loads = [*own, Force(point, (-unit[0] * load, -unit[1] * load))]
-            out, back = both_ways(ram, motion, replace(acting, loads=loads))
-            return np.where(sense > 0.0, out, -back)
-
-        alone, safe = carried(np.zeros(motion.shape)), np.where(lifts, lever, 1.0)
-        found = (most - alone) / safe
-        if any(each.frictions(motion) for each in own):
-            for _ in range(ROUNDS):  # friction grows with the load: a line through two states, again until it stays
-                guess = np.where(lifts & (found > 0.0), found, 1.0)
-                slope = (carried(guess) - alone) / guess
-                found = (most - alone) / np.where(slope > 0.0, slope, safe)
-        return only_where(lifts, np.maximum(found, 0.0))
-
-    # -- oil and time --------------------------------------------------------------------------------------
+    def written(self, written: Formulas, name: str) -> Array:
+        return ForceElement.number(self, written, name)
 
     def oil(self, motion: Motion) -> Array:
-        """Return the oil [m3] that the working sides take over the motion's range of lengths, between its poses too; one a design.
+        return self.taken(motion)
 
-        Of a cylinder that works with both sides it is that outwards; `size.pull_area` over the same way is that inwards.
-        """
-        return np.asarray(sum(for_designs(motion, ram.sized(motion).area) * ram.travel(motion) for ram in self.rams(motion)))[()]
+    def pump_pressure(self, plan: Declared) -> Parameter:
+        return self.pressure
 
-    def time(self, motion: Motion) -> Array:
-        """Return the time [s] that the pump's flow takes for it, one value a design; DefinitionError without a flow."""
-        flow = positive(self.number(motion, "flow"), "Flow of the pump", "give it in m3/s, such as flow=60 * litre / minute")
-        in_cubic_metres(flow, "Flow of the pump")
-        return np.asarray(self.oil(motion) / for_designs(motion, flow))[()]
-
-    # -- holding and lowering ------------------------------------------------------------------------------
-
-    def holding(
-        self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None
-    ) -> Holding:
-        """Return the pressures that hold the thrust with the pump off; neither friction nor an efficiency is counted on.
-
-        Of a line of several cylinders the greatest, unless one is named.
-        """
-        given = situation_of("holding", acting, loads=loads, case=case)
-        working, other = [], []
-        for ram in self.meant(motion, cylinder):
-            size, thrust = ram.sized(motion), member_thrust(motion, ram, Acting(given.loads, given.case))
-            force = size.sense * thrust
-            working.append(np.maximum(force, 0.0) / size.area)
-            other.append(np.maximum(-force, 0.0) / size.back_area)
-        return Holding(np.max(working, axis=0), np.max(other, axis=0))
-
-    def lowering(
-        self, motion: Motion, loads: Loads = None, *, resistance: ArrayLike = 0.0, cylinder: Reference | None = None, case: Case = None,
-        acting: Acting | None = None,
-    ) -> Lowering:  # fmt: skip
-        """Return how it goes back against its working direction, the oil flowing out against a `resistance` [Pa].
-
-        Of a cylinder that works with both sides it is the way that the load drives it at most of the poses. Of a line of several cylinders
-        it is the one that goes back hardest, unless one is named.
-        """
-        given = situation_of("lowering", acting, loads=loads, case=case)
-        against, k_m = fitted(motion, not_negative(resistance, "Return resistance")), self.efficiency(motion, "mechanical")
-        found = [WayBack.of(ram, motion, given, ram.way_back(motion, given), against, k_m) for ram in self.meant(motion, cylinder)]
-        push = np.max([each.push for each in found], axis=0)
-        return Lowering(np.min([each.working for each in found], axis=0), np.maximum(push, 0.0), np.asarray(push < 0.0))
+    def relieves(self, plan: Declared) -> bool:
+        return self.relief is not None
 
 
 IDLE = 1e-12
@@ -434,10 +491,17 @@ def fitted(motion: Motion, value: Array) -> Array:
     return value
 
 
-def both_ways(ram: Cylinder, motion: AnyMotion, acting: Acting) -> tuple[Array, Array]:
-    """Return what a cylinder carries while it grows and while it shrinks [N]."""
-    out, back = (member_thrust(motion, ram, replace(acting, direction=way, rates=None)) for way in ("extending", "retracting"))
+def both_ways(ram: Cylinder, line: Circuit | None, motion: AnyMotion, acting: Acting) -> tuple[Array, Array]:
+    """Return what a cylinder carries while it grows and while it shrinks [N]: all of it, or what one line puts on it."""
+    ways = [replace(acting, direction=way, rates=None) for way in ("extending", "retracting")]
+    out, back = (member_thrust(motion, ram, way) if line is None else line_thrust(ram, line, motion, way) for way in ways)
     return out, back
+
+
+def working_area(ram: Cylinder, motion: Poses) -> Array:
+    """Return the thrust of a cylinder at one unit of pressure on the side that works [m2]."""
+    size = ram.sized(motion)
+    return np.asarray(size.sense * size.area)[()]
 
 
 def least_of(each: Sequence[Array]) -> Array:

@@ -13,15 +13,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.frozen import refuses_changes
-from linkage.loads import Acting, ActingKeywords, Case, Loads, Parameter, Poses
+from linkage.loads import Acting, ActingKeywords, Case, Declared, Loads, Poses
 from linkage.motion import Motion
 from linkage.plan import Mask
 from linkage.quantities import Reference
-from linkage.statics import AnyMotion, member_thrust
+from linkage.statics import AnyMotion
 
 from .cylinder import CylinderSize
 from .inputs import Array
-from .member import Circuit, Cylinder
+from .member import Circuit, Cylinder, line_thrust
 
 
 class Choice(ActingKeywords, total=False):
@@ -51,12 +51,12 @@ class Work:
     @property
     def area(self) -> Array:
         """The area of the side that works [m2]."""
-        return np.asarray(np.where(self.pulls, self.size.pull_area, self.size.push_area))[()]
+        return np.asarray(np.where(self.pulls, self.size.pull_area, self.size.outward_area))[()]
 
     @property
     def other_area(self) -> Array:
         """The area of the other side [m2]."""
-        return np.asarray(np.where(self.pulls, self.size.push_area, self.size.pull_area))[()]
+        return np.asarray(np.where(self.pulls, self.size.push_area, self.size.inward_area))[()]
 
     @property
     def along(self) -> Array:
@@ -114,11 +114,13 @@ class WayBack:
     push: Array
 
     @classmethod
-    def of(cls, ram: Cylinder, motion: AnyMotion, acting: Acting, way: str, against: Array | float, k_m: Array) -> WayBack:
+    def of(
+        cls, ram: Cylinder, line: Circuit, motion: AnyMotion, acting: Acting, way: str, against: Array | float, k_m: Array
+    ) -> WayBack:  # fmt: skip
         """Return how a cylinder goes back at a motion's poses: `way` is "extending" or "retracting", its own direction."""
-        size, thrust = ram.sized(motion), member_thrust(motion, ram, replace(acting, direction=way, rates=None))
+        size, thrust = ram.sized(motion), line_thrust(ram, line, motion, replace(acting, direction=way, rates=None))
         drives = thrust if way == "retracting" else -thrust
-        empties, other = (size.push_area, size.pull_area) if way == "retracting" else (size.pull_area, size.push_area)
+        empties, other = (size.outward_area, size.pull_area) if way == "retracting" else (size.pull_area, size.outward_area)
         brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
         return cls(np.asarray(np.maximum(brings, 0.0) / empties)[()], np.asarray((against * empties - brings) / other)[()])
 
@@ -126,7 +128,9 @@ class WayBack:
 class LiftLine(Circuit):
     """The base of what lifts by cylinders of one line: pressures [Pa gauge], forces [N] in the working direction, oil [m3], time [s]."""
 
-    relief: Parameter | None
+    @abstractmethod
+    def relieves(self, plan: Declared) -> bool:
+        """Return whether a relief valve of its own is on it."""
 
     @abstractmethod
     def rams(self, motion: Poses) -> tuple[Cylinder, ...]:

@@ -20,7 +20,7 @@ from typing import Any, ClassVar, Literal, TypeAlias, TypeVar, Unpack, cast, fin
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, cited, unknown, unwarned
+from linkage.errors import DefinitionError, cited, known_name, unknown, unwarned
 from linkage.frozen import refuses_changes
 from linkage.language import noted, said, said_of, with_and
 from linkage.loads import (
@@ -63,20 +63,70 @@ from linkage.motion import (
     require_motion,
 )
 from linkage.plan import Plan
-from linkage.quantities import Member, Reference, body_name, distance, label, name_of
+from linkage.quantities import Member, Quantity, Reference, Where, body_name, distance, label, name_of, needs
 from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, same
 from linkage.units import mm, show, shown_number, unit_sign
+from linkage.vectors import Scalar
 from linkage.verdict import Verdict
 
 from .buckling import Buckling, never_pushed
-from .cylinder import BORES_MM, RODS_MM, CylinderSize, standard_rods
+from .cylinder import BORES_MM, RODS_MM, CylinderSize, Works, standard_rods
 from .inputs import Array, follows, number_set, one_number, positive, stroke_in_metres
 
 LENGTHS: Mapping[str, str] = MappingProxyType({"stroke": "Stroke of the cylinder", "closed": "Closed length of the cylinder"})
 """What its lengths are called in words."""
-PISTON, ROD = "piston", "rod"
-SIDES = (PISTON, ROD)
+Side: TypeAlias = Literal["piston", "rod"]
+PISTON: Side = "piston"
+ROD: Side = "rod"
+SIDES: tuple[Side, ...] = (PISTON, ROD)
 """The sides of a cylinder."""
+SIDE_WORDS: Mapping[str, str] = MappingProxyType({
+    "piston": "the piston side", "rod": "the rod side", "both": "both sides", "regenerative": "both sides on one line",
+})  # fmt: skip
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True)
+class Chamber:
+    """One side of a cylinder, which an OilLine fills: `lift.piston_side`, `lift.rod_side`, by their names too, "lift.rod_side"."""
+
+    cylinder: Reference
+    side: Side
+
+    def __str__(self) -> str:
+        return f"{label(self.cylinder)}.{self.side}_side"
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class LengthOf(Quantity):
+    """The length of a cylinder, as its class tells it: `lift.length`."""
+
+    cylinder: Reference
+
+    @property
+    def called(self) -> str:
+        """The name of the length in the class."""
+        return f"{name_of(self.cylinder)}.length"
+
+    @property
+    def measures(self) -> str:
+        return "length"
+
+    @property
+    def identity(self) -> Hashable:
+        return self.name or self.called
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (self.called,)
+
+    def rule(self, where: Where) -> Scalar:
+        return where.value(self.called)
+
+    def __str__(self) -> str:
+        return f"{label(self.cylinder)}.length"
 
 
 @final
@@ -86,9 +136,10 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
     """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
 
     In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
-    on: "piston" pushes, "rod" pulls, "both" does what the load asks for. `closed` is the distance of its pins drawn in, `stroke` how
-    far it comes out [m], design variables as well where they are given; `mounting` and `safety` are for buckling. It holds what the
-    mechanism needs, in the place of the drive of one stroke; one that a FloatCircuit feeds has the gas's force instead.
+    on: "piston" pushes, "rod" pulls, "both" does what the load asks for; not given it is the side that an OilLine names, else the
+    piston. Its chambers are `lift.piston_side` and `lift.rod_side`, the distance of its pins is `lift.length`. `closed` is that distance
+    drawn in, `stroke` how far it comes out [m], design variables as well where they are given; `mounting` and `safety` are for buckling.
+    It holds what the mechanism needs, in the place of the drive of one stroke; one whose line gives its pressure has that force instead.
     """
 
     A: Reference
@@ -96,7 +147,7 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
     bore: Parameter
     rod: Parameter
     count: int = 1
-    works: Literal["piston", "rod", "both"] = "piston"
+    works: Literal["piston", "rod", "both"] | None = None
     stroke: Parameter | None = None
     closed: Parameter | None = None
     mounting: str = "pin-pin"
@@ -106,10 +157,14 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm", "stroke": "mm", "closed": "mm"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod", "stroke", "closed"})
     optional: ClassVar[frozenset[str]] = frozenset({"stroke", "closed"})
+    _on_lines: ClassVar[Works | None] = None
+    """What lines say that it works with, where they do; told by the class that it is in."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        size = CylinderSize(2.0, 1.0, self.count, self.works) if self._follows else self.size
+        if self.works is not None:
+            known_name("Side", self.works, (*SIDES, "both"), where="works")
+        size = CylinderSize(2.0, 1.0, self.count, self.side) if self._follows else self.size
         Buckling(1.0, self.mounting, self.safety)
         for name, what in LENGTHS.items():
             value = getattr(self, name)
@@ -131,13 +186,53 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
     def holds(self) -> bool:
         return True
 
+    # -- its sides and its length ------------------------------------------------------------------------------
+
+    @property
+    def side(self) -> Works:
+        """What it works with: as it says itself, else as lines say, else the piston."""
+        return self.works or self._on_lines or "piston"
+
+    @property
+    def piston_side(self) -> Chamber:
+        """The chamber behind its piston, for an OilLine."""
+        return Chamber(self, "piston")
+
+    @property
+    def rod_side(self) -> Chamber:
+        """The chamber around its rod, for an OilLine."""
+        return Chamber(self, "rod")
+
+    @property
+    def length(self) -> Quantity:
+        """The distance of its pins [m]: as a closed line gives it where it is asked for by a step that they follow, else as they are."""
+        return LengthOf(self)
+
+    def among(self, members: Mapping[str, Member]) -> Cylinder:
+        """Return it as the lines of its class say what it works with; DefinitionError where it says another side itself."""
+        found = works_by_lines(self, members)
+        if found is None:
+            return self
+        if self.works is not None and self.works != found:
+            what = f"{self.name} says works={self.works!r}, and its lines say that it works with {SIDE_WORDS[found]}"
+            raise DefinitionError(f"{what}; leave works= out.", member=self.name)
+        return self.renewed(_on_lines=found)
+
+    def inner(self, name: str, members: Mapping[str, Member]) -> Member | None:
+        return length_in(self, members) if name == "length" else None
+
+    def as_in(self, motion: Poses) -> Cylinder:
+        """Return it as the machine of a motion has it."""
+        found = motion.plan.members.get(self.name) if self.name else None
+        return found if isinstance(found, Cylinder) else self
+
     @property
     def works_both(self) -> bool:
-        return self.works == "both"
+        return self.side == "both"
 
     def area_in(self, motion: Poses, sense: Array) -> Array:
         size = self.sized(motion)
-        if self.works == "both":
+        if size.works == "both":
             return np.asarray(np.where(sense[()] < 0.0, -size.pull_area, size.push_area))
         return np.asarray(size.sense * size.area + 0.0 * sense)
 
@@ -148,7 +243,7 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
         """The size as it is written here; DefinitionError where a bore or rod follows something else."""
         if self._follows:
             raise DefinitionError(f"{self}: its size follows the design; ask for sized(motion).")
-        return CylinderSize(cast("float | Array", self.bore), cast("float | Array", self.rod), self.count, self.works)
+        return CylinderSize(cast("float | Array", self.bore), cast("float | Array", self.rod), self.count, self.side)
 
     @property
     def _follows(self) -> bool:
@@ -158,7 +253,7 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
     def sized(self, motion: Poses) -> CylinderSize:
         """Return the size that a motion's designs have; bore and rod [m] broadcast against the motion."""
         bore, rod = number_set(self, motion, "bore"), number_set(self, motion, "rod")
-        return CylinderSize(bore[()], rod[()], self.count, self.works)
+        return CylinderSize(bore[()], rod[()], self.count, self.as_in(motion).side)
 
     def closed_and_stroke(self, motion: Poses) -> tuple[Array | None, Array | None]:
         """Return its closed length and its stroke as a motion's designs have them [m], to broadcast against it; None where not given.
@@ -182,9 +277,9 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
         """
         if length is not None:
             one_number(length, "Length between the ends")
-        thin = CylinderSize(self.size.bore, min(self.size.rod, RODS_MM[0] * mm), self.count, self.works)
+        thin = CylinderSize(self.size.bore, min(self.size.rod, RODS_MM[0] * mm), self.count, self.side)
         bore = float(thin.sized_for(thrust, pressure).bore)
-        sizes = [CylinderSize(bore, rod, self.count, self.works) for rod in standard_rods(bore)]
+        sizes = [CylinderSize(bore, rod, self.count, self.side) for rod in standard_rods(bore)]
         enough = [size for size in sizes if one_area(size, thrust) * pressure >= abs(thrust)]
         push = max(thrust, 0.0) / self.count
         return [size for size in enough if length is None or Buckling(float(size.rod), self.mounting, self.safety).allowed(length) >= push]
@@ -236,14 +331,19 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
         return UNBOUNDED if circuit is None else circuit.bounds_of(self, motion, lifting, share=share)
 
     @property
+    def _both_joined(self) -> bool:
+        """Whether one line fills both of its sides."""
+        return self.side == "regenerative"
+
+    @property
     def driven(self) -> tuple[str, ...]:
         """The directions in which the side that works drives it."""
-        return {"piston": ("extending",), "rod": ("retracting",)}.get(self.works, ("extending", "retracting"))
+        return {"rod": ("retracting",), "both": ("extending", "retracting")}.get(self.side, ("extending",))
 
     def way_back(self, motion: AnyMotion, acting: Acting) -> str:
         """Return the direction in which it goes back: against its working one; of both the way the load drives it at most of the poses."""
-        if self.works != "both":
-            return "retracting" if self.works == "piston" else "extending"
+        if self.side != "both":
+            return "extending" if self.side == "rod" else "retracting"
         with unwarned():
             drives = np.sign(member_thrust(motion, self, Acting(acting.loads, acting.case)))
         return "retracting" if float(np.nan_to_num(drives).sum()) >= 0.0 else "extending"
@@ -255,11 +355,11 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
 
         At rest without friction and efficiencies; while it moves, on a side that works, as its circuit has it.
         """
-        thrust = member_thrust(motion, self, acting)
+        thrust = line_thrust(self, circuit or circuit_having(self, motion.plan, False), motion, acting)
         along, size = thrust if side == PISTON else -thrust, self.sized(motion)
-        balance = along / (size.push_area if side == PISTON else size.pull_area)
+        balance = along / (size.outward_area if side == PISTON else size.pull_area)
         least = balance if below else 0.0
-        if acting.movement == FRICTIONLESS or self.works not in (side, "both"):
+        if acting.movement == FRICTIONLESS or (self.side not in (side, "both") and not self._both_joined):
             return np.asarray(np.maximum(balance, least))[()]
         found = pressure_of(self, motion, acting) if circuit is None else circuit.pressure_in(self, motion, acting)
         return np.where(along > 0.0, found, least) + 0.0 * thrust
@@ -331,17 +431,19 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
 
     def area_written(self, written: Formulas) -> Array:
         area, _ = self.sides_written(written, np.ones(()))
-        return -area if self.works == "rod" else area
+        return -area if self.side == "rod" else area
 
     def sides_written(self, written: Formulas, thrust: Array) -> tuple[Array, Array]:
         """Write the area of the side that works, and return its symbol with the area of the other side [m2]."""
         bore, rod = self.number(written, "bore"), self.number(written, "rod")
         piston, annulus = (self.count * written.pi / 4.0 * each for each in (bore**2, bore**2 - rod**2))
-        if self.works == "both":
+        if self.side == "regenerative":
+            working, other = self.count * written.pi / 4.0 * rod**2, np.zeros(())
+        elif self.side == "both":
             pulls = thrust < 0.0
             working, other = np.where(pulls, annulus, piston), np.where(pulls, piston, annulus)
         else:
-            working, other = (annulus, piston) if self.works == "rod" else (piston, annulus)
+            working, other = (annulus, piston) if self.side == "rod" else (piston, annulus)
         return written.line(f"A_{self.name}", working, "m2"), other
 
     # -- checks --------------------------------------------------------------------------------------------
@@ -583,7 +685,7 @@ Reading: TypeAlias = Callable[[AnyMotion], Array]
 
 def thrust_along(cylinder: Cylinder, thrust: Array) -> Array:
     """Return a thrust in the direction in which the working side pushes or pulls [N]."""
-    return np.abs(thrust) if cylinder.works == "both" else -thrust if cylinder.works == "rod" else thrust
+    return np.abs(thrust) if cylinder.side == "both" else -thrust if cylinder.side == "rod" else thrust
 
 
 def pressure_of(cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
@@ -598,10 +700,15 @@ def pressure_of(cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
     return np.maximum(cylinder.sized(motion).pressure_for(member_thrust(motion, cylinder, acting)), 0.0)
 
 
-def circuit_having(cylinder: Cylinder, plan: Declared) -> Circuit | None:
-    """Return the circuit that gives a cylinder its pressure, the one that feeds it first; DefinitionError where several have it."""
+def circuit_having(cylinder: Cylinder, plan: Declared, is_needed: bool = True) -> Circuit | None:
+    """Return the circuit that gives a cylinder its pressure, the one that feeds it first; DefinitionError where several have it.
+
+    None where it is not needed and not plain.
+    """
     members, mine = plan.members, circuits_of(cylinder, plan)
     feeding = [each for each in mine if any(same(cylinder, one) for one in each.feeds(members))]
+    if len(mine) > 1 and not feeding and not is_needed:
+        return None
     if len(mine) > 1 and not feeding:
         names = ", ".join(each.name for each in mine)
         remedy = f"name one: {mine[0].name}.pressure_for(motion)"
@@ -610,8 +717,10 @@ def circuit_having(cylinder: Cylinder, plan: Declared) -> Circuit | None:
 
 
 def circuits_of(cylinder: Cylinder, plan: Declared) -> list[Circuit]:
-    """Return the circuits of a class that have a cylinder."""
-    return [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
+    """Return the circuits of a class that have a cylinder's working side."""
+    found = [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
+    other = [line for line, chamber in lines_of(cylinder, plan.members) if chamber.side != cylinder.side and cylinder.side in SIDES]
+    return [each for each in found if not any(same(each, line) for line in other)] if other else found
 
 
 class Circuit(ForceElement, HasVerdicts):
@@ -634,6 +743,28 @@ class Circuit(ForceElement, HasVerdicts):
 
     def parts(self) -> tuple[Reference, ...]:
         return (*(each for each in self.references if is_named(each)), *super().parts())
+
+    @property
+    def chambers(self) -> tuple[Chamber, ...]:
+        """The sides of cylinders that it names."""
+        return ()
+
+    @property
+    def bare(self) -> tuple[Reference, ...]:
+        """The cylinders that it names without a side: that which works."""
+        return self.references
+
+    def kind_in(self, members: Mapping[str, Member]) -> str:
+        """Return the kind of its line, among the members of its class: one of KINDS."""
+        return "held"
+
+    def line_pressure(self, motion: AnyMotion, acting: Acting | None = None) -> Array:
+        """Return the pressure of its line, where that is one for all its cylinders, shape (...) [Pa gauge]."""
+        raise DefinitionError(f"{self.name} = {self}: its pressure is asked of a cylinder, {self.name}.pressure_for(motion).")
+
+    def length_given(self, chamber: Chamber, members: Mapping[str, Member]) -> Quantity:
+        """Return the length that a closed line gives one of its cylinders [m]."""
+        raise DefinitionError(f"{self.name} = {self} is not closed, and gives no length.")
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         for each in self.references:
@@ -661,6 +792,88 @@ class Circuit(ForceElement, HasVerdicts):
     def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array | None:
         """Return the greatest rod force of one of its cylinders over the needed one, shape (...); None where no pump feeds it."""
         return None
+
+
+# Lines and chambers.
+
+
+def lines_of(cylinder: Cylinder, members: Mapping[str, Member]) -> list[tuple[Circuit, Chamber]]:
+    """Return the chambers of a cylinder that lines name, each with its line."""
+    lines = [each for each in members.values() if isinstance(each, Circuit)]
+    return [(line, each) for line in lines for each in line.chambers if name_of(each.cylinder) == cylinder.name]
+
+
+def works_by_lines(cylinder: Cylinder, members: Mapping[str, Member]) -> Works | None:
+    """Return what lines say that a cylinder works with; None where they do not say it.
+
+    Sides on held lines come first, then those on closed ones, then those whose pressure is given.
+    """
+    named = lines_of(cylinder, members)
+    if not named:
+        return None
+    bare = [each for each in members.values() if isinstance(each, Circuit) and cylinder.name in map(name_of, each.bare)]
+    if bare:  # what works on a line that names the cylinder alone is the side that no other line has
+        left = [side for side in SIDES if side not in [chamber.side for _, chamber in named]]
+        return left[0] if left else None
+    by_kind = [(line, chamber) for kind in KINDS for line, chamber in named if line.kind_in(members) == kind]
+    first = by_kind[0][0].kind_in(members)
+    working = [(line, chamber) for line, chamber in by_kind if line.kind_in(members) == first]
+    if len(working) == 1:
+        return working[0][1].side
+    return "regenerative" if working[0][0] is working[1][0] else "both"
+
+
+def by_other_lines(ram: Cylinder, line: Circuit | None, motion: AnyMotion, acting: Acting | None) -> Array | None:
+    """Return what lines other than one put on a cylinder over a motion's poses [N]; None for nothing.
+
+    Without a situation only lines whose pressure is given count.
+    """
+    members = motion.plan.members
+    parts = []
+    for other, chamber in lines_of(ram, members):
+        kind = other.kind_in(members)
+        if (line is None or not same(other, line)) and (kind == "given" or (kind == "closed" and acting is not None)):
+            parts.append(other.line_pressure(motion, acting) * chamber_area(chamber, ram, motion))
+    return reduce(np.add, parts) if parts else None
+
+
+def line_thrust(ram: Cylinder, line: Circuit | None, motion: AnyMotion, acting: Acting) -> Array:
+    """Return what a line has to put on a cylinder [N]: what it carries without what its other lines do."""
+    thrust, others = member_thrust(motion, ram, acting), by_other_lines(ram, line, motion, acting)
+    return thrust if others is None else thrust - others
+
+
+def chamber_area(chamber: Chamber, ram: Cylinder, motion: Poses) -> Array:
+    """Return the signed area of a chamber [m2]: how its volume grows with the length of its cylinder."""
+    size = ram.sized(motion)
+    return np.asarray(size.push_area if chamber.side == PISTON else -1.0 * size.pull_area)[()]
+
+
+KINDS = ("held", "closed", "given")
+"""The kinds of lines: a stroke holds their pressure, they keep their oil, their pressure is given."""
+
+
+def length_in(cylinder: Cylinder, members: Mapping[str, Member]) -> Quantity:
+    """Return the length of a cylinder in its class: from its closed line where its own pins follow it, else the distance of these."""
+    called = f"{cylinder.name}.length"
+    if called not in names_behind(cylinder.ends, members):
+        return distance(cylinder.A, cylinder.B)
+    for line, chamber in lines_of(cylinder, members):
+        if line.kind_in(members) == "closed":
+            return line.length_given(chamber, members)
+    what = f"{called} is asked for by what places its own pins, {cylinder.A} and {cylinder.B}, and no closed line gives it"
+    raise DefinitionError(f"{what}; declare one, OilLine({cylinder.name}.piston_side, other.piston_side, filled=dict(...)).")
+
+
+def names_behind(starts: Iterable[Reference], members: Mapping[str, Member]) -> set[str]:
+    """Return the names that members of a class are built from, as far as they are there."""
+    stack, found = [name_of(each) for each in starts], set[str]()
+    while stack:
+        name = stack.pop()
+        if name not in found:
+            found.add(name)
+            stack += needs(members[name]) if name in members else ()
+    return found
 
 
 def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:

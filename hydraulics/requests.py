@@ -35,6 +35,7 @@ from .member import (
     cylinder_request,
     formula_of_cylinder,
     found_in,
+    line_thrust,
     thrust_request,
 )
 
@@ -168,7 +169,7 @@ def pressure_pieces(
     ram = cylinder_in(cylinder, plan)
     sides = [side] if side else [driving_side(request.situation.direction)] if is_needed else SIDES
     if not side and not is_needed and any(same(ram, one) for each in plan.of_kind(Circuit).values() for one in each.feeds(plan.members)):
-        return (SmoothPiece(request, ram.works),)
+        return (SmoothPiece(request, ram.side),)
     return tuple(SmoothPiece(on_side(each), each, below=on_side(each, below=True)) for each in sides)
 
 
@@ -252,7 +253,7 @@ class Tried:
     def use(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Array:
         """Return one over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
         circuit, size = circuit_with(motion.plan, ram, self.circuit, "use"), self.with_bore(ram.sized(motion))
-        k_m, thrust = circuit.efficiency(motion, "mechanical"), member_thrust(motion, ram, acting)
+        k_m, thrust = circuit.efficiency(motion, "mechanical"), line_thrust(ram, circuit, motion, acting)
         sense = 1.0 if acting.direction == "extending" else -1.0
         most = circuit.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m))
         return np.asarray(sense * thrust / (k_m * most))[()]
@@ -293,8 +294,8 @@ def going_back_over(
     motion: AnyMotion, ram: Cylinder, acting: Acting, *, circuit: Circuits, way: str, resistance: float, tells: str
 ) -> Array:
     """Return what the other side must give, or the load alone makes, at a motion's poses [Pa]."""
-    k_m = circuit_with(motion.plan, ram, circuit, "going back").efficiency(motion, "mechanical")
-    found = WayBack.of(ram, motion, acting, way, resistance, k_m)
+    line = circuit_with(motion.plan, ram, circuit, "going back")
+    found = WayBack.of(ram, line, motion, acting, way, resistance, line.efficiency(motion, "mechanical"))
     return found.working if tells == "load" else found.push
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import DefinitionError, unknown
 from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, Where, name_of, needs
-from ..steps import Point
+from ..steps import Drawn, Group, Point
 from ..vectors import Line, Scalar, Vec
 
 
@@ -100,6 +100,32 @@ class Reading(Where):
         """Return the sine of the angle between a loop's two members."""
         return sine
 
+    def at_pose(self, quantity: Reference, strokes: Mapping[str, float]) -> Scalar:
+        """Return what a quantity is at one pose of the strokes; DefinitionError where that takes a group to be solved."""
+        behind = self.behind(quantity)
+        groups = [name for name in behind if isinstance(self.members[name], Group)]
+        if groups:
+            what = f"{quantity} at one pose hangs on {groups[0]}, whose pins are found together and have no closed form"
+            raise DefinitionError(f"{what}; give the length itself, filled=dict(...).")
+        sketch = {name: member.start for name, member in self.members.items() if isinstance(member, Stroke)}
+        for drawn in self.members.values():
+            sketch |= drawn.strokes if isinstance(drawn, Drawn) else {}
+        inputs = {name: value for name, value in self.inputs.items() if "(" not in name}  # no references of angles, which are of this pose
+        with np.errstate(all="ignore"):
+            return Reading(self.members, self.lengths, {**inputs, **sketch, **strokes}).value(quantity)
+
+    def behind(self, quantity: Reference) -> set[str]:
+        """Return the names of all that a quantity is built from."""
+        stack = [quantity] if isinstance(quantity, str) else [*needs(quantity)]
+        found = set[str]()
+        while stack:
+            name = stack.pop()
+            if name not in found:
+                found.add(name)
+                member = self.members[name]
+                stack += [*needs(member), *(member.companions if isinstance(member, Point) else ())]
+        return found
+
     def line(self, guide: Reference) -> Line:
         """Return a guide's line."""
         found: Line = self._once("line", guide, "line")
@@ -167,15 +193,8 @@ class Reading(Where):
 
     def follows_place(self, quantity: Quantity) -> bool:
         """Return whether a quantity is built from the place of a point that moves."""
-        stack, met = list(needs(quantity)), set[str]()
-        while stack:
-            name = stack.pop()
-            member = self.members[name]
-            if isinstance(member, Point) and not member.is_fixed:
-                return True
-            stack += [each for each in needs(member) if each not in met]
-            met.add(name)
-        return False
+        found = (self.members[name] for name in self.behind(quantity))
+        return any(isinstance(member, Point) and not member.is_fixed for member in found)
 
     def stays(self, value: Scalar) -> bool:
         """Return whether a value is known to follow no stroke."""

@@ -315,6 +315,9 @@ class Where(Protocol):
     def line(self, guide: Reference) -> Line:
         """Return a guide's line."""
 
+    def at_pose(self, quantity: Reference, strokes: Mapping[str, float]) -> Scalar:
+        """Return what a quantity is at one pose of the strokes; those that are not named are at the sketch."""
+
     def angle_of(self, vector: Vec) -> Scalar:
         """Return a vector's direction [rad]."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from typing import final
 
@@ -12,7 +12,7 @@ from ..errors import DefinitionError
 from ..frozen import refuses_changes
 from ..vectors import Scalar
 from .axes import Axes
-from .member import Member, Reference, Turning, Where, name_of
+from .member import Member, Reference, Turning, Where, as_mapping, name_of
 from .quantity import Quantity
 
 
@@ -178,3 +178,26 @@ def y(P: Reference) -> Quantity:
     return Coordinate(P, "y")
 
 
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class AtPose(Quantity):
+    """What a quantity is at one pose of the strokes, whatever the pose; strokes that are not named are at the sketch."""
+
+    of: Quantity
+    strokes: Mapping[str, float]
+
+    @property
+    def measures(self) -> str:
+        return self.of.measures
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (self.of,)
+
+    def rule(self, where: Where) -> Scalar:
+        return where.at_pose(self.of, self.strokes)
+
+    def __str__(self) -> str:
+        return f"{self.of} at {as_mapping(self.strokes) if self.strokes else 'the sketch'}"

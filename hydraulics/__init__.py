@@ -24,8 +24,13 @@ from .judged import lift_verdicts as lift_verdicts
 from .lift import LiftCircuit as LiftCircuit
 from .line import Holding as Holding
 from .line import Lowering as Lowering
+from .member import Chamber as Chamber
 from .member import Cylinder as Cylinder
 from .nitrogen import real_nitrogen as real_nitrogen
+from .oil import OilLine as OilLine
+from .oil import Pump as Pump
+from .oil import Relief as Relief
+from .oil import Tank as Tank
 from .requests import buckling as buckling
 from .requests import capacity as capacity
 from .requests import fits as fits

@@ -110,7 +110,7 @@ class GasLine(Circuit):
 
     # -- over the stroke -----------------------------------------------------------------------------------
 
-    def pressure(self, motion: Poses) -> Array:
+    def pressure(self, motion: Any) -> Array:
         """Return the block's pressure [Pa gauge], shape (...); 0 where the line is empty."""
         charge = in_pascals(self.number(motion, "charge_pressure"), "Charge pressure")
         left = self.withdrawn(motion)
@@ -134,7 +134,7 @@ class GasLine(Circuit):
     def thrust_of(self, ram: Cylinder, motion: Poses, rates: Mapping[str, Rate]) -> Array:
         """Return what the line puts on a cylinder [N], at rest or while strokes move at rates."""
 
-    def rubbing(self, ram: Cylinder, area: ArrayLike, motion: Poses, rates: Mapping[str, Rate]) -> Array:
+    def rubbing(self, ram: Cylinder, area: Array | float, motion: Poses, rates: Mapping[str, Rate]) -> Array:
         """Return the seals' friction in a cylinder, with the area of its chamber, against its movement at rates [N]."""
         friction = all_finite(self.number(motion, "seal_friction"), "Seal friction") * area
         return np.asarray(np.sign(ram.growth(motion, rates)) * friction)
@@ -205,7 +205,8 @@ class GasLine(Circuit):
 class FloatCircuit(GasLine):
     """A cylinder on a closed accumulator block: `FloatCircuit(lift, block, charge_pressure=94 * kgf_cm2, at=h_horizon)`.
 
-    Several on one block, `FloatCircuit([left, right], block, ...)`, have one pressure. The line has `charge_pressure` [Pa gauge] where the stroke that the cylinder follows is `at` [m], other strokes at the sketch;
+    Several on one block, `FloatCircuit([left, right], block, ...)`, have one pressure. The line has `charge_pressure` [Pa gauge] where
+    the stroke that a cylinder follows is `at` [m], other strokes at the sketch;
     `seal_friction` is what the seals take off that pressure [Pa]. `exponent` 1 is a slow movement, by the block's own gas law; above 1
     the block has settled at the charge pressure and moves fast, by p V^exponent. `block` is an AccumulatorBlock, whose charges and volumes
     may follow dimensions, or a function of the motion that returns one. The cylinder works with one side, and has no other force than

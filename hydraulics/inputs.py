@@ -191,7 +191,7 @@ def setting_of_designs(motion: Poses, given: Any, what: str) -> Any:
 
 def number_set(element: ForceElement, motion: Poses, name: str) -> Array:
     """Return a parameter of a force element as a motion's designs have it [SI], shaped to broadcast against the motion."""
-    given = getattr(element, name)
+    given = element.given(name)
     if not follows(given):
         return element.number(motion, name)
     return all_finite(setting_of_designs(motion, given, name.capitalize()), name.capitalize())

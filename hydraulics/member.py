@@ -38,6 +38,7 @@ from linkage.loads import (
     Poses,
     Push,
     Rates,
+    Share,
     TwoPoint,
     require_poses,
     situation_of,
@@ -758,7 +759,20 @@ class Circuit(ForceElement, HasVerdicts):
         """Return the kind of its line, among the members of its class: one of KINDS."""
         return "held"
 
-    def line_pressure(self, motion: AnyMotion, acting: Acting | None = None) -> Array:
+    def filling(self, members: Mapping[str, Member]) -> list[tuple[Cylinder, Chamber]]:
+        """Return the chambers on its line with their cylinders, as the class has them: of each the side that works."""
+        sides = [(ram, SIDES if ram.side not in SIDES else (ram.side,)) for ram in self.members(members)]
+        return [(ram, Chamber(ram, side)) for ram, own in sides for side in own]
+
+    def shares(self, members: Mapping[str, Member]) -> tuple[Share, ...]:
+        """Return what one unit of its line's pressure is in each cylinder."""
+        return tuple(Share(ram, partial(chamber_area, chamber, ram)) for ram, chamber in self.filling(members))
+
+    def least(self, motion: Poses) -> Array | float:
+        """Return the least pressure of its line [Pa]."""
+        return 0.0
+
+    def line_pressure(self, motion: Any, acting: Acting | None = None) -> Array:
         """Return the pressure of its line, where that is one for all its cylinders, shape (...) [Pa gauge]."""
         raise DefinitionError(f"{self.name} = {self}: its pressure is asked of a cylinder, {self.name}.pressure_for(motion).")
 

@@ -290,7 +290,11 @@ class ForceElement(Jointed):
     @property
     def numbers(self) -> Mapping[str, str]:
         """Its parameters that are given, with their units; one that may be left out is None where it is."""
-        return {name: unit for name, unit in self.parameters.items() if name not in self.optional or getattr(self, name) is not None}
+        return {name: unit for name, unit in self.parameters.items() if name not in self.optional or self.given(name) is not None}
+
+    def given(self, name: str) -> Any:
+        """Return a parameter as it is written."""
+        return getattr(self, name)
 
     # -- what a subclass says ------------------------------------------------------------------------------
 
@@ -362,7 +366,7 @@ class ForceElement(Jointed):
     # -- what follows --------------------------------------------------------------------------------------
 
     def parts(self) -> tuple[Reference, ...]:
-        numbers = (quantity(getattr(self, name)) for name in self.numbers)
+        numbers = (quantity(self.given(name)) for name in self.numbers)
         return (*(getattr(self, place) for place in self.places), *(each for each in numbers if not each.is_constant))
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
@@ -376,7 +380,7 @@ class ForceElement(Jointed):
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         """Return the design variables this element brings: name, default, kind and unit."""
-        given = {name: quantity(getattr(self, name)) for name in self.numbers}
+        given = {name: quantity(self.given(name)) for name in self.numbers}
         kinds = {name: "not negative" if name in self.not_negative else "number" for name in given}
         return tuple(
             (f"{self.name}.{name}", value.number, kinds[name], self.parameters[name])
@@ -387,9 +391,9 @@ class ForceElement(Jointed):
     def number(self, motion: Poses, name: str) -> Array:
         """Return a parameter over the motion [SI]: as the machine has it set, or as it is written here."""
         require_poses(motion)
-        given, key = getattr(self, name), f"{self.name}.{name}"
+        given, key = self.given(name), f"{self.name}.{name}"
         member = motion.plan.members.get(self.name)
-        if key in motion.inputs and type(member) is type(self) and getattr(member, name) is given:
+        if key in motion.inputs and type(member) is type(self) and member.given(name) is given:
             return motion.inputs[key]
         if isinstance(given, (str, Quantity)):
             untracked = motion.plan.untracked(quantity(given))
@@ -408,7 +412,7 @@ class ForceElement(Jointed):
         return motion[name_of(getattr(self, place))]
 
     def _check_number(self, name: str) -> None:
-        given = getattr(self, name)
+        given = self.given(name)
         if isinstance(given, (str, Quantity)):
             quantity(given)
             return
@@ -435,7 +439,7 @@ class ForceElement(Jointed):
 
     def words(self) -> list[str]:
         """Return its parameters and options as they are written."""
-        given = {name: value_text(getattr(self, name)) for name in self.numbers}
+        given = {name: value_text(self.given(name)) for name in self.numbers}
         more = {name: label(value) if isinstance(value, Member) else repr(plain(value)) for name, value in self.options().items()}
         return [f"{name}={text}" for name, text in (given | more).items()]
 

@@ -98,7 +98,8 @@ class Members:
         wanted = {name: needed_names(name, member, title) for name, member in members.items()}
         with_inner(members, wanted, title)
         for name, needed in wanted.items():
-            needed += [name.rpartition(".")[0]] if name.rpartition(".")[0] in members else []  # its part first, as it is pasted
+            owner = members.get(name.rpartition(".")[0])
+            needed += [owner.name] if owner is not None and owner.kind == "part" else []  # its part first, as it is pasted
         order = construction_order(wanted, title)
         self.table = Table(title)
         bound: dict[str, Member] = {}

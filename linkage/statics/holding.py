@@ -9,7 +9,7 @@ such poses are refused like any other singular one, by the condition of the leve
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from itertools import permutations
@@ -18,14 +18,14 @@ from typing import Any, cast, final
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, SingularWarning, UntracedError, unwarned, warn
-from ..loads import ForceElement, Tie, TwoPinned, TwoPoint
+from ..loads import ForceElement, Poses, Tie, TwoPinned, TwoPoint
 from ..motion import Motion
 from ..motion.conditions import REFUSE, WARN, condition_of_sine, is_or_are
 from ..motion.limits import where_words
 from ..plan import Plan
 from ..program import FloatArray, Traced, elementwise, eliminated, is_traced, node_of
 from ..quantities import Member, joined_names
-from .poses import FlatPoses
+from .poses import FlatPoses, plan_of
 
 POSES = 7
 """Poses over the strokes at which it is looked how lengths follow them."""
@@ -493,6 +493,47 @@ def tie_pivots(plan: Plan, ties: Sequence[PressureLine], members: Sequence[TwoPo
             row = next(k for k, each in enumerate(members) if same(each, share.member))
             matrix[row, column] += float(np.ravel(share.of(motion))[0])
     return pivots_of(matrix)
+
+
+def tied_forces(
+    motion: Poses, ties: Sequence[Tie], thrust: Callable[[Any], FloatArray], least: Sequence[FloatArray | float]
+) -> list[FloatArray]:
+    """Return the forces of ties that put some thrusts on their members, `thrust(member)`, each shape (...) or of a program.
+
+    Where ties depend on each other, so that the thrusts leave some forces open, they are the `least` that balance. DefinitionError
+    where the open ones have no least, as they may grow and fall against each other.
+    """
+    plan, members = plan_of(motion), list[TwoPoint]()
+    for tie in ties:
+        members += [each for each in on_tie(tie) if not any(same(each, other) for other in members)]
+    lines = [PressureLine(on_tie(tie), "", tie) for tie in ties]
+    pivots = tie_pivots(plan, lines, members)
+    shares = [[shared(tie, each, motion) for tie in ties] for each in members]
+    rows = [[shares[row][column] for _, column in pivots] for row, _ in pivots]
+    known = dict(zip([column for _, column in pivots], solved(rows, [thrust(members[row]) for row, _ in pivots]), strict=True))
+    found = [known.get(place, np.zeros(())) for place in range(len(ties))]
+    for free in (place for place in range(len(ties)) if place not in known):
+        steps = solved(rows, [-1.0 * shares[row][free] for row, _ in pivots])
+        ways = [(free, np.ones(())), *zip([column for _, column in pivots], steps, strict=True)]
+        ways = [(place, way) for place, way in ways if np.any(np.abs(plain_number(way)) > DEPENDENT)]
+        if any(np.any(plain_number(way) < 0.0) for _, way in ways):
+            names = " and ".join(ties[place].name for place, _ in ways)
+            raise DefinitionError(f"{plan.title}: the thrusts leave the pressures of {names} open against each other; open one by a Tank.")
+        up = reduce(np.maximum, ((least[place] - found[place]) / way for place, way in ways))
+        for place, way in ways:
+            found[place] = found[place] + up * way
+    return found
+
+
+def shared(tie: Tie, member: TwoPoint, motion: Poses) -> FloatArray:
+    """Return the share of a member in a tie, all of its parts together; 0 where it has none."""
+    parts = [each.of(motion) for each in tie.shares if same(each.member, member)]
+    return reduce(np.add, parts) if parts else np.zeros(())
+
+
+def plain_number(value: Any) -> FloatArray:
+    """Return a number as it is; of a program 1, for which its sign is taken as that of the plain design."""
+    return np.ones(()) if is_traced(value) else np.asarray(value, float)
 
 
 def pivots_of(matrix: FloatArray) -> list[tuple[int, int]]:

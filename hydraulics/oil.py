@@ -1,0 +1,742 @@
+"""Oil lines: what they join has one pressure and one volume; one is given, the other answers. Every pressure is gauge [Pa].
+
+    a chamber has a signed area a = dV/dl: pistons +, annuli -
+    thrust T = sum of a p over a cylinder's chambers, oil taken V' = a l', so that T l' = sum of p V'
+
+    on the line                  given             called
+    Pump                         V, by the pose    held: it takes over one stroke
+    nothing                      V = oil           closed: it keeps a sum of lengths, its pressure is what that takes
+    Tank                         p                 given
+    AccumulatorBlock             p of the gas      given, as a function of the oil that is drawn
+"""
+
+from __future__ import annotations
+
+from abc import ABC
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial, reduce
+from math import pi
+from types import MappingProxyType
+from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
+
+import numpy as np
+
+from linkage.errors import DefinitionError, cited, unknown
+from linkage.frozen import FrozenDict, refuses_changes
+from linkage.language import said
+from linkage.loads import (
+    AT_REST,
+    Acting,
+    ActingKeywords,
+    Declared,
+    ForceElement,
+    Glyph,
+    Load,
+    Parameter,
+    Poses,
+    Push,
+    Rate,
+    Rates,
+    Share,
+    Tie,
+    situation_of,
+    takes_situation,
+)
+from linkage.loads.element import UNBOUNDED, Formulas
+from linkage.loads.two_point import end_forces
+from linkage.motion import Condition, Judge, Motion, Question, least, most
+from linkage.quantities import AtPose, Distance, Member, Number, Quantity, Reference, Stroke, Variable, label, name_of, quantity
+from linkage.quantities.quantity import plain
+from linkage.statics import AnyMotion, LawRequest, member_thrust, plan_of, same, tied_forces
+from linkage.units import show
+from linkage.verdict import Verdict
+
+from .accumulator import AccumulatorBlock
+from .floating import Block, GasLine, length_at
+from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, number_set, one_number, positive
+from .lift import PumpLine
+from .member import (
+    PISTON,
+    ROD,
+    SIDES,
+    Chamber,
+    Circuit,
+    Cylinder,
+    Side,
+    by_other_lines,
+    chamber_area,
+    changes_in_motion,
+    is_named,
+    lines_of,
+    the_cylinder,
+)
+
+
+class Supply(ForceElement, ABC):
+    """The base of what lies on an oil line beside its chambers: it puts no force on the machine by itself."""
+
+    places: ClassVar[tuple[str, ...]] = ()
+    file_section: ClassVar[str] = "hydraulics"
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return []
+
+    @property
+    def scales(self) -> bool:
+        return False
+
+    def set_to(self, motion: Poses, name: str) -> Array:
+        """Return a number of it as a motion's designs have it [SI], the same at all poses."""
+        return number_set(self, motion, name) if follows(getattr(self, name)) else self.number(motion, name)
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Pump(Supply):
+    """A pump: `supply = Pump(180 * bar, flow=60 * litre / minute)`; a line that it is on is held, and its pressure is what the pose asks.
+
+    `pressure` is its highest, gauge [Pa], `flow` in m3/s. In a class they are design variables such as `supply.pressure`.
+    """
+
+    pressure: Parameter
+    flow: Parameter = 0.0
+    mechanical_efficiency: Parameter = 1.0
+    hydraulic_efficiency: Parameter = 1.0
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {"pressure": "bar", "flow": "", "mechanical_efficiency": "", "hydraulic_efficiency": ""}
+    )
+    not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow"})
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not follows(self.pressure):
+            positive(in_pascals(cast(float, self.pressure), "Pressure of the pump"), "Pressure of the pump")
+        for name in ("mechanical_efficiency", "hydraulic_efficiency"):
+            if not follows(getattr(self, name)):
+                efficient(getattr(self, name), f"Pump: {name}")
+        if not follows(self.flow):
+            in_cubic_metres(cast(float, self.flow), "Flow of the pump")
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Relief(Supply):
+    """A relief valve, which opens at a gauge pressure [Pa]: `valve = Relief(200 * bar)`; it may lie on any line."""
+
+    pressure: Parameter
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"pressure": "bar"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"pressure"})
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not follows(self.pressure):
+            positive(in_pascals(cast(float, self.pressure), "Pressure of the relief valve"), "Pressure of the relief valve")
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Tank(Supply):
+    """A tank, whose line has a given gauge pressure [Pa]: `back = Tank(5 * bar)`, none where it is open."""
+
+    pressure: Parameter = 0.0
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"pressure": "bar"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"pressure"})
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not follows(self.pressure):
+            in_pascals(cast(float, self.pressure), "Pressure of the tank")
+
+
+OnLine: TypeAlias = "Chamber | Reference | Block"
+"""What may lie on a line: a chamber, a cylinder, a pump, a relief valve, a tank, by their names too, or accumulators."""
+NUMBERS: Mapping[str, tuple[str, ...]] = MappingProxyType({
+    "held": (), "closed": ("oil", "make_up"), "given": ("oil", "charge_pressure", "seal_friction", "exponent"),
+})  # fmt: skip
+"""The numbers of a line that count, by its kind."""
+
+
+@final
+class OilLine(PumpLine, GasLine):
+    """Oil that joins chambers: `level = OilLine(master.piston_side, slave.piston_side, filled=dict(slave=0.72))`.
+
+    What is `on` it, beside chambers, says what is given: a `Pump` the volume, by the pose, so that the line is held; a `Tank` or
+    accumulators the pressure; with nothing the line is closed, keeps its oil, and gives one of its cylinders its length, `slave.length`.
+    A bare cylinder stands for the side that it works with. A `Relief` may lie on any line.
+
+    A line is filled, or charged with `charge_pressure` [Pa gauge], where strokes are `at` their values [SI] (a number or a dict, of
+    strokes that are not named the sketch); `filled` tells lengths of cylinders there instead [m], or that all are "open" or "closed".
+    `oil` is what was put in since [m3], a number, a dimension or a Stroke; `make_up` the pressure below which a closed line runs empty
+    [Pa gauge]. `seal_friction` [Pa] and `exponent` are those of a FloatCircuit.
+    """
+
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {"oil": "l", "make_up": "bar", "charge_pressure": "bar", "seal_friction": "bar", "exponent": ""}
+    )
+    not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
+    optional: ClassVar[frozenset[str]] = frozenset({"charge_pressure"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"on": "words", "at": "option", "filled": "option"})
+
+    def __init__(
+        self, *on: OnLine, at: float | Mapping[str, float] | None = None, filled: str | Mapping[str, Any] | None = None,
+        oil: Parameter = 0.0, make_up: Parameter = 0.0, charge_pressure: Parameter | None = None, seal_friction: Parameter = 0.0,
+        exponent: Parameter = 1.0,
+    ) -> None:  # fmt: skip
+        self.on = tuple(chamber_named(each) for each in on)
+        self.at, self.filled = at, FrozenDict(filled) if isinstance(filled, Mapping) else filled
+        self.put_in, self.make_up, self.charge_pressure = oil, make_up, charge_pressure
+        self.seal_friction, self.exponent, self.kind_of_line = seal_friction, exponent, ""
+        self._check()
+
+    def _check(self) -> None:
+        for each in self.on:
+            is_block = isinstance(each, AccumulatorBlock) or (callable(each) and not isinstance(each, (type, Member)))
+            if not is_block and not isinstance(each, (Chamber, str, Cylinder, Supply)):
+                what = f"OilLine({cited(each)}): neither a chamber nor a pump, a relief valve, a tank or accumulators"
+                raise DefinitionError(f"{what}; write lift.piston_side, a Pump, a Tank, an AccumulatorBlock.")
+        if isinstance(self.filled, str) and self.filled not in ("open", "closed"):
+            raise DefinitionError(f'OilLine(filled={self.filled!r}): say "open", "closed", or lengths, filled=dict(slave=0.72).')
+        if self.filled is not None and not isinstance(self.filled, (str, Mapping)):
+            raise DefinitionError(f"OilLine(filled={cited(self.filled)}): lengths of cylinders are expected, filled=dict(slave=0.72).")
+        if self.filled is not None and self.at is not None:
+            raise DefinitionError("OilLine(at=..., filled=...): both say where it is filled; leave one out.")
+        for name in ("make_up", "charge_pressure", "seal_friction"):
+            given = self.given(name)
+            if given is not None and not follows(given):
+                in_pascals(given, f"OilLine: {name}")
+        for name in self.parameters:
+            if self.given(name) is not None:
+                self._check_number(name)
+
+    @property
+    def numbers(self) -> Mapping[str, str]:
+        among = NUMBERS.get(self.kind_of_line, tuple(self.parameters))
+        return {name: self.parameters[name] for name in among if self.given(name) is not None}
+
+    def given(self, name: str) -> Any:
+        return self.put_in if name == "oil" else getattr(self, name)
+
+    def __str__(self) -> str:
+        said: dict[str, Any] = {name: value for name, value in (("at", self.at), ("filled", self.filled)) if value is not None}
+        more = {name: text for name, text in zip(self.numbers, self.words(), strict=True) if not self._is_usual(name)}
+        words = [f"{name}={option_text(value)}" for name, value in said.items()]
+        return f"OilLine({', '.join([*map(on_line_text, self.on), *words, *more.values()])})"
+
+    def _is_usual(self, name: str) -> bool:
+        given = self.given(name)
+        return not isinstance(given, (str, Quantity)) and name in USUAL and bool(np.all(np.asarray(given) == USUAL[name]))
+
+    # -- what is on it -------------------------------------------------------------------------------------
+
+    @property
+    def chambers(self) -> tuple[Chamber, ...]:
+        return tuple(each for each in self.on if isinstance(each, Chamber))
+
+    @property
+    def bare(self) -> tuple[Reference, ...]:
+        return tuple(each for each in self.on if isinstance(each, (str, Member)))
+
+    @property
+    def references(self) -> tuple[Reference, ...]:
+        return (*(each.cylinder for each in self.chambers), *self.bare)
+
+    def parts(self) -> tuple[Reference, ...]:
+        block = next((each for each in self.on if isinstance(each, AccumulatorBlock)), None)
+        lengths = [quantity(each) for each in self.filled.values()] if isinstance(self.filled, Mapping) else []
+        return (*super().parts(), *(() if block is None else block.following), *(each for each in lengths if not each.is_constant))
+
+    def supplies(self, members: Mapping[str, Member], kind: type[Supply]) -> list[Supply]:
+        """Return the pumps, relief valves or tanks on it."""
+        found = (members.get(each if isinstance(each, str) else each.name, each) for each in self.bare)
+        return [each for each in found if isinstance(each, kind)]
+
+    @property
+    def block(self) -> Block | None:
+        """The accumulators on it; None where there are none."""
+        return next((each for each in self.on if not isinstance(each, (Chamber, str, Member))), None)
+
+    def kind_in(self, members: Mapping[str, Member]) -> str:
+        if self.supplies(members, Pump):
+            return "held"
+        return "given" if self.block is not None or self.supplies(members, Tank) else "closed"
+
+    def filling(self, members: Mapping[str, Member]) -> list[tuple[Cylinder, Chamber]]:
+        """Return the chambers on it with their cylinders, as the class has them; of a bare cylinder the side that works."""
+        found = []
+        for each in self.on:
+            if isinstance(each, Chamber):
+                ram = members[name_of(each.cylinder)] if is_named(each.cylinder) else each.cylinder
+                found.append((cast(Cylinder, ram), each))
+            elif isinstance(each, (str, Member)):
+                ram = members.get(each, each) if isinstance(each, str) else members.get(each.name, each)
+                if isinstance(ram, Cylinder):
+                    found.append((ram, Chamber(each, cast(Side, ram.side))))
+        return found
+
+    def members(self, members: Mapping[str, Member]) -> tuple[Cylinder, ...]:
+        found: list[Cylinder] = []
+        for ram, _ in self.filling(members):
+            found += [] if any(same(ram, each) for each in found) else [ram]
+        return tuple(found)
+
+    def rams(self, motion: Poses) -> tuple[Cylinder, ...]:
+        return self.members(motion.plan.members)
+
+    def among(self, members: Mapping[str, Member]) -> OilLine:
+        return self.renewed(kind_of_line=self.kind_in(members))
+
+    def cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
+        tie = self.tie(members) if self.kind_of_line == "closed" else None
+        return () if tie is None or not tie.gives or not tie.cut.endswith(".oil") else (tie.cut,)
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        opening = f"{title}: {self.name} = {self}"
+        for each in self.references:
+            name = each if isinstance(each, str) else each.name
+            if name and name not in members:
+                known = [known for known, member in members.items() if isinstance(member, (Cylinder, Supply))]
+                raise unknown("Cylinder, pump, valve or tank", name, known, where=f"{title}.{self.name}")
+        filling = self.filling(members)
+        for ram, chamber in filling:
+            if not isinstance(ram, Cylinder):
+                raise DefinitionError(f"{opening}: {chamber} is no chamber, as {ram} is no Cylinder.")
+            if chamber.side not in SIDES:
+                raise DefinitionError(f"{opening}: {ram.name} works with both sides; say which, {ram.name}.piston_side.")
+        if not filling:
+            raise DefinitionError(f"{opening}: no chamber is on it; name one, lift.piston_side.")
+        self._examine_supplies(members, opening)
+        self._examine_others(members, filling, title)
+        kind = self.kind_in(members)
+        if kind == "given" and self.block is not None and self.charge_pressure is None:
+            raise DefinitionError(f"{opening}: its accumulators are charged to no pressure; say charge_pressure=90 * bar.")
+        if isinstance(self.filled, Mapping):
+            own = [ram.name for ram, _ in filling]
+            lost = next((name for name in self.filled if name not in own), None)
+            if lost is not None:
+                raise unknown("Cylinder", lost, own, where=f"{title}.{self.name}, filled")
+
+    def _examine_supplies(self, members: Mapping[str, Member], opening: str) -> None:
+        pumps, tanks, valves = (self.supplies(members, kind) for kind in (Pump, Tank, Relief))
+        blocks = [each for each in self.on if not isinstance(each, (Chamber, str, Member))]
+        if pumps and tanks:
+            what = f"{opening}: a pump and a tank are on one line, whose pressure would be given twice"
+            raise DefinitionError(f"{what}; put the other side on the tank, OilLine(lift.rod_side, {tanks[0].name or 'Tank()'}).")
+        if tanks and blocks:
+            raise DefinitionError(f"{opening}: accumulators and a tank give its pressure both; take one out.")
+        for found, what in ((pumps, "pumps"), (tanks, "tanks"), (valves, "relief valves"), (blocks, "blocks of accumulators")):
+            if len(found) > 1:
+                raise DefinitionError(f"{opening}: {len(found)} {what} are on one line; leave one.")
+
+    def _examine_others(self, members: Mapping[str, Member], filling: Sequence[tuple[Cylinder, Chamber]], title: str) -> None:
+        """Raise DefinitionError for what stands on this line and on another one, or twice on this."""
+        own = [(ram.name, chamber.side) for ram, chamber in filling]
+        twice = next((each for each in own if own.count(each) > 1), None)
+        if twice is not None:
+            raise DefinitionError(f"{title}: {self.name} has {twice[0]}.{twice[1]}_side twice; name it once.")
+        for other in (each for each in members.values() if isinstance(each, Circuit) and not same(each, self)):
+            theirs = [(ram.name, chamber.side) for ram, chamber in other.filling(members)]
+            shared = next((each for each in own if each in theirs), None)
+            if shared is not None:
+                what = f"two pressures in {shared[0]}'s {shared[1]} side: {self.name} and {other.name} both have it"
+                raise DefinitionError(f"{title}: {what}. A chamber has one line; join the two, or take it out of one.")
+            if isinstance(other, OilLine):
+                for kind, what in ((Pump, "pump"), (Tank, "tank"), (Relief, "relief valve")):
+                    both = [each for each in self.supplies(members, kind) if each in other.supplies(members, kind)]
+                    if both and kind is Pump:
+                        remedy = "give each line a pump of its own, Pump(...), or join the lines"
+                        raise DefinitionError(f"{title}: {self.name} and {other.name} have one {what}, {both[0].name}; {remedy}.")
+            mine, its = self.block, getattr(other, "block", None)
+            if mine is not None and mine is its:
+                remedy = "join the lines, or give each its own, AccumulatorBlock([Accumulator(...)])"
+                what = f"{self.name} and {other.name} have the same accumulators, which stand on one line"
+                raise DefinitionError(f"{title}: {what}; {remedy}.")
+
+    # -- in statics ----------------------------------------------------------------------------------------
+
+    def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
+        if self.kind_in(members) != "given":
+            return ()
+        return tuple(ram for ram in self.members(members) if is_given(ram, members))
+
+    def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
+        return PumpLine.joined(self, members) if self.kind_in(members) == "held" else ()
+
+    def tie(self, members: Mapping[str, Member]) -> Tie | None:
+        """Return how its pressure acts on its cylinders, where it is closed, or held beside a closed line."""
+        kind = self.kind_in(members)
+        if kind == "held":
+            return PumpLine.tie(self, members)
+        if kind == "given":
+            return None
+        gives = next((f"{ram.name}.length" for ram, _ in self.filling(members) if self._gives(ram, members)), "")
+        return Tie(self.name, self.shares(members), held=False, cut=self.cut if gives else "", gives=gives)
+
+    def shares(self, members: Mapping[str, Member]) -> tuple[Share, ...]:
+        return tuple(Share(ram, partial(chamber_area, chamber, ram)) for ram, chamber in self.filling(members))
+
+    @property
+    def oil_given(self) -> Quantity:
+        """The oil that is put in, as it is given [m3]."""
+        return quantity(cast("float | Quantity | str", self.put_in))
+
+    @property
+    def cut(self) -> str:
+        """The input by which its oil changes: its own, or that of the stroke or dimension that says it."""
+        oil = self.oil_given
+        return f"{self.name}.oil" if isinstance(oil, Number) else oil.name or str(oil)
+
+    def _gives(self, ram: Cylinder, members: Mapping[str, Member]) -> bool:
+        """Return whether it gives a cylinder its length."""
+        length = members.get(f"{ram.name}.length")
+        first = next((line for line, _ in lines_of(ram, members) if line.kind_in(members) == "closed"), None)
+        return length is not None and not isinstance(length, Distance) and first is not None and same(first, self)
+
+    def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
+        members = motion.plan.members
+        if self.kind_in(members) != "given":
+            return []
+        given = rates if rates.has_friction else AT_REST
+        return [Push(ram, self.thrust_of(ram, motion, given)) for ram in self.rams(motion)]
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return self.moving(motion, AT_REST)
+
+    def moving(self, motion: Poses, rates: Rates) -> list[Load]:
+        return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
+
+    def thrust_of(self, ram: Cylinder, motion: Poses, rates: Mapping[str, Rate]) -> Array:
+        areas = [chamber_area(chamber, ram, motion) for each, chamber in self.filling(motion.plan.members) if same(each, ram)]
+        area = reduce(np.add, areas)
+        free = self.line_pressure(motion) * area
+        return np.asarray(free - self.rubbing(ram, np.abs(area), motion, rates) if rates and self.block is not None else free)
+
+    @property
+    def scales(self) -> bool:
+        return self.kind_of_line == "given"
+
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        if self.block is None:
+            return ()
+        count = len(self.block.accumulators) if isinstance(self.block, AccumulatorBlock) else 1
+        return tuple(Glyph("accumulator", cylinder.ends, count) for cylinder in self.members(members))
+
+    # -- where it is filled, and the length that it gives ------------------------------------------------------
+
+    def strokes_filled(self, strokes: Sequence[str]) -> dict[str, float]:
+        """Return the strokes that it says to be filled at [SI]; DefinitionError for what is no stroke, and a number for several."""
+        if self.at is None:
+            return {}
+        if isinstance(self.at, Mapping):
+            lost = next((name for name in self.at if name not in strokes), None)
+            if lost is not None:
+                raise unknown("Stroke", lost, strokes, where=f"{self.name}, at")
+            return {name: one_number(value, f"{self.name}, at: {name}") for name, value in self.at.items()}
+        if len(strokes) != 1:
+            raise DefinitionError(f"{self.name} = {self}: the machine has {len(strokes)} strokes; say at=dict({', '.join(strokes)}=...).")
+        return {strokes[0]: one_number(self.at, f"{self.name}, at")}
+
+    def length_filled(self, ram: Cylinder, members: Mapping[str, Member]) -> Quantity:
+        """Return the length of a cylinder where the line is filled [m]."""
+        if isinstance(self.filled, Mapping) and ram.name in self.filled:
+            return quantity(self.filled[ram.name])
+        if isinstance(self.filled, str):
+            wanted = ("closed", "stroke") if self.filled == "open" else ("closed",)
+            lost = next((name for name in wanted if ram.given(name) is None), None)
+            if lost is not None:
+                raise DefinitionError(f"{self.name} = {self}: {ram.name} says no {lost}; declare it, or give lengths, filled=dict(...).")
+            first, *others = (written_number(ram, name) for name in wanted)
+            return reduce(lambda a, b: a + b, others, first)
+        strokes = [name for name, member in members.items() if isinstance(member, Stroke)]
+        return AtPose(Distance(ram.A, ram.B), FrozenDict(self.strokes_filled(strokes)))
+
+    def length_given(self, chamber: Chamber, members: Mapping[str, Member]) -> Quantity:
+        """Return the length that it gives one of its cylinders [m]: that where it was filled, and what the oil of the others makes."""
+        filling = self.filling(members)
+        own = cast(Cylinder, members[name_of(chamber.cylinder)])
+        already = [ram for ram, _ in filling if ram is not own and f"{ram.name}.length" in members and self._gives(ram, members)]
+        if already:
+            what = f"{self.name} = {self}: one closed line gives one length, and {already[0].name}.length and {own.name}.length are asked"
+            raise DefinitionError(f"{what}; declare another line, or find their pins together in a Group.")
+        if not (isinstance(self.filled, str) or (isinstance(self.filled, Mapping) and own.name in self.filled)):
+            what = f"{self.name} = {self}: nothing says how long {own.name} is where the line is filled"
+            raise DefinitionError(f"{what}; add filled=dict({own.name}=...) in m.")
+        others = [(ram, each) for ram, each in filling if ram.name != own.name]
+        taken = Variable(f"{self.name}.oil") if isinstance(self.oil_given, Number) else self.oil_given
+        for ram, each in others:
+            taken = taken - area_written(each, ram) * (Distance(ram.A, ram.B) - self.length_filled(ram, members))
+        area = reduce(lambda a, b: a + b, (area_written(each, own) for ram, each in filling if ram.name == own.name))
+        return self.length_filled(own, members) + taken / area
+
+    # -- its pressure and its oil ------------------------------------------------------------------------------
+
+    @takes_situation
+    def pressure(self, motion: Any, loads: Any = None, **situation: Unpack[ActingKeywords]) -> Array:
+        """Return the pressure of the line, shape (...) [Pa gauge]: of a held one the greatest that one of its cylinders asks for.
+
+        Of a closed one it is what keeps its oil where it is; where other lines leave it open, the least that balances, not below
+        `make_up`. Below that it runs empty.
+        """
+        return self.line_pressure(motion, situation_of("pressure", loads=loads, **situation))
+
+    def line_pressure(self, motion: Any, acting: Acting | None = None) -> Array:
+        members, asked = motion.plan.members, Acting() if acting is None else acting
+        kind = self.kind_in(members)
+        if kind == "held":
+            return self.pressure_for(motion, acting=asked)
+        if kind == "closed":
+            return self._kept_pressure(motion, asked)
+        tanks = self.supplies(members, Tank)
+        return in_pascals(tanks[0].set_to(motion, "pressure"), "Pressure of the tank") if tanks else GasLine.pressure(self, motion)
+
+    def _kept_pressure(self, motion: AnyMotion, acting: Acting) -> Array:
+        members = motion.plan.members
+        lines = connected(self, members)
+        ties = [Tie(line.name, line.shares(members), held=False) for line in lines]
+        least = [line.least(motion) for line in lines]
+        found = tied_forces(motion, ties, lambda ram: self._tied_thrust(ram, motion, acting), least)
+        place = next(k for k, line in enumerate(lines) if same(line, self))
+        return np.asarray(found[place] + np.zeros(motion.shape))[()] if motion.shape else found[place]
+
+    def _tied_thrust(self, ram: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
+        """Return what a cylinder carries without what lines of a given pressure put on it; a direction is that of the first cylinder."""
+        first = self.members(motion.plan.members)[0]
+        if acting.direction is None or same(ram, first) or not changes_in_motion(motion, acting.loads):
+            thrust = member_thrust(motion, ram, acting)
+        else:
+            ahead, back = (member_thrust(motion, ram, opposed(acting, way)) for way in (False, True))
+            stroke = next(iter(motion.strokes))
+            thrust = np.where(ram.growth(motion, {stroke: 1.0}) * first.growth(motion, {stroke: 1.0}) < 0.0, back, ahead)
+        others = by_other_lines(ram, None, motion, None)
+        return thrust if others is None else thrust - others
+
+    def least(self, motion: Poses) -> Array | float:
+        """Return the pressure below which it runs empty [Pa]."""
+        return number_set(self, motion, "make_up") if self.kind_in(motion.plan.members) == "closed" else 0.0
+
+    def oil(self, motion: Motion) -> Array:
+        """Return the oil that has come in since it was filled, per pose, shape (...) [m3]."""
+        return np.asarray(reduce(np.add, self._volumes(motion)))
+
+    def _volumes(self, motion: Poses) -> Iterator[Array]:
+        """Yield how much larger each chamber is than where the line was filled [m3]."""
+        for ram, chamber in self.filling(motion.plan.members):
+            charged = length_at(motion, ram, self.charged_at(motion, ram)) if self.filled is None else self._filled_length(motion, ram)
+            yield np.asarray((motion.distance(ram.A, ram.B) - charged) * chamber_area(chamber, ram, motion))
+
+    def _filled_length(self, motion: Poses, ram: Cylinder) -> Array:
+        length = self.length_filled(ram, motion.plan.members)
+        return length_at(motion, ram, self.charged_at(motion, ram)) if isinstance(length, AtPose) else motion.value(length)
+
+    def charged_at(self, motion: Poses, ram: Cylinder) -> Mapping[str, Array]:
+        strokes = self.strokes_filled(list(plan_of(motion).strokes))
+        return {name: np.asarray(value) for name, value in strokes.items()}
+
+    def withdrawn(self, motion: Poses) -> Array:
+        found = reduce(np.add, self._volumes(motion))
+        oil = self.oil_given
+        return found if isinstance(oil, Number) and oil.number == 0.0 else found - self.number(motion, "oil")
+
+    def gas_block(self, plan: Declared) -> Block:
+        assert self.block is not None
+        return self.block
+
+    # -- the numbers of a pump -------------------------------------------------------------------------------
+
+    def number(self, motion: Poses, name: str) -> Array:
+        if name in self.parameters:
+            is_set = name != "oil" and follows(self.given(name))
+            return number_set(self, motion, name) if is_set else ForceElement.number(self, motion, name)
+        found, own = self._says(name, motion.plan.members)
+        return np.zeros(()) if found is None else found.set_to(motion, own)
+
+    def written(self, written: Formulas, name: str) -> Array:
+        found, own = self._says(name, written.plan.members)
+        return np.zeros(()) if found is None else ForceElement.number(found, written, own)
+
+    def _says(self, name: str, members: Mapping[str, Member]) -> tuple[Supply | None, str]:
+        """Return what says a number of a pump, and by which name; None for a back pressure, which a tank on the other side says."""
+        kind: type[Supply] = Relief if name == "relief" else Pump
+        found = [] if name == "back_pressure" else self.supplies(members, kind)
+        return (found[0], "pressure" if name == "relief" else name) if found else (None, name)
+
+    def pump_pressure(self, plan: Declared) -> Parameter:
+        return cast(Pump, self.supplies(plan.members, Pump)[0]).pressure
+
+    def relieves(self, plan: Declared) -> bool:
+        return bool(self.supplies(plan.members, Relief))
+
+    # -- by its kind -----------------------------------------------------------------------------------------
+
+    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
+        if self.kind_in(motion.plan.members) == "held":
+            return PumpLine.pressure_in(self, cylinder, motion, acting)
+        return self.line_pressure(motion, acting) + np.zeros(motion.shape)
+
+    def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
+        """Return between which two thrusts it lets one of its cylinders stand [N].
+
+        A held line as its pump lifts or its valve holds, one whose pressure is given that alone, a closed one from where it runs empty to
+        where its relief valve opens; unbounded where a closed line has both sides of it.
+        """
+        members, ram = motion.plan.members, the_cylinder(motion, cylinder)
+        kind = self.kind_in(members)
+        if kind == "held":
+            return PumpLine.bounds_of(self, cylinder, motion, lifting, share=share)
+        others = by_other_lines(ram, self, motion, None)  # type: ignore[arg-type]
+        more = np.zeros(()) if others is None else others
+        if kind == "given":
+            thrust = self.thrust_of(ram, motion, {}) + more
+            return thrust, thrust
+        own = [chamber_area(chamber, ram, motion) for each, chamber in self.filling(members) if same(each, ram)]
+        closed = [line for line, _ in lines_of(ram, members) if line.kind_in(members) == "closed"]
+        if len(own) > 1 or len(closed) > 1:
+            return UNBOUNDED
+        most = self.number(motion, "relief") if self.relieves(motion.plan) else np.asarray(np.inf)
+        low, high = self.least(motion) * own[0] + more, most * own[0] + more
+        return (low, high) if own_side(self, ram, members) == PISTON else (high, low)
+
+    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array | None:
+        return PumpLine.reserve_of(self, cylinder, motion, acting) if self.kind_in(motion.plan.members) == "held" else None
+
+    def gauges_of(self, cylinder: Cylinder) -> Any:
+        return PumpLine.gauges_of(self, cylinder) if self.kind_of_line == "held" else {}
+
+    def questions(self, judge: Judge) -> list[Question]:
+        if self.kind_of_line == "held":
+            return PumpLine.questions(self, judge)
+        return [least(self.pressure_request), most(self.pressure_request)] if self.kind_of_line == "closed" else []
+
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        if self.kind_of_line == "held":
+            return PumpLine.conditions(self, judge)
+        return {"oil": least(self.pressure_request) >= self._make_up(judge)} if self.kind_of_line == "closed" else {}
+
+    def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return the verdicts on lifting, oil, holding and lowering of a held line, on the pressure of any other."""
+        if self.kind_of_line == "held":
+            return PumpLine.verdicts(self, judge)
+        if self.block is not None:
+            return GasLine.verdicts(self, judge)
+        return [self.kept_verdict(judge)] if self.kind_of_line == "closed" else []
+
+    @property
+    def pressure_request(self) -> LawRequest:
+        """The request for its pressure, in all load cases and directions [Pa gauge]."""
+        first = next((each for each in self.references if not isinstance(each, Supply)), "")
+        return LawRequest(
+            formula=self.line_pressure, text=f"{self.name}.pressure", known=("line pressure", self.name), acting=Acting(),
+            measures="pressure", mover=name_of(first) if first else None,
+        )  # fmt: skip
+
+    def _make_up(self, judge: Judge) -> float:
+        return float(np.ravel(number_set(self, judge.motion, "make_up"))[0])
+
+    def kept_verdict(self, judge: Judge) -> Verdict:
+        """Return whether a closed line keeps its oil wherever the machine runs: it neither runs empty nor opens its relief valve."""
+        try:
+            low, high = judge.answers([least(self.pressure_request), most(self.pressure_request)])
+        except DefinitionError as error:
+            return Verdict("line", False, " ".join(str(error).split()))
+        says = said(
+            "its pressure goes from {low} {low_where} to {high} {high_where}",
+            low=show(low.value, "bar", 4), low_where=low.where, high=show(high.value, "bar", 4), high_where=high.where,
+        )  # fmt: skip
+        make_up = self._make_up(judge)
+        if low.value < make_up - EMPTY * max(abs(float(high.value)), 1.0):
+            text = said(
+                "{says}: below {make_up} it runs empty there, and does not keep the length that it gives.",
+                says=says, make_up=show(make_up, "bar", 4),
+            )  # fmt: skip
+            return Verdict("line", False, text, answer=low)
+        if self.relieves(judge.plan):
+            limit = float(np.ravel(self.number(judge.motion, "relief"))[0])
+            if high.value > limit:
+                text = said("{says}: its relief valve opens at {limit}.", says=says, limit=show(limit, "bar", 4))
+                return Verdict("line", False, text, answer=high)
+        return Verdict("line", True, f"{says}.", answer=low)
+
+    def formulas(self, written: Formulas) -> None:
+        """Write the pressure of the line and what its cylinders carry, as far as no other lines say it."""
+        kind = self.kind_in(written.plan.members)
+        if kind == "held":
+            PumpLine.formulas(self, written)
+        elif kind == "closed" or self.block is None:
+            written.given(f"p_{self.name}", self.line_pressure, "bar")
+        else:
+            GasLine.formulas(self, written)
+
+
+EMPTY = 1e-9
+"""A pressure that is lower by less than this part of the greatest is that to rounding."""
+USUAL: Mapping[str, float] = MappingProxyType({"oil": 0.0, "make_up": 0.0, "seal_friction": 0.0, "exponent": 1.0})
+
+
+def chamber_named(given: Any) -> Any:
+    """Return a chamber for its name, "lift.rod_side"; anything else as it is."""
+    if isinstance(given, str):
+        name, _, side = given.rpartition(".")
+        if name and side in ("piston_side", "rod_side"):
+            return Chamber(name, PISTON if side == "piston_side" else ROD)
+    return given
+
+
+def on_line_text(each: Any) -> str:
+    """Return what lies on a line as it is written."""
+    if isinstance(each, (Chamber, AccumulatorBlock)):
+        return str(each)
+    return label(each) if isinstance(each, (str, Member)) else getattr(each, "__name__", "block")
+
+
+def option_text(value: Any) -> str:
+    """Return an option as it is written."""
+    if isinstance(value, Mapping):
+        return f"dict({', '.join(f'{name}={plain(each)}' for name, each in value.items())})"
+    return repr(plain(value))
+
+
+def written_number(ram: Cylinder, name: str) -> Quantity:
+    """Return a number of a cylinder as a quantity of its class."""
+    given = quantity(ram.given(name))
+    return Variable(f"{ram.name}.{name}") if isinstance(given, Number) else given
+
+
+def area_written(chamber: Chamber, ram: Cylinder) -> Quantity:
+    """Return the signed area of a chamber as a quantity of its class [m2]."""
+    bore = written_number(ram, "bore")
+    square = bore**2 if chamber.side == PISTON else bore**2 - written_number(ram, "rod") ** 2
+    return square * ((1.0 if chamber.side == PISTON else -1.0) * pi / 4.0 * ram.count)
+
+
+def own_side(line: OilLine, ram: Cylinder, members: Mapping[str, Member]) -> Side:
+    """Return the side of a cylinder that a line has."""
+    return next(chamber.side for each, chamber in line.filling(members) if same(each, ram))
+
+
+def is_given(ram: Cylinder, members: Mapping[str, Member]) -> bool:
+    """Return whether all lines of a cylinder have a given pressure, so that its thrust is given, too."""
+    lines = [each for each in members.values() if isinstance(each, Circuit)]
+    on = [line for line in lines if any(same(ram, each) for each, _ in line.filling(members))]
+    return all(line.kind_in(members) == "given" for line in on)
+
+
+def connected(line: OilLine, members: Mapping[str, Member]) -> list[Any]:
+    """Return the lines, held and closed ones, that share cylinders with one, through any of them; itself first."""
+    others = [each for each in members.values() if isinstance(each, Circuit) and each.kind_in(members) != "given"]
+    found: list[Any] = [next(each for each in others if same(each, line))]
+    for each in found:
+        rams = [ram for ram, _ in each.filling(members)]
+        found += [
+            other for other in others
+            if not any(same(other, one) for one in found) and any(same(ram, own) for ram, _ in other.filling(members) for own in rams)
+        ]  # fmt: skip
+    return found
+
+
+def opposed(acting: Acting, is_against: bool) -> Acting:
+    """Return a situation in which a cylinder moves the other way, or the same."""
+    turned = {"extending": "retracting", "retracting": "extending"}
+    return replace(acting, direction=turned[acting.movement]) if is_against and acting.movement in turned else acting

@@ -825,7 +825,7 @@ def works_by_lines(cylinder: Cylinder, members: Mapping[str, Member]) -> Works |
     named = lines_of(cylinder, members)
     if not named:
         return None
-    bare = [each for each in members.values() if isinstance(each, Circuit) and cylinder.name in map(name_of, each.bare)]
+    bare = [each for each in members.values() if isinstance(each, Circuit) and cylinder.name in map(label, each.bare)]
     if bare:  # what works on a line that names the cylinder alone is the side that no other line has
         left = [side for side in SIDES if side not in [chamber.side for _, chamber in named]]
         return left[0] if left else None

@@ -341,7 +341,8 @@ class OilLine(PumpLine, GasLine):
             theirs = [(ram.name, chamber.side) for ram, chamber in other.filling(members)]
             shared = next((each for each in own if each in theirs), None)
             if shared is not None:
-                what = f"two pressures in {shared[0]}'s {shared[1]} side: {self.name} and {other.name} both have it"
+                first, second = (each for each in members if each in (self.name, other.name))
+                what = f"two pressures in {shared[0]}'s {shared[1]} side: {first} and {second} both have it"
                 raise DefinitionError(f"{title}: {what}. A chamber has one line; join the two, or take it out of one.")
             if isinstance(other, OilLine):
                 for kind, what in ((Pump, "pump"), (Tank, "tank"), (Relief, "relief valve")):

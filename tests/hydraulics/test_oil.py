@@ -1,0 +1,170 @@
+"""Oil lines: published and hand-worked pressures, and what one line shares."""
+
+import numpy as np
+import pytest
+
+from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, OilLine, Pump, Tank
+from linkage import LEFT, RIGHT, DefinitionError, Dyad, Force, Ground, Guide, Link, Mechanism, OnGuide, OnLink, Stroke, Weight, pin_forces
+from linkage.units import bar, deg, kN, litre, minute, mm
+
+
+class Press(Mechanism):
+    """A ram that pushes straight up against 40 kN."""
+
+    S = Stroke(0.0, 0.5)
+    O = Ground(0.0, 0.0)
+    rail = Guide(O, angle=90 * deg)
+    P = OnGuide(rail, at=1.0 + S)
+    ram = Cylinder(O, P, bore=120 * mm, rod=85 * mm)
+    load = Force(P, (0.0, -40 * kN))
+    supply = Pump(200 * bar, flow=100 * litre / minute)
+
+
+class Regenerative(Press):
+    line = OilLine("ram.piston_side", "ram.rod_side", "supply")
+
+
+class PistonAlone(Press):
+    line = OilLine("ram.piston_side", "supply")
+
+
+def test_a_regenerative_line_works_with_the_area_of_the_rod():
+    both, one = Regenerative().sweep(5), PistonAlone().sweep(5)
+    assert Regenerative.line.pressure(both) / bar == pytest.approx(np.full(5, 70.49), abs=5e-3)
+    assert PistonAlone.line.pressure(one) / bar == pytest.approx(np.full(5, 35.37), abs=5e-3)
+    assert 0.5 / Regenerative.line.time(both) == pytest.approx(0.2937, abs=5e-5)
+    assert 0.5 / PistonAlone.line.time(one) == pytest.approx(0.1474, abs=5e-5)
+    flow, speed = 100 * litre / minute, 0.5 / Regenerative.line.time(both)
+    assert Regenerative.line.pressure(both)[0] * flow == pytest.approx(40 * kN * speed)
+
+
+class Axle(Mechanism):
+    """Two wheels on struts."""
+
+    S1, S2 = Stroke(-0.1, 0.1), Stroke(-0.1, 0.1)
+    L, R = Ground(-1.0, 0.0), Ground(1.0, 0.0)
+    on_left, on_right = Guide(L, angle=90 * deg), Guide(R, angle=90 * deg)
+    A, B = OnGuide(on_left, at=0.6 + S1), OnGuide(on_right, at=0.6 + S2)
+    left, right = Cylinder(L, A, bore=80 * mm, rod=60 * mm), Cylinder(R, B, bore=80 * mm, rod=60 * mm)
+
+
+def vessel():
+    return AccumulatorBlock([Accumulator(volume=4 * litre, charge=40 * bar)])
+
+
+class OnOneBlock(Axle):
+    line = OilLine("left", "right", vessel(), charge_pressure=90 * bar, at=dict(S1=0.0, S2=0.0))
+
+
+class OnTwoBlocks(Axle):
+    one = OilLine("left", vessel(), charge_pressure=90 * bar, at=dict(S1=0.0))
+    two = OilLine("right", vessel(), charge_pressure=90 * bar, at=dict(S2=0.0))
+
+
+class Crossed(Axle):
+    one = OilLine("left.piston_side", "right.rod_side", vessel(), charge_pressure=90 * bar, at=dict(S1=0.0, S2=0.0))
+    two = OilLine("right.piston_side", "left.rod_side", vessel(), charge_pressure=90 * bar, at=dict(S1=0.0, S2=0.0))
+
+
+def test_two_struts_on_one_vessel():
+    bump, roll = Axle.S1, dict(S1=[-0.05, 0.05], S2=[0.05, -0.05])
+    assert bump.start == -0.1
+    assert OnOneBlock.line.pressure(OnOneBlock().at(S1=-0.05, S2=-0.05)) / bar == pytest.approx(125.19, abs=5e-3)
+    assert OnTwoBlocks.one.pressure(OnTwoBlocks().at(S1=-0.05, S2=-0.05)) / bar == pytest.approx(104.7, abs=5e-2)
+    assert OnOneBlock.line.pressure(OnOneBlock().at(**roll)) / bar == pytest.approx([90.0, 90.0])
+    rolled = Crossed.one.pressure(Crossed().at(**roll)) / bar
+    assert rolled[0] > 100.0 > 80.0 > rolled[1]
+    motion = OnOneBlock().at(S1=-0.05, S2=-0.03)
+    thrusts = pin_forces(motion).thrusts
+    assert thrusts["left"] == pytest.approx(float(OnOneBlock.left.thrust(motion)), rel=1e-12)
+
+
+class Levelled(Mechanism):
+    """A boom whose forks are kept level by oil that its own movement pushes across."""
+
+    S = Stroke(1.2, 1.9)
+    A, C, M = Ground(0.0, 0.0), Ground(0.9, -0.4), Ground(0.3, -0.5)
+    B = Dyad(C, A, CB=S, AB=1.6, side=LEFT)
+    T, N, U = OnLink(A, B, AT=3.2), OnLink(A, B, AN=0.5), OnLink(A, B, AU=2.6)
+    boom = Link(A, B, T, N, U)
+    master, slave = Cylinder(M, N, bore=90 * mm, rod=50 * mm), Cylinder(U, "W", bore=100 * mm, rod=56 * mm)
+    level = OilLine(master.piston_side, slave.piston_side, filled=dict(slave=0.72))
+    W = Dyad(U, T, UW=slave.length, TW=0.35, side=RIGHT)
+    F = OnLink(T, W, TF=1.0, FTW=70 * deg)
+    fork = Link(T, W, F)
+    lift = Cylinder(C, B, bore=140 * mm, rod=80 * mm)
+    load = Weight(F, mass=2000)
+
+
+def test_a_closed_line_keeps_its_oil_and_its_pressure_is_the_work_on_it():
+    motion = Levelled().sweep(9)
+    level, size = Levelled.level, 0.7 * np.pi / 4 * 0.1**2
+    assert np.abs(level.oil(motion)).max() < 1e-12 * size
+    forces = pin_forces(motion)
+    for name in ("lift", "master", "slave"):
+        assert forces.thrusts[name] == pytest.approx(getattr(Levelled, name).thrust(motion), rel=1e-11)
+    step = 1e-6
+    energy = [2000 * 9.80665 * Levelled(**{"level.oil": k * step}).sweep(9)["F"][1] for k in (-2, -1, 1, 2)]
+    slope = (energy[0] - 8 * energy[1] + 8 * energy[2] - energy[3]) / (12 * step)
+    assert level.pressure(motion) == pytest.approx(slope, rel=1e-8)
+
+
+class Charged(Axle):
+    circuit = FloatCircuit("left", vessel(), charge_pressure=90 * bar, seal_friction=2 * bar)
+
+
+class ChargedLine(Axle):
+    circuit = OilLine("left", vessel(), charge_pressure=90 * bar, seal_friction=2 * bar, at=dict(S1=0.0, S2=0.0))
+
+
+class Pumped(Press):
+    line = LiftCircuit("ram", pressure=200 * bar, flow=100 * litre / minute, mechanical_efficiency=0.9)
+
+
+class PumpedLine(Press):
+    supply = Pump(200 * bar, flow=100 * litre / minute, mechanical_efficiency=0.9)
+    line = OilLine("ram", "supply")
+
+
+def test_circuits_and_lines_are_spellings_of_one_thing():
+    a, b = Charged().at(S1=[-0.05, 0.02], S2=0.0), ChargedLine().at(S1=[-0.05, 0.02], S2=0.0)
+    for direction in ("frictionless", "extending", "retracting"):
+        assert np.array_equal(Charged.left.thrust(a, direction=direction), ChargedLine.left.thrust(b, direction=direction))
+    a, b = Pumped().sweep(5), PumpedLine().sweep(5)
+    assert np.array_equal(Pumped.line.pressure_for(a), PumpedLine.line.pressure(b))
+    assert np.array_equal(Pumped.line.reserve(a), PumpedLine.line.reserve(b))
+    assert [str(each) for each in Pumped().verdicts()] == [str(each) for each in PumpedLine().verdicts()]
+
+
+def test_what_cannot_be_is_said_with_the_remedy():
+    with pytest.raises(DefinitionError, match="two pressures in left's piston side: two and one both have it|left's piston side: one and two both have it"):
+
+        class Twice(Axle):
+            one, two = OilLine("left.piston_side", "right"), OilLine("left.piston_side", Tank())
+
+    with pytest.raises(DefinitionError, match="a pump and a tank are on one line"):
+
+        class PumpAndTank(Press):
+            line = OilLine("ram.piston_side", "supply", Tank())
+
+    with pytest.raises(DefinitionError, match="no chamber is on it"):
+
+        class Empty(Press):
+            line = OilLine("supply")
+
+    with pytest.raises(DefinitionError, match=r"nothing says how long slave is where the line is filled; add filled=dict\(slave="):
+
+        class Unfilled(Levelled):
+            level = OilLine("master.piston_side", "slave.piston_side")
+
+    with pytest.raises(DefinitionError, match="no closed line gives it; declare one"):
+
+        class Unkept(Levelled):
+            level = OilLine("master.piston_side", Tank())
+
+    with pytest.raises(DefinitionError, match="locks the machine"):
+
+        class Locked(Levelled):
+            other = OilLine("master.rod_side", "slave.rod_side")
+
+        Locked.lift.thrust(Locked().sweep(3))

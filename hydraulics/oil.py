@@ -361,7 +361,7 @@ class OilLine(PumpLine, GasLine):
     def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         if self.kind_in(members) != "given":
             return ()
-        return tuple(ram for ram in self.members(members) if is_given(ram, members))
+        return tuple(ram for ram in self.members(members) if is_fed_wholly(ram, members))
 
     def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return PumpLine.joined(self, members) if self.kind_in(members) == "held" else ()
@@ -717,7 +717,7 @@ def own_side(line: OilLine, ram: Cylinder, members: Mapping[str, Member]) -> Sid
     return next(chamber.side for each, chamber in line.filling(members) if same(each, ram))
 
 
-def is_given(ram: Cylinder, members: Mapping[str, Member]) -> bool:
+def is_fed_wholly(ram: Cylinder, members: Mapping[str, Member]) -> bool:
     """Return whether all lines of a cylinder have a given pressure, so that its thrust is given, too."""
     lines = [each for each in members.values() if isinstance(each, Circuit)]
     on = [line for line in lines if any(same(ram, each) for each, _ in line.filling(members))]

@@ -18,7 +18,7 @@ from ..program import FloatArray
 from ..quantities import Distance, Quantity, name_of
 from .applied import AppliedLoad, member_title
 from .bodies import FRAME, Strut
-from .holding import areas, same, share_of, solved, tie_pivots
+from .holding import areas, same, share_of, solution_of_few, tie_pivots
 from .joints import Contact, Structure, Wrench, follows_points, force_direction, wrenches
 from .poses import FlatPoses, cross
 
@@ -262,7 +262,7 @@ class System:
         pivots = tie_pivots(self.structure.plan, ties, members)
         for place, form in enumerate(forms):
             if place not in [row for row, _ in pivots]:
-                factors = solved([[rows[row][column] for row, _ in pivots] for _, column in pivots], [rows[place][c] for _, c in pivots])
+                factors = solution_of_few([[rows[row][column] for row, _ in pivots] for _, column in pivots], [rows[place][c] for _, c in pivots])
                 others = [forms[row].multiplied(-1.0 * factor) for factor, (row, _) in zip(factors, pivots, strict=True)]
                 right = reduce(np.subtract, (factor * given[row] for factor, (row, _) in zip(factors, pivots, strict=True)), given[place])
                 yield reduce(LinearForm.plus, others, form), right

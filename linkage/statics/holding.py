@@ -508,15 +508,15 @@ def tied_forces(
         members += [each for each in on_tie(tie) if not any(same(each, other) for other in members)]
     lines = [PressureLine(on_tie(tie), "", tie) for tie in ties]
     pivots = tie_pivots(plan, lines, members)
-    shares = [[shared(tie, each, motion) for tie in ties] for each in members]
+    shares = [[share_in(tie, each, motion) for tie in ties] for each in members]
     rows = [[shares[row][column] for _, column in pivots] for row, _ in pivots]
-    known = dict(zip([column for _, column in pivots], solved(rows, [thrust(members[row]) for row, _ in pivots]), strict=True))
+    known = dict(zip([column for _, column in pivots], solution_of_few(rows, [thrust(members[row]) for row, _ in pivots]), strict=True))
     found = [known.get(place, np.zeros(())) for place in range(len(ties))]
     for free in (place for place in range(len(ties)) if place not in known):
-        steps = solved(rows, [-1.0 * shares[row][free] for row, _ in pivots])
+        steps = solution_of_few(rows, [-1.0 * shares[row][free] for row, _ in pivots])
         ways = [(free, np.ones(())), *zip([column for _, column in pivots], steps, strict=True)]
-        ways = [(place, way) for place, way in ways if np.any(np.abs(plain_number(way)) > DEPENDENT)]
-        if any(np.any(plain_number(way) < 0.0) for _, way in ways):
+        ways = [(place, way) for place, way in ways if np.any(np.abs(number_or_one(way)) > DEPENDENT)]
+        if any(np.any(number_or_one(way) < 0.0) for _, way in ways):
             names = " and ".join(ties[place].name for place, _ in ways)
             raise DefinitionError(f"{plan.title}: the thrusts leave the pressures of {names} open against each other; open one by a Tank.")
         up = reduce(np.maximum, ((least[place] - found[place]) / way for place, way in ways))
@@ -525,13 +525,13 @@ def tied_forces(
     return found
 
 
-def shared(tie: Tie, member: TwoPoint, motion: Poses) -> FloatArray:
+def share_in(tie: Tie, member: TwoPoint, motion: Poses) -> FloatArray:
     """Return the share of a member in a tie, all of its parts together; 0 where it has none."""
     parts = [each.of(motion) for each in tie.shares if same(each.member, member)]
     return reduce(np.add, parts) if parts else np.zeros(())
 
 
-def plain_number(value: Any) -> FloatArray:
+def number_or_one(value: Any) -> FloatArray:
     """Return a number as it is; of a program 1, for which its sign is taken as that of the plain design."""
     return np.ones(()) if is_traced(value) else np.asarray(value, float)
 
@@ -554,7 +554,7 @@ DEPENDENT = 1e-9
 """A pivot below this part of the largest entry says that a row depends on others."""
 
 
-def solved(A: Sequence[Sequence[FloatArray]], b: Sequence[FloatArray]) -> list[FloatArray]:
+def solution_of_few(A: Sequence[Sequence[FloatArray]], b: Sequence[FloatArray]) -> list[FloatArray]:
     """Return the solution of a few equations in their order, each number (n,) or of a program; no pivot may be nothing."""
     rows = [[*row, right] for row, right in zip(A, b, strict=True)]
     for k, row in enumerate(rows):

@@ -137,7 +137,7 @@ def test_circuits_and_lines_are_spellings_of_one_thing():
 
 
 def test_what_cannot_be_is_said_with_the_remedy():
-    with pytest.raises(DefinitionError, match="two pressures in left's piston side: two and one both have it|left's piston side: one and two both have it"):
+    with pytest.raises(DefinitionError, match="two pressures in left's piston side"):
 
         class Twice(Axle):
             one, two = OilLine("left.piston_side", "right"), OilLine("left.piston_side", Tank())

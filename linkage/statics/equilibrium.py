@@ -262,7 +262,8 @@ class System:
         pivots = tie_pivots(self.structure.plan, ties, members)
         for place, form in enumerate(forms):
             if place not in [row for row, _ in pivots]:
-                factors = solution_of_few([[rows[row][column] for row, _ in pivots] for _, column in pivots], [rows[place][c] for _, c in pivots])
+                own = [rows[place][column] for _, column in pivots]
+                factors = solution_of_few([[rows[row][column] for row, _ in pivots] for _, column in pivots], own)
                 others = [forms[row].multiplied(-1.0 * factor) for factor, (row, _) in zip(factors, pivots, strict=True)]
                 right = reduce(np.subtract, (factor * given[row] for factor, (row, _) in zip(factors, pivots, strict=True)), given[place])
                 yield reduce(LinearForm.plus, others, form), right

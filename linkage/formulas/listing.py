@@ -10,9 +10,9 @@ from typing import Any, final
 import sympy
 
 from ..plan import Plan
-from ..quantities import Member, Quantity, Reference, Tabulated, Turning, Variable, joined_names, name_of, spelled
+from ..quantities import Axes, Member, Quantity, Reference, Tabulated, Turning, Variable, joined_names, name_of, spelled
 from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, Point, Turn, Vector
-from ..vectors import Line
+from ..vectors import Line, Vec
 from .names import SymbolNames
 from .printing import Text
 from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, curve_function, input_units, term, vector_expr
@@ -42,7 +42,16 @@ def _(member: CosineAngle, reading: Any) -> Term:
 
 @symbolic_value.register
 def _(member: Axis, reading: Any) -> Any:
-    return X_AXIS
+    return x_axis_of(member.axes, reading)
+
+
+def x_axis_of(axes: Axes | None, reading: Any) -> Any:
+    """Return the x axis; of a part its own one, along what carries it, mirrored and turned as the part is."""
+    if axes is None:
+        return X_AXIS
+    along = TurnVL(reading.between(*axes.carrier), sympy.S.Zero, sympy.S.One) if axes.carrier else X_AXIS
+    own = -along if axes.mirrored else along
+    return own if axes.is_level else TurnV(own, reading.value(axes.angle).as_angle().expr)
 
 
 @symbolic_value.register
@@ -60,7 +69,8 @@ def _(member: Guide, reading: Any) -> Any:
         return TurnVL(reading.between(P, Q), sympy.S.Zero, sympy.S.One)
     fixed = member.angle is None or member.angle.is_constant
     angle = reading.input(f"{member.name}.angle") if fixed else reading.value(member.angle).as_angle()
-    return TurnV(X_AXIS, angle.expr)
+    sign = 1 if member.axes is None or not member.axes.mirrored else -1
+    return TurnV(x_axis_of(member.axes, reading), sign * angle.expr)
 
 
 @symbolic_value.register
@@ -209,7 +219,7 @@ class Listing:
     @property
     def fixed_guides(self) -> list[str]:
         """The guides whose origin is given."""
-        return [name for name, guide in self.plan.of_kind(Guide).items() if guide.P is None]
+        return [name for name, guide in self.plan.of_kind(Guide).items() if guide.P is None and guide.axes is None]
 
     @property
     def given_points(self) -> list[str]:
@@ -292,6 +302,9 @@ class Listing:
         if ("line", name) not in self._vectors:
             self.define(("line", name), self.names.direction(name), symbolic_value(member, self), NUMBER)
         along = Place(lambda: self._vectors["line", name], self, unit=NUMBER)
+        if member.P is None and member.axes is not None and ("origin", name) not in self._vectors:
+            place = member.axes.place(self, Vec(self.input(f"{name}.x"), self.input(f"{name}.y")))  # type: ignore[arg-type]
+            self.define(("origin", name), self.names.vector(name), sympy.ImmutableMatrix([term(place.x).expr, term(place.y).expr]), LENGTH)
         start: Any = Place(lambda: self.names.vector(name), self) if member.P is None else self.at(member.P)
         return Line(start, along)  # type: ignore[arg-type]
 

@@ -312,11 +312,16 @@ class Equations(Sequence[Equation], Shown):
     @property
     def headings(self) -> dict[int, str]:
         """What stands over the equations that begin a part of the machine, by their numbers: `lower (Arm)`; none without parts."""
-        parts = self.machine.plan.of_kind(Part)
-        titles = {"": self.machine.plan.title} | {name: f"{name} ({part.plan.title})" for name, part in parts.items()}
+        titles = self.part_titles
         before = [None, *(each.part for each in self._items)]
         begun = [each for each, last in zip(self._items, before, strict=False) if each.part != last]
-        return {each.number: titles[each.part] for each in begun} if parts else {}
+        return {each.number: titles[each.part] for each in begun} if titles else {}
+
+    @property
+    def part_titles(self) -> dict[str, str]:
+        """What each part is called in a heading, `lower (Arm)`, by its name, the machine itself by ""; none without parts."""
+        parts = self.machine.plan.of_kind(Part)
+        return {"": self.machine.plan.title} | {name: f"{name} ({part.plan.title})" for name, part in parts.items()} if parts else {}
 
     # -- numbers ---------------------------------------------------------------------------------------
 

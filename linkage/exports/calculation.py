@@ -74,10 +74,14 @@ class Calculation:
         self.motion = reached_somewhere(design.at(unreachable="nan", **self.stroke_values))
         self.equations = self._equations()
         self.columns: list[CalculatedColumn] = []
+        self.headings: dict[int, str] = {}
+        """What stands over the columns that begin a part of the machine, by their places; none without parts."""
         self._known = self._inputs(self.equations, self.stroke_values)
         for symbol, number, what in self._numbers():
             self._add(CalculatedColumn("", number, what, "", symbol, None, self._spread(self._known[symbol])))
         for each in self.equations:
+            if each.number in self.equations.headings:
+                self.headings[len(self.columns)] = self.equations.headings[each.number]
             self._write(each)
 
     # -- what there is to write ------------------------------------------------------------------------
@@ -230,6 +234,10 @@ class Calculation:
         """The dimensions that some formula reads."""
         free: set[Any] = set().union(*(each.expr.free_symbols for each in self.columns if each.expr is not None))
         return {self.dimension_symbols[symbol] for symbol in free if symbol in self.dimension_symbols}
+
+    def owner(self, name: str) -> str:
+        """Return the part that a dimension is of, "" for the machine itself."""
+        return self.equations._listing.names.owned(name)[0]
 
     def measure(self, name: str) -> str:
         """Return what a dimension measures: "length", "angle", ..."""

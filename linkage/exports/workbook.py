@@ -25,7 +25,7 @@ from .names import cell_names
 MADE = datetime(2000, 1, 1)
 """The date in the file: the same design gives the same bytes."""
 ROWS_ABOVE = 4
-"""Rows above the numbers of the calculation: number, name, unit, meaning."""
+"""Rows above the numbers of the calculation: number, name, unit, meaning; of a machine of parts one more, for their headings."""
 RESULT_ROWS_ABOVE = 3
 ROW_MARK = "#ROW#"
 """What stands in a formula for the number of its row."""
@@ -56,6 +56,8 @@ class Sheets:
         self.book, self.calculation = book, calculation
         self.results = live_results(calculation)
         self.count = calculation.motion.shape[0]
+        self.top = int(bool(calculation.headings))
+        self.above = ROWS_ABOVE + self.top
         ink, pale = "#1F2933", "#EEF1F4"
         head = {"bold": True, "bg_color": pale, "font_color": ink, "border": 1, "border_color": "#C9D1D9", "valign": "top"}
         self.head = book.add_format(head)
@@ -65,6 +67,7 @@ class Sheets:
         self.dead_wrapped = book.add_format({**head, **dead, "bold": False, "text_wrap": True, "font_size": 9})
         self.title = book.add_format({"bold": True, "font_size": 14, "font_color": ink})
         self.text = book.add_format({"font_color": ink})
+        self.part = book.add_format({"bold": True, "font_color": ink})
         self.muted = book.add_format({"font_color": "#6B7785", "indent": 1})
         self.input = book.add_format(
             {"font_color": "#0000FF", "bg_color": "#FFFBE6", "num_format": "General", "border": 1, "border_color": "#E3D9A8"}
@@ -84,7 +87,7 @@ class Sheets:
                 sheet.set_print_scale(45)
             else:
                 sheet.fit_to_pages(1, 0)
-        middle.repeat_rows(0, ROWS_ABOVE - 1)
+        middle.repeat_rows(0, self.above - 1)
         middle.repeat_columns(0, len(self.calculation.design.strokes))
         last.repeat_rows(0, RESULT_ROWS_ABOVE - 1)
         self._dimensions(first)
@@ -121,7 +124,12 @@ class Sheets:
         row = 4
         for column, text in enumerate(("Dimension", "Value", "Unit", "SI value", "Name in formulas", "Note")):
             sheet.write_string(row, column, text, self.head)
-        for name, value in design.dimensions.items():
+        owner, titles = None, self.calculation.equations.part_titles
+        for name, value in self._dimensions_by_parts():
+            if titles and self.calculation.owner(name) != owner:
+                owner = self.calculation.owner(name)
+                row += 1
+                sheet.write_string(row, 0, titles[owner], self.part)
             row += 1
             entry = design.plan.table.entries[name]
             unit = entry.unit or display_unit(self.calculation.measure(name), "mm")
@@ -137,6 +145,12 @@ class Sheets:
         for place, text in enumerate(self._remarks()):
             sheet.write_string(row + 3 + place, 0, text, self.text)
 
+    def _dimensions_by_parts(self) -> list[tuple[str, Any]]:
+        """Return the dimensions with their values, those of a part behind each other, the machine's own first."""
+        found = self.calculation.design.dimensions
+        owners = list(dict.fromkeys(["", *map(self.calculation.owner, found)]))
+        return sorted(found.items(), key=lambda each: owners.index(self.calculation.owner(each[0])))
+
     def _note(self, name: str, where: str) -> str:
         read = {str(symbol) for result in self.results if result.expr is not None for symbol in result.expr.free_symbols}
         symbols = {str(symbol) for symbol, owner in self.calculation.dimension_symbols.items() if owner == name}
@@ -150,7 +164,7 @@ class Sheets:
         places = [place for place, column in enumerate(self.calculation.columns) if column.checks]
         if not places:
             return
-        ranges = [self._range("Calculation", self._sheet_column(place), ROWS_ABOVE) for place in places]
+        ranges = [self._range("Calculation", self._sheet_column(place), self.above) for place in places]
         worst = ",".join(f"MAX({each}),-MIN({each})" for each in ranges)
         pins = " ".join(self.calculation.equations._listing.unknowns)
         text = f"The pins {pins} were found by iteration and do not fit these dimensions: export the changed design again."
@@ -241,35 +255,37 @@ class Sheets:
     def _calculation(self, sheet: Any) -> None:
         """Write a column for each equation, two for a vector, in their order: number, name, unit, meaning, and a formula a pose."""
         plan, strokes = self.calculation.design.plan, list(self.calculation.design.strokes)
-        sheet.set_row(3, 75)
+        sheet.set_row(3 + self.top, 75)
         sheet.set_column(0, 0, 7)
         sheet.set_column(1, self._sheet_column(len(self.calculation.columns)), 16)
         given = [("", "pose", "", "number of the pose"), *(("", name, stroke_unit(plan, name), "stroke") for name in strokes)]
         for column, texts in enumerate(given):
             self._heading(sheet, column, texts)
         for pose in range(self.count):
-            row = ROWS_ABOVE + pose
+            row = self.above + pose
             sheet.write_formula(row, 0, f"=Strokes!A{self._stroke_head + pose + 1}", self.plain, pose)
             for column, name in enumerate(strokes, 1):
                 value = float(np.broadcast_to(self.calculation.stroke_values[name], (self.count,))[pose])
                 text = f"=Strokes!{'ABCDEFGHIJKLMNOPQRSTUVWXYZ'[column]}{self._stroke_head + pose + 1}"
                 sheet.write_formula(row, column, text, self._format(1.0, False), value)
+        for place, text in self.calculation.headings.items():
+            sheet.write_string(0, self._sheet_column(place), text, self.part)
         for place, each in enumerate(self.calculation.columns):
             self._heading(sheet, self._sheet_column(place), (each.number, each.name, each.unit, each.meaning), dead=each.expr is None)
             self._write_column(sheet, self._sheet_column(place), each)
-        sheet.freeze_panes(ROWS_ABOVE, 1 + len(strokes))
+        sheet.freeze_panes(self.above, 1 + len(strokes))
 
     def _heading(self, sheet: Any, column: int, texts: Sequence[str], dead: bool = False) -> None:
         for row, text in enumerate(texts):
             upper, lower = (self.dead_head, self.dead_wrapped) if dead else (self.head, self.wrapped)
-            sheet.write_string(row, column, text, lower if row == 3 else upper)
+            sheet.write_string(self.top + row, column, text, lower if row == 3 else upper)
 
     def _write_column(self, sheet: Any, place: int, each: CalculatedColumn) -> None:
         """Write one column's formulas with their values, or its values alone."""
         look = self._format(float(np.nanmax(np.abs(each.values), initial=0.0)), each.expr is None)
         template = None if each.expr is None else self._cell_formula(each.expr)
         for pose, value in enumerate(each.values.tolist()):
-            row = ROWS_ABOVE + pose
+            row = self.above + pose
             text = None if template is None else template.replace(ROW_MARK, str(row + 1))
             if text is not None and each.turns is not None:
                 text = without_jump(text, each.turns, f"{self._letters[each.symbol]}{row}" if pose else "")
@@ -305,7 +321,7 @@ class Sheets:
             look = self._result_format(result)
             template = self._result_text(result)
             for pose, value in enumerate(shown.tolist()):
-                formula_here = None if template is None else template.replace(ROW_MARK, str(ROWS_ABOVE + pose + 1))
+                formula_here = None if template is None else template.replace(ROW_MARK, str(self.above + pose + 1))
                 self._number(sheet, RESULT_ROWS_ABOVE + pose, column, formula_here, value, look)
         sheet.set_row(2, 36)
         sheet.freeze_panes(RESULT_ROWS_ABOVE, 1)
@@ -341,7 +357,7 @@ class Sheets:
         shown = featured_place(columns, self.calculation.design.featured().column)
         chart = self.book.add_chart({"type": "scatter", "subtype": "straight"})
         x, y = columns[over_stroke] if over_stroke is not None else None, columns[shown]
-        stroke = self._range("Calculation", 1 + list(self.calculation.design.strokes).index(self.calculation.run.stroke), ROWS_ABOVE)
+        stroke = self._range("Calculation", 1 + list(self.calculation.design.strokes).index(self.calculation.run.stroke), self.above)
         chart.add_series({
             "name": y.heading,
             "categories": f"={stroke if over_stroke is None else self._range('Results', over_stroke, RESULT_ROWS_ABOVE)}",

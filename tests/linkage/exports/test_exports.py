@@ -26,6 +26,7 @@ from linkage import (
     FileError,
     Ground,
     Mechanism,
+    Part,
     PinFriction,
     Stroke,
     Weight,
@@ -79,15 +80,32 @@ def iterated(tmp_path_factory):
     return export(StephensonTwo(), tmp_path_factory.mktemp("iterated") / "iterated.xlsx", count=7)
 
 
+class Pair(Mechanism):
+    """Two four-bars with loads, the second mirrored and driven the other way, and a rod of the machine's own between them."""
+
+    phi = Stroke(0.1, 1.2)
+    left = Part(Turned, phi="phi", rubbing=None)
+    right = Part(Turned, phi=2 * phi, L0=0.11, at=(1.0, 0.2), mirrored=True, rubbing=None)
+    M = Dyad("left.B2", "right.B2", left_B2M=0.8, right_B2M=0.8, side=LEFT)
+    load = Weight(M, mass=5)
+
+
 @pytest.fixture(scope="module")
-def recalculated(books, iterated, tmp_path_factory):
+def of_parts(tmp_path_factory):
+    """The workbook of a machine of parts."""
+    return export(Pair(), tmp_path_factory.mktemp("of_parts") / "parts.xlsx", count=9)
+
+
+@pytest.fixture(scope="module")
+def recalculated(books, iterated, of_parts, tmp_path_factory):
     """The workbooks as LibreOffice works them out, some with a dimension changed, and what each dimension was changed to."""
     folder = tmp_path_factory.mktemp("recalculated")
     turned = export(Turned(), folder / "turned.xlsx", count=61)
     length = next(name for name in reversed(StephensonTwo().dimensions) if "." not in name)
     changed = {f"{name} changed": (books[name], [new_value(books[name], *CHANGED[name])]) for name in PAPERS}
     changed["iterated changed"] = iterated, [new_value(iterated, length, 1.01 * StephensonTwo().dimensions[length])]
-    plain = {name: (path, []) for name, path in {**books, "turned": turned, "iterated": iterated}.items()}
+    plain = {name: (path, []) for name, path in {**books, "turned": turned, "iterated": iterated, "parts": of_parts}.items()}
+    changed["parts changed"] = of_parts, [new_value(of_parts, "right.R1B2", 0.31)]
     return by_office(folder, plain | changed)
 
 
@@ -158,6 +176,35 @@ def test_directions_go_on_over_whole_turns(recalculated):
     turned = dict(zip([cell.value for cell in sheet[1]], number_columns(sheet, 4), strict=True))["turned"]
     assert_allclose(turned, Turned().sweep(61)["turned"] / deg, rtol=0, atol=1e-10)
     assert turned[-1] - turned[0] == pytest.approx(720.0)
+
+
+def test_sheets_of_a_machine_of_parts_have_the_headings_of_its_equations(of_parts):
+    sheet, listed = written(of_parts)["Calculation"], Calculation(Pair(), run_of(Pair()), 9).equations
+    assert len(set(listed.headings.values())) == 3 < len(listed.headings)
+    numbers = [str(cell.value or "").rstrip("abcdefgh)") + ")" for cell in sheet[2]]
+    over = {place: cell.value for place, cell in enumerate(sheet[1]) if cell.value}
+    assert over == {numbers.index(f"({number})"): heading for number, heading in listed.headings.items()}
+    assert sheet.freeze_panes == "C6"
+    names, rows = [cell.value for cell in sheet[3]], number_columns(stored(of_parts)["Calculation"], 6)
+    table = results(Pair(), motion := Pair().sweep(9))
+    assert_allclose(rows[names.index("M_y")], motion["M"][1], rtol=0, atol=1e-12)
+    for column, found in zip(table, number_columns(stored(of_parts)["Results"], 4), strict=True):
+        assert_allclose(found, column.shown, rtol=0, atol=1e-12 * max(np.abs(column.shown).max(), 1.0), err_msg=column.name)
+    given = [cell.value for cell in written(of_parts)["Dimensions"]["A"][5:]]
+    given = given[: given.index(None)]
+    heads = [place for place, each in enumerate(given) if each in over.values()]
+    parts = {given[a]: given[a + 1 : b] for a, b in zip(heads, [*heads[1:], None], strict=True)}
+    assert list(parts) == ["Pair", "left (Turned)", "right (Turned)"]
+    assert all(name.startswith(f"{owner}.") for owner in ("left", "right") for name in parts[f"{owner} (Turned)"])
+    assert sorted(parts["Pair"]) == ["left_B2M", "load.mass", "right_B2M"] and len(given) - 3 == len(Pair().dimensions)
+
+
+@needs_office
+def test_another_program_finds_the_same_numbers_of_a_machine_of_parts(of_parts, recalculated):
+    assert same_numbers(stored(of_parts), recalculated["parts"]) is None
+    changed, numbers = Pair(**{"right.R1B2": 0.31}), number_columns(recalculated["parts changed"]["Results"], 4)
+    for column, after in zip(results(changed, changed.sweep(9)), numbers, strict=True):
+        assert_allclose(after, column.shown, rtol=0, atol=1e-12 * max(np.abs(column.shown).max(), 1.0), err_msg=column.name)
 
 
 @pytest.mark.parametrize("unit", ["mm", "deg", "kN", "bar", "m", "N", ""])

@@ -208,7 +208,7 @@ class AngledBellCrankArmDrive(BellCrankArmDrive):
     psi: Quantity = Stroke(0.0, 180 * deg)
     crank = Dimension(23.07391806563097 * deg, unit="deg")
     r_7: Quantity = np.sqrt(ref("r_1") ** 2 + ref("r_8") ** 2 - 2.0 * ref("r_1") * ref("r_8") * np.cos(crank))
-    Z = Crank("O", OZ="r_8", angle=ref("alpha_1") + crank)
+    Z = OnLink("O", "L", OZ="r_8", LOZ=crank)
 
 
 class DirectArmDrive(DrivenArm):

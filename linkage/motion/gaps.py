@@ -12,11 +12,11 @@ Source: C. Ericson, Real-time collision detection (2005), 5.1 and 5.2.1 (separat
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from itertools import combinations, pairwise, product
-from typing import TypeAlias, final
+from typing import final
 
 import numpy as np
 import numpy.typing as npt
@@ -27,12 +27,10 @@ from ..plan import Plan, Reading
 from ..program import Node
 from ..quantities import Member, Reference, is_number, joined_names, name_of
 from ..steps import Link
-from ..surroundings import CircleOutline, Outline, convex_pieces, crosses_itself, numbers_at
-from ..vectors import Scalar, Vec
-from .requests import NodeRequest
-
-Pick: TypeAlias = Callable[[Scalar, Scalar, Scalar, Scalar], Scalar]
-"""What gives its third number where the first is at most the second, else the fourth."""
+from ..surroundings import CircleOutline, Corners, Outline, convex_pieces, crosses_itself, numbers_at, signed_area
+from ..vectors import Scalar, Vec, pick
+from .cuts import FAR, Pick, how_sound, triangles
+from .requests import MotionLike, NodeRequest
 
 SMALLEST = 1e-24
 """m2; the square of an edge that is no longer is taken as this, so that two points that coincide give no direction and no harm."""
@@ -58,7 +56,21 @@ def gap(a: Reference, b: Reference, *, width: float = 0.0) -> NodeRequest:
         text=f"gap({one}, {other}{f', width={width:g}' if width else ''})", sentence=f"the gap between {one} and {other}",
         key=("gap", one, other, float(width)), measures="length", may_fail=True,
         nodes_of=nodes, names_of=lambda plan: plan.reaches(*(name for shape in two_shapes(plan, one, other) for name in shape.behind)),
+        refused_by=lambda motion: check_forms(motion, (one, other)),
     )  # fmt: skip
+
+
+def check_forms(motion: MotionLike, names: Iterable[str]) -> None:
+    """Raise DefinitionError for an outline that crosses itself in a motion's design; of a batch in one of its designs."""
+    plan = motion.plan
+    for name, outline in plan.of_kind(Outline).items():
+        if name in names and follows_dimensions(outline):
+            values = np.broadcast_arrays(*(motion.value(value) for corner in outline.points for value in corner))
+            forms = np.unique(np.reshape(values, (len(values), -1)), axis=1).T.reshape(-1, len(outline.points), 2)
+            for corners in forms:
+                if crosses_itself(corners) or not convex_pieces(corners):
+                    what = f"{plan.title}: {name} = {outline}: it crosses itself or encloses nothing in this design"
+                    raise DefinitionError(f"{what}; correct the dimensions that its corners follow.", member=name)
 
 
 @final
@@ -69,6 +81,13 @@ class Piece:
     places: tuple[Vec, ...]
     in_order: bool = False
     radius: Scalar = 0.0
+    counts: Scalar | None = None
+    """Zero or more where it is a piece in this design; None where it always is."""
+
+    @property
+    def is_one(self) -> bool:
+        """Whether it is a piece at the one pose of a reading on numbers."""
+        return self.counts is None or float(self.counts) >= 0.0
 
     @property
     def edges(self) -> list[tuple[Vec, Vec]]:
@@ -92,10 +111,10 @@ class BodyShape:
         """What it is built from."""
         return self.points if self.outline is None else (self.outline, *self.points)
 
-    def pieces(self, plan: Plan, where: Reading) -> list[Piece]:
+    def pieces(self, plan: Plan, where: Reading, pick: Pick) -> list[Piece]:
         """Return its convex pieces in a reading, such as the plan's trace."""
         if self.outline is not None:
-            return outline_pieces(plan, self.outline, where)
+            return outline_pieces(plan, self.outline, where, pick)
         if self.each_alone:
             return [Piece((where.at(P),)) for P in self.points]
         return [Piece(tuple(where.at(P) for P in self.points))]
@@ -105,11 +124,24 @@ def gap_of(plan: Plan, a: str, b: str) -> Scalar:
     """Return the gap of two bodies or outlines in a plan's trace [m]."""
     one, other = two_shapes(plan, a, b)
     pick = plan.trace.graph.pick
-    return least_number([signed_gap(p, q, pick) for p, q in product(one.pieces(plan, plan.trace), other.pieces(plan, plan.trace))])
+    found = least_number([gap_if_any(p, q, pick) for p, q in product(*(each.pieces(plan, plan.trace, pick) for each in (one, other)))])
+    follow = any(each.outline is not None and follows_dimensions(each.outline) for each in (one, other))
+    return pick(FAR, found, np.nan, found) if follow else found  # no piece at all: an outline crosses itself
 
 
-def outline_pieces(plan: Plan, outline: Outline, where: Reading) -> list[Piece]:
-    """Return the convex pieces of an outline in a reading, cut as they are in the class's own design."""
+def gap_if_any(one: Piece, other: Piece, pick: Pick) -> Scalar:
+    """Return the gap of two pieces; where one of them is none in a design, more than any gap."""
+    found, counts = signed_gap(one, other, pick), [each.counts for each in (one, other) if each.counts is not None]
+    return pick(0.0, least_number(counts), found, FAR) if counts else found
+
+
+def follows_dimensions(outline: Outline) -> bool:
+    """Return whether the form of an outline hangs on dimensions."""
+    return hasattr(outline, "points") and any(not value.is_constant for corner in outline.points for value in corner)
+
+
+def outline_pieces(plan: Plan, outline: Outline, where: Reading, pick: Pick) -> list[Piece]:
+    """Return the convex pieces of an outline in a reading: as in the class's own design, and anew where these do not hold in another."""
     carriers = outline.carriers
 
     def place(x: Scalar, y: Scalar) -> Vec:
@@ -124,8 +156,23 @@ def outline_pieces(plan: Plan, outline: Outline, where: Reading) -> list[Piece]:
     if isinstance(outline, CircleOutline):
         centre = tuple(where.value(each) for each in outline.centre) or (0.0, 0.0)
         return [Piece((place(*centre),), radius=where.value(outline.radius))]
-    corners = [place(where.value(x), where.value(y)) for x, y in outline.points]
-    return [Piece(tuple(corners[each] for each in piece), in_order=True) for piece in cut(plan, outline)]
+    own = [Vec(where.value(x), where.value(y)) for x, y in outline.points]
+    corners, numbers = [place(each.x, each.y) for each in own], cut(plan, outline)
+    if not follows_dimensions(outline):
+        return [Piece(tuple(corners[each] for each in piece), in_order=True) for piece in numbers]
+    sound = how_sound(own, numbers, 1.0 if signed_area(class_corners(plan, outline)) > 0.0 else -1.0, pick)
+    anew, can_be_cut = triangles(own, pick)
+    instead = pick(0.0, sound, -1.0, can_be_cut)
+    return [
+        *(Piece(tuple(corners[each] for each in piece), in_order=True, counts=sound) for piece in numbers),
+        *(Piece(tuple(place(each.x, each.y) for each in piece), in_order=True, counts=instead) for piece in anew),
+    ]
+
+
+def class_corners(plan: Plan, outline: Outline) -> Corners:
+    """Return the corners of an outline in the class's own design, shape (n, 2) [m]."""
+    reading = Reading(plan.members, plan.table.lengths, plan.defaults)
+    return numbers_at(outline.points, lambda each: float(reading.value(each)))
 
 
 def cut(plan: Plan, outline: Outline) -> tuple[tuple[int, ...], ...]:
@@ -133,8 +180,7 @@ def cut(plan: Plan, outline: Outline) -> tuple[tuple[int, ...], ...]:
     if not outline.closed or not hasattr(outline, "points"):
         what = f"{plan.title}: {outline.name} = {outline}: it is open, or lines of a file, and has no inside"
         raise DefinitionError(f"{what}; give the corners of a closed one, Outline([(0, 0), (0.9, 0), (0.5, 0.6)], on=...).")
-    reading = Reading(plan.members, plan.table.lengths, plan.defaults)
-    corners = numbers_at(outline.points, lambda each: float(reading.value(each)))
+    corners = class_corners(plan, outline)
     pieces = () if crosses_itself(corners) else convex_pieces(corners)
     if not pieces:
         raise DefinitionError(f"{plan.title}: {outline.name} = {outline}: it crosses itself or encloses nothing; correct its corners.")
@@ -257,7 +303,8 @@ class NearestPlaces:
 def nearest_places(plan: Plan, where: Reading, a: str, b: str) -> NearestPlaces:
     """Return where two bodies, points or outlines come nearest at the pose of a reading."""
     one, other = two_shapes(plan, a, b)
-    return min((between(p, q) for p, q in product(one.pieces(plan, where), other.pieces(plan, where))), key=lambda each: each.gap)
+    every = ([piece for piece in shape.pieces(plan, where, pick) if piece.is_one] for shape in (one, other))
+    return min((between(p, q) for p, q in product(*every)), key=lambda each: each.gap)
 
 
 def between(one: Piece, other: Piece) -> NearestPlaces:

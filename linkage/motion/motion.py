@@ -378,7 +378,10 @@ class Motion(Shown):
             refused = self._refused_near(what, what.sentence, lambda found, mask: self._singular(found, mask, what.sentence))
             refused = refused | ~np.all(checks[program.assumed :] > 0.0, axis=0)
             self._check_laws(what, self.reached & ~refused, checks[: program.assumed], ())
-        found = self._finite(np.where(self.reached & ~refused, values, np.nan), refused, what.sentence)
+        good = self.reached & ~refused
+        if self.unreachable == "raise" and not np.isfinite(values[..., good]).all():
+            what.refuse(self)
+        found = self._finite(np.where(good, values, np.nan), refused, what.sentence)
         return found if what.rows > 1 else found[0]
 
     # -- how far it goes, and other strokes --------------------------------------------------------------

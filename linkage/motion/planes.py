@@ -23,7 +23,7 @@ from ..surroundings import Outline
 from ..units import show
 from ..verdict import Verdict
 from .answer import Answer
-from .gaps import body_points_of, gap, gap_of, least_number, shape_named
+from .gaps import body_points_of, check_forms, gap, gap_of, least_number, shape_named
 from .judge import Judge, Question
 from .judging import HasVerdicts
 from .measures import Condition, least
@@ -83,6 +83,10 @@ class Planes(HasVerdicts):
             return [Verdict("clearance", True, said("no two bodies lie in one plane that share no pin."))]
         answer = judge.answer(least(clearance()))
         if not np.isfinite(answer.value):
+            try:
+                check_forms(judge.motion, {name for pair in pairs_of(judge.plan) for name in pair})
+            except DefinitionError as error:
+                return [Verdict("clearance", False, " ".join(str(error).split()))]
             return []
         one, other = nearest_pair(judge, answer)
         size = show(abs(float(answer.value)), "mm", 3)
@@ -118,6 +122,7 @@ def clearance() -> NodeRequest:
     return NodeRequest(
         text="clearance()", sentence="the least gap of what lies in one plane", key=("clearance",), measures="length", may_fail=True,
         nodes_of=nodes, names_of=behind,
+        refused_by=lambda motion: check_forms(motion, {name for pair in pairs_of(motion.plan) for name in pair}),
     )  # fmt: skip
 
 

@@ -1,6 +1,6 @@
 """What stands around a mechanism and is only drawn: a wheel, the ground, a bucket, a photograph."""
 
-from .convex import convex_pieces, crosses_itself
+from .convex import Corners, convex_pieces, crosses_itself, signed_area
 from .outline import CircleOutline as CircleOutline
 from .outline import Corner as Corner
 from .outline import DxfOutline as DxfOutline

@@ -7,6 +7,7 @@ from numpy.testing import assert_allclose
 from linkage import (
     Crank,
     DefinitionError,
+    Dimension,
     Ground,
     Link,
     Mechanism,
@@ -25,9 +26,11 @@ from linkage import (
     x,
 )
 from linkage.files import load, to_toml
+from linkage.motion.cuts import triangles
 from linkage.motion.gaps import nearest_places
 from linkage.motion.planes import pairs_of
 from linkage.surroundings import convex_pieces, crosses_itself
+from linkage.vectors import Vec, pick
 from mechanisms.three_point_hitch import ThreePointHitch
 
 
@@ -151,6 +154,89 @@ def test_a_line_that_crosses_itself_is_told():
     assert crosses_itself(np.array([(0, 0), (1, 1), (1, 0), (0, 1)], float))
     with pytest.raises(DefinitionError, match="it crosses itself or encloses nothing"):
         facing([(0, 0), (0.3, 0.3), (0.3, 0), (0, 0.3)], star(np.random.default_rng(1), 5))().sweep(s=3)[gap("one", "other")]
+
+
+# -- outlines that follow dimensions -----------------------------------------------------------------------
+
+
+class Dented(Mechanism):
+    """A lever with a bucket, convex in the class's own design, whose dent is a dimension, and a lug that may stand in it."""
+
+    s = Stroke(-0.6, 0.9)
+    dent, tall = Dimension(-0.1), Dimension(0.3)
+    O, E = Ground(0, 0), Ground(0.9, 0.0)
+    A = Crank(O, OA=0.5, angle=s)
+    bucket = Outline([(0, -0.2), (0.5, -0.2), (0.5 - dent, 0.05), (0.5, tall), (0, tall)], on="O A")
+    lug = Outline([(0.42, 0.02), (0.75, 0.0), (0.75, 0.1)])
+    planes = Planes("OA lug")
+
+
+DENTS = [-0.1, 0.05, 0.2, 0.35, 0.45]
+
+
+def bucket_of(dent, tall=0.3):
+    """Return the corners of a dented bucket, shape (5, 2) [m]."""
+    return np.array([(0, -0.2), (0.5, -0.2), (0.5 - dent, 0.05), (0.5, tall), (0, tall)])
+
+
+@pytest.mark.parametrize("dent", DENTS)
+def test_a_form_that_follows_a_dimension_is_cut_as_the_design_has_it(dent):
+    """Convex and concave: the sign by brute force of points, the gap that of the same corners typed as numbers."""
+    strokes = np.linspace(-0.6, 0.9, 16)
+    motion = Dented(dent=dent).at(s=strokes)
+    gaps, lug = motion[gap("bucket", "lug")], np.array([(0.42, 0.02), (0.75, 0.0), (0.75, 0.1)])
+    typed = type("Typed", (Dented,), {"bucket": Outline([tuple(map(float, each)) for each in bucket_of(dent)], on="O A")})
+    plain = typed().at(s=strokes)[gap("bucket", "lug")]
+    apart = gaps > 0.0
+    assert np.array_equal(apart, plain > 0.0)
+    assert_allclose(gaps[apart], plain[apart], rtol=1e-12)
+    if dent < 0.0:
+        assert_allclose(gaps, plain, rtol=1e-12)  # the class's own form, with the depth of its own pieces
+    for k in range(len(strokes)):
+        body = in_the_frame(bucket_of(dent), motion["O"][:, k], motion["A"][:, k])
+        assert (gaps[k] < 0.0) == bool(inside(along_edges(body, 200), lug).any() or inside(along_edges(lug, 200), body).any())
+    assert apart.sum() == {-0.1: 4, 0.05: 4, 0.2: 10}.get(dent, apart.sum())
+
+
+def test_designs_of_different_forms_stand_in_one_batch():
+    strokes, dents = np.linspace(-0.6, 0.9, 16), np.array(DENTS)
+    batch = Dented(dent=dents).at(s=strokes)[gap("bucket", "lug")]
+    (again,) = Dented(dent=dents).evaluate([gap("bucket", "lug")], s=strokes)
+    alone = [Dented(dent=dent).at(s=strokes)[gap("bucket", "lug")] for dent in DENTS]
+    assert_allclose(batch, alone, rtol=1e-12, atol=1e-15)
+    assert_allclose(again, alone, rtol=1e-12, atol=1e-15)
+
+
+def test_the_gap_of_another_form_has_exact_derivatives_and_places():
+    motion, step = Dented(dent=0.35).at(s=[-0.2, 0.1, 0.3]), 1e-6
+    slope = motion.gradient(gap("bucket", "lug"), wrt=["dent"])[0]
+    ahead, back = (Dented(dent=0.35 + way * step).at(s=[-0.2, 0.1, 0.3])[gap("bucket", "lug")] for way in (1, -1))
+    assert_allclose(slope, (ahead - back) / (2 * step), rtol=1e-6, atol=1e-9)
+    at = Dented(dent=0.35).at(s=0.1)
+    assert_allclose(nearest_places(at.plan, at._placed, "bucket", "lug").gap, at[gap("bucket", "lug")], rtol=1e-12)
+
+
+def test_a_form_that_crosses_itself_in_a_design_is_refused():
+    machine = Dented(dent=0.8)
+    for asked in (lambda: machine.at(s=[0.0, 0.1])[gap("bucket", "lug")], lambda: machine.evaluate([clearance()], s=[0.0, 0.1])):
+        with pytest.raises(DefinitionError, match="it crosses itself or encloses nothing in this design; correct the dimensions"):
+            asked()
+    assert np.isnan(machine.at(s=[0.0, 0.1], unreachable="nan")[gap("bucket", "lug")]).all()
+    (told,) = [each for each in machine.verdicts() if getattr(each, "rule", "") == "clearance"]
+    assert told.ok is False and "crosses itself" in told
+
+
+@pytest.mark.parametrize("corners", [4, 5, 6, 7])
+def test_triangles_make_up_a_line_that_does_not_cross_itself(corners):
+    rng = np.random.default_rng(corners)
+    for _ in range(40):
+        line = star(rng, corners)[:: int(rng.choice([-1, 1]))]
+        found, sound = triangles([Vec(*map(float, each)) for each in line], pick)
+        areas = [area(np.array([(float(each.x), float(each.y)) for each in piece])) for piece in found]
+        assert sound >= 0.0 and min(areas) * max(areas) > 0.0
+        assert_allclose(sum(areas), area(line), rtol=1e-12)
+    mixed = np.array([(0, 0), (1, 1), (1, 0), (0, 1), (-0.5, 0.5), (-0.5, 0.2), (-0.2, 0.1)][:corners], float)
+    assert triangles([Vec(*map(float, each)) for each in mixed], pick)[1] < 0.0
 
 
 # -- planes ------------------------------------------------------------------------------------------------

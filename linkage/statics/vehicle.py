@@ -49,6 +49,8 @@ from .traced_loads import TracedMotion, traced_loads
 
 SAME_PLACE = 1e-9
 """m: supports that are nearer to each other stand at one place."""
+SMALLEST = 1e-30
+"""Nm: supports that resist turning no more than this stand at one place."""
 BEYOND = 1e-9
 """A resultant that lies beyond a support by less than this part of their distance lies above it."""
 
@@ -191,10 +193,12 @@ def vehicle_of(plan: Plan, acting: Acting = PLAIN, given: Support | None = None)
 
 
 def frame_supports(plan: Plan, acting: Acting = PLAIN) -> dict[str, Support]:
-    """Return the supports under points that do not move: those of the class, and those among given loads."""
+    """Return the supports under points that do not move: those of the class, and those among given loads in place of one at a point."""
     own = {name: each for name, each in plan.of_kind(Support).items() if is_under_frame(plan, each)}
     given = () if acting.loads is None else elements_of(plan, acting.loads)
-    return own | {name: each for name, each in given if isinstance(each, Support) and is_under_frame(plan, each)}
+    others = {name: each for name, each in given if isinstance(each, Support) and is_under_frame(plan, each) and each not in own.values()}
+    taken = {name_of(each.point) for each in others.values()}
+    return {name: each for name, each in own.items() if name_of(each.point) not in taken} | others
 
 
 def is_under_frame(plan: Plan, support: Support) -> bool:
@@ -299,14 +303,18 @@ def by_stiffness(
         stiff = (w * a * a).sum(axis=0)
         centre = (w * a * b).sum(axis=0) / stiff  # about it the frame turns without sinking
         arms = b - a * centre
-        sinks, turns = outside.across / stiff, (outside.moment - centre * outside.across) / (w * arms * arms).sum(axis=0)
+        resists = (w * arms * arms).sum(axis=0)
+        resists = where_below(SMALLEST - resists, resists, 0.0 * resists + 1.0)  # those at one place, which do not carry alone
+        sinks, turns = outside.across / stiff, (outside.moment - centre * outside.across) / resists
         return np.asarray(0.0 - w * (a * sinks + arms * turns))
 
     def lifted(found: FloatArray, left: bool) -> FloatArray:
-        """Return the reactions where supports of one side lift off, one after the other, down to two."""
+        """Return the reactions where supports of one side lift off, one after the other, down to two that stand apart."""
+        places = b / a
         for gone in range(1, many - 1):
-            last, rest = (gone - 1, (gone, many)) if left else (many - gone, (0, many - gone))
-            found = where_below(found[last], carried(*rest), found)
+            last, (low, high) = (gone - 1, (gone, many)) if left else (many - gone, (0, many - gone))
+            fewer = where_below(SAME_PLACE - (places[high - 1] - places[low]), carried(low, high), found)
+            found = where_below(found[last], fewer, found)
         return found
 
     whole = carried(0, many)

@@ -27,6 +27,7 @@ from linkage import (
     slipping,
     standing,
 )
+from linkage.formulas import equations
 from linkage.loads import Force, LinkMass, LoadCase, Moment, PinFriction, Spring, Support, Weight
 from linkage.reports import results
 from linkage.statics import Standing
@@ -432,3 +433,59 @@ def test_other_mistakes_are_named():
     with pytest.raises(DefinitionError, match="has no support under a point of its frame"):
         standing(Bare().sweep(3))
     assert isinstance(standing(motion), Standing)
+
+
+class TwinWheels(Digger):
+    """Two wheels at one place in front, where the vehicle tips over them."""
+
+    G, load = Ground(0.9, 0.8), Weight("T", mass=100)
+    front = Support("F", (0, 1), stiffness=1.0e6)
+    twin = Support("F", (0, 1), stiffness=3.0e6)
+    rear = Support("R", (0, 1), stiffness=1.0e6)
+    pull = Force("G", (9000.0, 0.0))
+
+
+def test_supports_at_one_place_share_by_their_stiffness_and_tip_as_one():
+    for machine in (TwinWheels(), TwinWheels(**{"pull.x": 52e3})):
+        motion = machine.at(S=[0.05, 0.2, 0.3], s=0.1)
+        found = standing(motion)
+        assert_allclose(found.reactions["twin"], 3.0 * found.reactions["front"], rtol=1e-12)
+        assert_allclose(pin_forces(motion).residual, 0.0, atol=1e-14)
+        (values,) = machine.evaluate([axle_load("rear")], S=[0.05, 0.2, 0.3], s=0.1)
+        assert_allclose(np.ravel(values), found.reactions["rear"], rtol=1e-12)
+        assert np.isfinite(motion.gradient(axle_load("rear"), wrt=["G.x", "twin.stiffness"])).all()
+    assert (found.reactions["rear"] < 0.0).all()
+
+
+def test_a_support_that_is_given_takes_the_place_of_that_at_its_point():
+    motion = Digger().sweep(S=3, s=2)
+    given = [*Digger.plan.of_kind(Weight).values(), Support("R", (0, 1)), Support("F", (0, 1))]
+    forces, plain = pin_forces(motion, given), standing(motion, ["body", "load"])
+    assert len(forces.axle_loads) == 2 and forces.residual < 1e-14
+    assert_allclose([*forces.axle_loads.values()], [plain.reactions["rear"], plain.reactions["front"]], rtol=1e-12)
+
+
+class UnderAPart(Mechanism):
+    """A part in the whole's own supports, on a hill; mirrored with those of its own."""
+
+    own = Part(Digger, up=None, down=None, heavy=None, front=None, rear=None, angle=0.1)
+    front, rear = Support("own.F", (0, 1)), Support("own.R", (0, 1))
+    hill = LoadCase(slope=0.1)
+
+
+class MirroredPart(Mechanism):
+    own = Part(Truck, up=None, down=None, heavy=None, mirrored=True, angle=-0.2, at=(1.0, 2.0))
+    hill = LoadCase(slope=0.1)
+
+
+@pytest.mark.parametrize("machine", [UnderAPart, MirroredPart])
+def test_the_frame_of_parts_balances_and_has_equations(machine):
+    at = {"own.S": 0.1, "own.s": 0.2}
+    for case in (None, "hill"):
+        forces = pin_forces(machine().at(**at), case=case)
+        assert forces.residual < 1e-14 and len(forces.axle_loads) >= 2
+    values, found = equations(machine, forces=True).values(at=at), standing(machine().at(**at)).reactions
+    written = {name: force for name, force in found.items() if f"R_{name}" in values}
+    assert len(written) == 2
+    for name, force in written.items():
+        assert_allclose(values[f"R_{name}"], force, rtol=1e-9)

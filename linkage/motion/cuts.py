@@ -25,7 +25,7 @@ FAR = 1e12
 """m2: more than any cut is long."""
 
 
-def turn(a: Vec, b: Vec, c: Vec) -> Scalar:
+def doubled_turn(a: Vec, b: Vec, c: Vec) -> Scalar:
     """Return twice the area of three corners, above zero where they go round counter-clockwise [m2]."""
     return (b - a).cross(c - a)
 
@@ -45,8 +45,8 @@ def how_sound(corners: Sequence[Vec], pieces: Sequence[Sequence[int]], class_sen
     for piece in pieces:
         places = [corners[each] for each in piece]
         around = [*places, *places[:2]]
-        turns += [turn(a, b, c) for a, b, c in zip(around, around[1:], around[2:], strict=False)]
-        turns += [turn(places[0], b, c) for b, c in pairwise(places[1:])]
+        turns += [doubled_turn(a, b, c) for a, b, c in zip(around, around[1:], around[2:], strict=False)]
+        turns += [doubled_turn(places[0], b, c) for b, c in pairwise(places[1:])]
         areas.append(doubled_area(places))
     least_turn = reduce(np.minimum, [each * sense for each in turns])
     missed = np.abs(sum(areas[1:], areas[0]) * sense - size)
@@ -73,7 +73,7 @@ def triangles(corners: Sequence[Vec], pick: Pick) -> tuple[list[Triangle], Scala
         sound = np.minimum(sound, 0.5 * FAR - best)
         order = [chosen(which, float(place), order[place + 1], order[place], pick) for place in range(count - 1)]
     last = (order[0], order[1], order[2])
-    return [*found, last], np.minimum(sound, turn(*last) * sense + least_room)
+    return [*found, last], np.minimum(sound, doubled_turn(*last) * sense + least_room)
 
 
 def chosen(a: Scalar, b: Scalar, one: Vec, other: Vec, pick: Pick) -> Vec:
@@ -85,9 +85,9 @@ def ear_room(order: Sequence[Vec], place: int, sense: Scalar) -> Scalar:
     """Return a number above zero where a corner can be cut off: it turns to the inside, and nothing else lies in its triangle."""
     count = len(order)
     a, b, c = order[place - 1], order[place], order[(place + 1) % count]
-    room = turn(a, b, c) * sense
+    room = doubled_turn(a, b, c) * sense
     for step in range(2, count - 1):
         P = order[(place + step) % count]
-        inside = reduce(np.minimum, [turn(start, end, P) * sense for start, end in ((a, b), (b, c), (c, a))])
+        inside = reduce(np.minimum, [doubled_turn(start, end, P) * sense for start, end in ((a, b), (b, c), (c, a))])
         room = np.minimum(room, 0.0 - inside)
     return room

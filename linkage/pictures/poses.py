@@ -84,7 +84,7 @@ def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, o
     """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint, what is laid over it at that one."""
     path = named_points(machine, path, "path")
     if overlays.has_gap and at is None:
-        at = at_the_worst(machine, overlays)
+        at = worst_strokes(machine, overlays.clearance)  # no others: what it runs may be less than its strokes
     if not is_whole(count) or not 2 <= count <= MANY:
         raise DefinitionError(f"count={cited(count)}: a path is drawn through 2 poses or more; give a whole number such as 101.")
     moving, shown, swept = motions(machine, at, count)
@@ -108,14 +108,6 @@ def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, o
     write_heading(figure, ax, shown, moving)
     remark(figure, ax, unreached_words(swept, moving[0]) if len(moving) == 1 else unreached_on_the_way(swept))
     return figure
-
-
-def at_the_worst(machine: Mechanism, overlays: Overlays) -> dict[str, Any]:
-    """Return the strokes of what is drawn where nothing says them: both ends of the first stroke, and last the pose of the least gap."""
-    first, worst = first_stroke(machine), worst_strokes(machine, overlays.clearance)
-    ends = machine.strokes[first].start, machine.strokes[first].end
-    near = 1e-3 * abs(ends[1] - ends[0])
-    return {**worst, first: [*(end for end in ends if abs(end - worst[first]) > near), worst[first]]}
 
 
 def draw_laid_over(motion: Motion, swept: Motion, pose: int, overlays: Overlays) -> Figure:

@@ -15,6 +15,7 @@ from ..errors import DefinitionError, SingularWarning
 from ..formulas import Equation, Equations, equations, explicit
 from ..formulas.listing import X_AXIS
 from ..formulas.numbered import members_with_lines
+from ..formulas.printing import Text
 from ..formulas.words import Direction
 from ..mechanism import Mechanism
 from ..motion import Motion, out_of_reach
@@ -148,7 +149,7 @@ class Calculation:
         if symbol not in self._known:
             (expr,) = explicit(word)
             text = str(each).partition(" = ")[0]
-            name = f"angle({word.args[0]})"
+            name = str(Text().doprint(word))
             self._column(f"({each.number}{letter})", name, f"the direction that {text} takes, without jumps", "rad", symbol, expr, turns=0)
         return symbol
 

@@ -184,7 +184,7 @@ def test_sheets_of_a_machine_of_parts_have_the_headings_of_its_equations(of_part
     numbers = [str(cell.value or "").rstrip("abcdefgh)") + ")" for cell in sheet[2]]
     over = {place: cell.value for place, cell in enumerate(sheet[1]) if cell.value}
     assert over == {numbers.index(f"({number})"): heading for number, heading in listed.headings.items()}
-    assert sheet.freeze_panes == "C6"
+    assert sheet.freeze_panes == "C6" and {"angle(left.OR1)", "angle(-right.OR1_x, right.OR1_y)"} <= {cell.value for cell in sheet[3]}
     names, rows = [cell.value for cell in sheet[3]], number_columns(stored(of_parts)["Calculation"], 6)
     table = results(Pair(), motion := Pair().sweep(9))
     assert_allclose(rows[names.index("M_y")], motion["M"][1], rtol=0, atol=1e-12)

@@ -130,7 +130,7 @@ def test_a_limit_is_kept_told_and_gives_the_best_so_far_the_same_each_time(name,
         if best.limit is not None:
             assert f"The limit of {limit} designs was reached" in str(best)
             assert best.evaluations <= limit + 60  # the best ones are looked at once more, and described
-        assert best.machine.sweep(41).reached.all() if name != "loader" else True
+        assert len(best.machine.strokes) > 1 or best.machine.sweep(41).reached.all()
     assert found[0] == found[1]
 
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from itertools import combinations, pairwise, product
+from functools import cached_property, partial
+from itertools import combinations, pairwise
 from typing import Any, final
 
 import numpy as np
@@ -36,22 +36,21 @@ from ..statics.applied import case_of
 from ..statics.carried import SLIPPING, TIPPING, LoadAt, largest
 from ..units import show
 from .checks import check_one_design
+from .climb import Climb
 from .load_rule import LoadRule, rule_of
 
 OUT_OF_REACH = noted("out of reach")
 NOT_LIMITED = noted("not limited")
 CLEARANCE = noted("clearance")
 MOST_CELLS = 40_000
-NEAR = 4
-"""Positions of a spare stroke on either side of the best one, in the second look."""
-ROUNDS = {1: 12, 2: 20}
-"""How often the way to either side of the best position of spare strokes is divided: of one stroke by four, of two by two."""
-FEW, FEWER = 6, 4
-"""Steps of Newton from a pose near by, and from one still nearer."""
-QUARTERS = 0.5 * np.arange(-3.0, 3.5)
-"""Where it is looked on either side, in halves of the way, so that the best one is known to a quarter of it."""
-SETTLED = 3
-"""Rounds without anything better after which spare strokes stay at an end."""
+STARTS, NEXT = {1: 2, 2: 8}, {1: 1.5, 2: 0.9}
+"""By how many strokes are spare, from how many poses of each place it is climbed, and how many steps of the first look they stand apart."""
+LOOKS = {1: ((2, 1.0), (12, 0.4)), 2: ((6, 1.0), (24, 0.6), (24, 0.2))}
+"""How often it is looked around, and with how much room at first, in steps of the first look: all poses, then the best of each place."""
+USUAL = {1: 0.05, 2: 0.7}
+"""By how many are spare: those are the usual ones where the slopes of the others are regular to this share of what others' would be."""
+FEW, BEYOND = 6, 0.25
+"""Steps of Newton from a pose near by, and how far past their ends strokes are followed there, in shares of their ranges."""
 PROBE = 1e4
 """The load by which it is seen how a further limit follows it [N]."""
 LINES, HALVED = 121, 36
@@ -430,66 +429,70 @@ class FieldSearch:
     def refined(self, found: LoadsFound, inner: int) -> LoadsFound:
         """Return the best pose of each place with its spare strokes moved to where most is carried.
 
-        A second look around the best position of the first one, the best apart from it, and the best of the first `inner` ones, on which
-        no stroke stands at an end for the sake of the places; then the way to either side is divided.
+        It begins at the best poses of the first look that stand apart from each other, and at the best of the first `inner` ones, on which
+        no stroke stands at an end for the sake of the places.
         """
-        many, s = self.many, self.many.spare
-        step = many.spare_step / NEAR if s == 1 else 0.5 * many.spare_step
-        best = found.best()
         own = LoadsFound(found.poses.where(slice(inner)), found.of[:, :inner]).best()
-        rows = np.unique(np.concatenate([best, self.apart(found, best), own]))
+        rows = np.unique(np.concatenate([own, self.apart(found, STARTS[self.many.spare])]))
         base, load = found.poses.where(rows), found.load[rows]
-        near = ways(np.arange(-NEAR, NEAR + 1.0), s) if s == 1 else ways([-1.0, 0.0, 1.0], s)
-        going, still = np.arange(len(load)), np.zeros(len(load), int)
-        for look in range(1 + ROUNDS[s]):
-            better = self.improved(base, load, near * step, going, FEW if look < FEWER else FEWER)
-            step, still = step * (0.5 if s == 2 or look == 0 else 0.25), np.where(better, 0, still + 1)
-            if look == 0:
-                near = ways(QUARTERS, s) if s == 1 else near
-                kept = LoadsFound(base, load[None]).best()
-                base, load, still = base.where(kept), load[kept], still[kept]
-            spare = base.unit[:, self.many.solved :]
-            going = np.flatnonzero((still < SETTLED) | ((spare > 0.0) & (spare < 1.0)).any(axis=1))
-            if not len(going):
-                break
+        for looks, room in LOOKS[self.many.spare]:
+            base, load = self.climbed(base, load, looks, room * float(self.many.spare_step.max()))
+            kept = LoadsFound(base, load[None]).best()
+            base, load = base.where(kept), load[kept]
         return self.carried(base)
 
-    def improved(self, base: PlacePoses, load: FloatArray, aside: FloatArray, rows: Index, iterations: int) -> Mask:
-        """Put better poses and loads into those at some rows, with the spare strokes moved by some steps; return which are better (n,)."""
-        tried, value = self.moved(base.where(rows), aside, iterations)
-        top, each = np.argmax(value, axis=0), np.arange(len(rows))
-        better = np.zeros(len(load), bool)
-        better[rows] = value[top, each] > load[rows]
-        found = better[rows]
-        base.unit[rows[found]], load[rows[found]] = tried[top, each][found], value[top, each][found]
-        return better
+    def climbed(self, base: PlacePoses, load: FloatArray, looks: int, room: float) -> tuple[PlacePoses, FloatArray]:
+        """Return poses whose spare strokes went to where more is carried, and their loads [N]."""
+        unit, load = base.unit.copy(), load.copy()
+        chosen = self.spared(base.unit)
+        for each, (many, order, _) in enumerate(self.turns):
+            rows = np.flatnonzero(chosen == each)
+            if not len(rows):
+                continue
+            start = PlacePoses(base.place[rows], base.unit[rows][:, order])
+            climb = Climb.begun(partial(self.moved, many, order), many.solved, start, load[rows], room)
+            for _ in range(looks):
+                if climb.is_settled:
+                    break
+                climb = climb.step()
+            unit[np.ix_(rows, order)], load[rows] = climb.base.unit, climb.load
+        return PlacePoses(base.place, unit), load
 
-    def apart(self, found: LoadsFound, best: Index) -> Index:
-        """Return the row of each place at which most is carried where the spare strokes stand elsewhere than in the best one."""
-        k, place = self.many.solved, found.poses.place
-        of_place = np.zeros(self.x.size * self.y.size, int)
-        of_place[place[best]] = best
-        away = np.abs(found.poses.unit[:, k:] - found.poses.unit[of_place[place]][:, k:]) / self.many.spare_step
-        rows = np.flatnonzero((away > 1.5).any(axis=1))
-        return rows[LoadsFound(found.poses.where(rows), found.of[:, rows]).best()]
+    def spared(self, unit: FloatArray) -> Index:
+        """Return which of the `turns` has the strokes to spare at each pose (n,): the first, but where its others are near a dead point."""
+        _, slopes = self.many.seen(unit)
+        size = np.array([np.abs(np.linalg.det(slopes[:, :, order[: many.solved]])) for many, order, _ in self.turns])
+        return np.where(size[0] > USUAL[self.many.spare] * size.max(axis=0), 0, np.argmax(size, axis=0))
 
-    def moved(self, base: PlacePoses, aside: FloatArray, iterations: int) -> tuple[FloatArray, FloatArray]:
-        """Return poses with the spare strokes moved by steps (m, s), unit coordinates (m, n, k), and their loads (m, n), -1 for none."""
-        k, (n, width), outs = self.many.solved, base.unit.shape, np.zeros(base.unit.shape[1])
-        _, slopes = self.many.seen(base.unit)
-        to = np.clip(base.unit[None, :, k:] + aside[:, None], 0.0, 1.0)
+    def apart(self, found: LoadsFound, count: int) -> Index:
+        """Return up to `count` rows of each place, those at which most is carried, whose spare strokes stand apart from each other's."""
+        left, chosen, k, s = np.arange(len(found.poses.place)), [], self.many.solved, self.many.spare
+        spare, place, of_place = found.poses.unit[:, k:] / self.many.spare_step, found.poses.place, np.zeros(self.x.size * self.y.size, int)
+        for _ in range(count):
+            best = left[LoadsFound(found.poses.where(left), found.of[:, left]).best()]
+            chosen.append(best)
+            of_place[place[best]] = best
+            left = left[(np.abs(spare[left] - spare[of_place[place[left]]]) > NEXT[s]).any(axis=1)]
+        return np.concatenate(chosen)
+
+    def moved(self, many: ManyPlaces, order: Index, base: PlacePoses, to: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return poses (m, n, k) with the spare strokes at some values (m, n, s), a little past the others' ends too, and their loads.
+
+        Strokes stand in the order of `many`. Loads of each limiter (limiters, m, n) [N]; NaN where the place is not met.
+        """
+        k, (n, width) = many.solved, base.unit.shape
+        _, slopes = many.seen(base.unit)
         change = np.einsum("nts,mns->mnt", slopes[:, :, k:], to - base.unit[None, :, k:])
-        along = solved_systems(np.tile(slopes[:, :, :k], (len(aside), 1, 1)), change.reshape(-1, k))
-        guess = np.tile(base.unit, (len(aside), 1))
+        along = solved_systems(np.tile(slopes[:, :, :k], (len(to), 1, 1)), change.reshape(-1, k))
+        guess = np.tile(base.unit, (len(to), 1))
         guess[:, :k] -= np.where(np.isfinite(along), along, 0.0)
         guess[:, k:] = to.reshape(-1, width - k)
-        new = np.flatnonzero((to != base.unit[None, :, k:]).any(axis=2).ravel())
-        start = PlacePoses(np.tile(base.place, len(aside))[new], guess[new])
-        found, met = self.many.settled(start, self.goals, outs, damped=False, iterations=iterations)
-        load = np.full(len(guess), -1.0)
-        load[new[met]] = np.nan_to_num(self.carried(found.where(met)).load, nan=-1.0, posinf=np.inf)
-        guess[new] = found.unit
-        return guess.reshape(len(aside), n, width), load.reshape(len(aside), n)
+        start = PlacePoses(np.tile(base.place, len(to)), guess)
+        found, met = many.settled(start, self.goals, np.full(width, BEYOND), damped=False, iterations=FEW)
+        of, unit = np.full((len(self.names), len(guess)), np.nan), np.empty_like(guess)
+        unit[:, order] = found.unit
+        of[:, met] = self.carried(PlacePoses(found.place[met], unit[met])).of
+        return found.unit.reshape(len(to), n, width), of.reshape(-1, len(to), n)
 
     def field(self) -> WorkingField:
         """Return the field."""
@@ -644,11 +647,6 @@ class FieldSearch:
 
 GAUSS = 48
 """Values of each stroke by which an area is integrated."""
-
-
-def ways(each: Any, count: int) -> FloatArray:
-    """Return all steps but none, of some values in each of so many directions (m, count)."""
-    return np.array([step for step in product(each, repeat=count) if any(step)])
 
 
 @final

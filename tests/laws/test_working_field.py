@@ -1,6 +1,7 @@
 """The working field: against a two-cylinder arm worked out by hand, brute force, and laws that hold for every field."""
 
 import pickle
+from itertools import product
 from math import acos, atan2, cos, hypot, pi, sin
 
 import numpy as np
@@ -16,6 +17,7 @@ from linkage import (
     Acting,
     Crank,
     DefinitionError,
+    Dimension,
     Dyad,
     Force,
     Ground,
@@ -244,6 +246,70 @@ def test_strokes_to_spare_stand_where_most_is_carried():
     motion = field.motion()
     across, up = np.meshgrid(radii, heights)
     assert_allclose(motion["T"], np.stack([across[field.reached], up[field.reached]]), atol=1e-9)
+
+
+class Telehandler(Mechanism):
+    """A crane with a telescope and a tool that tilts: two strokes to spare."""
+
+    phi, psi = Stroke(-20 * deg, 75 * deg), Stroke(20 * deg, 175 * deg)
+    t, tilt = Stroke(0.0, 1.2), Stroke(-70 * deg, 60 * deg)
+    JK = Dimension(2.0)
+    O, A = Ground(0.0, 1.6), Ground(0.35, 0.6)
+    J = Crank(O, OJ=3.0, angle=phi)
+    B = OnLink(O, J, OB=1.1, JOB=-10 * deg)
+    K = Crank(J, JK=JK, angle=angle(J, O) + psi)
+    C = OnLink(O, J, OC=1.7, JOC=12 * deg)
+    D = OnLink(J, K, JD=0.4, KJD=130 * deg)
+    S = OnLink(J, K, JS=JK + t)
+    T = Crank(S, ST=0.7, angle=angle(J, K) + tilt)
+    E = OnLink(J, K, JE=1.2, KJE=12 * deg)
+    G = OnLink(S, T, SG=0.3, TSG=80 * deg)
+    R = OnLink(J, K, JR=0.3)
+    boom_mass, arm_mass, tool = Weight(B, mass=150.0), Weight(K, mass=90.0), Weight(T, mass=60.0)
+    lift = Cylinder(A, B, bore=100 * mm, rod=60 * mm, works="both")
+    fold = Cylinder(C, D, bore=80 * mm, rod=50 * mm, works="both")
+    extend = Cylinder(R, S, bore=50 * mm, rod=32 * mm, works="both")
+    turn = Cylinder(E, G, bore=63 * mm, rod=36 * mm, works="both")
+    lift_line, fold_line = LiftCircuit(lift, pressure=200 * bar), LiftCircuit(fold, pressure=200 * bar)
+    extend_line, turn_line = LiftCircuit(extend, pressure=200 * bar), LiftCircuit(turn, pressure=200 * bar)
+
+
+VARIED = [
+    "OJ", "OB", "JK", "OC", "JD", "ST", "JE", "SG", "lift.bore", "fold.bore", "extend.bore", "turn.bore", "boom_mass.mass", "arm_mass.mass",
+    "tool.mass",
+]  # fmt: skip
+
+
+def most_of_a_grid(machine, field, count):
+    """Return the most that is carried at each place with telescope and tilt on a grid, boom and arm by the cosine rule; -1 out of reach."""
+    ends = {name: (each.start, each.end) for name, each in machine.strokes.items()}
+    t, tilt = (each.ravel() for each in np.meshgrid(*(np.linspace(*ends[name], count) for name in ("t", "tilt"))))
+    OJ, JK, ST = (float(machine[name]) for name in ("OJ", "JK", "ST"))
+    far, off = np.hypot(JK + t + ST * np.cos(tilt), ST * np.sin(tilt)), np.arctan2(ST * np.sin(tilt), JK + t + ST * np.cos(tilt))
+    found = np.full(field.load.shape, -1.0)
+    for (k, n), side in product(np.ndindex(found.shape), (1.0, -1.0)):
+        across, up = field.x[n], field.y[k] - 1.6
+        away = np.hypot(across, up)
+        with np.errstate(invalid="ignore"):
+            phi = np.arctan2(up, across) + side * np.arccos((OJ**2 + away**2 - far**2) / (2.0 * OJ * away))
+        psi = np.arctan2(up - OJ * np.sin(phi), across - OJ * np.cos(phi)) - off - phi - pi
+        psi = np.mod(psi + pi / 2, 2.0 * pi) - pi / 2
+        strokes = {"phi": phi, "psi": psi, "t": t, "tilt": tilt}
+        fits = np.all([(values >= ends[name][0]) & (values <= ends[name][1]) for name, values in strokes.items()], axis=0)
+        if fits.any():
+            load = field.search.loads.at({name: values[fits] for name, values in strokes.items()}).min(axis=0)
+            found[k, n] = max(found[k, n], np.nanmax(load))
+    return found
+
+
+@pytest.mark.parametrize("seed", [0, 5, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2, 3, 4, 6, 9, 18))])
+def test_two_strokes_to_spare_are_no_worse_than_a_grid(seed):
+    rng, base = np.random.default_rng(seed), Telehandler()
+    machine = base.replaced(**{name: base[name] * rng.uniform(0.85, 1.15) for name in VARIED})
+    field = working_field(machine, "T", np.sort(rng.uniform(0.8, 6.5, 6)), np.sort(rng.uniform(-1.0, 5.5, 5)))
+    known = most_of_a_grid(machine, field, 61)
+    assert np.all(field.reached[known >= 0.0]) and np.sum(known > 0.0) > 12
+    assert np.all(field.load[known >= 0.0] >= known[known >= 0.0] * (1.0 - 1e-3))
 
 
 def test_what_is_kept_is_kept_and_branches_are_all_seen():

@@ -1,4 +1,4 @@
-"""Gas laws in mechanism files: a word, or a table of the law and its numbers."""
+"""Gas laws and oil lines in mechanism files: a word, or a table of the law and its numbers; names and vessels in a list."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from functools import singledispatch
 from typing import Any, final
 
 from linkage.errors import DefinitionError, cited, unknown
-from linkage.quantities import is_number
+from linkage.quantities import Number, is_number
 from linkage.quantities.quantity import plain
 
 from .gas import ROOM, Gas, Polytropic, adiabatic, isothermal, polytropic
@@ -77,3 +77,59 @@ class GasLaw:
 
     read = staticmethod(gas_of)
     write = staticmethod(written_gas)
+
+
+@final
+class OnLineKind:
+    """What lies on an oil line in a file: names in a list, such as "lift.rod_side", and accumulators as a table."""
+
+    def __init__(self, block: type[Any], text: Callable[[Any], str]) -> None:
+        self.block, self.text = block, text
+
+    def kind(self) -> Any:
+        """Return how it is read and written; loaded when a file is."""
+        from linkage.files.entry import Within, made_of, read_table
+        from linkage.files.source import Mistakes
+        from linkage.files.validators import Kind
+
+        within = Within.of(self.block)
+
+        def read(given: object, names: Any) -> tuple[Any, ...]:
+            each_of = list(given) if isinstance(given, (list, tuple)) else [given]
+            found: list[Any] = []
+            for each in each_of:
+                if isinstance(each, Mapping):
+                    mistakes = Mistakes()
+                    table = read_table(each, names, within.arguments, mistakes)
+                    mistakes.check()
+                    found.append(self.block(**made_of(table, within.arguments)))
+                elif isinstance(each, str):
+                    found.append(each)
+                else:
+                    raise DefinitionError(f'{cited(each)} is no name; write a list such as ["lift.piston_side", "supply"].')
+            return tuple(found)
+
+        def write(value: Any, design: Any, name: str) -> list[Any]:
+            return [within.write(each, design, "") if isinstance(each, self.block) else self.text(each) for each in value]
+
+        return Kind(read, write, refers=True)
+
+
+@final
+class FilledKind:
+    """Where an oil line is filled: a word, a number, or numbers by name."""
+
+    def kind(self) -> Any:
+        """Return how it is read and written; loaded when a file is."""
+        from linkage.files.validators import Kind, file_value, quantity_of
+
+        def one(given: Any, names: Any) -> Any:
+            found = quantity_of(given, names)
+            return found.number if isinstance(found, Number) and not found.name else found
+
+        def read(given: Any, names: Any) -> Any:
+            if isinstance(given, Mapping):
+                return {name: one(each, names) for name, each in given.items()}
+            return given if given in ("open", "closed") else one(given, names)
+
+        return Kind(read, file_value)

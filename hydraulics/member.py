@@ -64,10 +64,9 @@ from linkage.motion import (
     require_motion,
 )
 from linkage.plan import Plan
-from linkage.quantities import Member, Quantity, Reference, Where, body_name, distance, label, name_of, needs
+from linkage.quantities import InnerQuantity, Member, Quantity, Reference, body_name, distance, label, name_of, needs
 from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, same
 from linkage.units import mm, show, shown_number, unit_sign
-from linkage.vectors import Scalar
 from linkage.verdict import Verdict
 
 from .buckling import Buckling, never_pushed
@@ -102,37 +101,6 @@ class Chamber:
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class LengthOf(Quantity):
-    """The length of a cylinder, as its class tells it: `lift.length`."""
-
-    cylinder: Reference
-
-    @property
-    def called(self) -> str:
-        """The name of the length in the class."""
-        return f"{name_of(self.cylinder)}.length"
-
-    @property
-    def measures(self) -> str:
-        return "length"
-
-    @property
-    def identity(self) -> Hashable:
-        return self.name or self.called
-
-    def parts(self) -> tuple[Reference, ...]:
-        return (self.called,)
-
-    def rule(self, where: Where) -> Scalar:
-        return where.value(self.called)
-
-    def __str__(self) -> str:
-        return f"{label(self.cylinder)}.length"
-
-
-@final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
 class Cylinder(TwoPoint, Tabled, HasVerdicts):
     """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
 
@@ -158,6 +126,7 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm", "stroke": "mm", "closed": "mm"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod", "stroke", "closed"})
     optional: ClassVar[frozenset[str]] = frozenset({"stroke", "closed"})
+    inside: ClassVar[Mapping[str, str]] = MappingProxyType({"length": "quantity", "piston_side": "chamber", "rod_side": "chamber"})
     _on_lines: ClassVar[Works | None] = None
     """What lines say that it works with, where they do; told by the class that it is in."""
 
@@ -207,7 +176,7 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
     @property
     def length(self) -> Quantity:
         """The distance of its pins [m]: as a closed line gives it where it is asked for by a step that they follow, else as they are."""
-        return LengthOf(self)
+        return InnerQuantity(self, "length")
 
     def among(self, members: Mapping[str, Member]) -> Cylinder:
         """Return it as the lines of its class say what it works with; DefinitionError where it says another side itself."""

@@ -53,6 +53,7 @@ from linkage.units import show
 from linkage.verdict import Verdict
 
 from .accumulator import AccumulatorBlock
+from .files import FilledKind, OnLineKind
 from .floating import Block, GasLine, length_at
 from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, number_set, one_number, positive
 from .lift import PumpLine
@@ -179,7 +180,9 @@ class OilLine(PumpLine, GasLine):
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
     optional: ClassVar[frozenset[str]] = frozenset({"charge_pressure"})
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"on": "words", "at": "option", "filled": "option"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType(
+        {"on": OnLineKind(AccumulatorBlock, lambda each: on_line_text(each)), "at": FilledKind(), "filled": FilledKind()}
+    )
 
     def __init__(
         self, *on: OnLine, at: float | Mapping[str, float] | None = None, filled: str | Mapping[str, Any] | None = None,
@@ -466,10 +469,10 @@ class OilLine(PumpLine, GasLine):
             what = f"{self.name} = {self}: nothing says how long {own.name} is where the line is filled"
             raise DefinitionError(f"{what}; add filled=dict({own.name}=...) in m.")
         others = [(ram, each) for ram, each in filling if ram.name != own.name]
-        taken = Variable(f"{self.name}.oil") if isinstance(self.oil_given, Number) else self.oil_given
+        taken = (Variable(f"{self.name}.oil") if isinstance(self.oil_given, Number) else self.oil_given) * (4.0 / pi)
         for ram, each in others:
-            taken = taken - area_written(each, ram) * (Distance(ram.A, ram.B) - self.length_filled(ram, members))
-        area = reduce(lambda a, b: a + b, (area_written(each, own) for ram, each in filling if ram.name == own.name))
+            taken = taken - square_written(each, ram) * (Distance(ram.A, ram.B) - self.length_filled(ram, members))
+        area = reduce(lambda a, b: a + b, (square_written(each, own) for ram, each in filling if ram.name == own.name))
         return self.length_filled(own, members) + taken / area
 
     # -- its pressure and its oil ------------------------------------------------------------------------------
@@ -642,9 +645,10 @@ class OilLine(PumpLine, GasLine):
             low, high = judge.answers([least(self.pressure_request), most(self.pressure_request)])
         except DefinitionError as error:
             return Verdict("line", False, " ".join(str(error).split()))
+        least_shown = 0.0 if abs(low.value) < EMPTY * abs(high.value) else low.value
         says = said(
             "its pressure goes from {low} {low_where} to {high} {high_where}",
-            low=show(low.value, "bar", 4), low_where=low.where, high=show(high.value, "bar", 4), high_where=high.where,
+            low=show(least_shown, "bar", 4), low_where=low.where, high=show(high.value, "bar", 4), high_where=high.where,
         )  # fmt: skip
         make_up = self._make_up(judge)
         if low.value < make_up - EMPTY * max(abs(float(high.value)), 1.0):
@@ -705,11 +709,11 @@ def written_number(ram: Cylinder, name: str) -> Quantity:
     return Variable(f"{ram.name}.{name}") if isinstance(given, Number) else given
 
 
-def area_written(chamber: Chamber, ram: Cylinder) -> Quantity:
-    """Return the signed area of a chamber as a quantity of its class [m2]."""
-    bore = written_number(ram, "bore")
-    square = bore**2 if chamber.side == PISTON else bore**2 - written_number(ram, "rod") ** 2
-    return square * ((1.0 if chamber.side == PISTON else -1.0) * pi / 4.0 * ram.count)
+def square_written(chamber: Chamber, ram: Cylinder) -> Quantity:
+    """Return the signed area of a chamber over that of a circle of diameter 1, as a quantity of its class [m2]."""
+    square = written_number(ram, "bore") ** 2
+    square = square if chamber.side == PISTON else written_number(ram, "rod") ** 2 - square
+    return square if ram.count == 1 else square * float(ram.count)
 
 
 def own_side(line: OilLine, ram: Cylinder, members: Mapping[str, Member]) -> Side:

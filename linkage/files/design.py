@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..mechanism import Mechanism, declared
 from ..plan import Part
-from ..quantities import Member, Number, Quantity, Ref, is_number, joined_names, label, name_of, quantity, spelled
+from ..quantities import InnerQuantity, Member, Number, Quantity, Ref, is_number, joined_names, label, name_of, quantity, spelled
 from ..quantities.quantity import plain
 from ..steps import Link, Pin, Step
 from ..units import factor, parse
@@ -169,6 +169,8 @@ def own_form(member: object) -> Any:
     """Return what a member says, as nested tuples that compare; its own name does not count."""
     if isinstance(member, Ref):
         return member.target
+    if isinstance(member, InnerQuantity):
+        return member.called
     if not isinstance(member, Member):
         return member
     return type(member), *(form(value) for name, value in vars(member).items() if name not in ("_name", "_class"))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
-from inspect import Parameter, signature
+from inspect import Parameter, ismethod, signature
 from typing import Any, final
 
 from ..errors import DefinitionError, told
@@ -68,7 +68,7 @@ def argument_kept(member: object, argument: str) -> Any:
     values = [getattr(member, name) for name in (argument, *KEPT_AS.get(argument, ())) if hasattr(member, name)]
     if not values:
         raise DefinitionError(f"it has no attribute {argument}; let its class keep each argument in the attribute of that name.")
-    return next((each for each in values if each is not None), None)
+    return next((each for each in values if each is not None and not ismethod(each)), None)
 
 
 def parameters_of(cls: type[Any]) -> list[Parameter]:
@@ -87,7 +87,8 @@ def arguments_of(cls: type[Any]) -> tuple[Argument, ...]:
             factory = factories.get(each.name, MISSING)
             default = each.default if factory is MISSING else factory()
             is_nothing = isinstance(default, (int, float, str, tuple)) and not default
-            may_go = is_nothing or (is_dataclass(cls) and default is not None and default is not Parameter.empty)
+            prints_short = is_dataclass(cls) or issubclass(cls, ForceElement)
+            may_go = is_nothing or (prints_short and default is not None and default is not Parameter.empty)
             found.append(Argument(each.name, each.name, kind_of(cls, each, said), default, may_go))
     return tuple(found)
 
@@ -114,6 +115,8 @@ def kind_of(cls: type[Any], parameter: Parameter, said: Mapping[str, Any]) -> Ki
         return list_of(*kind)
     if isinstance(kind, str):
         return kind_named(kind)
+    if hasattr(kind, "kind"):
+        kind = kind.kind()
     return kind if isinstance(kind, Kind) else Kind(
         lambda given, names: kind.read(given, lambda each: number_of(each, names)), lambda value, design, name: kind.write(value)
     )  # fmt: skip
@@ -283,6 +286,8 @@ class FileEntry:
         if self.word:
             with mistakes.at(self.word):
                 parents = self._read_parents(given[self.word], names)
+                if [each.name for each in self.built_from] == [self.spread]:
+                    (parents,) = parents
         else:
             under_keys = read_table(given, names, self.built_from, mistakes)
             parents = under_keys.pop(self.spread, under_keys.values())

@@ -24,10 +24,10 @@ from ..program import FloatArray
 from ..quantities import Angle, Distance, Quantity, Reference, joined_names, name_of
 from ..statics import applied_loads, axle_load, standing_supports
 from ..statics.holding import Holders, PressureLine, holders_of
-from .listing import Listing, ListingLine
+from .listing import GivenNumber, Listing, ListingLine
 from .rates import LineDerivatives
 from .symbolic import NUMBER, Term, Unit, term, unit_named
-from .words import Cross, Dot, explicit
+from .words import Cross, Dot
 
 MOST = 3
 """More cylinders that hold their strokes together have no equations that one would read."""
@@ -36,21 +36,6 @@ WORDS = (
     "positive the way its stroke grows; T: what a member carries, positive where it pushes its ends apart. Pressures and reserves hold",
     "while the load resists.",
 )
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class GivenNumber:
-    """A symbol that no line gives, what its value is at the poses of a motion [SI], and what it measures."""
-
-    symbol: Any
-    value: Callable[[Motion], Any]
-    unit: Unit
-
-    def parts(self, motion: Motion) -> dict[Any, Any]:
-        """Return the plain symbols with their values at the poses of a motion."""
-        value = np.asarray(self.value(motion))
-        return dict(zip(explicit(self.symbol), value if self.symbol.is_Matrix else (value,), strict=True))
 
 
 @final

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import singledispatch
 from typing import Any, final
 
+import numpy as np
 import sympy
 
+from ..motion import Motion
 from ..plan import Plan
-from ..quantities import Axes, Member, Quantity, Reference, Tabulated, Turning, Variable, joined_names, name_of, spelled
+from ..quantities import AtPose, Axes, Member, Quantity, Reference, Tabulated, Turning, Variable, joined_names, name_of, spelled
 from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, Point, Turn, Vector
 from ..vectors import Line, Vec
 from .names import SymbolNames
 from .printing import Text
 from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, curve_function, input_units, term, vector_expr
-from .words import Direction, Norm, Tcos, TurnV, TurnVL, vector_symbol
+from .words import Direction, Norm, Tcos, TurnV, TurnVL, explicit, vector_symbol
 
 # What each primitive is written as; any other step by its own rule, in components.
 
@@ -107,6 +109,21 @@ class ListingLine:
 
 
 @final
+@dataclass(frozen=True, eq=False)
+class GivenNumber:
+    """A symbol that no line gives, what its value is at the poses of a motion [SI], and what it measures."""
+
+    symbol: Any
+    value: Callable[[Motion], Any]
+    unit: Unit
+
+    def parts(self, motion: Motion) -> dict[Any, Any]:
+        """Return the plain symbols with their values at the poses of a motion."""
+        value = np.asarray(self.value(motion))
+        return dict(zip(explicit(self.symbol), value if self.symbol.is_Matrix else (value,), strict=True))
+
+
+@final
 class Listing:
     """A reading (see `linkage.quantities.Where`) whose scalars are terms; asking for a member writes its lines first."""
 
@@ -114,6 +131,7 @@ class Listing:
         self.plan, self.names, self.units = plan, SymbolNames(plan), input_units(plan)
         self.lines: list[ListingLine] = []
         self.unknowns: list[str] = []
+        self.givens: list[GivenNumber] = []
         self._vectors: dict[Any, Any] = {}
         self._terms: dict[Any, Term] = {}
         self._labels: dict[int, Assignment] = {}
@@ -283,6 +301,13 @@ class Listing:
     def input(self, name: str) -> Term:
         """Return the symbol of a stroke, a dimension or a coordinate."""
         return Term(self.names.quantity(name), self.units[name])
+
+    def at_pose(self, quantity: Quantity, strokes: Mapping[str, float]) -> Term:
+        """Return the symbol of what a quantity is at one pose of the strokes: a given number."""
+        found = AtPose(quantity, strokes)
+        symbol = self.names.force(f"{joined_names(*(name_of(each) for each in quantity.parts()))}_0")
+        self.givens.append(GivenNumber(symbol, lambda motion: motion.value(found), LENGTH))
+        return Term(symbol, LENGTH)
 
     # -- what the rules of other steps ask -------------------------------------------------------------
 

@@ -21,8 +21,8 @@ from ..motion.requests import stroke_of
 from ..plan import Part
 from ..quantities import is_whole
 from ..shown import Shown
-from .forces import WORDS, ForceLines, GivenNumber
-from .listing import X_AXIS, Listing, ListingLine
+from .forces import WORDS, ForceLines
+from .listing import X_AXIS, GivenNumber, Listing, ListingLine
 from .names import escaped_latex
 from .printing import Latex, Text, number_latex, plain_number
 from .rates import lines_needed, ratio_lines
@@ -362,7 +362,7 @@ class Equations(Sequence[Equation], Shown):
     @property
     def _givens(self) -> Sequence[GivenNumber]:
         """The numbers that no formula gives."""
-        return [] if self._forces is None else self._forces.givens
+        return [*self._listing.givens, *([] if self._forces is None else self._forces.givens)]
 
     # -- closed forms ----------------------------------------------------------------------------------
 
@@ -535,7 +535,7 @@ def legend(equations: Any, listing: Listing, values: dict[str, str], forces: For
         lines += [f"R: what a support carries, by the moments about {forces.about} and the sum across the ground."] if forces.about else []
         given = ", ".join(f"R_{name}" for name in forces.shared)
         lines += [f"{given}: they hang on how the supports give way, and are given numbers."] if given else []
-    others = [] if forces is None else [each.symbol for each in forces.givens]
+    others = [each.symbol for each in (*listing.givens, *([] if forces is None else forces.givens))]
     return [*lines, *given_lines(equations, listing, values, others)]
 
 

@@ -28,6 +28,7 @@ from ..quantities import (
     Sum,
     Variable,
     in_degrees,
+    name_of,
     needs,
     quantity,
     unnamed,
@@ -435,10 +436,26 @@ def printed(plan: Members, values: Mapping[str, float] = MappingProxyType({})) -
     A part is one line, which says what it was given and which of its dimensions have other values.
     """
     spelled = respelled(plan, values)
-    own = {name: member for name, member in plan.members.items() if "." not in name}
+    own = asked_first({name: member for name, member in plan.members.items() if "." not in name})
     set_in = {name: value for name, value in spelled.items() if "." in name and name in plan.defaults and value != plan.defaults[name]}
     parts = {name: member.having(set_in) for name, member in own.items() if member.kind == "part"}
     return {name: as_written(parts[name] if name in parts else member.having(spelled), plan.turning) for name, member in own.items()}
+
+
+def asked_first(members: Mapping[str, Member]) -> dict[str, Member]:
+    """Return members as they can be written one behind the other: those of which others ask something, `lift.length`, before these.
+
+    What such a one names stands in quotes, where it is written later.
+    """
+    found: dict[str, Member] = {}
+    for name, member in members.items():
+        for owner in dict.fromkeys(each.rpartition(".")[0] for each in needs(member)):
+            if owner in members and owner not in found and members[owner].kind != "part":
+                later = {place: getattr(members[owner], place) for place in getattr(members[owner], "places", ())}
+                quoted = {place: repr(name_of(each)) for place, each in later.items() if name_of(each) not in found}
+                found[owner] = members[owner].renewed(**quoted)
+        found.setdefault(name, member)
+    return found
 
 
 def respelled(plan: Members, values: Mapping[str, float]) -> dict[str, float]:

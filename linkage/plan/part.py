@@ -131,6 +131,8 @@ class Part(Member):
         called = f"{self._called}.{name}"
         if isinstance(member, Part):
             return Inner(member, called)
+        if member.inside:
+            return HeldName(called, member)
         return Ref(called) if isinstance(member, Quantity) else called
 
     @property
@@ -252,6 +254,24 @@ class Part(Member):
         dotted = {name: value for name, value in self.given.items() if not name.isidentifier()}
         more = [f"**{{{', '.join(f'{name!r}: {given_text(value)}' for name, value in dotted.items())}}}"] if dotted else []
         return f"Part({', '.join([*words, *more])})"
+
+
+@final
+class HeldName(str):
+    """The name of a member of a part, by which what it holds is named as well: `lower.ram.length`, `lower.ram.rod_side`."""
+
+    def __new__(cls, called: str, member: Member) -> HeldName:
+        found = super().__new__(cls, called)
+        found.member = member
+        return found
+
+    member: Member
+
+    def __getattr__(self, name: str) -> Any:
+        member = vars(self).get("member")
+        if member is None or name.startswith("_") or name not in member.inside:
+            raise AttributeError(f"{self!s} holds no {name}.")
+        return Ref(f"{self}.{name}") if member.inside[name] == "quantity" else f"{self}.{name}"
 
 
 @final

@@ -58,8 +58,8 @@ class Plan(Members):
 
     @property
     def gruebler(self) -> int:
-        """The Gruebler count 3 (n - 1) - 2 j of the chain."""
-        return self.chain.count
+        """The Gruebler count 3 (n - 1) - 2 j of the chain, without what closed lines and ropes of their own lengths keep."""
+        return self.chain.count - len(self.cuts)
 
     @cached_property
     def trace(self) -> Trace:

@@ -20,7 +20,7 @@ from .member import (
     needs,
     unnamed,
 )
-from .outputs import Angle, AtPose, Coordinate, Distance, Length, angle, distance, label, x, y
+from .outputs import Angle, AtPose, Coordinate, Distance, InnerQuantity, Length, angle, distance, label, x, y
 from .quantity import (
     Function,
     Negative,

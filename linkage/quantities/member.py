@@ -34,11 +34,14 @@ class Member:
     """What its arguments are where `expects` and annotations do not tell, for files. What a class says adds to what its bases say.
 
     A word, such as `body`, `place`, `length` (see `linkage.files.validators`); a class, whose own arguments stand among those of the
-    member; such a class in a tuple, for a list of values; an object with `read(given, number)` and `write(value)`.
+    member; such a class in a tuple, for a list of values; an object with `read(given, number)` and `write(value)`, or with `kind()`.
     """
 
     file_section: ClassVar[str] = ""
     """The section of a file that it stands in, where its class is not known to `linkage.files`."""
+
+    inside: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """What it holds by names of its own, `lift.length`, each with its kind: what `inner` returns, and what others may name."""
 
     needs_name: ClassVar[bool] = False
     """Whether its value goes by its name, so that it cannot stand in an expression without one."""
@@ -354,7 +357,7 @@ PLAIN = frozenset(
     {"word", "switch", "number", "numbers", "side", "place", "pair", "gravity", "path", "words", "option", "angle"}
 )
 """The kinds of arguments whose texts are no names."""
-KEPT_AS = {"at": ("drawn_at", "along"), "vector": ("by",), "P": ("fixed_at",)}
+KEPT_AS = {"at": ("drawn_at", "along"), "vector": ("by",), "P": ("fixed_at",), "oil": ("put_in",)}
 """The attributes in which members keep an argument that is not in the one of its name."""
 
 

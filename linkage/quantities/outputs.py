@@ -201,3 +201,35 @@ class AtPose(Quantity):
 
     def __str__(self) -> str:
         return f"{self.of} at {as_mapping(self.strokes) if self.strokes else 'the sketch'}"
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class InnerQuantity(Quantity):
+    """What a member holds by a name of its own, as the class tells it: `lift.length`."""
+
+    owner: Reference
+    own: str
+
+    @property
+    def measures(self) -> str:
+        return "length"
+
+    @property
+    def called(self) -> str:
+        """Its name in the class."""
+        return f"{name_of(self.owner)}.{self.own}"
+
+    @property
+    def identity(self) -> Hashable:
+        return self.name or self.called
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (self.called,)
+
+    def rule(self, where: Where) -> Scalar:
+        return where.value(self.called)
+
+    def __str__(self) -> str:
+        return f"{label(self.owner)}.{self.own}"

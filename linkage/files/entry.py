@@ -57,7 +57,8 @@ class Argument:
     def written(self, member: object, design: Design, owner: str) -> Any:
         """Return the argument that a member has as a file holds it; None where it need not be written. `owner` is the member's name."""
         value = argument_kept(member, self.name)
-        if value is None and not self.needed:
+        counts = not isinstance(member, ForceElement) or self.name not in member.parameters or self.name in member.numbers
+        if not self.needed and (value is None or not counts):
             return None
         found = self.kind.write(value, design, f"{owner}.{self.name}" if owner else "")
         return None if self.may_go and repr(found) == repr(self.kind.write(self.default, design, "")) else found
@@ -87,8 +88,7 @@ def arguments_of(cls: type[Any]) -> tuple[Argument, ...]:
             factory = factories.get(each.name, MISSING)
             default = each.default if factory is MISSING else factory()
             is_nothing = isinstance(default, (int, float, str, tuple)) and not default
-            prints_short = is_dataclass(cls) or issubclass(cls, ForceElement)
-            may_go = is_nothing or (prints_short and default is not None and default is not Parameter.empty)
+            may_go = is_nothing or (is_dataclass(cls) and default is not None and default is not Parameter.empty)
             found.append(Argument(each.name, each.name, kind_of(cls, each, said), default, may_go))
     return tuple(found)
 

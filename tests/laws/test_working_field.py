@@ -43,6 +43,7 @@ from linkage import (
     y,
 )
 from linkage.units import bar, deg, g0, kN, mm
+from mechanisms.at_work.tipper import Tipper
 from mechanisms.crane import Crane
 from mechanisms.crane.load_map import Carrying, Limits
 from tests.machines.test_excavator import Excavator
@@ -389,6 +390,31 @@ def test_law_of_the_limiter_on_random_designs(seed):
         size = float(np.maximum(abs(low), abs(high)))
         assert np.all(((thrust >= low - 1e-9 * size) & (thrust <= high + 1e-9 * size))[kept & np.isfinite(load)])
         mine = kept & (limiter == name)
+        assert np.all(np.minimum(abs(thrust - low), abs(thrust - high))[mine] <= 1e-9 * size)
+
+
+class Sliding(Tipper):
+    """The scissor hoist, a class III group, lifts a body along which a slide is pushed out by a cylinder of its own."""
+
+    way = Stroke(0.2, 1.2)
+    H = OnLink("O", "C", OH=0.4)
+    M = OnLink("O", "C", OM=1.8 + way)
+    push = Cylinder(H, M, bore=50 * mm, rod=30 * mm, works="both")
+    push_line = LiftCircuit(push, pressure=180 * bar, relief=200 * bar)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_law_of_the_limiter_with_a_group_inside(seed):
+    rng = np.random.default_rng(seed)
+    names = ["load.mass", "lift.bore", "push.bore", "D.x", "A.y"]
+    machine = Sliding().replaced(**{name: Sliding()[name] * rng.uniform(0.99, 1.01) for name in names})
+    field = working_field(machine, "M", np.linspace(1.6, 2.9, 5), np.linspace(0.0, 1.6, 5), lifts=[["lift"], ["push"]][seed])
+    motion, load, limiter, acting = loaded(field, own_loads(machine))
+    assert np.sum(load > 0.0) > 4
+    for name, thrust, low, high in forces_and_bounds(field, motion, acting, lambda name: name == ("lift", "push")[seed]):
+        size = float(np.max(np.maximum(np.abs(low), np.abs(high))))
+        assert np.all(((thrust >= low - 1e-9 * size) & (thrust <= high + 1e-9 * size))[load > 0.0])
+        mine = (load > 0.0) & (limiter == name)
         assert np.all(np.minimum(abs(thrust - low), abs(thrust - high))[mine] <= 1e-9 * size)
 
 

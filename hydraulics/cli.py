@@ -24,7 +24,7 @@ from linkage.verdict import Verdict
 from .inputs import Array, direction_of, proper_share
 from .judged import line_verdicts
 from .lift import LiftCircuit
-from .member import Cylinder, found_in
+from .member import Ram, found_in
 from .requests import capacity_request
 
 
@@ -75,13 +75,13 @@ class CapacityCommand(Command):
         return judged_code(found, options)
 
 
-def cylinder_of(machine: Mechanism, name: str | None) -> Cylinder:
+def cylinder_of(machine: Mechanism, name: str | None) -> Ram:
     """Return the cylinder that lifts: the one named, else the only one that no gas feeds; DefinitionError where that leaves a choice."""
     plan = machine.plan
     if name is not None:
         return found_in(plan.members, name, plan.title)
     fed = [ram for each in plan.of_kind(ForceElement).values() for ram in each.feeds(plan.members)]
-    lifting = {key: each for key, each in plan.of_kind(Cylinder).items() if not any(same(each, ram) for ram in fed)}
+    lifting = {key: each for key, each in plan.of_kind(Ram).items() if not any(same(each, ram) for ram in fed)}
     if len(lifting) == 1:
         return next(iter(lifting.values()))
     if lifting:
@@ -90,7 +90,7 @@ def cylinder_of(machine: Mechanism, name: str | None) -> Cylinder:
     raise DefinitionError(f"{plan.title} has no cylinder {'but those that gas feeds' if fed else 'that could lift'}; {remedy}.")
 
 
-def circuit_of(machine: Mechanism, ram: Cylinder, options: Namespace) -> LiftCircuit:
+def circuit_of(machine: Mechanism, ram: Ram, options: Namespace) -> LiftCircuit:
     """Return what feeds a cylinder: a pressure that is given, the circuit named, else its only one."""
     plan = machine.plan
     if options.pressure is not None:

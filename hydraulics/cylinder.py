@@ -16,6 +16,7 @@ with "both" pushes with the piston and pulls with the annulus, whichever the loa
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from math import pi
 from typing import Literal, TypeAlias, final
@@ -94,10 +95,99 @@ MOST = 10_000
 SIDES = ("piston", "rod", "both", "regenerative")
 
 
+class RamSize(ABC):
+    """The base of sizes: the areas of `count` equal rams side by side, and what follows from them. They may be arrays."""
+
+    count: int
+    works: Works
+
+    @property
+    @abstractmethod
+    def push_area(self) -> float | Array:
+        """The area that pushes the ends apart: all pistons, m2."""
+
+    @property
+    @abstractmethod
+    def pull_area(self) -> float | Array:
+        """The area that pulls the ends together: all annuli, m2; none of what is single acting."""
+
+    @abstractmethod
+    def with_bore(self, bore: float) -> RamSize:
+        """Return the same with another bore [m]."""
+
+    @property
+    def area(self) -> float | Array:
+        """The area the pressure acts on, all cylinders, m2; of both sides that which pushes."""
+        return self.pull_area if self.works == "rod" else self.outward_area
+
+    @property
+    def back_area(self) -> float | Array:
+        """The area on the other side of the pistons, all cylinders, m2; none where both are on one line."""
+        return self.push_area if self.works == "rod" else self.inward_area
+
+    @property
+    def outward_area(self) -> float | Array:
+        """The area that the line pushes the ends apart with: all pistons, or all rods where both sides are on one line, m2."""
+        return self.push_area - self.pull_area if self.works == "regenerative" else self.push_area
+
+    @property
+    def inward_area(self) -> float | Array:
+        """The area that a line of its own pulls the ends together with: all annuli, none where both sides are on one line, m2."""
+        return 0.0 * self.pull_area if self.works == "regenerative" else self.pull_area
+
+    @property
+    def sense(self) -> int:
+        """+1 where the working side pushes the ends apart, -1 where it pulls them together."""
+        return -1 if self.works == "rod" else 1
+
+    def thrust(self, pressure: ArrayLike, back: ArrayLike = 0.0) -> Array:
+        """Return the thrust [N] of all cylinders at a pressure, with `back` pressure on the other side; the two broadcast.
+
+        Of both sides it is the push; `-size.pull_area * pressure` is the pull.
+
+        Seal friction may be taken off the pressure, so a negative one is not refused. NaN in an array stays NaN.
+        DefinitionError for a lone NaN or an infinite pressure.
+        """
+        forward = pose_values(pressure, "Cylinder pressure") * self.area
+        thrust: Array = self.sense * (forward - pose_values(back, "Back pressure") * self.back_area)
+        return thrust[()]
+
+    def pressure_for(self, thrust: ArrayLike, back: ArrayLike = 0.0) -> Array:
+        """Return the pressure at which all cylinders together give a thrust [N] against a `back` pressure; they broadcast.
+
+        Negative where the load drives the cylinder: this side is empty and the other one holds. Of both sides it is that in the
+        piston side where it pushes, that in the rod side where it pulls. NaN and errors as `thrust`.
+        """
+        force, against = pose_values(thrust, "Thrust"), pose_values(back, "Back pressure")
+        if self.works == "both":
+            pushing: Array = (force + against * self.pull_area) / self.push_area
+            return np.where(force < 0.0, (against * self.push_area - force) / self.pull_area, pushing)[()]
+        pressure: Array = (self.sense * force + against * self.back_area) / self.area
+        return pressure[()]
+
+    def behind(self, force: Array) -> Array:
+        """Return the pressure on the other side that gives a force, not below zero [N]; infinite where there is none."""
+        return np.asarray(force / self.back_area)[()]
+
+    def oil(self, travel: ArrayLike) -> Array:
+        """Return the oil [m3] that the working side of all cylinders takes in over a travel [m] in its direction, same shape.
+
+        Of both sides a travel outwards (positive) fills the piston side, one inwards the rod side.
+        """
+        way = pose_values(travel, "Travel")
+        oil: Array = np.where(way < 0.0, -way * self.pull_area, way * self.push_area) if self.works == "both" else way * self.area
+        return oil[()]
+
+    def speed(self, flow: ArrayLike) -> Array:
+        """Return the speed [m/s] in the working direction (of both sides: outwards) at a flow [m3/s] into all cylinders, same shape."""
+        speed: Array = pose_values(flow, "Flow") / self.area
+        return speed[()]
+
+
 @final
 @refuses_changes
 @dataclass(frozen=True)
-class CylinderSize:
+class CylinderSize(RamSize):
     """`count` equal cylinders side by side, of a bore and a rod [m]; `works` is the side the pressure acts on.
 
     A bore or rod may be an array over designs, for the numbers; the sentences and the offers are for one size.
@@ -145,78 +235,15 @@ class CylinderSize:
         return self.piston_area / self.rod_area
 
     @property
-    def area(self) -> float | Array:
-        """The area the pressure acts on, all cylinders, m2; of both sides that which pushes."""
-        return self.pull_area if self.works == "rod" else self.outward_area
-
-    @property
-    def back_area(self) -> float | Array:
-        """The area on the other side of the pistons, all cylinders, m2; none where both are on one line."""
-        return self.push_area if self.works == "rod" else self.inward_area
-
-    @property
-    def outward_area(self) -> float | Array:
-        """The area that the line pushes the ends apart with: all pistons, or all rods where both sides are on one line, m2."""
-        return self.push_area - self.pull_area if self.works == "regenerative" else self.push_area
-
-    @property
-    def inward_area(self) -> float | Array:
-        """The area that a line of its own pulls the ends together with: all annuli, none where both sides are on one line, m2."""
-        return 0.0 * self.pull_area if self.works == "regenerative" else self.pull_area
-
-    @property
     def push_area(self) -> float | Array:
-        """The area that pushes the ends apart: all pistons, m2."""
         return self.count * self.piston_area
 
     @property
     def pull_area(self) -> float | Array:
-        """The area that pulls the ends together: all annuli, m2."""
         return self.count * self.rod_area
 
-    @property
-    def sense(self) -> int:
-        """+1 where the working side pushes the ends apart, -1 where it pulls them together."""
-        return -1 if self.works == "rod" else 1
-
-    def thrust(self, pressure: ArrayLike, back: ArrayLike = 0.0) -> Array:
-        """Return the thrust [N] of all cylinders at a pressure, with `back` pressure on the other side; the two broadcast.
-
-        Of both sides it is the push; `-size.pull_area * pressure` is the pull.
-
-        Seal friction may be taken off the pressure, so a negative one is not refused. NaN in an array stays NaN.
-        DefinitionError for a lone NaN or an infinite pressure.
-        """
-        forward = pose_values(pressure, "Cylinder pressure") * self.area
-        thrust: Array = self.sense * (forward - pose_values(back, "Back pressure") * self.back_area)
-        return thrust[()]
-
-    def pressure_for(self, thrust: ArrayLike, back: ArrayLike = 0.0) -> Array:
-        """Return the pressure at which all cylinders together give a thrust [N] against a `back` pressure; they broadcast.
-
-        Negative where the load drives the cylinder: this side is empty and the other one holds. Of both sides it is that in the
-        piston side where it pushes, that in the rod side where it pulls. NaN and errors as `thrust`.
-        """
-        force, against = pose_values(thrust, "Thrust"), pose_values(back, "Back pressure")
-        if self.works == "both":
-            pushing: Array = (force + against * self.pull_area) / self.push_area
-            return np.where(force < 0.0, (against * self.push_area - force) / self.pull_area, pushing)[()]
-        pressure: Array = (self.sense * force + against * self.back_area) / self.area
-        return pressure[()]
-
-    def oil(self, travel: ArrayLike) -> Array:
-        """Return the oil [m3] that the working side of all cylinders takes in over a travel [m] in its direction, same shape.
-
-        Of both sides a travel outwards (positive) fills the piston side, one inwards the rod side.
-        """
-        way = pose_values(travel, "Travel")
-        oil: Array = np.where(way < 0.0, -way * self.pull_area, way * self.push_area) if self.works == "both" else way * self.area
-        return oil[()]
-
-    def speed(self, flow: ArrayLike) -> Array:
-        """Return the speed [m/s] in the working direction (of both sides: outwards) at a flow [m3/s] into all cylinders, same shape."""
-        speed: Array = pose_values(flow, "Flow") / self.area
-        return speed[()]
+    def with_bore(self, bore: float) -> CylinderSize:
+        return CylinderSize(bore, self.rod, self.count, self.works)
 
     def next_size(self) -> CylinderSize:
         """Return the same with the next standard bore; DefinitionError where there is none."""

@@ -35,7 +35,7 @@ from linkage.verdict import Verdict
 from .accumulator import AccumulatorBlock
 from .gas import Polytropic
 from .inputs import Array, all_finite, follows, in_pascals, number_set
-from .member import Circuit, Cylinder, the_cylinder
+from .member import Circuit, Ram, Side, the_cylinder
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
@@ -51,14 +51,14 @@ class GasLine(Circuit):
         """Return the accumulators on it."""
 
     @abstractmethod
-    def charged_at(self, motion: Poses, ram: Cylinder) -> Mapping[str, Array]:
+    def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
         """Return the strokes [SI] at which the block has its charge pressure, for one of its cylinders."""
 
     @abstractmethod
     def withdrawn(self, motion: Poses) -> Array:
         """Return the fluid [m3] that has left the block since it was charged, shape (...); negative: pushed in."""
 
-    def ram(self, motion: Poses) -> Cylinder:
+    def ram(self, motion: Poses) -> Ram:
         """Return its only cylinder, as the motion's class has it; DefinitionError where it has several."""
         rams = self.rams(motion)
         if len(rams) > 1:
@@ -66,11 +66,11 @@ class GasLine(Circuit):
             raise DefinitionError(f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
         return rams[0]
 
-    def rams(self, motion: Poses) -> tuple[Cylinder, ...]:
+    def rams(self, motion: Poses) -> tuple[Ram, ...]:
         """Return its cylinders, as the motion's class has them."""
         return tuple(the_cylinder(motion, each) for each in self.references)
 
-    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
+    def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
         return self.pressure(motion)
 
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
@@ -131,10 +131,10 @@ class GasLine(Circuit):
         return self.thrust_of(ram, motion, rates)
 
     @abstractmethod
-    def thrust_of(self, ram: Cylinder, motion: Poses, rates: Mapping[str, Rate]) -> Array:
+    def thrust_of(self, ram: Ram, motion: Poses, rates: Mapping[str, Rate]) -> Array:
         """Return what the line puts on a cylinder [N], at rest or while strokes move at rates."""
 
-    def rubbing(self, ram: Cylinder, area: Array | float, motion: Poses, rates: Mapping[str, Rate]) -> Array:
+    def rubbing(self, ram: Ram, area: Array | float, motion: Poses, rates: Mapping[str, Rate]) -> Array:
         """Return the seals' friction in a cylinder, with the area of its chamber, against its movement at rates [N]."""
         friction = all_finite(self.number(motion, "seal_friction"), "Seal friction") * area
         return np.asarray(np.sign(ram.growth(motion, rates)) * friction)
@@ -154,7 +154,7 @@ class GasLine(Circuit):
         pressure = written.given(f"p_{ram.name}", self.pressure, "bar") if left is None else self._pressure_written(written, ram, left)
         written.carry(ram, -pressure * area if ram.side == "rod" else pressure * area)
 
-    def _withdrawn_written(self, written: Formulas, ram: Cylinder, area: Array) -> Array | None:
+    def _withdrawn_written(self, written: Formulas, ram: Ram, area: Array) -> Array | None:
         """Return the fluid that has left the block [m3] as a formula, None where there is none.
 
         There is one for an ideal gas that moves slowly, where a label gives the cylinder's length.
@@ -169,7 +169,7 @@ class GasLine(Circuit):
         sense = -1.0 if ram.side == "rod" else 1.0
         return written.line(f"dV_{ram.name}", (written.distance(ram.A, ram.B) - charged) * area * sense, "l")
 
-    def _pressure_written(self, written: Formulas, ram: Cylinder, left: Array) -> Array:
+    def _pressure_written(self, written: Formulas, ram: Ram, left: Array) -> Array:
         """Write p (V - V_idle) = sum of V_i C_i over the gases that work; one works up to the volume at which its charge C_i is left."""
         block = self.gas_block(written.plan)
         assert isinstance(block, AccumulatorBlock)
@@ -287,15 +287,14 @@ class FloatCircuit(GasLine):
         """Return the fluid [m3] that has left the block since the charging stroke, shape (...); negative: pushed in. (36)"""
         return reduce(np.add, (self._drawn(ram, motion) for ram in self.rams(motion)))
 
-    def charged_at(self, motion: Poses, ram: Cylinder) -> Mapping[str, Array]:
+    def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
         return {stroke_followed(plan_of(motion), ram): self.number(motion, "at")}
 
-    def _drawn(self, ram: Cylinder, motion: Poses) -> Array:
-        size = ram.sized(motion)
-        charged = length_at(motion, ram, self.charged_at(motion, ram))
-        return np.asarray((motion.distance(ram.A, ram.B) - charged) * size.area * size.sense)
+    def _drawn(self, ram: Ram, motion: Poses) -> Array:
+        charged: Any = length_at(motion, ram, self.charged_at(motion, ram))
+        return ram.filled(cast(Side, ram.side), motion, charged, motion.distance(ram.A, ram.B))
 
-    def thrust_of(self, ram: Cylinder, motion: Poses, rates: Mapping[str, Rate]) -> Array:
+    def thrust_of(self, ram: Ram, motion: Poses, rates: Mapping[str, Rate]) -> Array:
         size = ram.sized(motion)
         free = size.thrust(self.pressure(motion))
         return np.asarray(free - self.rubbing(ram, size.area, motion, rates) if rates else free)
@@ -311,7 +310,7 @@ def gas_written(charges: Sequence[Array], vessels: Sequence[Array], pressure: Ar
     return reduce(np.add, (V * np.minimum(1.0, C / pressure) for C, V in zip(charges, vessels, strict=True)))
 
 
-def length_at(motion: Poses, ram: Cylinder, at: Mapping[str, Array]) -> Scalar:
+def length_at(motion: Poses, ram: Ram, at: Mapping[str, Array]) -> Scalar:
     """Return a cylinder's length [m] where the line is charged: with some strokes there, others at the sketch; broadcasts."""
     plan = plan_of(motion)
     reading = ArrayReading(plan.members, plan.table.lengths, {**motion.inputs, **plan.sketch_strokes, **at})
@@ -332,7 +331,7 @@ def charging_words(at: Mapping[str, Array]) -> str:
     return " and ".join(f"{name} = {np.ravel(value)[0]:.6g}" for name, value in at.items()) or "of the sketch"
 
 
-def length_by_groups(motion: Poses, ram: Cylinder, at: Mapping[str, Array]) -> Array:
+def length_by_groups(motion: Poses, ram: Ram, at: Mapping[str, Array]) -> Array:
     """Return a cylinder's length [m] where its line is charged, its ends found with groups of links; broadcasts against the motion."""
     if not isinstance(motion, Motion) or any(np.size(value) != 1 for value in at.values()):
         what = f"{ram}: its length follows from a group of links, which has no closed form"

@@ -20,14 +20,11 @@ from linkage.statics import LawRequest, elements_of, same
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
-from .cylinder import standard_bores
 from .inputs import not_negative, one_number
 from .line import LiftLine
-from .member import PISTON, SIDES, Cylinder, carries_loads, one_design, one_size, thrust_request
+from .member import PISTON, SIDES, Ram, carries_loads, one_design, thrust_request
 from .requests import going_back_request, pressure_request, reserve_request
 
-TRIES = 4
-"""Standard bores that are tried as a remedy, from the first that may do."""
 ENDLESS = 1e-4
 """A reserve that is less says that the force grows without bounds."""
 
@@ -99,7 +96,7 @@ def the_circuit(circuit: LiftLine | str, motion: Motion) -> LiftLine:
     return found
 
 
-def with_name(verdict: Verdict, ram: Cylinder, several: bool) -> Verdict:
+def with_name(verdict: Verdict, ram: Ram, several: bool) -> Verdict:
     """Return a verdict that names its cylinder, where there are several."""
     return verdict.named(ram.name or str(ram)) if several else verdict
 
@@ -137,7 +134,7 @@ def idle(cylinders: Sequence[LiftingCylinder]) -> Verdict | None:
 class LiftingCylinder:
     """One cylinder of a circuit over all that a judge looks at."""
 
-    def __init__(self, judge: Judge, circuit: LiftLine, ram: Cylinder, unit: str = "bar") -> None:
+    def __init__(self, judge: Judge, circuit: LiftLine, ram: Ram, unit: str = "bar") -> None:
         self.judge, self.circuit, self.ram, self.unit = judge, circuit, ram, unit
 
     @property
@@ -155,7 +152,7 @@ class LiftingCylinder:
         return going_back_request(*self.asked, self.way_back, resistance, tells)
 
     @property
-    def asked(self) -> tuple[Cylinder, Acting, LiftLine]:
+    def asked(self) -> tuple[Ram, Acting, LiftLine]:
         """What a request of it begins with."""
         return self.ram, Acting(), self.circuit
 
@@ -226,7 +223,7 @@ class LiftingCylinder:
         needed = self.show(found.value)
         if len(self.circuit.rams(self.judge.motion)) > 1:
             return said("It needs {needed}, or larger bores on this line.", needed=needed)
-        for bore in self.larger(reserve):
+        for bore in self.ram.larger_bores(self.judge.motion, reserve):
             gained = self.judge.answer(least(reserve_request(*self.asked, bore=bore))).value
             if gained >= 1.0:
                 text = said(
@@ -237,14 +234,6 @@ class LiftingCylinder:
                 )
                 return text
         return said("It needs {needed}; no standard bore is large enough.", needed=needed)
-
-    def larger(self, reserve: float) -> list[float]:
-        """Return the standard bores (ISO 3320) to try [m], from the first that may give a reserve of 1."""
-        size = one_size(self.ram.sized(self.judge.motion))
-        area = size.bore**2 - (size.rod**2 if self.ram.side == "rod" else 0.0)
-        wanted = np.sqrt(area / reserve + (size.rod**2 if self.ram.side == "rod" else 0.0))
-        bores = [bore for bore in standard_bores() if bore > max(size.bore, size.rod) * (1.0 + 1e-9)]
-        return [bore for bore in bores if bore >= 0.9 * wanted][:TRIES]
 
     # -- holding and going back ----------------------------------------------------------------------------
 
@@ -335,12 +324,12 @@ class LiftingCylinder:
 def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     """Return how much oil the machine takes over all that it runs, and how long the pump's flow needs for it."""
     rams = circuit.rams(judge.motion)
-    ways = [ram.travelled(judge) for ram in rams]
-    if np.isnan(ways).any():
+    ends = [ram.range_in(judge) for ram in rams]
+    if np.isnan(ends).any():
         return Verdict("oil", None, said("nothing is left to judge: every place is unlimited, left out or lost"))
-    oil = sum(way * float(np.ravel(ram.sized(judge.motion).area)[0]) for ram, way in zip(rams, ways, strict=True))
-    both = [(ram, way) for ram, way in zip(rams, ways, strict=True) if ram.side == "both"]
-    back = sum(way * float(np.ravel(ram.sized(judge.motion).pull_area)[0]) for ram, way in both)
+    oil = sum(float(np.ravel(ram.taken(judge.motion, *own))[0]) for ram, own in zip(rams, ends, strict=True))
+    both = [(ram, high - low) for ram, (low, high) in zip(rams, ends, strict=True) if ram.side == "both"]
+    back = sum(float(way) * float(np.ravel(ram.sized(judge.motion).pull_area)[0]) for ram, way in both)
     says = said("{oil} from end to end", oil=show(oil, "l", ".2f"))
     if back:
         says = said("{oil} from end to end outwards, {back} inwards", oil=show(oil, "l", ".2f"), back=show(back, "l", ".2f"))

@@ -61,7 +61,7 @@ from .inputs import (
 )
 from .judged import line_conditions, line_questions, line_verdicts
 from .line import Choice, Holding, LiftLine, Lowering, WayBack, Work
-from .member import Circuit, Cylinder, Reading, by_other_lines, line_thrust, lines_of, the_cylinder, thrust_along
+from .member import Circuit, Ram, Reading, by_other_lines, line_thrust, lines_of, the_cylinder, thrust_along
 
 
 class PumpLine(LiftLine):
@@ -110,7 +110,7 @@ class PumpLine(LiftLine):
             if thrust is not None:
                 self._written_of(ram, thrust, written)
 
-    def _written_of(self, ram: Cylinder, thrust: Array, written: Formulas) -> None:
+    def _written_of(self, ram: Ram, thrust: Array, written: Formulas) -> None:
         number = partial(self.written, written)
         k_m, k_h = (divisor(written, number(f"{kind}_efficiency")) for kind in ("mechanical", "hydraulic"))
         area, other = ram.sides_written(written, thrust)
@@ -123,15 +123,15 @@ class PumpLine(LiftLine):
 
     # -- what it is made of --------------------------------------------------------------------------------
 
-    def rams(self, motion: Poses) -> tuple[Cylinder, ...]:
+    def rams(self, motion: Poses) -> tuple[Ram, ...]:
         """Return its cylinders, as the motion's class has them."""
         return tuple(the_cylinder(motion, each) for each in self.references)
 
-    def ram(self, motion: Poses) -> Cylinder:
+    def ram(self, motion: Poses) -> Ram:
         """Return its only cylinder; DefinitionError where it has several."""
         return self.one(motion, None)
 
-    def one(self, motion: Poses, cylinder: Reference | None) -> Cylinder:
+    def one(self, motion: Poses, cylinder: Reference | None) -> Ram:
         """Return the cylinder that is meant: its only one, or the one named; DefinitionError where that leaves a choice."""
         rams = self.rams(motion)
         if cylinder is None and len(rams) == 1:
@@ -142,7 +142,7 @@ class PumpLine(LiftLine):
             raise DefinitionError(f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
         return named[0]
 
-    def meant(self, motion: Poses, cylinder: Reference | None) -> tuple[Cylinder, ...]:
+    def meant(self, motion: Poses, cylinder: Reference | None) -> tuple[Ram, ...]:
         """Return all its cylinders, or the one named."""
         return self.rams(motion) if cylinder is None else (self.one(motion, cylinder),)
 
@@ -179,8 +179,8 @@ class PumpLine(LiftLine):
         cylinder = choice.pop("cylinder", None)
         return self.work_of(self.one(motion, cylinder), motion, situation_of("work", loads=loads, **choice))
 
-    def work_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Work:
-        size, k_m = cylinder.sized(motion), self.efficiency(motion, "mechanical")
+    def work_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Work:
+        size, k_m = cylinder.sized(motion, acting.direction), self.efficiency(motion, "mechanical")
         if size.works == "both" and acting.direction is None:
             out, back = both_ways(cylinder, self, motion, acting)
             pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
@@ -213,10 +213,10 @@ class PumpLine(LiftLine):
         share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
         return np.asarray(np.maximum(work.force + back, 0.0) / (work.area * share))[()]
 
-    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
+    def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
         return self._pressure(motion, self.work_of(self.one(motion, cylinder), motion, acting))
 
-    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array | None:
+    def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
         return self.reserve(motion, cylinder=cylinder, acting=acting)
 
     def questions(self, judge: Judge) -> list[Question]:
@@ -240,7 +240,7 @@ class PumpLine(LiftLine):
         given = judge.plan.members.get(pressure) if isinstance(pressure, str) else pressure
         return str(getattr(given, "unit", "")) or "bar"
 
-    def gauges_of(self, cylinder: Cylinder) -> dict[str, Reading]:
+    def gauges_of(self, cylinder: Ram) -> dict[str, Reading]:
         return {"most": self.supply, "reserve": lambda motion: self.reserve(motion, cylinder=cylinder)}
 
     def largest(self, motion: AnyMotion, loads: Loads = None, *, share: float = 1.0, **choice: Unpack[Choice]) -> Array:
@@ -312,7 +312,7 @@ class PumpLine(LiftLine):
         given = situation_of("capacity", acting, loads=loads, case=case)
         return least_of([self._capacity(motion, point, unit, share, ram, given) for ram in self.meant(motion, cylinder)])
 
-    def _capacity(self, motion: AnyMotion, point: str, unit: Array, share: float, ram: Cylinder, acting: Acting) -> Array:
+    def _capacity(self, motion: AnyMotion, point: str, unit: Array, share: float, ram: Ram, acting: Acting) -> Array:
         own = [element for _, element in elements_of(motion.plan, acting.loads)]
         size = ram.sized(motion)
         lever = member_thrust(motion, ram, Acting([Force(point, (-unit[0], -unit[1]))]))  # what one newton there asks of it
@@ -343,7 +343,7 @@ class PumpLine(LiftLine):
 
         Of a cylinder that works with both sides it is that outwards; `size.pull_area` over the same way is that inwards.
         """
-        return np.asarray(sum(for_designs(motion, ram.sized(motion).area) * ram.travel(motion) for ram in self.rams(motion)))[()]
+        return np.asarray(sum(taken_by(ram, motion) for ram in self.rams(motion)))[()]
 
     def time(self, motion: Motion) -> Array:
         """Return the time [s] that the pump's flow takes for it, one value a design; DefinitionError without a flow."""
@@ -366,7 +366,7 @@ class PumpLine(LiftLine):
             size, thrust = ram.sized(motion), line_thrust(ram, self, motion, Acting(given.loads, given.case))
             force = size.sense * thrust
             working.append(np.maximum(force, 0.0) / size.area)
-            other.append(np.maximum(-force, 0.0) / size.back_area)
+            other.append(size.behind(np.maximum(-force, 0.0)))
         return Holding(np.max(working, axis=0), np.max(other, axis=0))
 
     def lowering(
@@ -491,14 +491,14 @@ def fitted(motion: Motion, value: Array) -> Array:
     return value
 
 
-def both_ways(ram: Cylinder, line: Circuit | None, motion: AnyMotion, acting: Acting) -> tuple[Array, Array]:
+def both_ways(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting) -> tuple[Array, Array]:
     """Return what a cylinder carries while it grows and while it shrinks [N]: all of it, or what one line puts on it."""
     ways = [replace(acting, direction=way, rates=None) for way in ("extending", "retracting")]
     out, back = (member_thrust(motion, ram, way) if line is None else line_thrust(ram, line, motion, way) for way in ways)
     return out, back
 
 
-def working_area(ram: Cylinder, motion: Poses) -> Array:
+def working_area(ram: Ram, motion: Poses) -> Array:
     """Return the thrust of a cylinder at one unit of pressure on the side that works [m2]."""
     size = ram.sized(motion)
     return np.asarray(size.sense * size.area)[()]
@@ -510,6 +510,13 @@ def least_of(each: Sequence[Array]) -> Array:
         return each[0]
     least = np.min(np.where(np.isnan(each), np.inf, each), axis=0)
     return np.where(np.isfinite(least), least, np.nan)
+
+
+def taken_by(ram: Ram, motion: Motion) -> Array:
+    """Return the oil [m3] that a cylinder takes over a motion's range of lengths, one a design."""
+    ram.travel(motion)  # refuses a motion without a pose
+    low, high = (each.reshape(*each.shape, *(1,) * len(motion._stroke_shape)) for each in ram.extent(motion))
+    return for_designs(motion, ram.taken(motion, low, high))
 
 
 def for_designs(motion: Motion, value: ArrayLike) -> Array:

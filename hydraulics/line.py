@@ -19,9 +19,9 @@ from linkage.plan import Mask
 from linkage.quantities import Reference
 from linkage.statics import AnyMotion
 
-from .cylinder import CylinderSize
+from .cylinder import RamSize
 from .inputs import Array
-from .member import Circuit, Cylinder, line_thrust
+from .member import Circuit, Ram, line_thrust
 
 
 class Choice(ActingKeywords, total=False):
@@ -38,7 +38,7 @@ class Work:
 
     thrust: Array
     sense: Array
-    size: CylinderSize
+    size: RamSize
     k_m: Array
 
     @property
@@ -115,12 +115,13 @@ class WayBack:
 
     @classmethod
     def of(
-        cls, ram: Cylinder, line: Circuit, motion: AnyMotion, acting: Acting, way: str, against: Array | float, k_m: Array
+        cls, ram: Ram, line: Circuit, motion: AnyMotion, acting: Acting, way: str, against: Array | float, k_m: Array
     ) -> WayBack:  # fmt: skip
         """Return how a cylinder goes back at a motion's poses: `way` is "extending" or "retracting", its own direction."""
-        size, thrust = ram.sized(motion), line_thrust(ram, line, motion, replace(acting, direction=way, rates=None))
+        size, thrust = ram.sized(motion, way), line_thrust(ram, line, motion, replace(acting, direction=way, rates=None))
         drives = thrust if way == "retracting" else -thrust
         empties, other = (size.outward_area, size.pull_area) if way == "retracting" else (size.pull_area, size.outward_area)
+        other = empties if ram.is_single_acting else other  # nothing pushes it back: what is missing where it empties
         brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
         return cls(np.asarray(np.maximum(brings, 0.0) / empties)[()], np.asarray((against * empties - brings) / other)[()])
 
@@ -133,7 +134,7 @@ class LiftLine(Circuit):
         """Return whether a relief valve of its own is on it."""
 
     @abstractmethod
-    def rams(self, motion: Poses) -> tuple[Cylinder, ...]:
+    def rams(self, motion: Poses) -> tuple[Ram, ...]:
         """Return its cylinders, as the motion's class has them."""
 
     @abstractmethod
@@ -149,7 +150,7 @@ class LiftLine(Circuit):
         """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
 
     @abstractmethod
-    def work_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Work:
+    def work_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Work:
         """Return the same of one of its cylinders in a situation."""
 
     @abstractmethod

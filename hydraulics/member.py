@@ -64,15 +64,17 @@ from linkage.motion import (
     require_motion,
 )
 from linkage.plan import Plan
-from linkage.quantities import InnerQuantity, Member, Quantity, Reference, body_name, distance, label, name_of, needs
+from linkage.quantities import InnerQuantity, Member, Quantity, Reference, body_name, distance, label, name_of, needs, quantity
 from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, same
 from linkage.units import mm, show, shown_number, unit_sign
 from linkage.verdict import Verdict
 
 from .buckling import Buckling, never_pushed
-from .cylinder import BORES_MM, RODS_MM, CylinderSize, Works, standard_rods
+from .cylinder import BORES_MM, RODS_MM, CylinderSize, RamSize, Works, standard_bores, standard_rods
 from .inputs import Array, follows, number_set, one_number, positive, stroke_in_metres
 
+TRIES = 4
+"""Standard bores that are tried as a remedy, from the first that may do."""
 LENGTHS: Mapping[str, str] = MappingProxyType({"stroke": "Stroke of the cylinder", "closed": "Closed length of the cylinder"})
 """What its lengths are called in words."""
 Side: TypeAlias = Literal["piston", "rod"]
@@ -98,52 +100,86 @@ class Chamber:
         return f"{label(self.cylinder)}.{self.side}_side"
 
 
-@final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
-class Cylinder(TwoPoint, Tabled, HasVerdicts):
-    """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
+class Ram(TwoPoint, Tabled, HasVerdicts):
+    """The base of what oil pushes between A and B: `count` equal ones side by side, that hold what the mechanism needs.
 
-    In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
-    on: "piston" pushes, "rod" pulls, "both" does what the load asks for; not given it is the side that an OilLine names, else the
-    piston. Its chambers are `lift.piston_side` and `lift.rod_side`, the distance of its pins is `lift.length`. `closed` is that distance
-    drawn in, `stroke` how far it comes out [m], design variables as well where they are given; `mounting` and `safety` are for buckling.
-    It holds what the mechanism needs, in the place of the drive of one stroke; one whose line gives its pressure has that force instead.
+    A subclass is a frozen dataclass with A, B, `count`, and `mounting` and `safety` for buckling; it says its areas, its lengths, the oil
+    that it takes, and what buckles. `piston_side` is its chamber, `length` the distance of its pins.
     """
 
     A: Reference
     B: Reference
-    bore: Parameter
-    rod: Parameter
-    count: int = 1
-    works: Literal["piston", "rod", "both"] | None = None
-    stroke: Parameter | None = None
-    closed: Parameter | None = None
-    mounting: str = "pin-pin"
-    safety: float = 3.5
+    count: int
+    mounting: str
+    safety: float
     drawn_as: ClassVar[DrawnAs] = "cylinder"
     file_section: ClassVar[str] = "hydraulics"
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm", "stroke": "mm", "closed": "mm"})
-    not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod", "stroke", "closed"})
-    optional: ClassVar[frozenset[str]] = frozenset({"stroke", "closed"})
-    inside: ClassVar[Mapping[str, str]] = MappingProxyType({"length": "quantity", "piston_side": "chamber", "rod_side": "chamber"})
-    _on_lines: ClassVar[Works | None] = None
-    """What lines say that it works with, where they do; told by the class that it is in."""
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.works is not None:
-            known_name("Side", self.works, (*SIDES, "both"), where="works")
-        size = CylinderSize(2.0, 1.0, self.count, self.side) if self._follows else self.size
-        Buckling(1.0, self.mounting, self.safety)
-        for name, what in LENGTHS.items():
-            value = getattr(self, name)
-            if value is not None and not follows(value):
-                positive(stroke_in_metres(one_number(value, what), what, None if self._follows else size.bore), what)
+    # -- what a subclass says ------------------------------------------------------------------------------
 
-    def _check_number(self, name: str) -> None:
-        if name not in LENGTHS:  # those are looked at beside the bore, in words of their own
-            super()._check_number(name)
+    @property
+    @abstractmethod
+    def side(self) -> Works:
+        """What it works with."""
+
+    @property
+    @abstractmethod
+    def own_sides(self) -> tuple[Side, ...]:
+        """Its chambers."""
+
+    @abstractmethod
+    def sized(self, motion: Poses, direction: str | None = None) -> RamSize:
+        """Return its areas as a motion's designs have them, to broadcast against it; at a border of stages those of a direction."""
+
+    @abstractmethod
+    def filled(self, side: Side, motion: Poses, start: Array, end: Array) -> Array:
+        """Return how much larger a chamber is at one length than at another [m3], both [m] as arrays that broadcast against the motion."""
+
+    @abstractmethod
+    def taken(self, motion: Poses, low: Array, high: Array) -> Array:
+        """Return the oil [m3] that it takes, with what it works with, from one length to a greater one [m]."""
+
+    @abstractmethod
+    def thickness(self, motion: Poses, direction: str | None = None) -> float | Array:
+        """Return the diameter of what buckles [m], to broadcast against the motion."""
+
+    @property
+    @abstractmethod
+    def lengths_given(self) -> tuple[str, ...]:
+        """Which of LENGTHS it says."""
+
+    @abstractmethod
+    def closed_and_stroke(self, motion: Poses) -> tuple[Array | None, Array | None]:
+        """Return its closed length and its whole stroke as a motion's designs have them [m], to broadcast against it; None for none.
+
+        DefinitionError for one that is not above zero, that is given in millimetres, or that follows a stroke of the machine.
+        """
+
+    @abstractmethod
+    def _length_given(self, name: str, motion: AnyMotion) -> Array:
+        """Return its closed length or its whole stroke as it is given [m]."""
+
+    @abstractmethod
+    def lengths_named(self, name: str) -> tuple[Quantity | str, ...]:
+        """Return the closed length, or the stroke of each of its stages, as conditions name them; empty where it says none."""
+
+    @abstractmethod
+    def sides_written(self, written: Formulas, thrust: Array) -> tuple[Array, Array]:
+        """Write the area of the side that works, and return its symbol with the area of the other side [m2]."""
+
+    @abstractmethod
+    def larger_bores(self, motion: Poses, reserve: float) -> list[float]:
+        """Return the standard bores to try [m] where a reserve is below 1, from the first that may give it; none where it has no series."""
+
+    @abstractmethod
+    def size_verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return what is said of its size over all that a judge looks at."""
+
+    @abstractmethod
+    def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return whether it buckles over all that a judge looks at."""
+
+    # -- what it is ----------------------------------------------------------------------------------------
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
         """Return nothing: it has no law of its own."""
@@ -156,45 +192,23 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
     def holds(self) -> bool:
         return True
 
-    # -- its sides and its length ------------------------------------------------------------------------------
-
-    @property
-    def side(self) -> Works:
-        """What it works with: as it says itself, else as lines say, else the piston."""
-        return self.works or self._on_lines or "piston"
-
     @property
     def piston_side(self) -> Chamber:
         """The chamber behind its piston, for an OilLine."""
         return Chamber(self, "piston")
 
     @property
-    def rod_side(self) -> Chamber:
-        """The chamber around its rod, for an OilLine."""
-        return Chamber(self, "rod")
-
-    @property
     def length(self) -> Quantity:
         """The distance of its pins [m]: as a closed line gives it where it is asked for by a step that they follow, else as they are."""
         return InnerQuantity(self, "length")
 
-    def among(self, members: Mapping[str, Member]) -> Cylinder:
-        """Return it as the lines of its class say what it works with; DefinitionError where it says another side itself."""
-        found = works_by_lines(self, members)
-        if found is None:
-            return self
-        if self.works is not None and self.works != found:
-            what = f"{self.name} says works={self.works!r}, and its lines say that it works with {SIDE_WORDS[found]}"
-            raise DefinitionError(f"{what}; leave works= out.", member=self.name)
-        return self.renewed(_on_lines=found)
-
     def inner(self, name: str, members: Mapping[str, Member]) -> Member | None:
         return length_in(self, members) if name == "length" else None
 
-    def as_in(self, motion: Poses) -> Cylinder:
+    def as_in(self, motion: Poses) -> Ram:
         """Return it as the machine of a motion has it."""
         found = motion.plan.members.get(self.name) if self.name else None
-        return found if isinstance(found, Cylinder) else self
+        return found if isinstance(found, Ram) else self
 
     @property
     def works_both(self) -> bool:
@@ -206,53 +220,10 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
             return np.asarray(np.where(sense[()] < 0.0, -size.pull_area, size.push_area))
         return np.asarray(size.sense * size.area + 0.0 * sense)
 
-    # -- its size ------------------------------------------------------------------------------------------
-
     @property
-    def size(self) -> CylinderSize:
-        """The size as it is written here; DefinitionError where a bore or rod follows something else."""
-        if self._follows:
-            raise DefinitionError(f"{self}: its size follows the design; ask for sized(motion).")
-        return CylinderSize(cast("float | Array", self.bore), cast("float | Array", self.rod), self.count, self.side)
-
-    @property
-    def _follows(self) -> bool:
-        """Whether bore or rod follow a quantity of the class."""
-        return follows(self.bore, self.rod)
-
-    def sized(self, motion: Poses) -> CylinderSize:
-        """Return the size that a motion's designs have; bore and rod [m] broadcast against the motion."""
-        bore, rod = number_set(self, motion, "bore"), number_set(self, motion, "rod")
-        return CylinderSize(bore[()], rod[()], self.count, self.as_in(motion).side)
-
-    def closed_and_stroke(self, motion: Poses) -> tuple[Array | None, Array | None]:
-        """Return its closed length and its stroke as a motion's designs have them [m], to broadcast against it; None where not given.
-
-        DefinitionError for one that is not above zero, that is given in millimetres, or that follows a stroke of the machine.
-        """
-        bore = self.sized(motion).bore
-        closed, stroke = (self._length(motion, name, bore) for name in ("closed", "stroke"))
-        return closed, stroke
-
-    def _length(self, motion: Poses, name: str, bore: ArrayLike) -> Array | None:
-        if getattr(self, name) is None:
-            return None
-        what = LENGTHS[name]
-        return positive(stroke_in_metres(number_set(self, motion, name), what, bore), what)
-
-    def offers(self, thrust: float, pressure: float, length: float | None = None) -> list[CylinderSize]:
-        """Return the standard sizes (ISO 3320) that give a thrust [N] at a pressure: the smallest bore, each rod that suits.
-
-        With a `length` between the pins [m] only rods that do not buckle under a positive thrust. DefinitionError where no bore is enough.
-        """
-        if length is not None:
-            one_number(length, "Length between the ends")
-        thin = CylinderSize(self.size.bore, min(self.size.rod, RODS_MM[0] * mm), self.count, self.side)
-        bore = float(thin.sized_for(thrust, pressure).bore)
-        sizes = [CylinderSize(bore, rod, self.count, self.side) for rod in standard_rods(bore)]
-        enough = [size for size in sizes if one_area(size, thrust) * pressure >= abs(thrust)]
-        push = max(thrust, 0.0) / self.count
-        return [size for size in enough if length is None or Buckling(float(size.rod), self.mounting, self.safety).allowed(length) >= push]
+    def is_single_acting(self) -> bool:
+        """Whether oil pushes it alone, and nothing holds it against a pull."""
+        return len(self.own_sides) == 1
 
     def extent(self, motion: Motion) -> tuple[Array, Array]:
         """Return its least and its greatest length over all that a motion covers [m], one value a design; NaN where no pose is reached."""
@@ -326,7 +297,7 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
         At rest without friction and efficiencies; while it moves, on a side that works, as its circuit has it.
         """
         thrust = line_thrust(self, circuit or circuit_having(self, motion.plan, False), motion, acting)
-        along, size = thrust if side == PISTON else -thrust, self.sized(motion)
+        along, size = thrust if side == PISTON else -thrust, self.sized(motion, acting.direction)
         balance = along / (size.outward_area if side == PISTON else size.pull_area)
         least = balance if below else 0.0
         if acting.movement == FRICTIONLESS or (self.side not in (side, "both") and not self._both_joined):
@@ -360,19 +331,19 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
         ends = distance(self.A, self.B)
         given = {name: LawRequest(text=f"{self.name} {name}", formula=partial(self._length_given, name)) for name in LENGTHS}
         closed, stroke = at(given["closed"]), at(given["stroke"])
-        if self.stroke is not None and self.closed is None:
+        if self.lengths_given == ("stroke",):
             found["length"] = most(ends) - least(ends) <= stroke
-        elif self.closed is not None:
-            found["length"] = AllOf((least(ends) >= closed, *((most(ends) <= closed + stroke,) if self.stroke is not None else ())))
+        elif "closed" in self.lengths_given:
+            found["length"] = AllOf((least(ends) >= closed, *((most(ends) <= closed + stroke,) if "stroke" in self.lengths_given else ())))
         return found | ({"buckling": most(buckling_request(self.name, Acting())) <= 1.0} if carries_loads(judge) else {})
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it fits wherever the machine runs, is of a standard size, and whether a rod that carries something buckles."""
         try:
             if not self.is_placed(judge):
-                return [Verdict("length", False, self.unplaced), self.standard(judge.motion)]
+                return [Verdict("length", False, self.unplaced), *self.size_verdicts(judge)]
             rod = self.buckling_verdicts(judge) if carries_loads(judge) else []
-            return [*self.length_verdicts(judge), self.standard(judge.motion), *rod]
+            return [*self.length_verdicts(judge), *self.size_verdicts(judge), *rod]
         except DefinitionError as error:
             return [Verdict("cylinder", False, " ".join(str(error).split()))]
 
@@ -383,12 +354,8 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
             found["pressure"] = self.pressure
         if len(circuits) == 1:
             found |= circuits[0].gauges_of(self)
-        found |= {name: partial(self._length_given, name) for name in LENGTHS if getattr(self, name) is not None}
+        found |= {name: partial(self._length_given, name) for name in self.lengths_given}
         return {name: LawRequest(text=f"{self.name} {name}", formula=read) for name, read in found.items()}
-
-    def _length_given(self, name: str, motion: AnyMotion) -> Array:
-        """Return its closed length or its stroke as it is given [m]."""
-        return positive(stroke_in_metres(number_set(self, motion, name), LENGTHS[name]), LENGTHS[name])
 
     def formulas(self, written: Formulas) -> None:
         """Write its area, and its pressure where no circuit says it."""
@@ -403,26 +370,13 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
         area, _ = self.sides_written(written, np.ones(()))
         return -area if self.side == "rod" else area
 
-    def sides_written(self, written: Formulas, thrust: Array) -> tuple[Array, Array]:
-        """Write the area of the side that works, and return its symbol with the area of the other side [m2]."""
-        bore, rod = self.number(written, "bore"), self.number(written, "rod")
-        piston, annulus = (self.count * written.pi / 4.0 * each for each in (bore**2, bore**2 - rod**2))
-        if self.side == "regenerative":
-            working, other = self.count * written.pi / 4.0 * rod**2, np.zeros(())
-        elif self.side == "both":
-            pulls = thrust < 0.0
-            working, other = np.where(pulls, annulus, piston), np.where(pulls, piston, annulus)
-        else:
-            working, other = (annulus, piston) if self.side == "rod" else (piston, annulus)
-        return written.line(f"A_{self.name}", working, "m2"), other
-
     # -- checks --------------------------------------------------------------------------------------------
 
     def checks(self, motion: Motion, loads: Loads = None, *, case: Case = None, acting: Acting | None = None) -> list[Verdict]:
         """Return what can be said of it over a motion of one design: length, standard size, and buckling where it carries something."""
         one_design(motion, str(self))
         judge = judge_of(motion, situation_of("checks", acting, loads=loads, case=case))
-        return [*self.length_verdicts(judge), self.standard(motion), *self.buckling_verdicts(judge)]
+        return [*self.length_verdicts(judge), *self.size_verdicts(judge), *self.buckling_verdicts(judge)]
 
     def fits(self, motion: Motion) -> list[Verdict]:
         """Return whether its closed and its open length serve the motion, between its poses too; nothing where neither is given.
@@ -457,10 +411,10 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
         """That its pins have no place, in words."""
         return said("{pins} has no length at any pose that is looked at: one of its pins has no place there.", pins=self._pins)
 
-    def travelled(self, judge: Judge) -> float:
-        """Return greatest less least length over all that a judge looks at [m], of one design."""
+    def range_in(self, judge: Judge) -> tuple[Array, Array]:
+        """Return its least and its greatest length over all that a judge looks at [m], of one design."""
         low, high = judge.answers([least(distance(self.A, self.B)), most(distance(self.A, self.B))])
-        return float(high.value - low.value)
+        return np.asarray(low.value), np.asarray(high.value)
 
     def _reaches(self, low: float, high: float, closed: float, opened: float) -> Verdict:
         faults = []
@@ -493,6 +447,200 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
         short = said("; {missing} are missing: take a longer stroke", missing=show(travel - stroke, "mm", ".1f"))
         return Verdict("length", False, f"{says}{short}.")
 
+    def buckling(self, motion: Motion, loads: Loads = None, *, case: Case = None, acting: Acting | None = None) -> list[Verdict]:
+        """Return whether a rod buckles at its largest utilisation: over every pose, load case and direction, one design.
+
+        `case` names one load case; without it all that the machine declares are looked at, besides the plain one. Nothing where it
+        carries nothing among these loads.
+        """
+        one_design(motion, str(self))
+        return self.buckling_verdicts(judge_of(motion, situation_of("buckling", acting, loads=loads, case=case)))
+
+    @takes_situation
+    def buckling_use(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
+        """Return the utilisation of a rod, shape (...): a cylinder's push times the safety over the force at which it buckles; 0 in a pull.
+
+        Without a direction it is the greatest of all in which something acts otherwise, as friction does; see `buckling` for the verdict.
+        """
+        acting = situation_of("buckling_use", loads=loads, **situation)
+        if acting.direction is not None:
+            return self._use(motion, acting)
+        ways = DIRECTIONS if changes_in_motion(motion, acting.loads) else DIRECTIONS[:1]
+        return reduce(np.maximum, [self._use(motion, replace(acting, direction=way)) for way in ways])
+
+    def _use(self, motion: AnyMotion, acting: Acting, *, below: bool = False) -> Array:
+        """Return the utilisation in one direction, in a pull 0 or `below`."""
+        push = member_thrust(motion, self, acting) / self.count
+        bar = Buckling(1.0, self.mounting, self.safety)
+        allowed = bar.critical_of(self.thickness(motion, acting.direction), motion.distance(self.A, self.B)) / self.safety
+        return push / allowed if below else np.where(push > 0.0, push / allowed, 0.0) + 0.0 * push
+
+    @property
+    def _pins(self) -> str:
+        return body_name(label(end) for end in (self.A, self.B))
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Cylinder(Ram):
+    """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
+
+    In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
+    on: "piston" pushes, "rod" pulls, "both" does what the load asks for; not given it is the side that an OilLine names, else the
+    piston. Its chambers are `lift.piston_side` and `lift.rod_side`, the distance of its pins is `lift.length`. `closed` is that distance
+    drawn in, `stroke` how far it comes out [m], design variables as well where they are given; `mounting` and `safety` are for buckling.
+    It holds what the mechanism needs, in the place of the drive of one stroke; one whose line gives its pressure has that force instead.
+    """
+
+    A: Reference
+    B: Reference
+    bore: Parameter
+    rod: Parameter
+    count: int = 1
+    works: Literal["piston", "rod", "both"] | None = None
+    stroke: Parameter | None = None
+    closed: Parameter | None = None
+    mounting: str = "pin-pin"
+    safety: float = 3.5
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm", "stroke": "mm", "closed": "mm"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod", "stroke", "closed"})
+    optional: ClassVar[frozenset[str]] = frozenset({"stroke", "closed"})
+    inside: ClassVar[Mapping[str, str]] = MappingProxyType({"length": "quantity", "piston_side": "chamber", "rod_side": "chamber"})
+    _on_lines: ClassVar[Works | None] = None
+    """What lines say that it works with, where they do; told by the class that it is in."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.works is not None:
+            known_name("Side", self.works, (*SIDES, "both"), where="works")
+        size = CylinderSize(2.0, 1.0, self.count, self.side) if self._follows else self.size
+        Buckling(1.0, self.mounting, self.safety)
+        for name, what in LENGTHS.items():
+            value = getattr(self, name)
+            if value is not None and not follows(value):
+                positive(stroke_in_metres(one_number(value, what), what, None if self._follows else size.bore), what)
+
+    def _check_number(self, name: str) -> None:
+        if name not in LENGTHS:  # those are looked at beside the bore, in words of their own
+            super()._check_number(name)
+
+    # -- its sides -----------------------------------------------------------------------------------------
+
+    @property
+    def side(self) -> Works:
+        """What it works with: as it says itself, else as lines say, else the piston."""
+        return self.works or self._on_lines or "piston"
+
+    @property
+    def own_sides(self) -> tuple[Side, ...]:
+        return SIDES
+
+    @property
+    def rod_side(self) -> Chamber:
+        """The chamber around its rod, for an OilLine."""
+        return Chamber(self, "rod")
+
+    def among(self, members: Mapping[str, Member]) -> Cylinder:
+        """Return it as the lines of its class say what it works with; DefinitionError where it says another side itself."""
+        found = works_by_lines(self, members)
+        if found is None:
+            return self
+        if self.works is not None and self.works != found:
+            what = f"{self.name} says works={self.works!r}, and its lines say that it works with {SIDE_WORDS[found]}"
+            raise DefinitionError(f"{what}; leave works= out.", member=self.name)
+        return self.renewed(_on_lines=found)
+
+    # -- its size ------------------------------------------------------------------------------------------
+
+    @property
+    def size(self) -> CylinderSize:
+        """The size as it is written here; DefinitionError where a bore or rod follows something else."""
+        if self._follows:
+            raise DefinitionError(f"{self}: its size follows the design; ask for sized(motion).")
+        return CylinderSize(cast("float | Array", self.bore), cast("float | Array", self.rod), self.count, self.side)
+
+    @property
+    def _follows(self) -> bool:
+        """Whether bore or rod follow a quantity of the class."""
+        return follows(self.bore, self.rod)
+
+    def sized(self, motion: Poses, direction: str | None = None) -> CylinderSize:
+        """Return the size that a motion's designs have; bore and rod [m] broadcast against the motion."""
+        bore, rod = number_set(self, motion, "bore"), number_set(self, motion, "rod")
+        return CylinderSize(bore[()], rod[()], self.count, self.as_in(motion).side)
+
+    def filled(self, side: Side, motion: Poses, start: Array, end: Array) -> Array:
+        return np.asarray((end - start) * chamber_area(Chamber(self, side), self, motion))[()]
+
+    def taken(self, motion: Poses, low: Array, high: Array) -> Array:
+        return np.asarray(self.sized(motion).area * (high - low))[()]
+
+    def thickness(self, motion: Poses, direction: str | None = None) -> float | Array:
+        return self.sized(motion).rod
+
+    @property
+    def lengths_given(self) -> tuple[str, ...]:
+        return tuple(name for name in LENGTHS if getattr(self, name) is not None)
+
+    def closed_and_stroke(self, motion: Poses) -> tuple[Array | None, Array | None]:
+        """Return its closed length and its stroke as a motion's designs have them [m], to broadcast against it; None where not given.
+
+        DefinitionError for one that is not above zero, that is given in millimetres, or that follows a stroke of the machine.
+        """
+        bore = self.sized(motion).bore
+        closed, stroke = (self._length(motion, name, bore) for name in ("closed", "stroke"))
+        return closed, stroke
+
+    def _length(self, motion: Poses, name: str, bore: ArrayLike) -> Array | None:
+        if getattr(self, name) is None:
+            return None
+        what = LENGTHS[name]
+        return positive(stroke_in_metres(number_set(self, motion, name), what, bore), what)
+
+    def _length_given(self, name: str, motion: AnyMotion) -> Array:
+        return positive(stroke_in_metres(number_set(self, motion, name), LENGTHS[name]), LENGTHS[name])
+
+    def lengths_named(self, name: str) -> tuple[Quantity | str, ...]:
+        given = getattr(self, name)
+        return () if given is None else (quantity(given) if follows(given) else f"{self.name}.{name}",)
+
+    def offers(self, thrust: float, pressure: float, length: float | None = None) -> list[CylinderSize]:
+        """Return the standard sizes (ISO 3320) that give a thrust [N] at a pressure: the smallest bore, each rod that suits.
+
+        With a `length` between the pins [m] only rods that do not buckle under a positive thrust. DefinitionError where no bore is enough.
+        """
+        if length is not None:
+            one_number(length, "Length between the ends")
+        thin = CylinderSize(self.size.bore, min(self.size.rod, RODS_MM[0] * mm), self.count, self.side)
+        bore = float(thin.sized_for(thrust, pressure).bore)
+        sizes = [CylinderSize(bore, rod, self.count, self.side) for rod in standard_rods(bore)]
+        enough = [size for size in sizes if one_area(size, thrust) * pressure >= abs(thrust)]
+        push = max(thrust, 0.0) / self.count
+        return [size for size in enough if length is None or Buckling(float(size.rod), self.mounting, self.safety).allowed(length) >= push]
+
+    def larger_bores(self, motion: Poses, reserve: float) -> list[float]:
+        size = one_size(self.sized(motion))
+        rod = size.rod if self.side == "rod" else 0.0
+        wanted = np.sqrt((size.bore**2 - rod**2) / reserve + rod**2)
+        bores = [bore for bore in standard_bores() if bore > max(size.bore, size.rod) * (1.0 + 1e-9)]
+        return [bore for bore in bores if bore >= 0.9 * wanted][:TRIES]
+
+    # -- what it says --------------------------------------------------------------------------------------
+
+    def sides_written(self, written: Formulas, thrust: Array) -> tuple[Array, Array]:
+        """Write the area of the side that works, and return its symbol with the area of the other side [m2]."""
+        bore, rod = self.number(written, "bore"), self.number(written, "rod")
+        piston, annulus = (self.count * written.pi / 4.0 * each for each in (bore**2, bore**2 - rod**2))
+        if self.side == "regenerative":
+            working, other = self.count * written.pi / 4.0 * rod**2, np.zeros(())
+        elif self.side == "both":
+            pulls = thrust < 0.0
+            working, other = np.where(pulls, annulus, piston), np.where(pulls, piston, annulus)
+        else:
+            working, other = (annulus, piston) if self.side == "rod" else (piston, annulus)
+        return written.line(f"A_{self.name}", working, "m2"), other
+
     def standard(self, motion: Poses | None = None) -> Verdict:
         """Return whether bore and rod are of ISO 3320; where not, what is next to them."""
         size = one_size(self.size if motion is None else self.sized(motion))
@@ -517,17 +665,10 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
             return Verdict("standard size", True, said("{says} are a pair of ISO 3320.", says=says))
         return Verdict("standard size", False, f"{'; '.join([says, *faults])}.")
 
-    def buckling(self, motion: Motion, loads: Loads = None, *, case: Case = None, acting: Acting | None = None) -> list[Verdict]:
-        """Return whether a rod buckles at its largest utilisation: over every pose, load case and direction, one design.
-
-        `case` names one load case; without it all that the machine declares are looked at, besides the plain one. Nothing where it
-        carries nothing among these loads.
-        """
-        one_design(motion, str(self))
-        return self.buckling_verdicts(judge_of(motion, situation_of("buckling", acting, loads=loads, case=case)))
+    def size_verdicts(self, judge: Judge) -> list[Verdict]:
+        return [self.standard(judge.motion)]
 
     def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return the same over all that a judge looks at."""
         size = one_size(self.sized(judge.motion))
         rod = Buckling(size.rod, self.mounting, self.safety)
         worst = judge.answer(most(buckling_request(self, Acting())) <= 1.0)
@@ -538,29 +679,6 @@ class Cylinder(TwoPoint, Tabled, HasVerdicts):
             push = float(member_thrust(place, self, acting)) / self.count
             length = float(place.distance(self.A, self.B))
         return [rod.judged(length, push, worst.place, bool(worst.unbounded), size.bore).answered(worst)]
-
-    @takes_situation
-    def buckling_use(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
-        """Return the utilisation of a rod, shape (...): a cylinder's push times the safety over the force at which it buckles; 0 in a pull.
-
-        Without a direction it is the greatest of all in which something acts otherwise, as friction does; see `buckling` for the verdict.
-        """
-        acting = situation_of("buckling_use", loads=loads, **situation)
-        if acting.direction is not None:
-            return self._use(motion, acting)
-        ways = DIRECTIONS if changes_in_motion(motion, acting.loads) else DIRECTIONS[:1]
-        return reduce(np.maximum, [self._use(motion, replace(acting, direction=way)) for way in ways])
-
-    def _use(self, motion: AnyMotion, acting: Acting, *, below: bool = False) -> Array:
-        """Return the utilisation in one direction, in a pull 0 or `below`."""
-        push = member_thrust(motion, self, acting) / self.count
-        bar = Buckling(1.0, self.mounting, self.safety)
-        allowed = bar.critical_of(self.sized(motion).rod, motion.distance(self.A, self.B)) / self.safety
-        return push / allowed if below else np.where(push > 0.0, push / allowed, 0.0) + 0.0 * push
-
-    @property
-    def _pins(self) -> str:
-        return body_name(label(end) for end in (self.A, self.B))
 
 
 @final
@@ -585,9 +703,9 @@ Values = TypeVar("Values")
 
 def cylinder_request(
     word: str,
-    cylinder: str | Cylinder,
+    cylinder: str | Ram,
     acting: Acting,
-    formula: Callable[[AnyMotion, Cylinder, Acting], Array],
+    formula: Callable[[AnyMotion, Ram, Acting], Array],
     before: tuple[Hashable, ...] = (),
     after: tuple[Hashable, ...] = (),
     *,
@@ -611,18 +729,18 @@ def cylinder_text(word: str, before: Sequence[Hashable], after: Sequence[Hashabl
 
 
 def formula_of_cylinder(
-    formula: Callable[[AnyMotion, Cylinder, Acting], Values], named: str | Cylinder, motion: AnyMotion, acting: Acting
+    formula: Callable[[AnyMotion, Ram, Acting], Values], named: str | Ram, motion: AnyMotion, acting: Acting
 ) -> Values:
     """Return what a formula gives of the cylinder that is meant, as the motion's class has it."""
     return formula(motion, cylinder_in(named, motion.plan), acting)
 
 
-def cylinder_in(named: str | Cylinder, plan: Plan) -> Cylinder:
+def cylinder_in(named: str | Ram, plan: Plan) -> Ram:
     """Return the cylinder that is meant, as a plan has it; DefinitionError where there is none of that name."""
     return found_in(plan.members, named, plan.title) if isinstance(named, str) else named
 
 
-def thrust_request(cylinder: str | Cylinder, acting: Acting) -> LawRequest:
+def thrust_request(cylinder: str | Ram, acting: Acting) -> LawRequest:
     """Return the request for what a cylinder carries [N]."""
     found = cylinder_request("thrust", cylinder, acting, member_thrust, measures="force")
     return replace(found, text=partial(thrust_text, found.mover))
@@ -633,18 +751,18 @@ def thrust_text(named: Hashable, acting: Acting) -> str:
     return cylinder_text("thrust", (named,), (), replace(acting, direction=None if acting.direction == FRICTIONLESS else acting.direction))
 
 
-def buckling_request(cylinder: str | Cylinder, acting: Acting, *, below: bool = False) -> LawRequest:
+def buckling_request(cylinder: str | Ram, acting: Acting, *, below: bool = False) -> LawRequest:
     """Return the request for how far a cylinder's rod is used against buckling; `below` zero it goes on in a pull."""
     found = cylinder_request("buckling", cylinder, acting, partial(rod_use, below=below), after=("below zero" if below else None,))
     return replace(found, pieces_in=partial(buckling_pieces, cylinder))
 
 
-def buckling_pieces(cylinder: str | Cylinder, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
+def buckling_pieces(cylinder: str | Ram, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
     """Return the one smooth piece of a rod's use: it goes on below zero in a pull."""
     return (SmoothPiece(request, below=buckling_request(cylinder, request.situation, below=True)),)
 
 
-def rod_use(motion: AnyMotion, cylinder: Cylinder, acting: Acting, *, below: bool) -> Array:
+def rod_use(motion: AnyMotion, cylinder: Ram, acting: Acting, *, below: bool) -> Array:
     """Return how far a cylinder's rod is used over a motion's poses, in a pull 0 or `below`."""
     return cylinder._use(motion, acting, below=True) if below else cylinder.buckling_use(motion, acting=acting)
 
@@ -653,12 +771,12 @@ Reading: TypeAlias = Callable[[AnyMotion], Array]
 """A number of a cylinder over the poses of a motion [SI]."""
 
 
-def thrust_along(cylinder: Cylinder, thrust: Array) -> Array:
+def thrust_along(cylinder: Ram, thrust: Array) -> Array:
     """Return a thrust in the direction in which the working side pushes or pulls [N]."""
     return np.abs(thrust) if cylinder.side == "both" else -thrust if cylinder.side == "rod" else thrust
 
 
-def pressure_of(cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
+def pressure_of(cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
     """Return a cylinder's pressure by the circuit that has it; without one, of a pump without losses."""
     require_poses(motion)
     held = motion._of_the_whole(cylinder) if isinstance(motion, Motion) else None
@@ -667,10 +785,10 @@ def pressure_of(cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
     circuit = circuit_having(cylinder, motion.plan)
     if circuit is not None:
         return circuit.pressure_in(cylinder, motion, acting)
-    return np.maximum(cylinder.sized(motion).pressure_for(member_thrust(motion, cylinder, acting)), 0.0)
+    return np.maximum(cylinder.sized(motion, acting.direction).pressure_for(member_thrust(motion, cylinder, acting)), 0.0)
 
 
-def circuit_having(cylinder: Cylinder, plan: Declared, is_needed: bool = True) -> Circuit | None:
+def circuit_having(cylinder: Ram, plan: Declared, is_needed: bool = True) -> Circuit | None:
     """Return the circuit that gives a cylinder its pressure, the one that feeds it first; DefinitionError where several have it.
 
     None where it is not needed and not plain.
@@ -686,7 +804,7 @@ def circuit_having(cylinder: Cylinder, plan: Declared, is_needed: bool = True) -
     return next(iter((*feeding, *mine)), None)
 
 
-def circuits_of(cylinder: Cylinder, plan: Declared) -> list[Circuit]:
+def circuits_of(cylinder: Ram, plan: Declared) -> list[Circuit]:
     """Return the circuits of a class that have a cylinder's working side."""
     found = [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
     other = [line for line, chamber in lines_of(cylinder, plan.members) if chamber.side != cylinder.side and cylinder.side in SIDES]
@@ -703,7 +821,7 @@ class Circuit(ForceElement, HasVerdicts):
     def __post_init__(self) -> None:
         super().__post_init__()
         for each in self.references:
-            if not is_named(each) and not isinstance(each, Cylinder):
+            if not is_named(each) and not isinstance(each, Ram):
                 raise DefinitionError(f"{type(self).__name__}: {cited(each)} is no Cylinder; name one.")
 
     @property
@@ -728,7 +846,7 @@ class Circuit(ForceElement, HasVerdicts):
         """Return the kind of its line, among the members of its class: one of KINDS."""
         return "held"
 
-    def filling(self, members: Mapping[str, Member]) -> list[tuple[Cylinder, Chamber]]:
+    def filling(self, members: Mapping[str, Member]) -> list[tuple[Ram, Chamber]]:
         """Return the chambers on its line with their cylinders, as the class has them: of each the side that works."""
         sides = [(ram, SIDES if ram.side not in SIDES else (ram.side,)) for ram in self.members(members)]
         return [(ram, Chamber(ram, side)) for ram, own in sides for side in own]
@@ -754,25 +872,25 @@ class Circuit(ForceElement, HasVerdicts):
             if is_named(each):
                 found_in(members, each, f"{title}.{self.name}")
 
-    def members(self, members: Mapping[str, Member]) -> tuple[Cylinder, ...]:
+    def members(self, members: Mapping[str, Member]) -> tuple[Ram, ...]:
         """Return its cylinders, as a class has them."""
         title = self.name or type(self).__name__
         found = (found_in(members, each, title) if is_named(each) else each for each in self.references)
-        return tuple(each for each in found if isinstance(each, Cylinder))
+        return tuple(each for each in found if isinstance(each, Ram))
 
-    def gauges_of(self, cylinder: Cylinder) -> dict[str, Reading]:
+    def gauges_of(self, cylinder: Ram) -> dict[str, Reading]:
         """Return what it tells of one of its cylinders on a live page: the `most` pressure it may have [Pa], its `reserve`."""
         return {}
 
     @abstractmethod
-    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
+    def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
         """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
 
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return between which two thrusts [N] it lets one of its cylinders stand; unbounded unless it says so."""
         return UNBOUNDED
 
-    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array | None:
+    def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
         """Return the greatest rod force of one of its cylinders over the needed one, shape (...); None where no pump feeds it."""
         return None
 
@@ -780,13 +898,13 @@ class Circuit(ForceElement, HasVerdicts):
 # Lines and chambers.
 
 
-def lines_of(cylinder: Cylinder, members: Mapping[str, Member]) -> list[tuple[Circuit, Chamber]]:
+def lines_of(cylinder: Ram, members: Mapping[str, Member]) -> list[tuple[Circuit, Chamber]]:
     """Return the chambers of a cylinder that lines name, each with its line."""
     lines = [each for each in members.values() if isinstance(each, Circuit)]
     return [(line, each) for line in lines for each in line.chambers if name_of(each.cylinder) == cylinder.name]
 
 
-def works_by_lines(cylinder: Cylinder, members: Mapping[str, Member]) -> Works | None:
+def works_by_lines(cylinder: Ram, members: Mapping[str, Member]) -> Works | None:
     """Return what lines say that a cylinder works with; None where they do not say it.
 
     Sides on held lines come first, then those on closed ones, then those whose pressure is given.
@@ -806,7 +924,7 @@ def works_by_lines(cylinder: Cylinder, members: Mapping[str, Member]) -> Works |
     return "regenerative" if working[0][0] is working[1][0] else "both"
 
 
-def by_other_lines(ram: Cylinder, line: Circuit | None, motion: AnyMotion, acting: Acting | None) -> Array | None:
+def by_other_lines(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting | None) -> Array | None:
     """Return what lines other than one put on a cylinder over a motion's poses [N]; None for nothing.
 
     Without a situation only lines whose pressure is given count.
@@ -820,13 +938,13 @@ def by_other_lines(ram: Cylinder, line: Circuit | None, motion: AnyMotion, actin
     return reduce(np.add, parts) if parts else None
 
 
-def line_thrust(ram: Cylinder, line: Circuit | None, motion: AnyMotion, acting: Acting) -> Array:
+def line_thrust(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting) -> Array:
     """Return what a line has to put on a cylinder [N]: what it carries without what its other lines do."""
     thrust, others = member_thrust(motion, ram, acting), by_other_lines(ram, line, motion, acting)
     return thrust if others is None else thrust - others
 
 
-def chamber_area(chamber: Chamber, ram: Cylinder, motion: Poses) -> Array:
+def chamber_area(chamber: Chamber, ram: Ram, motion: Poses) -> Array:
     """Return the signed area of a chamber [m2]: how its volume grows with the length of its cylinder."""
     size = ram.sized(motion)
     return np.asarray(size.push_area if chamber.side == PISTON else -1.0 * size.pull_area)[()]
@@ -836,7 +954,7 @@ KINDS = ("held", "closed", "given")
 """The kinds of lines: a stroke holds their pressure, they keep their oil, their pressure is given."""
 
 
-def length_in(cylinder: Cylinder, members: Mapping[str, Member]) -> Quantity:
+def length_in(cylinder: Ram, members: Mapping[str, Member]) -> Quantity:
     """Return the length of a cylinder in its class: from its closed line where its own pins follow it, else the distance of these."""
     called = f"{cylinder.name}.length"
     if called not in names_behind(cylinder.ends, members):
@@ -894,7 +1012,7 @@ def is_named(reference: Reference) -> bool:
     return isinstance(reference, str) or bool(reference.name)
 
 
-def the_cylinder(motion: Poses, reference: Reference) -> Cylinder:
+def the_cylinder(motion: Poses, reference: Reference) -> Ram:
     """Return the cylinder a reference stands for, as the motion's class has it; DefinitionError where there is none."""
     require_poses(motion)
     if is_named(reference):
@@ -902,18 +1020,18 @@ def the_cylinder(motion: Poses, reference: Reference) -> Cylinder:
     return _cylinder(reference, "The circuit")
 
 
-def found_in(members: Mapping[str, Member], reference: Reference, where: str) -> Cylinder:
+def found_in(members: Mapping[str, Member], reference: Reference, where: str) -> Ram:
     """Return the cylinder a reference stands for in a class; DefinitionError where there is none."""
     name = name_of(reference)
     if name in members:
         return _cylinder(members[name], where)
     if isinstance(reference, str):
-        raise unknown("Cylinder", name, (each for each, member in members.items() if isinstance(member, Cylinder)), where=where)
+        raise unknown("Cylinder", name, (each for each, member in members.items() if isinstance(member, Ram)), where=where)
     return _cylinder(reference, where)
 
 
-def _cylinder(found: object, where: str) -> Cylinder:
-    if not isinstance(found, Cylinder):
+def _cylinder(found: object, where: str) -> Ram:
+    if not isinstance(found, Ram):
         raise DefinitionError(f"{where}: {found} is no Cylinder; name one.")
     return found
 

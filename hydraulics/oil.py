@@ -63,7 +63,7 @@ from .member import (
     SIDES,
     Chamber,
     Circuit,
-    Cylinder,
+    Ram,
     Side,
     by_other_lines,
     chamber_area,
@@ -198,7 +198,7 @@ class OilLine(PumpLine, GasLine):
     def _check(self) -> None:
         for each in self.on:
             is_block = isinstance(each, AccumulatorBlock) or (callable(each) and not isinstance(each, (type, Member)))
-            if not is_block and not isinstance(each, (Chamber, str, Cylinder, Supply)):
+            if not is_block and not isinstance(each, (Chamber, str, Ram, Supply)):
                 what = f"OilLine({cited(each)}): neither a chamber nor a pump, a relief valve, a tank or accumulators"
                 raise DefinitionError(f"{what}; write lift.piston_side, a Pump, a Tank, an AccumulatorBlock.")
         if isinstance(self.filled, str) and self.filled not in ("open", "closed"):
@@ -267,26 +267,26 @@ class OilLine(PumpLine, GasLine):
             return "held"
         return "given" if self.block is not None or self.supplies(members, Tank) else "closed"
 
-    def filling(self, members: Mapping[str, Member]) -> list[tuple[Cylinder, Chamber]]:
+    def filling(self, members: Mapping[str, Member]) -> list[tuple[Ram, Chamber]]:
         """Return the chambers on it with their cylinders, as the class has them; of a bare cylinder the side that works."""
         found = []
         for each in self.on:
             if isinstance(each, Chamber):
                 ram = members[name_of(each.cylinder)] if is_named(each.cylinder) else each.cylinder
-                found.append((cast(Cylinder, ram), each))
+                found.append((cast(Ram, ram), each))
             elif isinstance(each, (str, Member)):
                 ram = members.get(each, each) if isinstance(each, str) else members.get(each.name, each)
-                if isinstance(ram, Cylinder):
+                if isinstance(ram, Ram):
                     found.append((ram, Chamber(each, cast(Side, ram.side))))
         return found
 
-    def members(self, members: Mapping[str, Member]) -> tuple[Cylinder, ...]:
-        found: list[Cylinder] = []
+    def members(self, members: Mapping[str, Member]) -> tuple[Ram, ...]:
+        found: list[Ram] = []
         for ram, _ in self.filling(members):
             found += [] if any(same(ram, each) for each in found) else [ram]
         return tuple(found)
 
-    def rams(self, motion: Poses) -> tuple[Cylinder, ...]:
+    def rams(self, motion: Poses) -> tuple[Ram, ...]:
         return self.members(motion.plan.members)
 
     def among(self, members: Mapping[str, Member]) -> OilLine:
@@ -301,11 +301,11 @@ class OilLine(PumpLine, GasLine):
         for each in self.references:
             name = each if isinstance(each, str) else each.name
             if name and name not in members:
-                known = [known for known, member in members.items() if isinstance(member, (Cylinder, Supply))]
+                known = [known for known, member in members.items() if isinstance(member, (Ram, Supply))]
                 raise unknown("Cylinder, pump, valve or tank", name, known, where=f"{title}.{self.name}")
         filling = self.filling(members)
         for ram, chamber in filling:
-            if not isinstance(ram, Cylinder):
+            if not isinstance(ram, Ram):
                 raise DefinitionError(f"{opening}: {chamber} is no chamber, as {ram} is no Cylinder.")
             if chamber.side not in SIDES:
                 raise DefinitionError(f"{opening}: {ram.name} works with both sides; say which, {ram.name}.piston_side.")
@@ -334,7 +334,7 @@ class OilLine(PumpLine, GasLine):
             if len(found) > 1:
                 raise DefinitionError(f"{opening}: {len(found)} {what} are on one line; leave one.")
 
-    def _examine_others(self, members: Mapping[str, Member], filling: Sequence[tuple[Cylinder, Chamber]], title: str) -> None:
+    def _examine_others(self, members: Mapping[str, Member], filling: Sequence[tuple[Ram, Chamber]], title: str) -> None:
         """Raise DefinitionError for what stands on this line and on another one, or twice on this."""
         own = [(ram.name, chamber.side) for ram, chamber in filling]
         twice = next((each for each in own if own.count(each) > 1), None)
@@ -393,7 +393,7 @@ class OilLine(PumpLine, GasLine):
         oil = self.oil_given
         return f"{self.name}.oil" if isinstance(oil, Number) else oil.name or str(oil)
 
-    def _gives(self, ram: Cylinder, members: Mapping[str, Member]) -> bool:
+    def _gives(self, ram: Ram, members: Mapping[str, Member]) -> bool:
         """Return whether it gives a cylinder its length."""
         length = members.get(f"{ram.name}.length")
         first = next((line for line, _ in lines_of(ram, members) if line.kind_in(members) == "closed"), None)
@@ -412,7 +412,7 @@ class OilLine(PumpLine, GasLine):
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
 
-    def thrust_of(self, ram: Cylinder, motion: Poses, rates: Mapping[str, Rate]) -> Array:
+    def thrust_of(self, ram: Ram, motion: Poses, rates: Mapping[str, Rate]) -> Array:
         areas = [chamber_area(chamber, ram, motion) for each, chamber in self.filling(motion.plan.members) if same(each, ram)]
         area = reduce(np.add, areas)
         free = self.line_pressure(motion) * area
@@ -443,7 +443,7 @@ class OilLine(PumpLine, GasLine):
             raise DefinitionError(f"{self.name} = {self}: the machine has {len(strokes)} strokes; say at=dict({', '.join(strokes)}=...).")
         return {strokes[0]: one_number(self.at, f"{self.name}, at")}
 
-    def length_filled(self, ram: Cylinder, members: Mapping[str, Member]) -> Quantity:
+    def length_filled(self, ram: Ram, members: Mapping[str, Member]) -> Quantity:
         """Return the length of a cylinder where the line is filled [m]."""
         if isinstance(self.filled, Mapping) and ram.name in self.filled:
             return quantity(self.filled[ram.name])
@@ -460,7 +460,7 @@ class OilLine(PumpLine, GasLine):
     def length_given(self, chamber: Chamber, members: Mapping[str, Member]) -> Quantity:
         """Return the length that it gives one of its cylinders [m]: that where it was filled, and what the oil of the others makes."""
         filling = self.filling(members)
-        own = cast(Cylinder, members[name_of(chamber.cylinder)])
+        own = cast(Ram, members[name_of(chamber.cylinder)])
         already = [ram for ram, _ in filling if ram is not own and f"{ram.name}.length" in members and self._gives(ram, members)]
         if already:
             what = f"{self.name} = {self}: one closed line gives one length, and {already[0].name}.length and {own.name}.length are asked"
@@ -505,7 +505,7 @@ class OilLine(PumpLine, GasLine):
         place = next(k for k, line in enumerate(lines) if same(line, self))
         return np.asarray(found[place] + np.zeros(motion.shape))[()] if motion.shape else found[place]
 
-    def _tied_thrust(self, ram: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
+    def _tied_thrust(self, ram: Ram, motion: AnyMotion, acting: Acting) -> Array:
         """Return what a cylinder carries without what lines of a given pressure put on it; a direction is that of the first cylinder."""
         first = self.members(motion.plan.members)[0]
         if acting.direction is None or same(ram, first) or not changes_in_motion(motion, acting.loads):
@@ -528,14 +528,14 @@ class OilLine(PumpLine, GasLine):
     def _volumes(self, motion: Poses) -> Iterator[Array]:
         """Yield how much larger each chamber is than where the line was filled [m3]."""
         for ram, chamber in self.filling(motion.plan.members):
-            charged = length_at(motion, ram, self.charged_at(motion, ram)) if self.filled is None else self._filled_length(motion, ram)
-            yield np.asarray((motion.distance(ram.A, ram.B) - charged) * chamber_area(chamber, ram, motion))
+            charged: Any = length_at(motion, ram, self.charged_at(motion, ram)) if self.filled is None else self._filled_length(motion, ram)
+            yield np.asarray(ram.filled(chamber.side, motion, charged, motion.distance(ram.A, ram.B)))
 
-    def _filled_length(self, motion: Poses, ram: Cylinder) -> Array:
+    def _filled_length(self, motion: Poses, ram: Ram) -> Array:
         length = self.length_filled(ram, motion.plan.members)
         return length_at(motion, ram, self.charged_at(motion, ram)) if isinstance(length, AtPose) else motion.value(length)
 
-    def charged_at(self, motion: Poses, ram: Cylinder) -> Mapping[str, Array]:
+    def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
         strokes = self.strokes_filled(list(plan_of(motion).strokes))
         return {name: np.asarray(value) for name, value in strokes.items()}
 
@@ -575,7 +575,7 @@ class OilLine(PumpLine, GasLine):
 
     # -- by its kind -----------------------------------------------------------------------------------------
 
-    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array:
+    def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
         if self.kind_in(motion.plan.members) == "held":
             return PumpLine.pressure_in(self, cylinder, motion, acting)
         return self.line_pressure(motion, acting) + np.zeros(motion.shape)
@@ -603,10 +603,10 @@ class OilLine(PumpLine, GasLine):
         low, high = self.least(motion) * own[0] + more, most * own[0] + more
         return (low, high) if own_side(self, ram, members) == PISTON else (high, low)
 
-    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, acting: Acting) -> Array | None:
+    def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
         return PumpLine.reserve_of(self, cylinder, motion, acting) if self.kind_in(motion.plan.members) == "held" else None
 
-    def gauges_of(self, cylinder: Cylinder) -> Any:
+    def gauges_of(self, cylinder: Ram) -> Any:
         return PumpLine.gauges_of(self, cylinder) if self.kind_of_line == "held" else {}
 
     def questions(self, judge: Judge) -> list[Question]:
@@ -703,25 +703,25 @@ def option_text(value: Any) -> str:
     return repr(plain(value))
 
 
-def written_number(ram: Cylinder, name: str) -> Quantity:
+def written_number(ram: Ram, name: str) -> Quantity:
     """Return a number of a cylinder as a quantity of its class."""
     given = quantity(ram.given(name))
     return Variable(f"{ram.name}.{name}") if isinstance(given, Number) else given
 
 
-def square_written(chamber: Chamber, ram: Cylinder) -> Quantity:
+def square_written(chamber: Chamber, ram: Ram) -> Quantity:
     """Return the signed area of a chamber over that of a circle of diameter 1, as a quantity of its class [m2]."""
     square = written_number(ram, "bore") ** 2
     square = square if chamber.side == PISTON else written_number(ram, "rod") ** 2 - square
     return square if ram.count == 1 else square * float(ram.count)
 
 
-def own_side(line: OilLine, ram: Cylinder, members: Mapping[str, Member]) -> Side:
+def own_side(line: OilLine, ram: Ram, members: Mapping[str, Member]) -> Side:
     """Return the side of a cylinder that a line has."""
     return next(chamber.side for each, chamber in line.filling(members) if same(each, ram))
 
 
-def is_fed_wholly(ram: Cylinder, members: Mapping[str, Member]) -> bool:
+def is_fed_wholly(ram: Ram, members: Mapping[str, Member]) -> bool:
     """Return whether all lines of a cylinder have a given pressure, so that its thrust is given, too."""
     lines = [each for each in members.values() if isinstance(each, Circuit)]
     on = [line for line in lines if any(same(ram, each) for each, _ in line.filling(members))]

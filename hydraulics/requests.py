@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
-from functools import partial
-from typing import TypeAlias, cast, final
+from functools import partial, reduce
+from typing import TypeAlias, final
 
 import numpy as np
 
@@ -17,18 +17,18 @@ from linkage.loads import DIRECTIONS, Acting, Case, situation_of
 from linkage.mechanism import Mechanism
 from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most
 from linkage.plan import Mask, Plan
-from linkage.quantities import Quantity, Reference, distance, name_of, quantity
+from linkage.quantities import Reference, distance, name_of
 from linkage.statics import AnyMotion, LawRequest, member_thrust, same
 
-from .cylinder import CylinderSize
-from .inputs import Array, direction_of, follows, only_where, proper_share
+from .cylinder import RamSize
+from .inputs import Array, direction_of, only_where, proper_share
 from .line import LiftLine, WayBack, Work
 from .member import (
     PISTON,
     ROD,
     SIDES,
     Circuit,
-    Cylinder,
+    Ram,
     buckling_request,
     circuit_having,
     cylinder_in,
@@ -54,7 +54,7 @@ def thrust(
     return thrust_request(name_of(cylinder), situation_of("thrust", acting, case=case, direction=direction))
 
 
-def circuit_with(plan: Plan, ram: Cylinder, circuit: Circuits, word: str) -> LiftLine:
+def circuit_with(plan: Plan, ram: Ram, circuit: Circuits, word: str) -> LiftLine:
     """Return the circuit that is meant; DefinitionError where none or several have the cylinder, or the one named has not.
 
     `word` is what is asked of it.
@@ -77,10 +77,10 @@ def circuit_with(plan: Plan, ram: Cylinder, circuit: Circuits, word: str) -> Lif
 
 def circuit_request(
     word: str,
-    cylinder: str | Cylinder,
+    cylinder: str | Ram,
     acting: Acting,
     circuit: Circuits,
-    formula: Callable[[AnyMotion, Cylinder, Acting], Array],
+    formula: Callable[[AnyMotion, Ram, Acting], Array],
     before: tuple[Hashable, ...] = (),
     after: tuple[Hashable, ...] = (),
     *,
@@ -93,7 +93,7 @@ def circuit_request(
     return replace(found, examine=partial(examine_circuit, cylinder, circuit, word))
 
 
-def examine_circuit(cylinder: str | Cylinder, circuit: Circuits, word: str, plan: Plan) -> None:
+def examine_circuit(cylinder: str | Ram, circuit: Circuits, word: str, plan: Plan) -> None:
     """Raise DefinitionError where a plan has no such cylinder on such a circuit."""
     circuit_with(plan, cylinder_in(cylinder, plan), circuit, word)
 
@@ -122,7 +122,7 @@ def pressure(
 
 
 def pressure_request(
-    cylinder: str | Cylinder, acting: Acting, circuit: Circuits = "", side: str = "", *, is_needed: bool = False, below: bool = False
+    cylinder: str | Ram, acting: Acting, circuit: Circuits = "", side: str = "", *, is_needed: bool = False, below: bool = False
 ) -> LawRequest:
     """Return the request for the pressure in a cylinder: on the side that works, or on one side.
 
@@ -139,7 +139,7 @@ def pressure_request(
     )  # fmt: skip
 
 
-def pressure_over(motion: AnyMotion, ram: Cylinder, acting: Acting, *, circuit: Circuits, side: str, below: bool) -> Array:
+def pressure_over(motion: AnyMotion, ram: Ram, acting: Acting, *, circuit: Circuits, side: str, below: bool) -> Array:
     """Return the pressure in a cylinder over a motion's poses [Pa gauge]."""
     line = circuit_with(motion.plan, ram, circuit, "pressure") if circuit else None
     if side:
@@ -147,7 +147,7 @@ def pressure_over(motion: AnyMotion, ram: Cylinder, acting: Acting, *, circuit: 
     return ram.pressure(motion, acting=acting) if line is None else line.pressure_in(ram, motion, acting)
 
 
-def examine_pressure(cylinder: str | Cylinder, circuit: Circuits, plan: Plan) -> None:
+def examine_pressure(cylinder: str | Ram, circuit: Circuits, plan: Plan) -> None:
     """Raise DefinitionError where it is not plain which circuit, if any, gives a cylinder its pressure."""
     ram = cylinder_in(cylinder, plan)
     if circuit:
@@ -156,13 +156,13 @@ def examine_pressure(cylinder: str | Cylinder, circuit: Circuits, plan: Plan) ->
         circuit_having(ram, plan)
 
 
-def driven_or_both(cylinder: str | Cylinder, is_needed: bool, plan: Plan) -> tuple[str, ...]:
+def driven_or_both(cylinder: str | Ram, is_needed: bool, plan: Plan) -> tuple[str, ...]:
     """Return the directions in which a pressure is judged: those in which the pump drives where it is what is needed, else all."""
     return cylinder_in(cylinder, plan).driven if is_needed else DIRECTIONS
 
 
 def pressure_pieces(
-    cylinder: str | Cylinder, circuit: Circuits, side: str, is_needed: bool, request: LawRequest, plan: Plan
+    cylinder: str | Ram, circuit: Circuits, side: str, is_needed: bool, request: LawRequest, plan: Plan
 ) -> tuple[SmoothPiece, ...]:
     """Return the smooth pieces of a pressure: one a side that may hold, going on below zero where the other one does."""
     on_side = partial(pressure_request, cylinder, request.situation, circuit, is_needed=is_needed)
@@ -199,7 +199,7 @@ def reserve(
 
 
 def reserve_request(
-    cylinder: str | Cylinder, acting: Acting, circuit: Circuits = "", *, is_judged: bool = False, bore: float = 0.0
+    cylinder: str | Ram, acting: Acting, circuit: Circuits = "", *, is_judged: bool = False, bore: float = 0.0
 ) -> LawRequest:
     """Return the request for the greatest rod force over the needed one; of one that is judged, while it moves against the load.
 
@@ -223,7 +223,7 @@ class Tried:
     is_judged: bool
     bore: float
 
-    def reserve(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Array:
+    def reserve(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         """Return the greatest rod force over the needed one at a motion's poses."""
         circuit = circuit_with(motion.plan, ram, self.circuit, "reserve")
         if not (self.is_judged or self.bore):
@@ -236,30 +236,30 @@ class Tried:
         """Return what is above zero where the cylinder has to drive [N]: the thrust in its direction where that is judged."""
         return work.thrust * work.sense if self.is_judged else work.force
 
-    def work(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Work:
+    def work(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Work:
         """Return what the cylinder has to do, with another bore where one is tried."""
         found = circuit_with(motion.plan, ram, self.circuit, "reserve").work(motion, cylinder=ram, acting=acting)
         return replace(found, size=self.with_bore(found.size))
 
-    def with_bore(self, size: CylinderSize) -> CylinderSize:
+    def with_bore(self, size: RamSize) -> RamSize:
         """Return a cylinder's size with the bore that is tried."""
-        return CylinderSize(self.bore, size.rod, size.count, size.works) if self.bore else size
+        return size.with_bore(self.bore) if self.bore else size
 
-    def is_driven(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Mask:
+    def is_driven(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Mask:
         """Return the mask of poses at which the load drives, so that the reserve has no bound."""
         work = self.work(motion, ram, acting)
         return np.asarray(np.isfinite(work.thrust) & ~(self.against(work) > 0.0))
 
-    def use(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Array:
+    def use(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         """Return one over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
-        circuit, size = circuit_with(motion.plan, ram, self.circuit, "use"), self.with_bore(ram.sized(motion))
+        circuit, size = circuit_with(motion.plan, ram, self.circuit, "use"), self.with_bore(ram.sized(motion, acting.direction))
         k_m, thrust = circuit.efficiency(motion, "mechanical"), line_thrust(ram, circuit, motion, acting)
         sense = 1.0 if acting.direction == "extending" else -1.0
         most = circuit.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m))
         return np.asarray(sense * thrust / (k_m * most))[()]
 
 
-def reserve_pieces(cylinder: str | Cylinder, tried: Tried, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
+def reserve_pieces(cylinder: str | Ram, tried: Tried, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
     """Return the smooth piece of a reserve: of the side that drives, whose inverse goes on smoothly where the load drives."""
     acting = request.situation
     if acting.direction not in cylinder_in(cylinder, plan).driven:
@@ -273,7 +273,7 @@ def reserve_pieces(cylinder: str | Cylinder, tried: Tried, request: LawRequest, 
 
 
 def going_back_request(
-    cylinder: str | Cylinder, acting: Acting, circuit: Circuits, way: str, resistance: float = 0.0, tells: str = "push"
+    cylinder: str | Ram, acting: Acting, circuit: Circuits, way: str, resistance: float = 0.0, tells: str = "push"
 ) -> LawRequest:
     """Return the request for what the other side must give while a cylinder goes back against a resistance [Pa].
 
@@ -291,7 +291,7 @@ def one_direction(way: str, plan: Plan) -> tuple[str, ...]:
 
 
 def going_back_over(
-    motion: AnyMotion, ram: Cylinder, acting: Acting, *, circuit: Circuits, way: str, resistance: float, tells: str
+    motion: AnyMotion, ram: Ram, acting: Acting, *, circuit: Circuits, way: str, resistance: float, tells: str
 ) -> Array:
     """Return what the other side must give, or the load alone makes, at a motion's poses [Pa]."""
     line = circuit_with(motion.plan, ram, circuit, "going back")
@@ -323,7 +323,7 @@ def capacity(
 
 
 def capacity_request(
-    cylinder: str | Cylinder, acting: Acting, circuit: Circuits, point: str, along: tuple[float, float], share: float
+    cylinder: str | Ram, acting: Acting, circuit: Circuits, point: str, along: tuple[float, float], share: float
 ) -> LawRequest:
     """Return the request for the largest load at a point that the pump lifts, along a direction of length one."""
     lifted = Lifted(circuit, point, along, share)
@@ -346,17 +346,17 @@ class Lifted:
     along: tuple[float, float]
     share: float
 
-    def examine(self, cylinder: str | Cylinder, plan: Plan) -> None:
+    def examine(self, cylinder: str | Ram, plan: Plan) -> None:
         """Raise DefinitionError where a plan has no such cylinder, circuit or point."""
         circuit_with(plan, cylinder_in(cylinder, plan), self.circuit, "capacity")
         known_name("Point", self.point, plan.points, where=plan.title)
 
-    def capacity(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Array:
+    def capacity(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         """Return the largest load that is lifted at a motion's poses [N]."""
         circuit = circuit_with(motion.plan, ram, self.circuit, "capacity")
         return circuit.capacity(motion, self.point, along=self.along, share=self.share, cylinder=ram, acting=acting)
 
-    def is_driven(self, motion: AnyMotion, ram: Cylinder, acting: Acting) -> Mask:
+    def is_driven(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Mask:
         """Return the mask of poses at which the load drives or does nothing, so that the capacity has no bound."""
         thrust = member_thrust(motion, ram, Acting(acting.loads, acting.case))
         return np.asarray(np.isfinite(thrust) & np.isnan(self.capacity(motion, ram, acting)))
@@ -390,13 +390,13 @@ class Fits(Condition):
         plan = machine.plan
         ram = found_in(plan.members, self.cylinder, plan.title)
         length, name = distance(ram.A, ram.B), ram.name
-        if ram.stroke is None:
+        strokes, closed = ([at(each) for each in ram.lengths_named(said)] for said in ("stroke", "closed"))
+        if not strokes:
             raise DefinitionError(f"{plan.title}: fits({name}): {name} says no stroke; declare it, Cylinder(..., closed=0.5, stroke=0.25).")
-        stroke = at(quantity(cast("Quantity | str", ram.stroke)) if follows(ram.stroke) else f"{name}.stroke")
-        if ram.closed is None:
-            return (most(length) - least(length) <= stroke,)
-        closed = at(quantity(cast("Quantity | str", ram.closed)) if follows(ram.closed) else f"{name}.closed")
-        return least(length) >= closed, most(length) <= closed + stroke, stroke <= closed
+        if not closed:
+            return (most(length) - least(length) <= strokes[0],)
+        opened = reduce(lambda a, b: a + b, [closed[0], *strokes])
+        return least(length) >= closed[0], most(length) <= opened, *(stroke <= closed[0] for stroke in strokes)
 
     def __str__(self) -> str:
         return f"fits({self.cylinder})"

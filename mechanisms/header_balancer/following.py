@@ -134,7 +134,9 @@ class HeaderState:
     @property
     def cylinder(self) -> Cylinder:
         """The machine's cylinders."""
-        return self.circuit.ram(self.motion)
+        found = self.circuit.ram(self.motion)
+        assert isinstance(found, Cylinder)
+        return found
 
     @cached_property
     def height(self) -> FloatArray:

@@ -522,8 +522,19 @@ class OilLine(PumpLine, GasLine):
         return number_set(self, motion, "make_up") if self.kind_in(motion.plan.members) == "closed" else 0.0
 
     def oil(self, motion: Motion) -> Array:
-        """Return the oil that has come in since it was filled, per pose, shape (...) [m3]."""
-        return np.asarray(reduce(np.add, self._volumes(motion)))
+        """Return the oil that has come in since it was filled, per pose, shape (...) [m3]; accumulators beside a pump hold theirs, too."""
+        found = np.asarray(reduce(np.add, self._volumes(motion)))
+        if self.block is None or self.kind_in(motion.plan.members) != "held":
+            return found
+        filled = self._motion_filled(motion)
+        now, then = (self.accumulators(each).fluid(self.line_pressure(each)) for each in (motion, filled))
+        return found + now - then.reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape)))
+
+    def _motion_filled(self, motion: Motion) -> Motion:
+        """Return the designs of a motion where the line is filled: with its strokes there, others at the sketch."""
+        plan = motion.plan
+        at = {**plan.sketch_strokes, **self.strokes_filled(list(plan.strokes))}
+        return Motion(plan, motion.designs, {name: np.asarray(at[name]) for name in plan.strokes}, "nan")
 
     def _volumes(self, motion: Poses) -> Iterator[Array]:
         """Yield how much larger each chamber is than where the line was filled [m3]."""
@@ -624,7 +635,7 @@ class OilLine(PumpLine, GasLine):
         if self.kind_of_line == "held":
             return PumpLine.verdicts(self, judge)
         if self.block is not None:
-            return GasLine.verdicts(self, judge)
+            return [*GasLine.verdicts(self, judge), *self._relieved(judge)]
         return [self.kept_verdict(judge)] if self.kind_of_line == "closed" else []
 
     @property
@@ -657,12 +668,20 @@ class OilLine(PumpLine, GasLine):
                 says=says, make_up=show(make_up, "bar", 4),
             )  # fmt: skip
             return Verdict("line", False, text, answer=low)
-        if self.relieves(judge.plan):
-            limit = float(np.ravel(self.number(judge.motion, "relief"))[0])
-            if high.value > limit:
-                text = said("{says}: its relief valve opens at {limit}.", says=says, limit=show(limit, "bar", 4))
-                return Verdict("line", False, text, answer=high)
-        return Verdict("line", True, f"{says}.", answer=low)
+        return next(iter(self._relieved(judge)), Verdict("line", True, f"{says}.", answer=low))
+
+    def _relieved(self, judge: Judge) -> list[Verdict]:
+        """Return the verdict that its relief valve opens, where it does."""
+        if not self.relieves(judge.plan):
+            return []
+        limit, high = float(np.ravel(self.number(judge.motion, "relief"))[0]), judge.answer(most(self.pressure_request))
+        if not high.value > limit:
+            return []
+        text = said(
+            "its pressure comes to {high} {where}, and its relief valve opens at {limit}.",
+            high=show(high.value, "bar", 4), where=high.where, limit=show(limit, "bar", 4),
+        )  # fmt: skip
+        return [Verdict("line", False, text, answer=high)]
 
     def formulas(self, written: Formulas) -> None:
         """Write the pressure of the line and what its cylinders carry, as far as no other lines say it."""

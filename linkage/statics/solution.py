@@ -240,8 +240,17 @@ class Equilibrium:
         return (
             f"{self.system.structure.plan.title}: with its drives locked it can still move in {count} way{'s' if count > 1 else ''}: "
             f"{', '.join(self.loose())} not held. Declare what holds: Link(...) for bodies placed by Offset, "
-            "a cylinder by Dyad(..., AB=...), joints() of a step of one's own."
+            f"a cylinder by Dyad(..., AB=...), joints() of a step of one's own.{self.sharing_words()}"
         )
+
+    def sharing_words(self) -> str:
+        """Return that one pressure holds the sum of what its cylinders move and not each, where several share one; "" where none do."""
+        lines = [line for line in self.system.structure.holders.lines if len(line.cylinders) > 1]
+        if not lines:
+            return ""
+        names = " and ".join(each.name for each in lines[0].cylinders)
+        what = f" {names} share one pressure, which holds the sum of what they move with {lines[0].stroke}, and not each"
+        return f"{what}: couple what they move by a link, or give each a stroke and a pump of its own."
 
     def loose(self) -> Iterator[str]:
         """Yield the bodies that move when all joints hold."""

@@ -46,10 +46,11 @@ from linkage.loads import (
 from linkage.loads.element import UNBOUNDED, Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Condition, Judge, Motion, Question, least, most
-from linkage.quantities import AtPose, Distance, Member, Number, Quantity, Reference, Stroke, Variable, label, name_of, quantity
+from linkage.quantities import AtPose, Distance, Member, Number, Quantity, Reference, Stroke, Variable, Where, label, name_of, quantity
 from linkage.quantities.quantity import plain
 from linkage.statics import AnyMotion, LawRequest, member_thrust, plan_of, same, tied_forces
 from linkage.units import show
+from linkage.vectors import Scalar
 from linkage.verdict import Verdict
 
 from .accumulator import AccumulatorBlock
@@ -151,6 +152,28 @@ class Tank(Supply):
         super().__post_init__()
         if not follows(self.pressure):
             in_pascals(cast(float, self.pressure), "Pressure of the tank")
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class LineLength(Quantity):
+    """The length that a closed line gives one of its cylinders [m]."""
+
+    of: Quantity
+
+    @property
+    def measures(self) -> str:
+        return "length"
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (self.of,)
+
+    def rule(self, where: Where) -> Scalar:
+        return where.value(self.of)
+
+    def __str__(self) -> str:
+        return str(self.of)
 
 
 OnLine: TypeAlias = "Chamber | Reference | Block"
@@ -397,7 +420,7 @@ class OilLine(PumpLine, GasLine):
         """Return whether it gives a cylinder its length."""
         length = members.get(f"{ram.name}.length")
         first = next((line for line, _ in lines_of(ram, members) if line.kind_in(members) == "closed"), None)
-        return length is not None and not isinstance(length, Distance) and first is not None and same(first, self)
+        return isinstance(length, LineLength) and first is not None and same(first, self)
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         members = motion.plan.members
@@ -473,7 +496,7 @@ class OilLine(PumpLine, GasLine):
         for ram, each in others:
             taken = taken - square_written(each, ram) * (Distance(ram.A, ram.B) - self.length_filled(ram, members))
         area = reduce(lambda a, b: a + b, (square_written(each, own) for ram, each in filling if ram.name == own.name))
-        return self.length_filled(own, members) + taken / area
+        return LineLength(self.length_filled(own, members) + taken / area)
 
     # -- its pressure and its oil ------------------------------------------------------------------------------
 

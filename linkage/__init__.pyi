@@ -22,6 +22,7 @@ from .loads import Load as Load
 from .loads import LoadCase as LoadCase
 from .loads import Moment as Moment
 from .loads import PinFriction as PinFriction
+from .loads import Pulley as Pulley
 from .loads import Spring as Spring
 from .loads import Support as Support
 from .loads import Weight as Weight
@@ -61,6 +62,7 @@ from .quantities import ref as ref
 from .quantities import x as x
 from .quantities import y as y
 from .statics import PinForces as PinForces
+from .statics import Rope as Rope
 from .statics import axle_load as axle_load
 from .statics import drive_force as drive_force
 from .statics import driving_force as driving_force
@@ -70,6 +72,7 @@ from .statics import pin_forces as pin_forces
 from .statics import reaction as reaction
 from .statics import slipping as slipping
 from .statics import standing as standing
+from .statics import tension as tension
 from .steps import Carried as Carried
 from .steps import CosineAngle as CosineAngle
 from .steps import Crank as Crank

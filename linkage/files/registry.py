@@ -21,6 +21,7 @@ from ..motion import Over, Planes, stroke_unit
 from ..plan import Part
 from ..quantities import Dimension, Member, Quantity, Stroke, ref
 from ..quantities.quantity import plain
+from ..statics import Rope
 from ..units import UNITS, parse
 from .design import Design, degrees_text
 from .entry import PATH, FileEntry, worded
@@ -150,7 +151,7 @@ POINTS = (
 )  # fmt: skip
 LOADS = (
     loads.Weight, loads.Force, loads.Moment, loads.LinkMass, loads.Spring, loads.Damper, loads.Actuator, loads.Support,
-    loads.PinFriction, loads.GuideFriction,
+    loads.PinFriction, loads.GuideFriction, loads.Pulley,
 )  # fmt: skip
 OUTLINES = (
     (surroundings.Outline, "points"), (surroundings.CircleOutline, "circle"), (surroundings.LineOutline, "line"),
@@ -171,6 +172,7 @@ OWN: tuple[AnEntry, ...] = (
     Bare(steps.Group, "groups", lambda given, names: steps.Group(" ".join(points_of(given, names))), group_written),
     Bare(Quantity, "outputs", output_of, output_written, family=True),
     *(FileEntry(load, "loads", load.__name__) for load in LOADS),
+    FileEntry(Rope, "loads", "Rope", make=lambda run, **options: Rope(*run, **options)),
     FileEntry(loads.LoadCase, "cases"),
     Bare(Over, "over", over_read, over_written),
     Bare(Planes, "planes", planes_read, planes_written),

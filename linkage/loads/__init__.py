@@ -22,6 +22,7 @@ from .element import (
     Push,
     Rate,
     Rates,
+    Run,
     Share,
     Tie,
     TwoPinned,
@@ -31,4 +32,5 @@ from .element import (
 )  # fmt: skip
 from .friction import GuideFriction, PinFriction
 from .point import Force, LinkMass, Moment, Support, Weight
+from .rope import Pulley, RopePath, SpanOf
 from .two_point import Actuator, Between, Damper, DrawnAs, Spring, TwoPoint

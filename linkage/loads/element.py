@@ -88,11 +88,23 @@ class Share:
 
 @final
 @dataclass(frozen=True, eq=False)
+class Run:
+    """What one unit of a tie's force is in a member that bends, as a rope does over pulleys: its thrust, positive where it pushes.
+
+    `loads` are what a thrust of one newton puts on the points that it runs over.
+    """
+
+    of: Callable[[Any], Array]
+    loads: Callable[[Any], list[Load]]
+
+
+@final
+@dataclass(frozen=True, eq=False)
 class Tie:
     """Straight members whose thrusts follow one force, each with its share: the sum of their lengths, by these shares, is its way.
 
     One that is `held` takes over a stroke. A closed one keeps its sum, which changes with the input `cut` alone, and gives the quantity
-    `gives`; without that it adds nothing to what others keep already.
+    `gives`; without that it adds nothing to what others keep already. One that has a `run` has no straight members.
     """
 
     name: str
@@ -100,6 +112,7 @@ class Tie:
     held: bool
     cut: str = ""
     gives: str = ""
+    run: Run | None = None
 
 
 @final

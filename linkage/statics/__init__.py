@@ -10,4 +10,5 @@ from .supports import reaction
 from .table import PinLoad, judged_table, max_table, table_text
 from .traced_loads import TracedMotion, traced_loads
 from .vehicle import Standing, axle_load, ground_loads, slipping, standing, standing_supports
+from .rope import Rope, tension
 from .work import driving_force, member_thrust

@@ -13,7 +13,7 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..loads import TwoPoint
+from ..loads import Load, TwoPoint
 from ..program import FloatArray
 from ..quantities import Distance, Quantity, name_of
 from .applied import AppliedLoad, member_title
@@ -100,8 +100,39 @@ class System:
 
     @cached_property
     def A(self) -> FloatArray:
-        """The rows of the joint forces, shape (n, rows, columns)."""
-        return self.rows_of(self.unknowns)
+        """The rows of the joint forces and of the forces of ropes, shape (n, rows, columns)."""
+        found = self.rows_of(self.unknowns)
+        return np.concatenate([found, self.run_rows], axis=2) if self.runs else found
+
+    @cached_property
+    def runs(self) -> tuple[tuple[tuple[int, Load, Wrench], ...], ...]:
+        """What one unit of each rope's force puts on bodies: the body, the load, its wrench."""
+        poses, none, found = self.poses, np.zeros(self.poses.count), []
+        for line in self.structure.holders.runs:
+            assert line.tie is not None and line.tie.run is not None
+            unit, loads = poses.flattened(line.tie.run.of(poses.motion)), line.tie.run.loads(poses.motion)
+            forces = [(load, Wrench(poses.at(load.point), poses.flattened(load.force) * unit, none)) for load in loads]
+            found.append(tuple((self.structure.bearer(load), load, wrench) for load, wrench in forces))
+        return tuple(found)
+
+    @cached_property
+    def run_rows(self) -> FloatArray:
+        """The rows of the forces of ropes, shape (n, rows, ropes)."""
+        found = self.poses.zeros(self.height, len(self.runs))
+        for index, row, value in self.run_entries():
+            found[:, row, index] += value
+        return found
+
+    def run_entries(self) -> Iterator[tuple[int, int, FloatArray]]:
+        """Yield the rope, the equation and what a unit of its force adds there, shape (n,)."""
+        for index, run in enumerate(self.runs):
+            for body, _, wrench in run:
+                yield from ((index, row, value) for row, value in self.parts(body, wrench))
+
+    @property
+    def width(self) -> int:
+        """How many unknowns there are: those of the joints, then the forces of ropes."""
+        return len(self.unknowns) + len(self.structure.holders.runs)
 
     @cached_property
     def B(self) -> FloatArray:
@@ -155,6 +186,7 @@ class System:
     def drive(self, stroke: str) -> LinearForm:
         """Return the generalised force of a stroke [N or Nm]: each drive's force times how it follows the stroke."""
         forms = [force.multiplied(ratio) for ratio, force in self.drives(stroke)]
+        forms += [self.run(k) for k, line in enumerate(self.structure.holders.runs) if line.stroke == stroke]
         if not forms:
             raise DefinitionError(
                 f"{self.structure.plan.title}: the joints know no drive of {stroke}; "
@@ -209,8 +241,16 @@ class System:
     def unknown(self, contact: Contact, letter: str, sign: float) -> LinearForm:
         """Return an unknown of a contact, signed; a couple in Nm."""
         factor = sign * (self.unit_length if letter == "c" else 1.0)
-        row = self.poses.zeros(len(self.unknowns))
-        row[:, self.first[contact] + contact.holds.index(letter)] = self.poses.motion._array(factor)
+        return self.alone(self.first[contact] + contact.holds.index(letter), factor)
+
+    def run(self, place: int) -> LinearForm:
+        """Return the force of a rope, by its place."""
+        return self.alone(len(self.unknowns) + place)
+
+    def alone(self, column: int, factor: float = 1.0) -> LinearForm:
+        """Return one unknown, times a factor."""
+        row = self.poses.zeros(self.width)
+        row[:, column] = self.poses.motion._array(factor)
         return LinearForm(row, self.poses.zeros(len(self.frictions)), self.poses.zeros())
 
     def thrust(self, strut: Strut) -> LinearForm:
@@ -224,12 +264,16 @@ class System:
 
     def cut(self, body: int, is_joint: Callable[[Contact], bool], is_point: Callable[[str], bool], along: FloatArray) -> LinearForm:
         """Return minus the forces on one side of a body along a direction, shape (2, n): what a cut there transmits."""
-        row, friction = (self.poses.zeros(len(columns)) for columns in (self.unknowns, self.frictions))
+        row, friction = self.poses.zeros(self.width), self.poses.zeros(len(self.frictions))
         for values, columns in ((row, self.unknowns), (friction, self.frictions)):
             for index, column in enumerate(columns):
                 sign = float(column.contact.on == body) - float(column.contact.by == body)
                 if sign and is_joint(column.contact):
                     values[:, index] = -sign * (column.wrench.force * along).sum(axis=0)
+        for index, run in enumerate(self.runs, len(self.unknowns)):
+            for bearer, load, wrench in run:
+                if bearer == body and is_point(load.point):
+                    row[:, index] += -(wrench.force * along).sum(axis=0)
         pushes = [wrench.force for bearer, each, wrench in self.borne if bearer == body and is_point(each.load.point)]
         return LinearForm(row, friction, -sum(((force * along).sum(axis=0) for force in pushes), self.poses.zeros()))
 
@@ -250,7 +294,7 @@ class System:
 
     def tied(self) -> Iterator[tuple[LinearForm, FloatArray]]:
         """Yield what the thrusts of members on ties are bound to: there are less forces than members."""
-        ties = [line for line in self.structure.holders.all if line.tie is not None]
+        ties = [line for line in self.structure.holders.all if line.tie is not None and line.tie.run is None]
         if not ties:
             return
         members = [each for each in self.structure.holders.cylinders if any(line.has(each) for line in ties)]

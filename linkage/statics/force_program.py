@@ -90,6 +90,7 @@ class ForceProgram:
     rows: tuple[OutputRows, ...]
     drives: tuple[str, ...]
     struts: tuple[str, ...]
+    runs: tuple[str, ...]
 
 
 @final
@@ -143,10 +144,12 @@ def traced_program(plan: Plan, applied: AppliedLoads, places: tuple[int, ...]) -
         nodes += [motion.node(couple[0])] if turns else []
     nodes += [motion.node(solution.value(system.drive(name))[0]) for name in plan.strokes]
     nodes += [motion.node(solution.value(system.thrust(strut))[0]) for strut in structure.struts]
+    nodes += [motion.node(solution.value(system.run(k))[0]) for k in range(len(structure.holders.runs))]
     guards = [*motion.notes.assumed, *(motion.node(each[0]) for each in assumed_joints(structure, poses))]
     kernels = friction_kernels(system, u, contacts, inputs, motion, guards) if places else None
     names = tuple(strut.name for strut in structure.struts)
-    return ForceProgram(places, kernels, Kernel(nodes, guards), tuple(rows), tuple(plan.strokes), names)
+    ropes = tuple(line.tie.name for line in structure.holders.runs if line.tie is not None)
+    return ForceProgram(places, kernels, Kernel(nodes, guards), tuple(rows), tuple(plan.strokes), names, ropes)
 
 
 def load_input(place: int, axis: str) -> str:
@@ -217,12 +220,15 @@ def run_at(
         return None
     if not whole:
         values = np.where(good, values, np.nan)
-    drives, struts = len(program.drives), len(program.struts)
+    last = [len(program.runs)]
+    last += [last[0] + len(program.struts), last[0] + len(program.struts) + len(program.drives)]
+    runs, struts, drives = (values[len(values) - each :] for each in last)
     return PoseForces(
         structure, poses, applied, frictions, q, locked,
         [rows.of(values, motion.shape) for rows in program.rows],
-        dict(zip(program.drives, values[len(values) - drives - struts :], strict=False)),
-        dict(zip(program.struts, values[len(values) - struts :], strict=True)),
+        dict(zip(program.drives, drives, strict=False)),
+        dict(zip(program.struts, struts, strict=False)),
+        dict(zip(program.runs, runs, strict=True)),
     )  # fmt: skip
 
 

@@ -18,7 +18,7 @@ from typing import Any, cast, final
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, SingularWarning, UntracedError, unwarned, warn
-from ..loads import ForceElement, Poses, Tie, TwoPinned, TwoPoint
+from ..loads import ForceElement, Poses, Run, Tie, TwoPinned, TwoPoint
 from ..motion import Motion
 from ..motion.conditions import REFUSE, WARN, condition_of_sine, is_or_are
 from ..motion.limits import where_words
@@ -89,6 +89,15 @@ class Holders:
         return frozenset(line.stroke for line in self.all)
 
     @property
+    def runs(self) -> tuple[PressureLine, ...]:
+        """The closed ties that bend, each without straight members: ropes."""
+        return tuple(line for line in self.closed if line.tie is not None and line.tie.run is not None)
+
+    def closed_by(self, name: str) -> PressureLine | None:
+        """Return the closed line of an element; None where it is none."""
+        return next((line for line in self.closed if line.tie is not None and line.tie.name == name), None)
+
+    @property
     def given(self) -> frozenset[str]:
         """The quantities that closed lines give."""
         return frozenset(line.tie.gives for line in self.closed if line.tie is not None)
@@ -111,9 +120,7 @@ def holders_of(plan: Plan, elements: Iterable[ForceElement] = ()) -> Holders:
     """
     own = tuple(plan.of_kind(ForceElement).values())
     extra = tuple(each for each in elements if not any(same(each, mine) for mine in own))
-    if not any(each.holds for each in (*own, *extra)):
-        return Holders()
-    if not any(each.holds or each.joined(plan.members) or each.feeds(plan.members) for each in extra):
+    if not any(each.holds or each.joined(plan.members) or each.feeds(plan.members) or each.tie(plan.members) for each in extra):
         return plan.made(("holders",), lambda _: assigned(plan, own))
     return assigned(plan, (*own, *extra))
 
@@ -182,6 +189,9 @@ def check_kept(motion: Motion, tie: Tie) -> None:
     plan = motion.plan
     for stroke in plan.strokes:
         with unwarned():
+            if tie.run is not None:
+                check_run(motion, tie, tie.run, stroke)
+                continue
             parts = [np.asarray(each.of(motion)) * each.member.growth(motion, {stroke: 1.0}) for each in tie.shares]
         whole, size = np.abs(sum(parts)), sum(map(np.abs, parts))
         if np.any(np.nan_to_num(whole) > KEPT * np.nan_to_num(size)):
@@ -193,6 +203,19 @@ def check_kept(motion: Motion, tie: Tie) -> None:
                 f"{plan.title}: {what}. Let a step follow it, such as Dyad(U, P, UW={tie.shares[-1].member.name}.length), make the ratios "
                 "of its areas those of the other line, or open it by a Tank."
             )
+
+
+def check_run(motion: Motion, tie: Tie, run: Run, stroke: str) -> None:
+    """Raise DefinitionError for a rope whose path a stroke changes, though it gives nothing that could follow."""
+    parts = [np.sum(load.force * motion.ratio(load.point, wrt=stroke), axis=0) for load in run.loads(motion)]
+    sizes = [np.hypot(*load.force) * np.hypot(*motion.ratio(load.point, wrt=stroke)) for load in run.loads(motion)]
+    way = np.nan_to_num(np.abs(sum(parts)))
+    if np.any(way > KEPT * np.nan_to_num(sum(sizes))):
+        most = float(np.max(way))
+        what = f"{tie.name} locks the machine: its length is held, and a unit of {stroke} would change its path by up to {most:.4g} m"
+        raise DefinitionError(
+            f"{motion.plan.title}: {what}. Let a step follow it, such as Dyad(U, P, UW={tie.name}.last), or give its force, force=12 * kN."
+        )
 
 
 def joined_lines(plan: Plan, elements: Sequence[ForceElement], ties: Sequence[Tie] = ()) -> list[tuple[TwoPoint, ...]]:
@@ -306,12 +329,15 @@ class Levers:
         units = self.thrusts(need) if holders.lines else need
         firsts = [units[:, place] for place in range(len(holders.lines))]
         parts = [unit * each for unit, each in zip(firsts, share_of(member, holders.lines, self.shares), strict=True) if each is not None]
-        for line, asked, works, shares in zip(holders.closed, cuts, self.cuts, self.kept, strict=True):
+        for place, (line, shares) in enumerate(zip(holders.closed, self.kept, strict=True)):
             (share,) = share_of(member, [line], [shares])
             if share is not None:
-                left = reduce(np.subtract, (unit * work for unit, work in zip(firsts, works, strict=True)), asked)
-                parts.append(left * share)
+                parts.append(self.kept_force(place, firsts, cuts) * share)
         return reduce(np.add, parts)
+
+    def kept_force(self, place: int, units: Sequence[FloatArray], cuts: Sequence[FloatArray]) -> FloatArray:
+        """Return the force of a closed line (n,), by its place, beside those of the lines that hold, (n,) each."""
+        return reduce(np.subtract, (unit * work for unit, work in zip(units, self.cuts[place], strict=True)), cuts[place])
 
     def thrusts(self, need: FloatArray) -> FloatArray:
         """Return the thrusts of the lines' first cylinders (n, lines) that give the strokes what they need (n, strokes)."""

@@ -53,7 +53,7 @@ def joint_forces(motion: Motion, acting: Acting, split: str = "refuse") -> PinFo
     applied = applied_loads(motion, acting, rates)
     found = agreeing(forces_at(poses_held(motion, applied, "The joint forces"), applied, split), split)
     remarks = [*locked_words(found, acting.movement), *lift_off_words(found), *self_locking_words(found), *at_rest_words(applied)]
-    remarks += tipping_words(motion, applied.acting)
+    remarks += [*slack_words(found), *tipping_words(motion, applied.acting)]
     return PinForces(
         motion, joints_of(found.structure, found.contacts, found.poses), found.drives, found.thrusts, applied.case, acting.movement,
         found.poses.mask(found.locked), tuple(remarks), found, split,
@@ -107,6 +107,11 @@ class PinForces(Shown):
         return self._found.structure
 
     @property
+    def tensions(self) -> Mapping[str, FloatArray]:
+        """What the ropes whose length is held pull with by their names, shape (...) [N]; below zero they would have to push."""
+        return self._found.tensions
+
+    @property
     def axle_loads(self) -> Mapping[str, FloatArray]:
         """The reactions of the supports under the frame by their names, shape (...) [N]; none of a machine that does not stand on any."""
         found = standing_if_any(self.motion, self._found.applied.acting)
@@ -122,7 +127,7 @@ class PinForces(Shown):
         """The loads with the names of the bodies that they act on, the reactions of a vehicle's supports among them."""
         name, bearer, axles = self._structure.name, self._structure.bearer, {each.element for each in self._ground}
         loads = [each for each in self._found.applied.loads if each.element not in axles]
-        return tuple((name(bearer(each.load)), each) for each in (*loads, *self._ground))
+        return tuple((name(bearer(each.load)), each) for each in (*loads, *self._found.run_loads(), *self._ground))
 
     def at(self, point: str) -> tuple[JointForce, ...]:
         """Return the joints at a point."""
@@ -179,6 +184,7 @@ class PinForces(Shown):
         units = {name: "Nm" if stroke_unit(self.motion.plan, name) == "rad" else "N" for name in self.drives}
         lines = [f"  {name}: {range_text(values, units[name])}" for name, values in self.drives.items()]
         lines += [f"  thrust of {name}: {range_text(values, 'kN')}" for name, values in self.thrusts.items()]
+        lines += [f"  tension of {name}: {range_text(values, 'kN')}" for name, values in self.tensions.items()]
         lines += [f"  {each}: {range_text(each.size, 'kN') if each.has_force else range_text(each.couple, 'Nm')}" for each in self.joints]
         lines += [f"  axle load {name}: {range_text(force, 'kN')}" for name, force in self.axle_loads.items()]
         against = "" if np.isnan(self.gap) else f"; against virtual work {self.gap:.0e}"
@@ -307,6 +313,19 @@ def lift_off_words(found: PoseForces) -> list[str]:
             words.append(
                 f"{contact.owner} lifts off ({contact.kind}, {bodies}) {where_words(poses.plan, mask, poses.motion.strokes)}: there the "
                 f"contact would have to pull, with up to {-float(np.nanmin(push)):.6g} N. Press it on with a spring or a weight."
+            )
+    return words
+
+
+def slack_words(found: PoseForces) -> list[str]:
+    """Return the words for ropes that would have to push to keep their length: there they go slack."""
+    poses, words = found.poses, []
+    for name, tension in found.tensions.items():
+        mask = tension < 0.0
+        if mask.any():
+            words.append(
+                f"{name} goes slack {where_words(poses.plan, mask, poses.motion.strokes)}: there it would have to push, with up to "
+                f"{-float(np.nanmin(tension)):.6g} N, and the constraint is not kept. Hang more weight on it, or take a rod."
             )
     return words
 

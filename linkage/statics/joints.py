@@ -150,12 +150,14 @@ class Structure:
         for drive in joint.drives:
             if drive.along:
                 strokes[drive.along] |= self.driving(joint, drive.quantity) & set(self.plan.strokes)
+        given = {drive.along for drive in joint.drives if self.holders.given & self.driving(joint, drive.quantity)}
+        strokes = {letter: names for letter, names in strokes.items() if letter not in given}
         gone = {letter: names for letter, names in strokes.items() if names and names <= self.holders.taken}
         taken = sorted(set().union(*gone.values()))
         if len(gone) > len(taken):
             what = f"{owner}.joints(): {' and '.join(gone)} are driven by {', '.join(taken)}, which a cylinder takes over"
             raise DefinitionError(f"{self.plan.title}: {what}; let one letter follow it, such as t along a line=, so that the other holds.")
-        return "".join(letter for letter in joint.holds if letter not in gone)
+        return "".join(letter for letter in joint.holds if letter not in gone and letter not in given)
 
     def driving(self, joint: Joint, quantity: Quantity) -> set[str]:
         """Return what a drive follows. A part's own angle does not follow what moves the body that carries the part."""

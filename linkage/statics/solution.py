@@ -14,7 +14,7 @@ from ..motion.limits import where_words
 from ..plan import Mask
 from ..program import FloatArray
 from .agreement import check_joints
-from .applied import AppliedLoads
+from .applied import AppliedLoad, AppliedLoads
 from .equilibrium import LinearForm, System
 from .friction import JointFriction, PressingForces, PressingRows, consistent_frictions, joint_frictions
 from .joints import Contact, Structure
@@ -43,6 +43,23 @@ class PoseForces:
     contacts: list[tuple[FloatArray, FloatArray]]
     drives: Mapping[str, FloatArray]
     thrusts: Mapping[str, FloatArray]
+    runs: Mapping[str, FloatArray] = field(default_factory=dict)
+    """The forces of ropes by their names."""
+
+    @property
+    def tensions(self) -> Mapping[str, FloatArray]:
+        """What ropes pull with by their names, shape (...) [N]."""
+        lines = [line.tie for line in self.structure.holders.runs]
+        return {tie.name: -1.0 * self.runs[tie.name] * tie.run.of(self.poses.motion) for tie in lines if tie and tie.run}
+
+    def run_loads(self) -> Iterator[AppliedLoad]:
+        """Yield what ropes put on the points that they run over."""
+        for line in self.structure.holders.runs:
+            assert line.tie is not None and line.tie.run is not None
+            run, motion = line.tie.run, self.poses.motion
+            thrust = self.runs[line.tie.name] * run.of(motion)
+            for load in run.loads(motion):
+                yield AppliedLoad(load, np.asarray(load.force * thrust), line.tie.name)
 
 
 def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseForces:
@@ -65,6 +82,7 @@ def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseFor
         [(full(force), full(couple)) for force, couple in joints],
         {name: full(found.value(system.drive(name))) for name in poses.motion.strokes},
         {each.name: full(found.value(system.thrust(each))) for each in system.structure.struts},
+        {line.tie.name: full(found.value(system.run(k))) for k, line in enumerate(system.structure.holders.runs) if line.tie},
     )  # fmt: skip
     check_joints(system.structure, poses)
     return result
@@ -95,7 +113,7 @@ class Solution:
 
     def value(self, form: LinearForm) -> FloatArray:
         """Return a linear form of the forces, shape (n,)."""
-        return form.at(self.u[:, : len(self.system.unknowns)], self.q)
+        return form.at(self.u[:, : self.system.width], self.q)
 
     def transmitted(self, contact: Contact) -> tuple[FloatArray, FloatArray]:
         """Return the force (2, n) [N] and the couple (n,) [Nm] of a joint on its body, friction included."""

@@ -222,11 +222,14 @@ def elimination(system: System, motion: TracedMotion, sizes: Sequence[Node]) -> 
     zero = motion._reading.graph.constant(0.0)
     bound = system.known()
     rows: list[dict[int, Node]] = [{} for _ in range(system.height + len(bound))]
-    if len(rows) != len(system.unknowns):
+    if len(rows) != system.width:
         return None
     for place, column in enumerate(system.unknowns):
         for row, value in system.entries(column):
             rows[row][place] = rows[row].get(place, zero) + motion.node(value[0])
+    for index, row, value in system.run_entries():
+        place = len(system.unknowns) + index
+        rows[row][place] = rows[row].get(place, zero) + motion.node(value[0])
     right = [-motion.node(each) for each in system.load_rows[0]]
     for unit, size in zip(system.frictions, sizes, strict=True):
         for row, value in system.entries(unit):

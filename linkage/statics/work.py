@@ -9,12 +9,25 @@ from typing import TypeVar, Unpack
 import numpy as np
 
 from ..errors import DefinitionError, UntracedError
-from ..loads import AT_REST, SENSES, Acting, ActingKeywords, Loads, Rate, Rates, TwoPoint, situation_of, takes_situation
+from ..loads import (
+    AT_REST,
+    FRICTIONLESS,
+    SENSES,
+    Acting,
+    ActingKeywords,
+    ForceElement,
+    Loads,
+    Rate,
+    Rates,
+    TwoPoint,
+    situation_of,
+    takes_situation,
+)
 from ..motion import Motion, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Mask
 from ..program import FloatArray, is_traced
-from ..quantities import is_number
+from ..quantities import is_number, needs
 from .agreement import AGREES, disagreeing
 from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
@@ -174,6 +187,38 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
     need = made_once(motion, shared, what_holds, lambda: needed_of(poses, applied, holders))
     own = [poses.flattened(each.thrust) for each in applied.thrusts if same(each.member, member)]
     return poses.full(sum(own, thrust_of_need(need, holders, levers, member)))[()]
+
+
+def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> FloatArray | None:
+    """Return the force of a closed tie by the work on what changes it, shape (...); None where the element keeps nothing.
+
+    A direction is that of the strokes. SingularError where friction locks the mechanism.
+    """
+    plan = plan_of(motion)
+    holders = holders_of(plan, [*(each.element for each in applied_elements(plan, replace(acting, case=None))), element])
+    line = holders.closed_by(element.name)
+    if line is None or line.tie is None:
+        return None
+    moves = acting.movement != FRICTIONLESS or acting.rates is not None
+    rates = rates_in(require_motion(motion), acting) if moves else AT_REST
+    shared = shared_key(motion, acting, rates)
+    applied = made_once(motion, shared, "applied", lambda: applied_on(motion, acting, rates))
+    what = f"The force of {element.name}"
+    refuse_friction(motion, applied)
+    if applied.frictions:
+        found = forces_at(poses_held(require_motion(motion), applied, what), applied)
+        locked_words(found, acting.movement)
+        return found.runs[element.name]
+    points = (*applied.points, *(end for each in holders.cylinders for end in each.ends), *needs(element))
+    poses, levers = with_levers(FlatPoses(motion, what, {name for point in points for name in plan.reaches(point)}), holders, what)
+    need, cuts = made_once(motion, shared, ("needs", holders.all, poses.good.tobytes()), lambda: needed_of(poses, applied, holders))
+    units = [each.thrusts(need) if holders.lines else need for each in levers]
+    place = holders.closed.index(line)
+    found_of = [each.kept_force(place, [unit[:, k] for k in range(len(holders.lines))], cuts) for each, unit in zip(levers, units, strict=True)]
+    if len(levers) == 1:
+        return poses.full(found_of[0])[()]
+    pulling = next(k for k, each in enumerate(holders.lines) if each.changes_shares)
+    return poses.full(where_negative(units[0][:, pulling], found_of[1], found_of[0]))[()]
 
 
 def shared_key(motion: AnyMotion, acting: Acting, rates: Rates) -> Hashable:

@@ -1,0 +1,361 @@
+"""Ropes, chains and belts: a length that is held, or a pull that is given; they pull, and never push."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from types import MappingProxyType
+from typing import Any, ClassVar, Unpack, cast, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited, unknown
+from ..language import noted, said
+from ..loads import (
+    Acting,
+    ActingKeywords,
+    Case,
+    Declared,
+    ForceElement,
+    Glyph,
+    Load,
+    Loads,
+    Parameter,
+    Poses,
+    Pulley,
+    RopePath,
+    SpanOf,
+    Tie,
+    situation_of,
+    takes_situation,
+)
+from ..loads.element import Formulas, Run, value_text
+from ..loads.rope import Station, pulls, stations_of, wraps
+from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Question, Tabled, least
+from ..plan import Plan
+from ..program import FloatArray
+from ..quantities import Dimension, Member, Number, Quantity, Reference, Stroke, Variable, is_number, label, name_of, needs, quantity
+from ..steps import Point
+from ..units import show
+from ..verdict import Verdict
+from .law_requests import LawRequest, case_words
+from .poses import AnyMotion, plan_of
+from .work import closed_force
+
+ENDS = ("first", "last")
+"""What a rope can give: the length of its first or of its last straight part."""
+SLACK = 1e-9
+"""A push that is less than this part of the greatest pull is none."""
+
+
+@final
+class Rope(ForceElement, Tabled, HasVerdicts):
+    """A rope, chain or belt over points: `chain = Rope(A, B, C, "D", length=2.4)`; at B and C it runs over the pin, or over a Pulley.
+
+    Its `length` [m] is held: it gives the distance of its last two points, `CD=chain.last`, or of its first two, `chain.first`, to the step
+    that asks for it. A number is the design variable `chain.length`; a Stroke, or what follows one, is a winch. With a `force` [N] in its
+    place that is what it pulls with, as a winch of constant pull does. `weights` say of each straight part how many falls it stands for.
+
+    It only pulls: where its tension would be negative it goes slack, and what it holds is not kept there. Parts between points of one body
+    stay as long as they are. Ends lie at points: a rope that winds up on a drum is a winch.
+    """
+
+    places: ClassVar[tuple[str, ...]] = ()
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"length": "mm", "force": "N"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"length", "force"})
+    optional: ClassVar[frozenset[str]] = frozenset({"length", "force"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"run": "run", "weights": "numbers"})
+    section: ClassVar[str] = noted("Ropes")
+    caption: ClassVar[str] = noted("Ropes and chains, over all that the machine runs")
+
+    def __init__(
+        self, *run: Reference, length: Parameter | None = None, weights: Sequence[float] | None = None, force: Parameter | None = None
+    ) -> None:
+        self.run, self.length, self.force = tuple(run), length, force
+        self.weights = None if weights is None else tuple(weights)
+        self._check()
+
+    def _check(self) -> None:
+        for each in self.run:
+            if not isinstance(each, (str, Point, Pulley)):
+                raise DefinitionError(f'Rope({cited(each)}): neither a point nor a Pulley; write Rope(A, sheave, "D", length=2.4).')
+        if len(self.run) < 2:
+            raise DefinitionError(f"Rope: {len(self.run)} point{'s' * (not self.run)}; it runs from one to another one at least.")
+        if self.length is not None and self.force is not None:
+            raise DefinitionError(f"{self}: its length is held or its force is given; leave one out.")
+        if self.weights is not None:
+            count = len(self.run) - 1
+            if len(self.weights) != count or not all(is_number(each) and each > 0.0 for each in self.weights):
+                raise DefinitionError(f"{self}: weights={cited(self.weights)}: {count} numbers above zero are expected, one a straight part.")
+            self.weights = tuple(map(float, self.weights))
+        for name in self.numbers:
+            self._check_number(name)
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*self.run, *super().parts())
+
+    def __str__(self) -> str:
+        more = [] if self.weights is None else [f"weights={list(self.weights)}"]
+        given = [f"{name}={value_text(self.given(name))}" for name in self.numbers]
+        return f"Rope({', '.join([*map(label, self.run), *given, *more])})"
+
+    @property
+    def falls(self) -> tuple[float, ...]:
+        """How many falls each straight part stands for."""
+        return (1.0,) * (len(self.run) - 1) if self.weights is None else self.weights
+
+    def stations(self, members: Mapping[str, Member]) -> tuple[Station, ...]:
+        """Return the points it runs over, with the pulleys there; the class's members by name."""
+        return stations_of(self.run, members)
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        opening = f"{title}: {self.name} = {self}"
+        for each in self.run:
+            if not isinstance(members.get(name_of(each)), (Point, Pulley)):
+                known = [name for name, member in members.items() if isinstance(member, (Point, Pulley))]
+                raise unknown("Point or pulley", name_of(each), known, where=f"{title}.{self.name}")
+        stations, falls = self.stations(members), self.falls
+        for one, other in zip(stations, stations[1:], strict=False):
+            if one.point == other.point:
+                raise DefinitionError(f"{opening}: it runs from {one.point} to {one.point}; name two different points.")
+        for end in (stations[0], stations[-1]):
+            if end.pulley is not None:
+                what = f"{opening}: it ends on the pulley {end.pulley.name}, on which it would wind up as on a drum"
+                raise DefinitionError(f"{what}; end it at a point, and let its length follow a Stroke, length=L0 + W.")
+        uneven = next((k for k in range(1, len(falls)) if stations[k].pulley is not None and falls[k] != falls[k - 1]), None)
+        if uneven is not None:
+            pulley = cast(Pulley, stations[uneven].pulley).name
+            what = f"{opening}: {falls[uneven - 1]:g} falls come to the pulley {pulley} and {falls[uneven]:g} leave it"
+            raise DefinitionError(f"{what}; give both straight parts one weight, or let it run over the pin.")
+
+    # -- the length that it gives ----------------------------------------------------------------------------
+
+    @property
+    def first(self) -> Quantity:
+        """The distance of its first two points [m], as it gives it."""
+        return SpanOf(self, "first")
+
+    @property
+    def last(self) -> Quantity:
+        """The distance of its last two points [m], as it gives it."""
+        return SpanOf(self, "last")
+
+    def gives(self, members: Mapping[str, Member]) -> str:
+        """Return the name of the length that it gives; "" where nothing asks for one."""
+        return next((f"{self.name}.{end}" for end in ENDS if f"{self.name}.{end}" in members), "")
+
+    def inner(self, name: str, members: Mapping[str, Member]) -> Member | None:
+        if name not in ENDS:
+            return None
+        opening = f"{self.name} = {self}"
+        if self.force is not None:
+            raise DefinitionError(f"{opening}: its force is given, so that it gives no length; say its length= instead.")
+        if self.length is None:
+            raise DefinitionError(f"{opening}: {self.name}.{name} is asked for, and nothing says how long it is; add length=... in m.")
+        if self.gives(members):
+            what = f"{opening}: one rope gives one length, and {self.gives(members)} and {self.name}.{name} are asked for"
+            raise DefinitionError(f"{what}; declare another rope.")
+        stations, falls = self.stations(members), self.falls
+        beside, rest = (1, slice(1, None)) if name == "first" else (-2, slice(None, -1))
+        pulley = stations[beside].pulley if len(stations) > 2 else None
+        if pulley is not None:
+            what = f"{opening}: how far it lies on {pulley.name} hangs on where {self.name}.{name} ends"
+            raise DefinitionError(f"{what}; let it run over the pin {stations[beside].point} there, or give the other end's length.")
+        left: Quantity = Variable(f"{self.name}.length") if isinstance(self.length_given, Number) else self.length_given
+        kept = stations[rest]
+        if len(kept) > 1:
+            radii, senses = tuple(each.radius_written for each in kept), tuple(each.sense for each in kept)
+            left = left - RopePath(tuple(each.point for each in kept), radii, senses, falls[rest])
+        own = falls[0 if name == "first" else -1]
+        return left if own == 1.0 and not isinstance(left, Variable) else left / own
+
+    @property
+    def length_given(self) -> Quantity:
+        """Its length as it is given [m]."""
+        return quantity(cast("float | Quantity | str", self.length))
+
+    def cut(self, members: Mapping[str, Member]) -> str:
+        """Return the input by which its length changes: its own, or the stroke or the dimension that it follows."""
+        length = self.length_given
+        if isinstance(length, Number):
+            return f"{self.name}.length"
+        stack, found = [length.name] if length.name else [*needs(length)], list[str]()
+        while stack:
+            name = stack.pop()
+            if isinstance(members[name], (Stroke, Dimension)):
+                found.append(name)
+            stack += needs(members[name])
+        strokes = [name for name in found if isinstance(members[name], Stroke)]
+        return next(iter((*strokes, *found)), f"{self.name}.length")
+
+    def cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
+        cut = self.cut(members) if self.length is not None and self.gives(members) else ""
+        return () if not cut or isinstance(members.get(cut), Stroke) else (cut,)
+
+    # -- in statics ------------------------------------------------------------------------------------------
+
+    def loads(self, motion: Poses) -> list[Load]:
+        if self.force is None:
+            return []
+        tension = self.number(motion, "force")
+        return [Load(each.point, each.force * tension) for each in self.pulls(motion)]
+
+    def pulls(self, motion: Poses) -> list[Load]:
+        """Return what a tension of one newton pulls with, at every point that it runs over [N]."""
+        return pulls(self.stations(motion.plan.members), self.falls, motion)
+
+    @property
+    def scales(self) -> bool:
+        return self.force is not None
+
+    def tie(self, members: Mapping[str, Member]) -> Tie | None:
+        if self.force is not None:
+            return None
+        gives = self.gives(members)
+        cut = self.cut(members) if gives else ""
+        return Tie(self.name, (), held=False, cut=cut, gives=gives, run=Run(partial(self._thrust_of, cut), self._pushes))
+
+    def _pushes(self, motion: Poses) -> list[Load]:
+        return [Load(each.point, -1.0 * each.force) for each in self.pulls(motion)]
+
+    def _thrust_of(self, cut: str, motion: Poses) -> FloatArray:
+        """Return its thrust at a unit of what changes its length."""
+        if self.length is None or isinstance(self.length_given, Number) or not cut:
+            return np.ones(())
+        return np.asarray(1.0 / motion.ratio(self.length_given, wrt=cut))[()]
+
+    @takes_situation
+    def tension(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> FloatArray:
+        """Return what it pulls with, shape (...) [N]: of a part of several falls each of them; below zero it would have to push.
+
+        `loads` are the machine's own unless others are given. A direction is that of the strokes.
+        """
+        return self.tension_in(motion, situation_of("tension", loads=loads, **situation))
+
+    def tension_in(self, motion: AnyMotion, acting: Acting) -> FloatArray:
+        """Return its tension in a situation, shape (...) [N]."""
+        held = motion._of_the_whole(self) if isinstance(motion, Motion) else None
+        if held is not None:
+            whole, own = held
+            return cast(Rope, own).tension_in(whole, acting)
+        if self.force is not None:
+            return self.number(motion, "force") + np.zeros(motion.shape)
+        found = closed_force(motion, self, acting)
+        if found is None:
+            what = f"{self.name} holds nothing: no step follows it"
+            raise DefinitionError(f"{plan_of(motion).title}: {what}; let one, CD={self.name}.last, or give its force, force=12 * kN.")
+        return np.asarray(-1.0 * found * self._thrust_of(self.cut(motion.plan.members), motion))[()]
+
+    def path(self, motion: Poses) -> FloatArray:
+        """Return the length of its path over a motion [m], shape (...), each straight part so often as its weight says."""
+        stations = self.stations(motion.plan.members)
+        radii, senses = tuple(each.radius_written for each in stations), tuple(each.sense for each in stations)
+        return motion.value(RopePath(tuple(each.point for each in stations), radii, senses, self.falls))
+
+    def bounds(self, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[FloatArray, FloatArray]:
+        """Return what it can push with [N]: it pulls, and never pushes."""
+        return np.asarray(-np.inf), np.zeros(())
+
+    def formulas(self, written: Formulas) -> None:
+        if self.force is None and self.gives(written.plan.members):
+            written.given(f"T_{self.name}", lambda motion: self.tension_in(motion, Acting()), "kN")
+
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        return (Glyph("rope", tuple(each.point for each in self.stations(members))),)
+
+    # -- what it shows and says ------------------------------------------------------------------------------
+
+    def columns(self, motion: Motion) -> list[Column]:
+        request = tension(self.name)
+        return [Column(noted("tension"), request.of(motion), "kN", 3, request)]
+
+    @property
+    def is_held(self) -> bool:
+        """Whether its length is held, so that its tension follows."""
+        return self.force is None
+
+    def questions(self, judge: Judge) -> list[Question]:
+        return list(self.conditions(judge).values())
+
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        found: dict[str, Condition] = {}
+        if self.is_held and self.gives(judge.plan.members):
+            found["tension"] = least(tension(self.name)) >= 0.0
+        pulleys = [each.pulley for each in self.stations(judge.plan.members) if each.pulley is not None]
+        return found | {f"wrap {each.name}": least(self.wrap_request(each.name)) >= 0.0 for each in pulleys}
+
+    def wrap_request(self, pulley: str) -> LawRequest:
+        """Return the request for the angle over which it lies on a pulley [rad]; below zero it is off it."""
+        return LawRequest(
+            formula=partial(self._wrap, pulley), text=f"{self.name} on {pulley}", known=("wrap", self.name, pulley), measures="angle"
+        )
+
+    def _wrap(self, pulley: str, motion: AnyMotion) -> FloatArray:
+        stations = self.stations(motion.plan.members)
+        place = next(k for k, each in enumerate(stations) if each.pulley is not None and each.pulley.name == pulley)
+        return np.asarray(wraps(stations, motion)[place] + np.zeros(motion.shape))[()]
+
+    def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return whether it stays taut, and on its pulleys."""
+        try:
+            return list(self._verdicts(judge))
+        except DefinitionError as error:
+            return [Verdict("tension", False, " ".join(str(error).split()))]
+
+    def _verdicts(self, judge: Judge) -> Iterator[Verdict]:
+        conditions = self.conditions(judge)
+        for rule, answer in zip(conditions, judge.answers(list(conditions.values())), strict=True):
+            if np.isnan(answer.value):
+                yield Verdict(rule, answer.ok, f"{answer}.", answer=answer)
+            elif rule == "tension":
+                yield Verdict(rule, float(answer.value) >= 0.0, slack_sentence(float(answer.value), answer.place), answer=answer)
+            else:
+                yield Verdict(rule, float(answer.value) >= 0.0, wrap_sentence(float(answer.value), answer.place), answer=answer)
+
+
+def slack_sentence(value: float, place: str) -> str:
+    """Return whether a rope stays taut, in words, by its least tension [N]."""
+    if value >= 0.0:
+        return said("it stays taut, least {place}: {force}.", force=show(value, "kN", 4), place=place)
+    return said(
+        "goes slack {place}: it would have to push with {force}; there the constraint is not kept. Hang more weight on it, or take a rod.",
+        place=place, force=show(-value, "kN", 4),
+    )  # fmt: skip
+
+
+def wrap_sentence(value: float, place: str) -> str:
+    """Return whether a rope stays on a pulley, in words, by the least angle over which it lies there [rad]."""
+    if value >= 0.0:
+        return said("it lies on it over at least {angle}, {place}.", angle=show(value, "deg", 4), place=place)
+    return said("it leaves the pulley {place}; move the pulley, or let it turn the other way around it.", place=place)
+
+
+# What is asked of a rope.
+
+
+def tension(rope: Rope | str, *, case: Case = None, acting: Acting | None = None) -> LawRequest:
+    """Return the request for the tension of a rope [N], in `evaluate`, `answers` and searches; below zero it would have to push."""
+    name = name_of(rope)
+    given = situation_of("tension", acting, case=case)
+    return LawRequest(
+        formula=partial(tension_over, name), text=partial(tension_text, name), known=("tension", name), acting=given, measures="force",
+        examine=partial(rope_in, name),
+    )  # fmt: skip
+
+
+def tension_text(name: str, acting: Acting) -> str:
+    """Return how the request of a tension is written in a situation."""
+    return f"tension({', '.join([name, *case_words(acting.case)])})"
+
+
+def rope_in(name: str, plan: Plan | Declared) -> Rope:
+    """Return the rope of a name; DefinitionError where a plan has no such."""
+    found = plan.of_kind(Rope)
+    if name not in found:
+        raise unknown("Rope", name, found, where=plan.title)
+    return found[name]
+
+
+def tension_over(name: str, motion: AnyMotion, acting: Acting) -> FloatArray:
+    """Return the tension of a rope over a motion's poses [N], shape (...)."""
+    return rope_in(name, motion.plan).tension_in(motion, acting)

@@ -172,7 +172,7 @@ OWN: tuple[AnEntry, ...] = (
     Bare(steps.Group, "groups", lambda given, names: steps.Group(" ".join(points_of(given, names))), group_written),
     Bare(Quantity, "outputs", output_of, output_written, family=True),
     *(FileEntry(load, "loads", load.__name__) for load in LOADS),
-    FileEntry(Rope, "loads", "Rope", make=lambda run, **options: Rope(*run, **options)),
+    FileEntry(Rope, "loads", "Rope"),
     FileEntry(loads.LoadCase, "cases"),
     Bare(Over, "over", over_read, over_written),
     Bare(Planes, "planes", planes_read, planes_written),

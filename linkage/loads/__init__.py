@@ -32,5 +32,5 @@ from .element import (
 )  # fmt: skip
 from .friction import GuideFriction, PinFriction
 from .point import Force, LinkMass, Moment, Support, Weight
-from .rope import Pulley, RopePath, SpanOf
+from .rope import Pulley, RopePath
 from .two_point import Actuator, Between, Damper, DrawnAs, Spring, TwoPoint

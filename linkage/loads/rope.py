@@ -9,8 +9,9 @@ A tension T pulls at a point with T (u_out - u_in): at a pulley that is the sum 
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import pi
 from types import MappingProxyType
 from typing import Any, ClassVar, final
@@ -21,7 +22,7 @@ from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
 from ..quantities import Axes, Member, Number, Quantity, Reference, Variable, Where, label, name_of, quantity
 from ..vectors import Scalar, Side, Vec
-from .element import Array, ForceElement, Glyph, Load, Parameter, Poses
+from .element import Array, ForceElement, Load, Parameter, Poses
 
 
 @final
@@ -66,8 +67,7 @@ class Pulley(ForceElement):
         return self.renewed(side=Side(-int(self.side))) if axes.mirrored else self
 
     def words(self) -> list[str]:
-        radius, _ = super().words()
-        return [radius, f"side={self.side}"]
+        return [*super().words(), f"side={self.side}"]
 
 
 @final
@@ -134,46 +134,14 @@ class RopePath(Quantity):
         for k, weight in enumerate(self.weights):
             span, along = straight(where.direction(names[k], names[k + 1]), radii[k], radii[k + 1])
             length = length + weight * span
-            if before is not None and radii[k] is not None:
-                length = length + weight * self.senses[k] * radii[k] * turned(before, along, self.senses[k])
+            radius = radii[k]
+            if before is not None and radius is not None:
+                length = length + weight * self.senses[k] * radius * turned(before, along, self.senses[k])
             before = along
         return length
 
     def __str__(self) -> str:
         return f"rope({', '.join(map(label, self.points))})"
-
-
-@final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
-class SpanOf(Quantity):
-    """The distance of the first or the last two points of a rope, as the rope gives it: `chain.first`, `chain.last`."""
-
-    rope: Reference
-    end: str
-    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"end": "word"})
-
-    @property
-    def called(self) -> str:
-        """The name of the length in the class."""
-        return f"{name_of(self.rope)}.{self.end}"
-
-    @property
-    def measures(self) -> str:
-        return "length"
-
-    @property
-    def identity(self) -> Hashable:
-        return self.name or self.called
-
-    def parts(self) -> tuple[Reference, ...]:
-        return (self.called,)
-
-    def rule(self, where: Where) -> Scalar:
-        return where.value(self.called)
-
-    def __str__(self) -> str:
-        return f"{label(self.rope)}.{self.end}"
 
 
 def straight(d: Vec, start: Scalar | None, end: Scalar | None) -> tuple[Scalar, Vec]:
@@ -198,7 +166,7 @@ def turned(before: Vec, after: Vec, sense: float) -> Scalar:
 def straight_parts(stations: Sequence[Station], motion: Poses) -> list[tuple[Array, Vec]]:
     """Return the length [m] and the direction of every straight part at the poses."""
     radii, found = [each.radius(motion) for each in stations], []
-    for k, (one, other) in enumerate(zip(stations, stations[1:], strict=False)):
+    for k, (one, other) in enumerate(pairwise(stations)):
         arm: Any = motion[other.point] - motion[one.point]
         found.append(straight(Vec(arm[0], arm[1]), radii[k], radii[k + 1]))
     return found

@@ -451,11 +451,17 @@ def asked_first(members: Mapping[str, Member]) -> dict[str, Member]:
     for name, member in members.items():
         for owner in dict.fromkeys(each.rpartition(".")[0] for each in needs(member)):
             if owner in members and owner not in found and members[owner].kind != "part":
-                later = {place: getattr(members[owner], place) for place in getattr(members[owner], "places", ())}
-                quoted = {place: repr(name_of(each)) for place, each in later.items() if name_of(each) not in found}
-                found[owner] = members[owner].renewed(**quoted)
+                given = {place: getattr(members[owner], place) for place in getattr(members[owner], "places", ())}
+                found[owner] = members[owner].renewed(**{place: quoted(each, found) for place, each in given.items()})
         found.setdefault(name, member)
     return found
+
+
+def quoted(given: Any, known: Collection[str]) -> Any:
+    """Return a reference, or several, in quotes where it is not among the names that are known."""
+    if isinstance(given, tuple):
+        return tuple(quoted(each, known) for each in given)
+    return given if name_of(given) in known else repr(name_of(given))
 
 
 def respelled(plan: Members, values: Mapping[str, float]) -> dict[str, float]:

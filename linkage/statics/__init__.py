@@ -6,9 +6,9 @@ from .holding import same, stroke_followed, tied_forces
 from .joint_forces import JointForce, PinForces, pin_forces
 from .law_requests import LawRequest, case_words
 from .poses import AnyMotion, plan_of
+from .rope import Rope, tension
 from .supports import reaction
 from .table import PinLoad, judged_table, max_table, table_text
 from .traced_loads import TracedMotion, traced_loads
 from .vehicle import Standing, axle_load, ground_loads, slipping, standing, standing_supports
-from .rope import Rope, tension
 from .work import driving_force, member_thrust

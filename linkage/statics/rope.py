@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
+from itertools import pairwise
 from types import MappingProxyType
-from typing import Any, ClassVar, Unpack, cast, final
+from typing import ClassVar, Unpack, cast, final
 
 import numpy as np
 
@@ -24,7 +25,6 @@ from ..loads import (
     Poses,
     Pulley,
     RopePath,
-    SpanOf,
     Tie,
     situation_of,
     takes_situation,
@@ -34,7 +34,21 @@ from ..loads.rope import Station, pulls, stations_of, wraps
 from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Question, Tabled, least
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Dimension, Member, Number, Quantity, Reference, Stroke, Variable, is_number, label, name_of, needs, quantity
+from ..quantities import (
+    Dimension,
+    InnerQuantity,
+    Member,
+    Number,
+    Quantity,
+    Reference,
+    Stroke,
+    Variable,
+    is_number,
+    label,
+    name_of,
+    needs,
+    quantity,
+)
 from ..steps import Point
 from ..units import show
 from ..verdict import Verdict
@@ -42,8 +56,6 @@ from .law_requests import LawRequest, case_words
 from .poses import AnyMotion, plan_of
 from .work import closed_force
 
-ENDS = ("first", "last")
-"""What a rope can give: the length of its first or of its last straight part."""
 SLACK = 1e-9
 """A push that is less than this part of the greatest pull is none."""
 
@@ -60,7 +72,8 @@ class Rope(ForceElement, Tabled, HasVerdicts):
     stay as long as they are. Ends lie at points: a rope that winds up on a drum is a winch.
     """
 
-    places: ClassVar[tuple[str, ...]] = ()
+    places: ClassVar[tuple[str, ...]] = ("run",)
+    inside: ClassVar[Mapping[str, str]] = MappingProxyType({"first": "quantity", "last": "quantity"})
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"length": "mm", "force": "N"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"length", "force"})
     optional: ClassVar[frozenset[str]] = frozenset({"length", "force"})
@@ -86,13 +99,14 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         if self.weights is not None:
             count = len(self.run) - 1
             if len(self.weights) != count or not all(is_number(each) and each > 0.0 for each in self.weights):
-                raise DefinitionError(f"{self}: weights={cited(self.weights)}: {count} numbers above zero are expected, one a straight part.")
+                raise DefinitionError(f"{self}: weights={cited(self.weights)}: {count} numbers above zero are expected, one a part.")
             self.weights = tuple(map(float, self.weights))
         for name in self.numbers:
             self._check_number(name)
 
     def parts(self) -> tuple[Reference, ...]:
-        return (*self.run, *super().parts())
+        numbers = (quantity(self.given(name)) for name in self.numbers)
+        return (*self.run, *(each for each in numbers if not each.is_constant))
 
     def __str__(self) -> str:
         more = [] if self.weights is None else [f"weights={list(self.weights)}"]
@@ -115,7 +129,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
                 known = [name for name, member in members.items() if isinstance(member, (Point, Pulley))]
                 raise unknown("Point or pulley", name_of(each), known, where=f"{title}.{self.name}")
         stations, falls = self.stations(members), self.falls
-        for one, other in zip(stations, stations[1:], strict=False):
+        for one, other in pairwise(stations):
             if one.point == other.point:
                 raise DefinitionError(f"{opening}: it runs from {one.point} to {one.point}; name two different points.")
         for end in (stations[0], stations[-1]):
@@ -133,19 +147,19 @@ class Rope(ForceElement, Tabled, HasVerdicts):
     @property
     def first(self) -> Quantity:
         """The distance of its first two points [m], as it gives it."""
-        return SpanOf(self, "first")
+        return InnerQuantity(self, "first")
 
     @property
     def last(self) -> Quantity:
         """The distance of its last two points [m], as it gives it."""
-        return SpanOf(self, "last")
+        return InnerQuantity(self, "last")
 
     def gives(self, members: Mapping[str, Member]) -> str:
         """Return the name of the length that it gives; "" where nothing asks for one."""
-        return next((f"{self.name}.{end}" for end in ENDS if f"{self.name}.{end}" in members), "")
+        return next((f"{self.name}.{end}" for end in self.inside if f"{self.name}.{end}" in members), "")
 
     def inner(self, name: str, members: Mapping[str, Member]) -> Member | None:
-        if name not in ENDS:
+        if name not in self.inside:
             return None
         opening = f"{self.name} = {self}"
         if self.force is not None:
@@ -237,7 +251,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         held = motion._of_the_whole(self) if isinstance(motion, Motion) else None
         if held is not None:
             whole, own = held
-            return cast(Rope, own).tension_in(whole, acting)
+            return own.tension_in(whole, acting)
         if self.force is not None:
             return self.number(motion, "force") + np.zeros(motion.shape)
         found = closed_force(motion, self, acting)

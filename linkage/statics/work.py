@@ -212,13 +212,12 @@ def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> Fl
     points = (*applied.points, *(end for each in holders.cylinders for end in each.ends), *needs(element))
     poses, levers = with_levers(FlatPoses(motion, what, {name for point in points for name in plan.reaches(point)}), holders, what)
     need, cuts = made_once(motion, shared, ("needs", holders.all, poses.good.tobytes()), lambda: needed_of(poses, applied, holders))
-    units = [each.thrusts(need) if holders.lines else need for each in levers]
-    place = holders.closed.index(line)
-    found_of = [each.kept_force(place, [unit[:, k] for k in range(len(holders.lines))], cuts) for each, unit in zip(levers, units, strict=True)]
+    units = [np.moveaxis(each.thrusts(need) if holders.lines else need, 1, 0) for each in levers]
+    forces = [each.kept_force(holders.closed.index(line), list(unit), cuts) for each, unit in zip(levers, units, strict=True)]
     if len(levers) == 1:
-        return poses.full(found_of[0])[()]
+        return poses.full(forces[0])[()]
     pulling = next(k for k, each in enumerate(holders.lines) if each.changes_shares)
-    return poses.full(where_negative(units[0][:, pulling], found_of[1], found_of[0]))[()]
+    return poses.full(where_negative(units[0][pulling], forces[1], forces[0]))[()]
 
 
 def shared_key(motion: AnyMotion, acting: Acting, rates: Rates) -> Hashable:

@@ -230,7 +230,7 @@ def member_of(given: object, names: Names) -> str:
     return given
 
 
-def run_of(given: object, names: Names) -> tuple[str, ...]:
+def rope_points_of(given: object, names: Names) -> tuple[str, ...]:
     """Return the names of points and pulleys, from a text such as `A sheave D` or a list."""
     words = given.split() if isinstance(given, str) else given
     if not isinstance(words, Sequence) or not words:
@@ -342,7 +342,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "body": Kind(body_of, written_body, refers=True),
         "loads": Kind(loads_of, written_names, refers=True),
         "member": Kind(member_of, refers=True),
-        "run": Kind(run_of, lambda value, design, name: list(map(name_of, value)), refers=True),
+        "run": Kind(rope_points_of, lambda value, design, name: list(map(name_of, value)), refers=True),
         "load list": Kind(load_list_of, lambda value, design, name: [name_of(each) for each in value]),
         "load factors": Kind(factors_of),
         "origin": Kind(origin_of, written_origin),

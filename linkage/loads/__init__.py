@@ -22,7 +22,7 @@ from .element import (
     Push,
     Rate,
     Rates,
-    Run,
+    Reeving,
     Share,
     Tie,
     TwoPinned,

@@ -88,7 +88,7 @@ class Share:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Run:
+class Reeving:
     """What one unit of a tie's force is in a member that bends, as a rope does over pulleys: its thrust, positive where it pushes.
 
     `loads` are what a thrust of one newton puts on the points that it runs over.
@@ -112,7 +112,7 @@ class Tie:
     held: bool
     cut: str = ""
     gives: str = ""
-    run: Run | None = None
+    run: Reeving | None = None
 
 
 @final

@@ -132,11 +132,11 @@ class RopePath(Quantity):
         length: Scalar = 0.0
         before: Vec | None = None
         for k, weight in enumerate(self.weights):
-            span, along = straight(where.direction(names[k], names[k + 1]), radii[k], radii[k + 1])
+            span, along = tangent_part(where.direction(names[k], names[k + 1]), radii[k], radii[k + 1])
             length = length + weight * span
             radius = radii[k]
             if before is not None and radius is not None:
-                length = length + weight * self.senses[k] * radius * turned(before, along, self.senses[k])
+                length = length + weight * self.senses[k] * radius * turn_angle(before, along, self.senses[k])
             before = along
         return length
 
@@ -144,7 +144,7 @@ class RopePath(Quantity):
         return f"rope({', '.join(map(label, self.points))})"
 
 
-def straight(d: Vec, start: Scalar | None, end: Scalar | None) -> tuple[Scalar, Vec]:
+def tangent_part(d: Vec, start: Scalar | None, end: Scalar | None) -> tuple[Scalar, Vec]:
     """Return the length [m] and the direction of the straight part between two points, d apart, of some signed radii, None at a pin."""
     if start is None and end is None:
         length = d.length()
@@ -155,7 +155,7 @@ def straight(d: Vec, start: Scalar | None, end: Scalar | None) -> tuple[Scalar, 
     return length, (d * length - d.left() * step) * (1.0 / square)
 
 
-def turned(before: Vec, after: Vec, sense: float) -> Scalar:
+def turn_angle(before: Vec, after: Vec, sense: float) -> Scalar:
     """Return by which angle a rope turns from one direction to another, in a sense [rad]; from -90 to 270 degrees."""
     return 0.5 * pi + np.arctan2(-before.dot(after), before.cross(after) * sense)
 
@@ -168,7 +168,7 @@ def straight_parts(stations: Sequence[Station], motion: Poses) -> list[tuple[Arr
     radii, found = [each.radius(motion) for each in stations], []
     for k, (one, other) in enumerate(pairwise(stations)):
         arm: Any = motion[other.point] - motion[one.point]
-        found.append(straight(Vec(arm[0], arm[1]), radii[k], radii[k + 1]))
+        found.append(tangent_part(Vec(arm[0], arm[1]), radii[k], radii[k + 1]))
     return found
 
 
@@ -176,7 +176,7 @@ def wraps(stations: Sequence[Station], motion: Poses) -> dict[int, Array]:
     """Return by which angle the rope turns around each pulley at the poses [rad], by its place; below zero it is off the pulley."""
     parts = straight_parts(stations, motion)
     return {
-        k: np.asarray(turned(parts[k - 1][1], parts[k][1], each.sense))[()]
+        k: np.asarray(turn_angle(parts[k - 1][1], parts[k][1], each.sense))[()]
         for k, each in enumerate(stations) if each.pulley is not None and 0 < k < len(parts)
     }  # fmt: skip
 

@@ -452,15 +452,15 @@ def asked_first(members: Mapping[str, Member]) -> dict[str, Member]:
         for owner in dict.fromkeys(each.rpartition(".")[0] for each in needs(member)):
             if owner in members and owner not in found and members[owner].kind != "part":
                 given = {place: getattr(members[owner], place) for place in getattr(members[owner], "places", ())}
-                found[owner] = members[owner].renewed(**{place: quoted(each, found) for place, each in given.items()})
+                found[owner] = members[owner].renewed(**{place: in_quotes(each, found) for place, each in given.items()})
         found.setdefault(name, member)
     return found
 
 
-def quoted(given: Any, known: Collection[str]) -> Any:
+def in_quotes(given: Any, known: Collection[str]) -> Any:
     """Return a reference, or several, in quotes where it is not among the names that are known."""
     if isinstance(given, tuple):
-        return tuple(quoted(each, known) for each in given)
+        return tuple(in_quotes(each, known) for each in given)
     return given if name_of(given) in known else repr(name_of(given))
 
 

@@ -18,7 +18,7 @@ from typing import Any, cast, final
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, SingularWarning, UntracedError, unwarned, warn
-from ..loads import ForceElement, Poses, Run, Tie, TwoPinned, TwoPoint
+from ..loads import ForceElement, Poses, Reeving, Tie, TwoPinned, TwoPoint
 from ..motion import Motion
 from ..motion.conditions import REFUSE, WARN, condition_of_sine, is_or_are
 from ..motion.limits import where_words
@@ -205,7 +205,7 @@ def check_kept(motion: Motion, tie: Tie) -> None:
             )
 
 
-def check_run(motion: Motion, tie: Tie, run: Run, stroke: str) -> None:
+def check_run(motion: Motion, tie: Tie, run: Reeving, stroke: str) -> None:
     """Raise DefinitionError for a rope whose path a stroke changes, though it gives nothing that could follow."""
     parts = [np.sum(load.force * motion.ratio(load.point, wrt=stroke), axis=0) for load in run.loads(motion)]
     sizes = [np.hypot(*load.force) * np.hypot(*motion.ratio(load.point, wrt=stroke)) for load in run.loads(motion)]

@@ -29,7 +29,7 @@ from ..loads import (
     situation_of,
     takes_situation,
 )
-from ..loads.element import Formulas, Run, value_text
+from ..loads.element import Formulas, Reeving, value_text
 from ..loads.rope import Station, pulls, stations_of, wraps
 from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Question, Tabled, least
 from ..plan import Plan
@@ -227,7 +227,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
             return None
         gives = self.gives(members)
         cut = self.cut(members) if gives else ""
-        return Tie(self.name, (), held=False, cut=cut, gives=gives, run=Run(partial(self._thrust_of, cut), self._pushes))
+        return Tie(self.name, (), held=False, cut=cut, gives=gives, run=Reeving(partial(self._thrust_of, cut), self._pushes))
 
     def _pushes(self, motion: Poses) -> list[Load]:
         return [Load(each.point, -1.0 * each.force) for each in self.pulls(motion)]

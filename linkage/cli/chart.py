@@ -18,7 +18,7 @@ from ..units import parse, parse_span
 from .command import PICTURES, Command, lined_up, machine_arguments
 from .follow import strokes_said
 from .machines import find
-from .settings import design, pair, si_value
+from .settings import design, pair, parsed_over, si_value
 
 PAGE = ".html"
 SUFFIXES = (*PICTURES, ".csv", ".xlsx", PAGE)
@@ -42,6 +42,8 @@ class ChartCommand(Command):
         against = "the direction against which the load pulls (default 0,1: it hangs)"
         parser.add_argument("--along", metavar="X,Y", default="0,1", help=against)
         parser.add_argument("--hold", metavar="S=1.1m", action="append", default=[], help="hold a stroke there; repeatable")
+        runs = "how far strokes run, two ends of each, or a declared Over by its name (default: as far as declared)"
+        parser.add_argument("--over", metavar='"t=0:2m"', help=runs)
         parser.add_argument("--keep", metavar="tilt=0deg", action="append", default=[], help="a value kept at every place; repeatable")
         lifting = "this cylinder lifts, those not named hold; repeatable (default: all lift)"
         parser.add_argument("--lift", metavar="RAM", action="append", default=[], help=lifting)
@@ -63,8 +65,9 @@ class ChartCommand(Command):
             limits[name] = si_value(value, "force", f"--limit {name}")
         field = working_field(
             machine, options.point, axis_said("--x", options.x), axis_said("--y", options.y), along=along_said(options.along),
-            hold=strokes_said(machine, "--hold", options.hold), keep=[target_said(machine, text) for text in options.keep],
-            lifts=options.lift or None, rule=options.rule, case=options.case, without=options.without, limits=limits,
+            hold=strokes_said(machine, "--hold", options.hold), over=parsed_over(machine, options.over) if options.over else None,
+            keep=[target_said(machine, text) for text in options.keep], lifts=options.lift or None, rule=options.rule, case=options.case,
+            without=options.without, limits=limits,
         )  # fmt: skip
         if path is None:
             print_chart(field)

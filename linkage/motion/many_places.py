@@ -19,7 +19,7 @@ from ..plan import Mask, Plan
 from ..program import FloatArray
 from .descent import descended
 from .line import Index
-from .places import MET, SCATTERED, Places, all_known, corners_all, extremes_of_cells, held_strokes, traced_target, way_of
+from .places import MET, SCATTERED, Places, StrokeRanges, all_known, corners_all, extremes_of_cells, held_strokes, traced_target, way_of
 from .strokes import TURN
 from .target import Target
 
@@ -73,7 +73,9 @@ class ManyPlaces:
     spare: int
 
     @classmethod
-    def of(cls, plan: Plan, designs: Mapping[str, Any], targets: Sequence[Target], hold: Any, *, where: str) -> ManyPlaces:
+    def of(
+        cls, plan: Plan, designs: Mapping[str, Any], targets: Sequence[Target], hold: Any, *, where: str, ranges: StrokeRanges
+    ) -> ManyPlaces:
         """Return targets bound to one design; DefinitionError for what is none, and for more than two strokes to spare."""
         title = f"{plan.title}: {where}"
         held = held_strokes(plan, hold, title)
@@ -84,9 +86,9 @@ class ManyPlaces:
             what = f"{len(targets)} targets leave {spare} of the strokes {', '.join(free)} to spare"
             raise DefinitionError(f"{title}: {what}, up to {MOST_SPARE} are looked at; hold one, {example}, or keep= something.")
         if spare <= 0 or any(np.ndim(value) for value in designs.values()) or not all(isinstance(each, Target) for each in targets):
-            return cls(Places.of(plan, designs, targets, hold, where=where), 0)
+            return cls(Places.of(plan, designs, targets, hold, where=where, ranges=ranges), 0)
         bound = tuple(traced_target(plan, each, title) for each in targets)
-        every = Places(plan, {k: float(v) for k, v in designs.items()}, tuple(targets), bound, tuple(free), held)
+        every = Places(plan, {k: float(v) for k, v in designs.items()}, tuple(targets), bound, tuple(free), held, ranges)
         loose = spared(every, spare)
         Places.of(plan, designs, targets, {**held, **{name: plan.sketch_strokes[name] for name in loose}}, where=where)
         return cls(every.reordered((*(name for name in free if name not in loose), *loose)), spare)

@@ -7,14 +7,15 @@ their values at its corners and how these bend; where two branches come close to
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, product
-from typing import Any, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
+from ..frozen import FrozenDict
 from ..language import said
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, RunOptions
@@ -31,6 +32,11 @@ from .motion import Motion
 from .requests import Request
 from .strokes import TURN, check_magnitude, checked_name
 from .target import Target, is_one
+
+StrokeRanges: TypeAlias = Mapping[str, tuple[float, float]]
+"""The ends of strokes, by name [m or rad]."""
+DECLARED: StrokeRanges = FrozenDict()
+"""All strokes as they are declared."""
 
 SIDE = {1: 129, 2: 33, 3: 13, 4: 8, 5: 6}
 """Values of each stroke of the grid, by how many strokes are looked for; 5 of more of them."""
@@ -112,7 +118,8 @@ def way_of(count: int) -> RunOptions:
 class Places:
     """Targets of one design, bound to its plan, by the strokes that are looked for; the others are held.
 
-    Unit coordinates are shares of the range of each stroke, from its least value on, and may lie beyond 0 to 1.
+    Unit coordinates are shares of the range of each stroke, from its least value on, and may lie beyond 0 to 1. `ranges` are the ends of
+    strokes that do not run as far as they are declared [m or rad].
     """
 
     plan: Plan
@@ -121,9 +128,12 @@ class Places:
     bound: tuple[Request, ...]
     free: tuple[str, ...]
     held: Mapping[str, float]
+    ranges: StrokeRanges
 
     @classmethod
-    def of(cls, plan: Plan, designs: Mapping[str, Any], targets: Any, hold: Any, *, where: str) -> Places:
+    def of(
+        cls, plan: Plan, designs: Mapping[str, Any], targets: Any, hold: Any, *, where: str, ranges: StrokeRanges = DECLARED
+    ) -> Places:
         """Return targets bound to one design; DefinitionError for what is none, and where they do not ask for the strokes there are."""
         title = f"{plan.title}: {where}"
         if any(np.ndim(value) for value in designs.values()):
@@ -138,13 +148,13 @@ class Places:
                 raise DefinitionError(f"{title}: {each!r}: strokes are what is looked for here; one that stands still is held, {names}.")
         free = tuple(name for name in plan.strokes if name not in held)
         bound = tuple(traced_target(plan, each, title) for each in targets)
-        found = cls(plan, {name: float(value) for name, value in designs.items()}, tuple(targets), bound, free, held)
+        found = cls(plan, {name: float(value) for name, value in designs.items()}, tuple(targets), bound, free, held, ranges)
         check_targets(found, title)
         return found
 
     def reordered(self, free: tuple[str, ...]) -> Places:
         """Return the same with the strokes that are looked for in another order."""
-        return Places(self.plan, self.designs, self.targets, self.bound, free, self.held)
+        return replace(self, free=free)
 
     @cached_property
     def program(self) -> PlaceProgram:
@@ -154,16 +164,17 @@ class Places:
     @cached_property
     def low(self) -> FloatArray:
         """The least values of the strokes that are looked for [m or rad], shape (k,)."""
-        return np.array([min(stroke.start, stroke.end) for stroke in self._strokes])
+        return np.array([min(ends) for ends in self._ends])
 
     @cached_property
     def span(self) -> FloatArray:
         """The ranges of these strokes [m or rad], shape (k,)."""
-        return np.array([abs(stroke.end - stroke.start) for stroke in self._strokes])
+        return np.array([abs(end - start) for start, end in self._ends])
 
     @property
-    def _strokes(self) -> list[Any]:
-        return [self.plan.strokes[name] for name in self.free]
+    def _ends(self) -> list[tuple[float, float]]:
+        declared = {name: (each.start, each.end) for name, each in self.plan.strokes.items()}
+        return [self.ranges.get(name, declared[name]) for name in self.free]
 
     @cached_property
     def turning(self) -> Mask:
@@ -314,7 +325,7 @@ def check_targets(places: Places, title: str) -> None:
     follows = places.program.follows
     for place, name in enumerate(names):
         if not follows[place].any():
-            all_free = Places(places.plan, places.designs, places.targets, places.bound, tuple(places.plan.strokes), {})
+            all_free = Places(places.plan, places.designs, places.targets, places.bound, tuple(places.plan.strokes), {}, places.ranges)
             moving = [each for each, moves in zip(all_free.free, all_free.program.follows[place], strict=True) if moves]
             if not moving:
                 raise DefinitionError(f"{title}: {targets[place]!r}: no stroke moves {name}; give a target on what moves.")

@@ -21,11 +21,13 @@ from ..frozen import FrozenDict, read_only, refuses_changes
 from ..language import noted, said
 from ..loads import Case, ForceElement, Weight
 from ..mechanism import Mechanism
-from ..motion import Column, Motion, Target
+from ..motion import Column, Motion, Over, Target
 from ..motion.descent import descended
+from ..motion.judge import Domain
 from ..motion.line import Index
 from ..motion.many_places import EDGE, ManyPlaces, PlacePoses, solved_systems
 from ..motion.measures import words_of
+from ..motion.places import DECLARED, StrokeRanges
 from ..motion.planes import Planes, clearance, pairs_of
 from ..plan import Mask, Plan
 from ..program import FloatArray
@@ -159,6 +161,7 @@ def working_field(
     *,
     along: tuple[float, float] = (0.0, 1.0),
     hold: Mapping[str, float] | None = None,
+    over: Over | Mapping[str, Any] | None = None,
     keep: Sequence[Target] = (),
     lifts: Sequence[Reference] | None = None,
     rule: LoadRule | str | None = None,
@@ -169,14 +172,15 @@ def working_field(
     """Return what a machine lifts at a point over places x by y [m]: `working_field(digger, "L", x=np.linspace(1, 6, 14), y=[0, 1, 2])`.
 
     The load pulls against the direction `along`, beside the machine's own loads of a `case`; `without` names loads that are left out.
-    Strokes on `hold` stand still; `keep` are `Target`s that hold at every place, such as the angle of a fork; up to two strokes may be
-    spare, and stand where most is carried. `lifts` are the cylinders at pump pressure (all unless said), the others hold at their relief
+    Strokes on `hold` stand still; the others run as far as they are declared, or as `over` says, Over(S=(0.0, 0.2)) or a dictionary
+    short for it; up to two may be spare, and stand where most is carried. `keep` are `Target`s that hold at every place, such as the
+    angle of a fork. `lifts` are the cylinders at pump pressure (all unless said), the others hold at their relief
     valves.
     `rule` is a LoadRule, its title too: ISO_10567, ISO_14397_1, OECD_2. `limits` are further ones by name: a number or a quantity that the
     load may not exceed, {"rated load": 20 * kN}, or a comparison of a request, {"stability": drive_force("phi") >= -120 * kN}.
     """
     check_one_design(machine)
-    search = FieldSearch.of(machine, point, x, y, along, hold, keep, lifts, rule_of(rule), case, without, limits)
+    search = FieldSearch.of(machine, point, x, y, along, hold, over, keep, lifts, rule_of(rule), case, without, limits)
     with unwarned(), np.errstate(all="ignore"):
         return search.field()
 
@@ -212,6 +216,21 @@ def names_among(given: Any, what: str, known: Mapping[str, Any], title: str, exa
     if isinstance(given, str) or not isinstance(given, (list, tuple, set, frozenset)):
         raise DefinitionError(f"{title}: {what}={cited(given)}: a list of names is expected, {what}=[{example}].")
     return tuple(known_name("Load", name_of(each), known, where=f"{title}: {what}") for each in given)
+
+
+def ranges_over(machine: Mechanism, over: Any, title: str) -> StrokeRanges:
+    """Return the ends between which strokes run [m or rad]; DefinitionError for what is no box of strokes."""
+    if over is None:
+        return DECLARED
+    found = Over(**over) if isinstance(over, Mapping) and all(isinstance(name, str) for name in over) else over
+    if not isinstance(found, Over) or found.shape != "box":
+        raise DefinitionError(f"{title}: over={cited(over)}: ranges of strokes are expected, such as over=Over(S=(0.0, 0.2)).")
+    if found.only or found.cases:
+        what, remedy = ("only=", 'limits={"front": x("T") <= 4}') if found.only else ("cases=", 'case="full"')
+        raise DefinitionError(f"{title}: over={found}: {what} is not looked at here; give {remedy}.")
+    found.check(machine.plan.title, machine.plan.strokes, ())
+    strokes = Domain(machine.plan, machine.dimensions, found).motion.strokes
+    return {name: (float(np.min(strokes[name])), float(np.max(strokes[name]))) for name in found.strokes}
 
 
 def check_strokes(plan: Plan, hold: Any, targets: Sequence[Target], title: str) -> None:
@@ -303,10 +322,10 @@ class FieldSearch:
 
     @classmethod
     def of(
-        cls, machine: Mechanism, point: Any, x_given: Any, y_given: Any, along: Any, hold: Any, keep: Any, lifts: Any, rule: LoadRule,
-        case: Case, without: Any, limits: Any,
+        cls, machine: Mechanism, point: Any, x_given: Any, y_given: Any, along: Any, hold: Any, over: Any, keep: Any, lifts: Any,
+        rule: LoadRule, case: Case, without: Any, limits: Any,
     ) -> FieldSearch:  # fmt: skip
-        asked = machine, point, x_given, y_given, along, hold, keep, lifts, rule, case, without, limits
+        asked = machine, point, x_given, y_given, along, hold, over, keep, lifts, rule, case, without, limits
         plan, title = machine.plan, f"{machine.plan.title}: working_field"
         name = known_name("Point", name_of(point), plan.points, where=title)
         if name not in plan.moving:
@@ -319,8 +338,11 @@ class FieldSearch:
         if not isinstance(keep, (list, tuple)) or not all(isinstance(each, Target) and not each.is_path for each in keep):
             raise DefinitionError(f'{title}: keep={cited(keep)}: a list of targets is expected, such as keep=[Target("tilt", 0.0)].')
         targets = [Target(x_of(name), float(axes[0][0])), Target(y_of(name), float(axes[1][0])), *keep]
+        ranges = ranges_over(machine, over, title)
+        still = {name: low for name, (low, high) in ranges.items() if low == high}
+        hold = {**still, **hold} if isinstance(hold, Mapping) else hold or still
         check_strokes(plan, hold, targets, title)
-        many = ManyPlaces.of(plan, machine.dimensions, targets, hold, where="working_field")
+        many = ManyPlaces.of(plan, machine.dimensions, targets, hold, where="working_field", ranges=ranges)
         elements = plan.of_kind(ForceElement)
         left = names_among(without, "without", elements, title, '"load"')
         lifting = None if lifts is None else frozenset(names_among(lifts, "lifts", elements, title, '"boom"'))
@@ -546,6 +568,11 @@ class FieldSearch:
         if held:
             words = ", ".join(f"{name} = {self.many.places.stroke_value(name, value)}" for name, value in held.items())
             found.append(said("held: {words}", words=words))
+        places = self.many.places
+        ends = {name: [places.stroke_value(name, end) for end in places.ranges[name]] for name in places.free if name in places.ranges}
+        if ends:
+            words = ", ".join(f"{name} = {said('{low} to {high}', low=low, high=high)}" for name, (low, high) in ends.items())
+            found.append(said("strokes run: {words}", words=words))
         kept = self.many.places.targets[2:]
         if kept:
             words = ", ".join(f"{words_of(each.quantity)} = {show(float(each.value), each.shown_in(plan))}" for each in kept)

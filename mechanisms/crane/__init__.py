@@ -33,7 +33,6 @@ from .flow import boom_drive_of as boom_drive_of
 from .flow import design_crane as design_crane
 from .flow import design_skeleton as design_skeleton
 from .flow import with_drives as with_drives
-from .load_map import LoadMap as LoadMap
 from .load_map import load_map as load_map
 from .machine import BellCrankCrane as BellCrankCrane
 from .machine import ChainCrane as ChainCrane

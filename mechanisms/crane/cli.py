@@ -9,19 +9,20 @@ from pathlib import Path
 import numpy as np
 
 from linkage import Column, DefinitionError
+from linkage.cli.chart import print_chart
 from linkage.cli.command import Command, progress_bar
 from linkage.cli.machines import find
 from linkage.cli.settings import design
 from linkage.cli.table import csv_argument, write_table
 from linkage.disk import check_place
 from linkage.errors import unknown
-from linkage.units import kN, parse
+from linkage.units import parse
 
 from . import FIGURES, crane_figure
 from .cylinders import arm_moment, boom_moment
 from .duty import Duty
 from .flow import design_crane, design_skeleton
-from .load_map import LoadMap, load_map
+from .load_map import load_map
 from .machine import Crane
 from .moments import arm_bound, boom_bound
 from .reach import envelope
@@ -31,8 +32,6 @@ from .strength import strength_text
 KINDS = {"M": "moment", "payload": "mass", "psi_0": "angle", "k_d": "", "rho_w": ""}
 """What the numbers of a duty measure; those not named here are lengths."""
 
-SHORT = {"boom cylinder": "b", "arm cylinder": "a", "telescope cylinder": "t", "stability": "s", "rated load": "r", "out of reach": ""}
-LEGEND = "Greatest load at the tip, kN, by radius and height in m; limited by the cylinder of the boom b, the arm a, the telescope t."
 COUNT = 9
 
 
@@ -155,21 +154,9 @@ def print_map(crane: Crane, options: Namespace) -> None:
     found = envelope(crane)
     far = float(found.border[..., 0].max())
     over = load_map(crane, np.linspace(8.0, -1.0, 10), np.linspace(1.0, np.floor(far), 10))
-    print(f"\n{LEGEND}\n")
     if options.csv:
-        write_table(over.columns(), over.radii.size, options.csv)
+        write_table(over.columns(), over.x.size, options.csv)
     else:
-        print(map_text(over))
+        print()
+        print_chart(over)
     print(f"\nThe tip reaches {found.area:.1f} m2.")
-
-
-def map_text(over: LoadMap) -> str:
-    """Return a load map as text: a row each height, a load and the letter of its limiter each radius."""
-    lines = ["   y \\ x" + "".join(f"{radius:8.2f} " for radius in over.radii)]
-    for k, height in enumerate(over.heights):
-        cells = (
-            f"{load / kN:8.1f}{SHORT[str(limiter)]}" if np.isfinite(load) else f"{'':8}-"
-            for load, limiter in zip(over.load[k], over.limiter[k], strict=True)
-        )
-        lines.append(f"{height:8.2f}" + "".join(cells))
-    return "\n".join(lines)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from hydraulics import Cylinder, LiftCircuit
 from linkage import DefinitionError, Motion, distance, ratio
 from linkage.program import FloatArray
+from linkage.study.checks import check_one_design
 from linkage.units import mm
 
 from .machine import DRIVEN, Crane
@@ -79,8 +80,9 @@ def arm_moment(crane: Crane, psi: ArrayLike) -> tuple[FloatArray, FloatArray]:
 def drive_limits(crane: Crane) -> dict[str, tuple[float, float]]:
     """Return how far each drive goes in this design, phi, psi [rad], t [m], as far as its cylinder's closed and open length let it.
 
-    DefinitionError where a cylinder's length fits none of its drive's positions.
+    DefinitionError for a batch, and where a cylinder's length fits none of its drive's positions.
     """
+    check_one_design(crane)
     return {stroke: within(crane, stroke, *span) for stroke, span in crane.limits_of().items()}
 
 

@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch, Rectangle
+from matplotlib.patches import Rectangle
 
-from linkage import DefinitionError, draw
+from linkage import DefinitionError, draw, plot
 from linkage.errors import unknown
 from linkage.pictures import style
 from linkage.pictures.sheet import panels, sheet
@@ -20,24 +20,12 @@ from linkage.units import kN
 from .drive_figures import one_movement
 from .drive_report import worst_movements
 from .flow import arm_drive_of, boom_drive_of
-from .load_map import LIMITERS, LoadMap, load_map
+from .load_map import load_map
 from .machine import Crane
 from .reach import Envelope, envelope
 from .skeleton import POSITIONS, CraneSkeleton
 
 COUNT = 361
-COLOURS: Mapping[str, str] = MappingProxyType(
-    {
-        "boom cylinder": "#8fb8de",
-        "arm cylinder": "#f0c987",
-        "telescope cylinder": "#9fd0ae",
-        "stability": "#d9a5c2",
-        "rated load": "#c9c3e6",
-        "out of reach": "#f1f3f5",
-    }
-)
-
-
 REACHED = "#dbe8f4"
 
 
@@ -133,41 +121,7 @@ def shipped_map(crane: Crane) -> Figure:
     """Return the load map over all that the tip reaches above -0.2 of the reach, 14 radii by 15 heights."""
     far, top = envelope(crane).border.max(axis=(0, 1))
     across, down = CELLS
-    return map_figure(crane, load_map(crane, np.linspace(-0.2 * far, top - 0.3, down), np.linspace(0.05 * far, far - 0.02, across)))
-
-
-def map_figure(crane: Crane, found: LoadMap) -> Figure:
-    """Return a load map: in every cell the load in kN, its colour what limits it; beside it the edge of the reach."""
-    page, (ax,) = panels((0.62 * found.radii.size + 2.6, 0.44 * found.heights.size + 1.9), 1, rect=(0.005, 0.01, 0.985, 0.985))
-    page.suptitle("Greatest load at the tip, kN", fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
-    wide, high = (cell_size(each) for each in (found.radii, found.heights))
-    for k, height in enumerate(found.heights):
-        for n, radius in enumerate(found.radii):
-            limiter, load = str(found.limiter[k, n]), float(found.load[k, n])
-            corner = radius - 0.5 * wide, height - 0.5 * high
-            ax.add_patch(Rectangle(corner, wide, high, facecolor=COLOURS[limiter], edgecolor=style.PAPER, linewidth=1.2, zorder=2.0))
-            if np.isfinite(load):
-                ax.text(radius, height, f"{load / kN:.1f}", ha="center", va="center", fontsize=style.SMALL, color=style.INK, zorder=6.0)
-    ax.set(
-        xlim=(found.radii[0] - 0.5 * wide, found.radii[-1] + 0.5 * wide),
-        ylim=(found.heights[0] - 0.5 * high, found.heights[-1] + 0.5 * high),
-    )
-    outline(ax, envelope(crane))
-    ax.axhline(0.0, color=style.PISTON, linewidth=1.2, zorder=5.0)
-    ax.set_xlabel("radius of the tip from the column's axis, m", fontsize=style.TEXT, color=style.MUTED)
-    ax.set_ylabel("height of the tip over the ground, m", fontsize=style.TEXT, color=style.MUTED)
-    shown = [each for each in LIMITERS if each in set(found.limiter.ravel())]
-    handles = [Patch(facecolor=COLOURS[each], edgecolor=style.RULE, label=each) for each in shown]
-    ax.legend(
-        handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=len(shown), fontsize=style.SMALL, frameon=False,
-        labelcolor=style.INK, title="limited by", title_fontsize=style.SMALL,
-    )  # fmt: skip
-    return page
-
-
-def cell_size(places: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
-    """Return how wide a cell is [m]: the way from place to place, 1 m of a single one."""
-    return float(np.min(np.diff(places))) if places.size > 1 else 1.0
+    return plot(load_map(crane, np.linspace(-0.2 * far, top - 0.3, down), np.linspace(0.05 * far, far - 0.02, across)))
 
 
 def outline(ax: Axes, found: Envelope) -> None:

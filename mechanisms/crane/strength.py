@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkage import Force, ForceElement, Motion, PinForces, max_table, pin_forces
+from linkage import Force, ForceElement, Motion, PinForces, max_table, pin_forces, working_field
 from linkage.program import FloatArray
 from linkage.statics import table_text
 
-from .load_map import Carrying, Limits
+from .cylinders import drive_limits
+from .load_map import LOAD, TIP
 from .machine import Crane
 from .moments import LIFTING
 
@@ -41,18 +42,22 @@ def stretched(crane: Crane) -> Motion:
 def dragging(crane: Crane) -> tuple[Motion, FloatArray]:
     """Return the tip drawn in along the ground, the telescope as far in as it can be, and the greatest pull at every pose [N].
 
-    The pull is what all cylinders hold, of a load that resists outwards.
+    The pull is what all cylinders hold, of a load that resists outwards. The telescope stands at its closed end, or where the boom is at
+    its lowest, or where the arm is straight.
     """
-    carrying = Carrying(crane, Limits(), LIFTING, pull=(1.0, 0.0))
-    x = np.linspace(float(crane["L"]), 0.0, 8 * COUNT)
-    y = np.full(x.size, float(crane["H_w"]))
-    found = carrying.reach.windows(x, y)
-    first = np.unique(found.place, return_index=True)[1]
-    chosen = first[np.linspace(0, first.size - 1, COUNT).astype(int)]
-    place, t = found.place[chosen], found.low[chosen]
-    phi, psi = carrying.reach.angles(x[place], y[place], t, found.elbow[chosen])
-    pull = carrying(phi, psi, t).min(axis=0)
-    return carrying.crane.at(phi=phi, psi=psi, t=t), pull
+    ends, x = drive_limits(crane), np.linspace(float(crane["L"]), 0.0, 8 * COUNT)
+    stands = {"t": ends["t"][0], "phi": ends["phi"][1], "psi": min(ends["psi"][1], np.pi)}
+    fields = [
+        working_field(crane, TIP, x, [float(crane["H_w"])], along=(-1.0, 0.0), over=ends, hold={name: value}, case=LIFTING, without=[LOAD])
+        for name, value in stands.items()
+    ]
+    found = {name: np.array([each.strokes[name][0] for each in fields]) for name in ends}
+    least = np.argmin(np.where(np.isnan(found["t"]), np.inf, found["t"]), axis=0)
+    strokes = {name: values[least, np.arange(x.size)] for name, values in found.items()}
+    pull = np.array([each.load[0] for each in fields])[least, np.arange(x.size)]
+    there = np.flatnonzero(np.isfinite(pull))
+    chosen = there[np.linspace(0, there.size - 1, COUNT).astype(int)]
+    return crane.replaced(Q=0.0).at(**{name: values[chosen] for name, values in strokes.items()}), pull[chosen]
 
 
 def strength_text(crane: Crane) -> str:

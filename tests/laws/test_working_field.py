@@ -26,6 +26,7 @@ from linkage import (
     Mechanism,
     OnLink,
     Outline,
+    Over,
     Part,
     PinFriction,
     Planes,
@@ -45,7 +46,6 @@ from linkage import (
 from linkage.units import bar, deg, g0, kN, mm
 from mechanisms.at_work.tipper import Tipper
 from mechanisms.crane import Crane
-from mechanisms.crane.load_map import Carrying, Limits
 from tests.machines.test_excavator import Excavator
 
 ALONE = {"hold": {"S3": 0.2}, "without": ["dig"]}
@@ -227,26 +227,42 @@ def test_pressure_of_a_rule_is_the_share_of_a_capacity():
     assert checked > 20
 
 
-def test_strokes_to_spare_stand_where_most_is_carried():
+def poses_of_crane(crane, across, up, t):
+    """Return boom and arm of a crane's tip by complex numbers, the joint above; NaN where the three lengths close no triangle."""
+    boom, arm = float(crane["l_c"]), float(crane["l_p"]) + t
+    tip = across + 1j * (up - float(crane["H_p"]) - float(crane["h_0"]))
+    with np.errstate(invalid="ignore"):
+        along = (boom**2 - arm**2 + abs(tip) ** 2) / (2.0 * abs(tip))
+        joint = tip / abs(tip) * (along + 1j * np.sqrt(boom**2 - along**2))
+        return {"phi": pi / 2 - np.angle(joint), "psi": np.mod(np.angle((tip - joint) / -joint), 2.0 * pi), "t": t}
+
+
+@pytest.mark.parametrize("over", [None, {"phi": (30 * deg, 80 * deg), "psi": (40 * deg, 150 * deg), "t": (0.4, 2.0)}, {"t": (0.0, 3.1)}])
+def test_strokes_to_spare_stand_where_most_is_carried(over):
     crane = Crane(Q=0.0)
-    radii, heights = np.array([1.0, 2.4, 4.7, 7.7, 8.9, 9.9]), np.array([-1.0, 1.6, 4.8, 8.0])
-    field = working_field(crane, "T", radii, heights, case="lifting")
-    carrying, ends = Carrying(Crane(), Limits(), "lifting"), {name: (each.start, each.end) for name, each in crane.strokes.items()}
-    t, one = np.linspace(*ends["t"], 20001), np.ones(20001)
+    radii, heights = np.array([1.0, 2.4, 4.7, 7.7, 8.9, 9.9, 10.4]), np.array([-1.0, 1.6, 4.8, 8.0])
+    field = working_field(crane, "T", radii, heights, case="lifting", over=over)
+    ends = {name: (each.start, each.end) for name, each in crane.strokes.items()} | (over or {})
     for k, height in enumerate(heights):
         for n, radius in enumerate(radii):
-            phi, psi = carrying.reach.angles(radius * one, height * one, t, one)
-            fits = carrying.reach.stands(radius * one, height * one, t, one)
-            for values, name in ((phi, "phi"), (psi, "psi")):
-                fits &= (values >= ends[name][0] - 1e-9) & (values <= ends[name][1] + 1e-9)
+            strokes = poses_of_crane(crane, radius, height, np.linspace(*ends["t"], 20001))
+            fits = np.all([(values >= ends[name][0] - 1e-9) & (values <= ends[name][1] + 1e-9) for name, values in strokes.items()], axis=0)
             assert fits.any() == field.reached[k, n], (radius, height)
             if fits.any():
-                best = carrying(phi, psi, t).min(axis=0)[fits].max()
+                best = field.search.loads.at({name: values[fits] for name, values in strokes.items()}).min(axis=0).max()
                 assert field.load[k, n] >= best * (1.0 - 1e-9)
                 assert field.load[k, n] <= best * (1.0 + 5e-3)
     motion = field.motion()
     across, up = np.meshgrid(radii, heights)
     assert_allclose(motion["T"], np.stack([across[field.reached], up[field.reached]]), atol=1e-9)
+    assert any("strokes run" in each for each in field.remarks) == (over is not None)
+
+
+def test_a_stroke_with_one_place_to_run_is_held():
+    given = {"hold": {"S3": 0.2}}, {"over": Over(S3=0.2)}
+    held, over = (working_field(Excavator(), "L", RADII, HEIGHTS, without=["dig"], **each) for each in given)
+    assert_allclose(over.load, held.load, rtol=1e-13)
+    assert any("held: S3" in each for each in over.remarks)
 
 
 class Telehandler(Mechanism):
@@ -570,6 +586,11 @@ def test_slope_of_a_load_case_turns_the_own_weights_alone():
         ({"limits": {"boom": 1.0}}, "limiter already"),
         ({"keep": "tilt"}, "a list of targets"),
         ({"case": "uphill"}, "uphill"),
+        ({"over": "loading"}, "ranges of strokes are expected"),
+        ({"over": {"S4": (0.0, 1.0)}}, "S4"),
+        ({"over": Over.path(S1=[0.1, 0.2])}, "ranges of strokes are expected"),
+        ({"over": Over(only=[x("L") <= 2.0])}, "limits="),
+        ({"over": Over(cases=["plain"])}, "case="),
     ],
 )
 def test_what_a_field_refuses(given, words):

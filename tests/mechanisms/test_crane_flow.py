@@ -239,7 +239,7 @@ def test_command_draws_and_lists_pins(run, tmp_path):
 def test_command_writes_the_map(run, tmp_path):
     run(NAMED, "--set", "Q=5kN", "--csv", str(tmp_path / "map.csv"))
     heading, *rows = (tmp_path / "map.csv").read_text().splitlines()
-    assert heading.replace('"', "").startswith("radius, m")
+    assert heading.replace('"', "").startswith("T_x, m")
     assert len(rows) == 10
 
 

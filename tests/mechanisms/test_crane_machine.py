@@ -227,7 +227,7 @@ def test_load_map_is_brute_force(machine):
     both = np.isfinite(slow)
     assert both.sum() >= 6
     assert np.isfinite(found[both]).all()
-    assert np.all(found[both] >= slow[both] * (1.0 - 1e-5))
+    assert np.all(found[both] >= slow[both] * (1.0 - 1e-6))
     assert_allclose(found[both], slow[both], rtol=1e-3)
 
 
@@ -243,13 +243,13 @@ def test_the_pose_of_a_cell_is_at_its_limit():
     """At every cell's pose the tip is there, and the limiting cylinder, with the load by its own thrust, is at what it gives."""
     crane, found = Crane(), load_map(Crane(), HEIGHTS, RADII)
     own = [name for name in crane.plan.of_kind(ForceElement) if name != "load"]
-    names = {"boom cylinder": "phi", "arm cylinder": "psi", "telescope cylinder": "t"}
-    assert set(np.unique(found.limiter)) == {*names, "out of reach"}
+    strokes = {ram: stroke for stroke, (ram, _) in DRIVEN.items()}
+    assert set(np.unique(found.limiter)) == {*strokes, "out of reach"}
     for k, n in np.argwhere(np.isfinite(found.load))[::4]:
-        motion = crane.at(phi=found.phi[k, n], psi=found.psi[k, n], t=found.t[k, n])
+        motion = crane.at(**{name: values[k, n] for name, values in found.strokes.items()})
         assert_allclose(motion["T"], (RADII[n], HEIGHTS[k]), atol=1e-7)
         uses = {}
-        for limiter, stroke in names.items():
+        for limiter, stroke in strokes.items():
             cylinder, size = motion.plan.members[DRIVEN[stroke][0]], motion.plan.members[DRIVEN[stroke][0]].size
             thrust = float(cylinder.thrust(motion, [*own, Force("T", (0.0, -found.load[k, n]))], case="lifting"))
             uses[limiter] = thrust / (22e6 * 0.95 * (size.push_area if thrust > 0.0 else -size.pull_area))
@@ -265,7 +265,7 @@ def test_stability_and_a_rated_load_limit_too():
     there = np.isfinite(free.load)
     assert np.all(held.load[there] <= np.minimum(free.load[there], 18 * kN) * (1 + 1e-9))
     for k, n in np.argwhere(held.limiter == "stability"):
-        motion = crane.replaced(Q=held.load[k, n]).at(phi=held.phi[k, n], psi=held.psi[k, n], t=held.t[k, n])
+        motion = crane.replaced(Q=held.load[k, n]).at(**{name: values[k, n] for name, values in held.strokes.items()})
         moment = -float(driving_force(motion, drive="phi", case="lifting"))
         assert moment == pytest.approx(120 * kN, rel=1e-9)
 
@@ -273,7 +273,7 @@ def test_stability_and_a_rated_load_limit_too():
 def test_the_very_end_of_the_reach_is_within_it():
     crane = Crane()
     found = load_map(crane, [1.2], [10.0, 10.001])
-    assert found.load[0, 0] > 0.0 and found.at_stop[0, 0]
+    assert found.load[0, 0] > 0.0 and found.strokes["t"][0, 0] == pytest.approx(crane.limits_of()["t"][1])
     assert found.limiter[0, 1] == "out of reach"
 
 
@@ -299,7 +299,7 @@ def test_a_cylinder_that_never_fits_is_refused():
     [
         (lambda: load_map(Crane(Q=np.array([1.0, 2.0])), [1.0], [5.0]), "this is a batch"),
         (lambda: load_map(Crane(), [[1.0]], [5.0]), "numbers in a row"),
-        (lambda: load_map(Crane(), [np.nan], [5.0]), "not finite"),
+        (lambda: load_map(Crane(), [np.nan], [5.0]), "numbers in a row"),
         (lambda: load_map(Crane(), [1.0], [5.0], stability=-1.0), "stability = -1 is not above zero"),
         (lambda: load_map(Crane(), [1.0], [5.0], case="heavy"), "heavy"),
     ],

@@ -863,6 +863,10 @@ class Circuit(ForceElement, HasVerdicts):
         """Return the pressure of its line, where that is one for all its cylinders, shape (...) [Pa gauge]."""
         raise DefinitionError(f"{self.name} = {self}: its pressure is asked of a cylinder, {self.name}.pressure_for(motion).")
 
+    def fills(self, name: str) -> bool:
+        """Return whether it says how long a cylinder is where it is filled."""
+        return False
+
     def length_given(self, chamber: Chamber, members: Mapping[str, Member]) -> Quantity:
         """Return the length that a closed line gives one of its cylinders [m]."""
         raise DefinitionError(f"{self.name} = {self} is not closed, and gives no length.")
@@ -959,16 +963,53 @@ def length_in(cylinder: Ram, members: Mapping[str, Member]) -> Quantity:
     called = f"{cylinder.name}.length"
     if called not in names_behind(cylinder.ends, members):
         return distance(cylinder.A, cylinder.B)
-    for line, chamber in lines_of(cylinder, members):
-        if line.kind_in(members) == "closed":
+    own = [(line, chamber) for line, chamber in lines_of(cylinder, members) if line.kind_in(members) == "closed"]
+    if not own:
+        what = f"{called} is asked for by what places its own pins, {cylinder.A} and {cylinder.B}, and no closed line gives it"
+        raise DefinitionError(f"{what}; declare one, OilLine({cylinder.name}.piston_side, other.piston_side, filled=dict(...)).")
+    giving = lines_giving(members)
+    for line, chamber in own:
+        if giving.get(cylinder.name) is line:
             return line.length_given(chamber, members)
-    what = f"{called} is asked for by what places its own pins, {cylinder.A} and {cylinder.B}, and no closed line gives it"
-    raise DefinitionError(f"{what}; declare one, OilLine({cylinder.name}.piston_side, other.piston_side, filled=dict(...)).")
+    line, _ = own[0]
+    other = next(name for name, each in giving.items() if each is line)
+    what = f"{line.name} = {line}: one closed line gives one length, and {other}.length and {called} are asked"
+    raise DefinitionError(f"{what}; declare another line, or find their pins together in a Group.")
+
+
+def lines_giving(members: Mapping[str, Member]) -> dict[str, Circuit]:
+    """Return the closed lines that give cylinders their lengths, by the names of these: one each, first one whose `filled` names it.
+
+    A cylinder whose pins follow its own length is given that; it is left out where there are more of them than lines.
+    """
+    asking = [each for each in members.values() if isinstance(each, Ram) and lines_of(each, members)]
+    asking = [each for each in asking if f"{each.name}.length" in names_behind(each.ends, members)]
+    closed = {each.name: [line for line, _ in lines_of(each, members) if line.kind_in(members) == "closed"] for each in asking}
+    closed = {name: sorted(lines, key=lambda line: not line.fills(name)) for name, lines in closed.items()}
+    found: dict[str, Circuit] = {}
+
+    def give(name: str, tried: set[str]) -> bool:
+        for line in (each for each in closed[name] if each.name not in tried):
+            tried.add(line.name)
+            holder = next((other for other, each in found.items() if each is line), None)
+            if holder is None or give(holder, tried):
+                found[name] = line
+                return True
+        return False
+
+    for name in closed:
+        give(name, set())
+    return found
+
+
+def named_in(reference: Reference) -> Iterable[str]:
+    """Return the name of what is referred to, or the names that it is made of where it has none."""
+    return needs(reference) if isinstance(reference, Member) and not reference.name else [name_of(reference)]
 
 
 def names_behind(starts: Iterable[Reference], members: Mapping[str, Member]) -> set[str]:
     """Return the names that members of a class are built from, as far as they are there."""
-    stack, found = [name_of(each) for each in starts], set[str]()
+    stack, found = [name for each in starts for name in named_in(each)], set[str]()
     while stack:
         name = stack.pop()
         if name not in found:

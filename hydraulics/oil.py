@@ -70,7 +70,9 @@ from .member import (
     chamber_area,
     changes_in_motion,
     is_named,
+    lines_giving,
     lines_of,
+    names_behind,
     the_cylinder,
 )
 
@@ -317,7 +319,16 @@ class OilLine(PumpLine, GasLine):
 
     def cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
         tie = self.tie(members) if self.kind_of_line == "closed" else None
-        return () if tie is None or not tie.gives or not tie.cut.endswith(".oil") else (tie.cut,)
+        return () if tie is None or not tie.gives or isinstance(members.get(tie.cut), Stroke) else (tie.cut,)
+
+    def driven_cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
+        cuts, oil = self.cuts(members), self.oil_given
+        return cuts if any(isinstance(members.get(name), Stroke) for name in names_behind([oil], members)) else ()
+
+    def variables(self) -> tuple[tuple[str, float, str, str], ...]:
+        """Return its design variables: where its oil follows a dimension or an expression, what is put in beside that, too, which is 0."""
+        beside = ((self.cut, 0.0, "number", "l"),) if self.kind_of_line == "closed" and self.cut.endswith(".added") else ()
+        return (*super().variables(), *beside)
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         opening = f"{title}: {self.name} = {self}"
@@ -412,15 +423,19 @@ class OilLine(PumpLine, GasLine):
 
     @property
     def cut(self) -> str:
-        """The input by which its oil changes: its own, or that of the stroke or dimension that says it."""
+        """The input by which its oil changes: a stroke that says it, else its own, beside what it follows."""
         oil = self.oil_given
-        return f"{self.name}.oil" if isinstance(oil, Number) else oil.name or str(oil)
+        if isinstance(oil, Number):
+            return f"{self.name}.oil"
+        return oil.name if isinstance(oil, Stroke) and oil.name else f"{self.name}.added"
 
     def _gives(self, ram: Ram, members: Mapping[str, Member]) -> bool:
         """Return whether it gives a cylinder its length."""
-        length = members.get(f"{ram.name}.length")
-        first = next((line for line, _ in lines_of(ram, members) if line.kind_in(members) == "closed"), None)
-        return isinstance(length, LineLength) and first is not None and same(first, self)
+        length, giving = members.get(f"{ram.name}.length"), lines_giving(members).get(ram.name)
+        return isinstance(length, LineLength) and giving is not None and same(giving, self)
+
+    def fills(self, name: str) -> bool:
+        return isinstance(self.filled, str) or (isinstance(self.filled, Mapping) and name in self.filled)
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         members = motion.plan.members
@@ -478,21 +493,22 @@ class OilLine(PumpLine, GasLine):
             first, *others = (written_number(ram, name) for name in wanted)
             return reduce(lambda a, b: a + b, others, first)
         strokes = [name for name, member in members.items() if isinstance(member, Stroke)]
-        return AtPose(Distance(ram.A, ram.B), FrozenDict(self.strokes_filled(strokes)))
+        return AtPose(Distance(ram.A, ram.B), FrozenDict(self.strokes_filled(strokes)), put_in_later(members))
 
     def length_given(self, chamber: Chamber, members: Mapping[str, Member]) -> Quantity:
         """Return the length that it gives one of its cylinders [m]: that where it was filled, and what the oil of the others makes."""
         filling = self.filling(members)
         own = cast(Ram, members[name_of(chamber.cylinder)])
-        already = [ram for ram, _ in filling if ram is not own and f"{ram.name}.length" in members and self._gives(ram, members)]
-        if already:
-            what = f"{self.name} = {self}: one closed line gives one length, and {already[0].name}.length and {own.name}.length are asked"
-            raise DefinitionError(f"{what}; declare another line, or find their pins together in a Group.")
-        if not (isinstance(self.filled, str) or (isinstance(self.filled, Mapping) and own.name in self.filled)):
+        if not self.fills(own.name):
             what = f"{self.name} = {self}: nothing says how long {own.name} is where the line is filled"
             raise DefinitionError(f"{what}; add filled=dict({own.name}=...) in m.")
         others = [(ram, each) for ram, each in filling if ram.name != own.name]
-        taken = (Variable(f"{self.name}.oil") if isinstance(self.oil_given, Number) else self.oil_given) * (4.0 / pi)
+        oil = self.oil_given
+        if isinstance(oil, Number):
+            oil = Variable(self.cut)
+        elif self.cut.endswith(".added"):
+            oil = oil + Variable(self.cut)
+        taken = oil * (4.0 / pi)
         for ram, each in others:
             taken = taken - square_written(each, ram) * (Distance(ram.A, ram.B) - self.length_filled(ram, members))
         area = reduce(lambda a, b: a + b, (square_written(each, own) for ram, each in filling if ram.name == own.name))
@@ -571,12 +587,11 @@ class OilLine(PumpLine, GasLine):
 
     def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
         strokes = self.strokes_filled(list(plan_of(motion).strokes))
-        return {name: np.asarray(value) for name, value in strokes.items()}
+        unmoved = put_in_later(motion.plan.members) if self.kind_of_line == "closed" else ()
+        return {name: np.asarray(value) for name, value in {**dict.fromkeys(unmoved, 0.0), **strokes}.items()}
 
     def withdrawn(self, motion: Poses) -> Array:
-        found = reduce(np.add, self._volumes(motion))
-        oil = self.oil_given
-        return found if isinstance(oil, Number) and oil.number == 0.0 else found - self.number(motion, "oil")
+        return np.asarray(reduce(np.add, self._volumes(motion)) - self.number(motion, "oil"))
 
     def gas_block(self, plan: Declared) -> Block:
         assert self.block is not None
@@ -729,6 +744,12 @@ def chamber_named(given: Any) -> Any:
         if name and side in ("piston_side", "rod_side"):
             return Chamber(name, PISTON if side == "piston_side" else ROD)
     return given
+
+
+def put_in_later(members: Mapping[str, Member]) -> tuple[str, ...]:
+    """Return the inputs of the oil of closed lines, which have nothing of it where they are filled."""
+    lines = [each for each in members.values() if isinstance(each, OilLine) and each.kind_in(members) == "closed"]
+    return tuple(each.cut for each in lines if not isinstance(members.get(each.cut), Stroke))
 
 
 def on_line_text(each: Any) -> str:

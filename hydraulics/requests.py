@@ -114,6 +114,7 @@ def pressure(
 
     It is that of the cylinder's one circuit, efficiencies and back pressure included; `circuit` names one of several LiftCircuits.
     Of the side that works; `side="piston"` or `side="rod"` asks for one side, 0 where the other one holds. Where it is judged both count.
+    In the place of the cylinder an OilLine may be named, whose own pressure it is then, with the direction that of its first cylinder.
     """
     if side:
         known_name("Side", side, SIDES)
@@ -134,9 +135,28 @@ def pressure_request(
     options = (side and f"side={side}") or None, kinds
     return replace(
         circuit_request("pressure", cylinder, acting, circuit, formula, after=options, measures="pressure"),
+        formula=partial(pressure_of_named, cylinder, formula, bool(circuit or side)),
         examine=partial(examine_pressure, cylinder, circuit), directions=partial(driven_or_both, cylinder, is_needed),
         pieces_in=partial(pressure_pieces, cylinder, circuit, side, is_needed),
     )  # fmt: skip
+
+
+def line_in(named: str | Ram, plan: Plan) -> Circuit | None:
+    """Return the line that a name stands for in a plan; None where it is a cylinder's."""
+    found = plan.members.get(named) if isinstance(named, str) else None
+    return found if isinstance(found, Circuit) else None
+
+
+def pressure_of_named(
+    named: str | Ram, formula: Callable[[AnyMotion, Ram, Acting], Array], is_told: bool, motion: AnyMotion, acting: Acting
+) -> Array:
+    """Return the pressure of a line or in a cylinder; DefinitionError for a line where a circuit or a side `is_told` beside it."""
+    line = line_in(named, motion.plan)
+    if line is None:
+        return formula_of_cylinder(formula, named, motion, acting)
+    if is_told:
+        raise DefinitionError(f"{motion.plan.title}: pressure({named}): {named} is a line, of one pressure; leave circuit= and side= out.")
+    return line.line_pressure(motion, acting) + np.zeros(motion.shape)
 
 
 def pressure_over(motion: AnyMotion, ram: Ram, acting: Acting, *, circuit: Circuits, side: str, below: bool) -> Array:
@@ -149,6 +169,8 @@ def pressure_over(motion: AnyMotion, ram: Ram, acting: Acting, *, circuit: Circu
 
 def examine_pressure(cylinder: str | Ram, circuit: Circuits, plan: Plan) -> None:
     """Raise DefinitionError where it is not plain which circuit, if any, gives a cylinder its pressure."""
+    if line_in(cylinder, plan) is not None:
+        return
     ram = cylinder_in(cylinder, plan)
     if circuit:
         circuit_with(plan, ram, circuit, "pressure")
@@ -158,18 +180,23 @@ def examine_pressure(cylinder: str | Ram, circuit: Circuits, plan: Plan) -> None
 
 def driven_or_both(cylinder: str | Ram, is_needed: bool, plan: Plan) -> tuple[str, ...]:
     """Return the directions in which a pressure is judged: those in which the pump drives where it is what is needed, else all."""
-    return cylinder_in(cylinder, plan).driven if is_needed else DIRECTIONS
+    return cylinder_in(cylinder, plan).driven if is_needed and line_in(cylinder, plan) is None else DIRECTIONS
 
 
 def pressure_pieces(
     cylinder: str | Ram, circuit: Circuits, side: str, is_needed: bool, request: LawRequest, plan: Plan
 ) -> tuple[SmoothPiece, ...]:
     """Return the smooth pieces of a pressure: one a side that may hold, going on below zero where the other one does."""
+    if line_in(cylinder, plan) is not None:
+        return (SmoothPiece(request),)
     on_side = partial(pressure_request, cylinder, request.situation, circuit, is_needed=is_needed)
     ram = cylinder_in(cylinder, plan)
     sides = [side] if side else [driving_side(request.situation.direction)] if is_needed else SIDES
     if not side and not is_needed and any(same(ram, one) for each in plan.of_kind(Circuit).values() for one in each.feeds(plan.members)):
         return (SmoothPiece(request, ram.side),)
+    own = circuit_having(ram, plan, False)
+    if not (side or circuit) and own is not None and own.kind_in(plan.members) == "closed":
+        return (SmoothPiece(request),)
     return tuple(SmoothPiece(on_side(each), each, below=on_side(each, below=True)) for each in sides)
 
 

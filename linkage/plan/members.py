@@ -309,6 +309,11 @@ class Members:
         return tuple(name for member in self.members.values() for name in member.cuts(self.members))
 
     @cached_property
+    def driven_cuts(self) -> tuple[str, ...]:
+        """Those of them that strokes change as well."""
+        return tuple(name for member in self.members.values() for name in member.driven_cuts(self.members))
+
+    @cached_property
     def groups(self) -> dict[str, Group]:
         """The groups whose pins are found together, in order."""
         return self.of_kind(Group)

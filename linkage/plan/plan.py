@@ -59,7 +59,7 @@ class Plan(Members):
     @property
     def gruebler(self) -> int:
         """The Gruebler count 3 (n - 1) - 2 j of the chain, without what closed lines and ropes of their own lengths keep."""
-        return self.chain.count - len(self.cuts)
+        return self.chain.count - len(self.cuts) + len(self.driven_cuts)
 
     @cached_property
     def trace(self) -> Trace:

@@ -137,6 +137,10 @@ class Member:
         """Return the inputs beside the strokes by which it moves the machine, as the oil of a closed line does."""
         return ()
 
+    def driven_cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
+        """Return those of its cuts that strokes change as well, as the oil that a stroke puts in."""
+        return ()
+
     def in_axes(self, axes: Any) -> Self:
         """Return this member of a part as it stands in the machine that has the part; itself, where it speaks of no axes and no side."""
         return self

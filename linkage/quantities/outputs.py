@@ -184,10 +184,14 @@ def y(P: Reference) -> Quantity:
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class AtPose(Quantity):
-    """What a quantity is at one pose of the strokes, whatever the pose; strokes that are not named are at the sketch."""
+    """What a quantity is at one pose of the strokes, whatever the pose; strokes that are not named are at the sketch.
+
+    Inputs that are `unmoved` are 0 there.
+    """
 
     of: Quantity
     strokes: Mapping[str, float]
+    unmoved: tuple[str, ...] = ()
 
     @property
     def measures(self) -> str:
@@ -197,7 +201,7 @@ class AtPose(Quantity):
         return (self.of,)
 
     def rule(self, where: Where) -> Scalar:
-        return where.at_pose(self.of, self.strokes)
+        return where.at_pose(self.of, {**dict.fromkeys(self.unmoved, 0.0), **self.strokes})
 
     def __str__(self) -> str:
         return f"{self.of} at {as_mapping(self.strokes) if self.strokes else 'the sketch'}"

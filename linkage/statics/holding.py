@@ -192,13 +192,14 @@ def check_kept(motion: Motion, tie: Tie) -> None:
             if tie.run is not None:
                 check_run(motion, tie, tie.run, stroke)
                 continue
-            parts = [np.asarray(each.of(motion)) * each.member.growth(motion, {stroke: 1.0}) for each in tie.shares]
-        whole, size = np.abs(sum(parts)), sum(map(np.abs, parts))
-        if np.any(np.nan_to_num(whole) > KEPT * np.nan_to_num(size)):
-            at = int(np.argmax(np.nan_to_num(whole)))
-            takes = [np.ravel(part)[at] for part in parts]
-            ways = " and ".join(f"{each.member.name} {way:+.4g}" for each, way in zip(tie.shares, takes, strict=True))
-            what = f"{tie.name} locks the machine: it is closed, and a unit of {stroke} would change what is in it by {ways} [SI]"
+            shares = [np.asarray(each.of(motion)) for each in tie.shares]
+            parts = [share * each.member.growth(motion, {stroke: 1.0}) for share, each in zip(shares, tie.shares, strict=True)]
+            ways = sum(np.abs(share) * ends_way(motion, each.member, stroke) for share, each in zip(shares, tie.shares, strict=True))
+        whole, size = np.nan_to_num(np.abs(sum(parts))), np.nan_to_num(sum(map(np.abs, parts)))
+        if np.any((whole > KEPT * size) & (size > SLOWEST * np.nan_to_num(ways))):
+            takes = [np.ravel(part)[int(np.argmax(whole))] for part in parts]
+            words = " and ".join(f"{each.member.name} {way:+.4g}" for each, way in zip(tie.shares, takes, strict=True))
+            what = f"{tie.name} locks the machine: it is closed, and a unit of {stroke} would change what is in it by {words} [SI]"
             raise DefinitionError(
                 f"{plan.title}: {what}. Let a step follow it, such as Dyad(U, P, UW={tie.shares[-1].member.name}.length), make the ratios "
                 "of its areas those of the other line, or open it by a Tank."
@@ -274,10 +275,15 @@ def followed_way(motion: Motion, cylinder: TwoPoint, stroke: str) -> float:
     if stroke not in plan.reaches(A) | plan.reaches(B):
         return 0.0
     with unwarned():
-        rate = np.abs(cylinder.growth(motion, {stroke: 1.0}))
-        way = np.hypot(*motion.ratio(A, wrt=stroke)) + np.hypot(*motion.ratio(B, wrt=stroke))
+        rate, way = np.abs(cylinder.growth(motion, {stroke: 1.0})), ends_way(motion, cylinder, stroke)
     moved = np.nan_to_num(np.where(rate > SLOWEST * way, rate, 0.0))
     return float(moved.max(initial=0.0)) * abs(span.end - span.start)
+
+
+def ends_way(motion: Motion, cylinder: TwoPoint, stroke: str) -> FloatArray:
+    """Return how far a cylinder's ends go on a unit of a stroke, together, shape (...)."""
+    A, B = cylinder.ends
+    return np.asarray(np.hypot(*motion.ratio(A, wrt=stroke)) + np.hypot(*motion.ratio(B, wrt=stroke)))
 
 
 def matched(follows: FloatArray) -> tuple[int, ...] | None:

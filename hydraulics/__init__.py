@@ -37,5 +37,6 @@ from .requests import fits as fits
 from .requests import pressure as pressure
 from .requests import reserve as reserve
 from .requests import thrust as thrust
+from .telescope import Telescope as Telescope
 
 add_catalogue("hydraulics", Path(__file__).with_name("locale"))

@@ -103,10 +103,13 @@ class Buckling:
         worst = int(np.nanargmax(use))
         return self.judged(float(long.flat[worst]), float(push.flat[worst]))
 
-    def judged(self, length: float, thrust: float, where: str = "", unbounded: bool = False, bore: float | None = None) -> Verdict:
+    def judged(
+        self, length: float, thrust: float, where: str = "", unbounded: bool = False, bore: float | None = None, *, stage: int = 0
+    ) -> Verdict:
         """Return the verdict at one length [m] and thrust of one cylinder [N], at a place in words; `unbounded`: it grows from there.
 
-        `bore` is that of the cylinder [m]: where it is known a rod that is named as the remedy suits it.
+        `bore` is that of the cylinder [m]: where it is known a rod that is named as the remedy suits it. `stage` is the number of the
+        telescope's stage that is the rod.
         """
         if unbounded:
             text = said("the thrust grows without bounds {where}: no rod holds there; keep away from that pose.", where=where)
@@ -115,22 +118,35 @@ class Buckling:
             return never_pushed()
         one_number(length, "Length between the ends")
         limit, ok = float(self.critical(length)), thrust <= float(self.allowed(length))
+        given = {
+            "thrust": show(thrust, "kN", 4), "rod": show(self.rod, "mm", 4), "length": show(length, "mm", ".0f"),
+            "mounting": translated(self.mounting), "where": f" {where}" if where else "", "limit": show(limit, "kN", 4),
+            "safety": limit / thrust, "least": self.safety,
+        }  # fmt: skip
         says = said(
             "{thrust} on a {rod} rod {length} long ({mounting}){where}, buckling at {limit}: safety {safety:.3g}, at least {least:g}",
-            thrust=show(thrust, "kN", 4), rod=show(self.rod, "mm", 4), length=show(length, "mm", ".0f"), mounting=translated(self.mounting),
-            where=f" {where}" if where else "", limit=show(limit, "kN", 4), safety=limit / thrust, least=self.safety,
+            **given,
         )  # fmt: skip
-        return Verdict("buckling", ok, f"{says}{'' if ok else self._remedy(length, thrust, bore)}.")
+        if stage:
+            says = said(
+                "{thrust} on stage {stage} of {rod}, the slenderest that is out, {length} long ({mounting}){where}, "
+                "buckling at {limit}: safety {safety:.3g}, at least {least:g}", stage=stage, **given,
+            )  # fmt: skip
+        return Verdict("buckling", ok, f"{says}{'' if ok else self._remedy(length, thrust, bore, bool(stage))}.")
 
-    def _remedy(self, length: float, thrust: float, bore: float | None) -> str:
+    def _remedy(self, length: float, thrust: float, bore: float | None, is_stage: bool) -> str:
         thicker = self
         try:
             while thicker.allowed(length) < thrust:
                 thicker = replace(thicker, rod=next_rod(thicker.rod))
         except DefinitionError:
+            if is_stage:
+                return said("; no stage up to 360 mm holds: shorten the telescope or use more of them")
             return said("; no standard rod holds: shorten the cylinder or use more of them")
         if bore is not None and thicker.rod > max(standard_rods(bore), default=0.0):
             return said("; no rod that suits the bore holds: take a larger bore, shorten the cylinder or use more of them")
+        if is_stage:
+            return said("; a stage of {rod} holds", rod=show(thicker.rod, "mm", ".0f"))
         return said("; a rod of {rod} holds", rod=show(thicker.rod, "mm", ".0f"))
 
 

@@ -162,6 +162,8 @@ class GasLine(Circuit):
         block, plan = self.gas_block(written.plan), written.plan
         if not isinstance(block, AccumulatorBlock) or not isinstance(block.gas, Polytropic) or np.any(block.gas.n != 1.0):
             return None
+        if not ram.keeps_area:
+            return None
         length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
         if length is None or not written.equals(self.number(written, "exponent"), 1.0):
             return None

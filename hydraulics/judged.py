@@ -22,7 +22,7 @@ from linkage.verdict import Verdict
 
 from .inputs import not_negative, one_number
 from .line import LiftLine
-from .member import PISTON, SIDES, Ram, carries_loads, one_design, thrust_request
+from .member import PISTON, SIDES, AllOf, Ram, carries_loads, one_design, thrust_request
 from .requests import going_back_request, pressure_request, reserve_request
 
 ENDLESS = 1e-4
@@ -158,7 +158,7 @@ class LiftingCylinder:
 
     def questions(self) -> list[Question]:
         """Return what its verdicts ask at first."""
-        standing = [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in SIDES]
+        standing = [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in self.ram.own_sides]
         going = [most(self.back()), least(self.back(tells="load"))]
         return [*self.thrusts, least(reserve_request(*self.asked)), *standing, *going]
 
@@ -167,9 +167,11 @@ class LiftingCylinder:
         asked, name = (self.ram.name, Acting(), self.circuit.name), self.circuit.name
         held, supply = (at(LawRequest(text=f"{name} {each.__name__}", formula=each)) for each in (self.circuit.held, self.circuit.supply))
         back = most(going_back_request(*asked, self.way_back))
+        holding = most(pressure_request(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held
+        pressed = least(thrust_request(self.ram.name, Acting(direction=FRICTIONLESS))) >= 0.0
         return {
             "lifting": least(reserve_request(*asked)) >= 1.0,
-            "holding": most(pressure_request(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held,
+            "holding": AllOf((holding, pressed)) if self.ram.is_single_acting else holding,
             "lowering": back <= supply if self.ram.side == "both" else back <= 0.0,
         }
 
@@ -213,7 +215,7 @@ class LiftingCylinder:
 
     def other_side(self) -> str:
         """Return the remedy where the thrust changes its sign and one side alone is declared."""
-        return said('; works="both" judges the other side as well') if self.ram.side != "both" else ""
+        return said('; works="both" judges the other side as well') if self.ram.side != "both" and not self.ram.is_single_acting else ""
 
     def remedy(self, reserve: float) -> str:
         """Return what makes up for a reserve below 1: a pressure, or a standard bore with its reserve."""
@@ -223,6 +225,8 @@ class LiftingCylinder:
         needed = self.show(found.value)
         if len(self.circuit.rams(self.judge.motion)) > 1:
             return said("It needs {needed}, or larger bores on this line.", needed=needed)
+        if self.ram.is_single_acting:
+            return said("It needs {needed}, or larger stages.", needed=needed)
         for bore in self.ram.larger_bores(self.judge.motion, reserve):
             gained = self.judge.answer(least(reserve_request(*self.asked, bore=bore))).value
             if gained >= 1.0:
@@ -240,25 +244,28 @@ class LiftingCylinder:
     def holding(self) -> Verdict:
         """Return the pressures that the load makes with the pump off, and whether they stay below the relief valve's."""
         circuit, limit = self.circuit, float(self.circuit.held(self.judge.motion))
-        order = SIDES if self.ram.side != "rod" else SIDES[::-1]
+        pulled = self.ram.pulled(self.judge)
+        if pulled is not None:
+            return pulled
+        order = self.ram.own_sides if self.ram.side != "rod" else SIDES[::-1]
         asked = [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), circuit, side)) <= limit for side in order]
-        working, other = self.judge.answers(asked)
-        endless = next((each for each in (working, other) if each.unbounded), None)
+        found = self.judge.answers(asked)
+        endless = next((each for each in found if each.unbounded), None)
         if endless is not None:
             text = said("the pressure grows without bounds {where}: nothing holds there; keep away from that pose.", where=endless.place)
             return Verdict("holding", False, text, answer=endless)
         words = [said("piston side") if side == PISTON else said("rod side") for side in order]
-        drives = "" if self.ram.side == "both" else said(" where the load drives")
+        words[1:] = [f"{words[-1]}{'' if self.ram.side == 'both' else said(' where the load drives')}"] if words[1:] else []
         parts = [
             said("up to {pressure} stand in the {side}, {where}", pressure=self.show(each.value), side=side, where=each.place)
-            for each, side in ((working, words[0]), (other, f"{words[1]}{drives}"))
+            for each, side in zip(found, words, strict=True)
             if each.value > 0.0
         ]
         stands = ", ".join(parts) or said("no pressure stands on either side")
         given, pump = self.show(limit), not circuit.relieves(self.judge.plan)
         valve = said("the pump, for no relief= is given, {limit}", limit=given) if pump else said("the relief valve, {limit}", limit=given)
-        worst = max((working, other), key=lambda each: each.value)
-        if working.ok and other.ok:
+        worst = max(found, key=lambda each: each.value)
+        if all(each.ok for each in found):
             return Verdict(
                 "holding", True, said("with the pump off {stands}, held against {valve}.", stands=stands, valve=valve), answer=worst
             )
@@ -290,6 +297,13 @@ class LiftingCylinder:
             text = said(
                 "it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.",
                 where=where, against=against, pose=push.place,
+            )  # fmt: skip
+            return Verdict("lowering", False, text, answer=push)
+        if self.ram.is_single_acting:
+            text = said(
+                "it does not sink by itself {where} {against}: up to {push} more would have to stand in it, {place}, and no oil pushes it "
+                "in.",
+                where=where, against=against, push=self.show(push.value), place=push.place,
             )  # fmt: skip
             return Verdict("lowering", False, text, answer=push)
         if self.ram.side == "both":

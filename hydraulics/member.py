@@ -221,6 +221,15 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return np.asarray(size.sense * size.area + 0.0 * sense)
 
     @property
+    def keeps_area(self) -> bool:
+        """Whether its areas are the same at all its lengths."""
+        return True
+
+    def pulled(self, judge: Judge) -> Verdict | None:
+        """Return the verdict on a load that pulls at it where no oil holds it; None where there is no such load."""
+        return None
+
+    @property
     def is_single_acting(self) -> bool:
         """Whether oil pushes it alone, and nothing holds it against a pull."""
         return len(self.own_sides) == 1
@@ -399,7 +408,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             return [Verdict("length", None, said("nothing is left to judge: every place is unlimited, left out or lost"), answer=ends[0])]
         if closed is not None:
             opened = closed + stroke if stroke is not None else np.inf
-            return [self._reaches(low, high, closed, opened).answered(ends[0] if low - closed < opened - high else ends[1])]
+            return [self._reaches(judge, low, high, closed, opened).answered(ends[0] if low - closed < opened - high else ends[1])]
         return [] if stroke is None else [self._travels(high - low, stroke).answered(ends[1])]
 
     def is_placed(self, judge: Judge) -> bool:
@@ -416,7 +425,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         low, high = judge.answers([least(distance(self.A, self.B)), most(distance(self.A, self.B))])
         return np.asarray(low.value), np.asarray(high.value)
 
-    def _reaches(self, low: float, high: float, closed: float, opened: float) -> Verdict:
+    def _reaches(self, judge: Judge, low: float, high: float, closed: float, opened: float) -> Verdict:
         faults = []
         if closed > low + TOLERANCE:
             much = show(closed - low, "mm", ".1f")

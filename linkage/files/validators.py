@@ -127,6 +127,13 @@ def corners_of(given: object, names: Names) -> Any:
     return tuple(each_of(enumerate(given), lambda place, each: coordinates_of(each, names)))
 
 
+def lengths_of(given: object, names: Names) -> tuple[Any, ...]:
+    """Return a list of lengths [m], each of which may follow dimensions."""
+    if not isinstance(given, (list, tuple)):
+        raise DefinitionError(f'{shortened(given)} is no list of lengths, such as ["145 mm", "125 mm"].')
+    return tuple(each_of(enumerate(given), lambda place, each: amount_of(each, names, "length")))
+
+
 def centre_of(given: object, names: Names) -> Any:
     """Return the name of a point, or a place by two coordinates."""
     return names.checked(given, "point") if isinstance(given, str) else coordinates_of(given, names)
@@ -277,6 +284,11 @@ def written_force(value: Any, design: Design, name: str) -> Any:
     return [design.amount(part, "N", f"{owner}.{axis}") for axis, part in zip("xy", value, strict=True)]
 
 
+def written_lengths(value: Any, design: Design, name: str) -> list[Any]:
+    """Return a list of lengths, each a design variable of its own: `hoist.bore_1` is the first of `hoist.bores`."""
+    return [design.amount(each, "mm", f"{name.removesuffix('s')}_{number}") for number, each in enumerate(value, 1)]
+
+
 def written_names(value: object, design: Design, name: str) -> str | list[str]:
     """Return the name of one member, or a list of names."""
     found = [name_of(each) for each in (value if isinstance(value, (list, tuple)) else (value,))]
@@ -355,6 +367,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "centre": Kind(centre_of, written_centre, refers=True),
         "carrier": Kind(points_of, written_carrier),
         "path": Kind(word_of, refers=True),
+        "lengths": Kind(lengths_of, written_lengths),
         "words": Kind(word_list_of),
         "side": Kind(side_named),
         "word": Kind(word_of),

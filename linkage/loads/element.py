@@ -46,7 +46,8 @@ class Glyph:
 
     Between two points: `strut`, `spring`, `damper`, `cylinder`, `accumulator` (`count` of them, on the cylinder there). At one point:
     `weight`, `force`, `support`. On a body of some points: `mass`, `moment`; `away` is where from the first point, in the body's axes
-    [m], without it in the middle of the points.
+    [m], without it in the middle of the points. `stages` of a cylinder that is drawn in stages gives, of a motion, its closed length and
+    the lengths at which its stages are out [m], one after another.
     """
 
     drawn_as: str
@@ -54,6 +55,7 @@ class Glyph:
     count: int = 1
     way: float = 0.0
     away: tuple[float, float] | None = None
+    stages: Callable[[Any], Sequence[Any]] | None = None
 
 
 class TwoPinned(Protocol):

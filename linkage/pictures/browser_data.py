@@ -500,14 +500,17 @@ def mark_data(mark: DrawnMark, index: Mapping[str, int], near: float = 0.0) -> d
     """Return a mark: its points, and its lines as rows of ways along and across [m], and a share of the distance where they stretch.
 
     Of lines that keep their form points are left out that lie so near to the line of their neighbours [m]; `hatched` on their right.
+    `slide` tells what moves in it [m]: the distance from which on it is out, and how far it comes out, least and most.
     """
     lines = []
     for line in mark.lines:
-        share, keeps = line.rows[:, :1], not line.rows[:, 0].any()
-        rows = sparse(line.rows[:, 1:], near) if keeps else np.column_stack([line.rows[:, 1:], share])
+        share, slides = line.rows[:, :1], line.rows[:, 3:]
+        keeps = not share.any() and not slides.any()
+        rows = sparse(line.rows[:, 1:3], near) if keeps else np.column_stack([line.rows[:, 1:3], share, slides])
         flags = {"fill": line.fill.lower(), "closed": int(line.closed), "bold": int(line.bold)}
         lines.append({"rows": np.round(rows, 4).tolist()} | {name: flag for name, flag in flags.items() if flag})
-    return {"on": [index[name] for name in mark.on], "lines": lines} | ({"hatched": 1} if len(mark.hatched) else {})
+    slide = {} if mark.cylinder is None else {"slide": [mark.cylinder.rod, mark.cylinder.least, mark.cylinder.most]}
+    return {"on": [index[name] for name in mark.on], "lines": lines} | ({"hatched": 1} if len(mark.hatched) else {}) | slide
 
 
 def sparse(rows: FloatArray, near: float) -> FloatArray:

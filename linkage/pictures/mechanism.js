@@ -109,11 +109,12 @@ function hatches(line, fixed) {
   return found;
 }
 /* What some points carry, or nothing does: lines, each place a way along and across, and a share of the length where it stretches. */
-function linework({ on: [P, Q], lines, hatched }, ink = "ink", thin = 0.8) {
+function linework({ on: [P, Q], lines, hatched, slide: [from, least, most] = [0, 0, 0] }, ink = "ink", thin = 0.8) {
   const group = draw(sheet, "g", { stroke: css(ink), join: "round", cap: "round" }), flip = (rows) => rows.map(([x, y]) => [x * zoom, -y * zoom]);
+  const out = (length) => Math.min(Math.max(length / zoom - from, least), most);
   const drawn = lines.map(({ rows, fill, closed, bold }) => {
     const line = draw(group, closed ? "polygon" : "polyline", { fill: fill ? css(fill) : "none", w: (bold ? 1.5 : thin) * EDGE });
-    const put = (length) => set(line, { points: pairs(rows.map(([along, across, share = 0]) => [share * length + along * zoom, -across * zoom])) });
+    const put = (length) => set(line, { points: pairs(rows.map(([along, across, share = 0, slides = 0]) => [share * length + (along + slides * out(length)) * zoom, -across * zoom])) });
     put(0);
     return rows[0].length > 2 && put;
   }).filter(Boolean);

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import combinations, pairwise, product
 from typing import TypeAlias, final
@@ -37,6 +37,7 @@ from .shapes import (
     hull,
     nested_tubes,
     plate_form,
+    staged_tubes,
     stages,
     telescope_sections,
     tube,
@@ -131,12 +132,16 @@ Bounds: TypeAlias = tuple[float, float, float, float]
 @final
 @dataclass(frozen=True)
 class TwoForceMember:
-    """A two-force member from P to Q: what it is drawn as, and how far to the left of P -> Q, in sizes, where others share its points."""
+    """A two-force member from P to Q: what it is drawn as, and how far to the left of P -> Q, in sizes, where others share its points.
+
+    `ends` of a telescope are its closed length and the lengths at which its stages are out [m].
+    """
 
     P: str
     Q: str
     drawn_as: str
     aside: float = 0.0
+    ends: tuple[float, ...] = ()
 
     @property
     def half(self) -> float:
@@ -366,13 +371,19 @@ class Scene:
             pair = frozenset(glyph.points)
             if glyph.drawn_as not in HALF or len(pair) != 2:
                 continue
+            P, Q = glyph.points
+            drawn = TwoForceMember(P, Q, glyph.drawn_as, ends=self._ends_of_stages(glyph))
             if element.holds and pair in driven:
                 driven.discard(pair)
+                by_pair[pair] = [drawn if drawn.ends else each for each in by_pair[pair]]
             else:
-                P, Q = glyph.points
-                by_pair.setdefault(pair, []).append(TwoForceMember(P, Q, glyph.drawn_as))
+                by_pair.setdefault(pair, []).append(drawn)
         placed = [each for members in by_pair.values() for each in side_by_side(members)]
-        return tuple(TwoForceMember(each.P, each.Q, each.drawn_as, BESIDE) if self._covers(each) else each for each in placed)
+        return tuple(replace(each, aside=BESIDE) if self._covers(each) else each for each in placed)
+
+    def _ends_of_stages(self, glyph: Glyph) -> tuple[float, ...]:
+        """Return the closed length of a glyph's cylinder and the lengths at which its stages are out [m]; empty where it has none."""
+        return () if glyph.stages is None else tuple(float(np.ravel(each)[0]) for each in glyph.stages(self.motion))
 
     def _covers(self, member: TwoForceMember) -> bool:
         """Return whether a member on its points' line lies along a body, at all poses."""
@@ -406,7 +417,7 @@ class Scene:
     def _is_telescope(self, member: TwoForceMember) -> bool:
         """Return whether a cylinder comes out farther than one stage can."""
         short, long = self._lengths(member.P, member.Q)
-        return member.drawn_as == "cylinder" and bool(long) and stages(short, long) > 1
+        return member.drawn_as == "cylinder" and bool(long) and (bool(member.ends) or stages(short, long) > 1)
 
     def _cylinder(self, member: TwoForceMember) -> DrawnCylinder:
         """Return a cylinder whose piston stays in its barrel over the stroke, as far as its lengths allow."""
@@ -426,11 +437,26 @@ class Scene:
             short, long = self._lengths(member.P, member.Q)
             shape = nested_tubes if self._is_telescope(member) else OUTLINES.get(member.drawn_as)
             aside = member.aside * self.size
+            if member.ends and long:
+                found += self._staged(member, aside)
+                shape = None
             lines = [line.moved(aside) for line in shape(short, long, self.size)] if shape and long else []
             lines += yokes(aside, self.size) if aside else ()
             if lines:
                 found.append(DrawnMark(joined_names(member.P, member.Q), (member.P, member.Q), tuple(lines)))
         return (*found, *self.fed)
+
+    def _staged(self, member: TwoForceMember, aside: float) -> list[DrawnMark]:
+        """Return a telescope as a mark for each stage, the thinnest first, each moved as far as its stages are out."""
+        closed, *outs = member.ends
+        tubes = staged_tubes(closed, len(outs), self.size)
+        stops = [*reversed(outs), closed]
+        moved = [DrawnCylinder(member.P, member.Q, aside, rod=closed, most=out - closed) for out in stops]
+        name, on = joined_names(member.P, member.Q), (member.P, member.Q)
+        return [
+            DrawnMark(name, on, tuple(line.moved(aside) for line in lines), cylinder=each)
+            for lines, each in zip(tubes, moved, strict=True)
+        ]
 
     @cached_property
     def fed(self) -> tuple[DrawnMark, ...]:
@@ -733,5 +759,5 @@ def side_by_side(members: list[TwoForceMember]) -> list[TwoForceMember]:
     placed = []
     for place, each in enumerate(members):
         sense = 1.0 if each.P == members[0].P else -1.0
-        placed.append(TwoForceMember(each.P, each.Q, each.drawn_as, sense * APART * (middle - place)))
+        placed.append(replace(each, aside=sense * APART * (middle - place)))
     return placed

@@ -252,6 +252,28 @@ def nested_tubes(short: float, long: float, size: float) -> tuple[DrawnLine, ...
     return tuple(lines)
 
 
+def staged_tubes(closed: float, count: int, size: float) -> list[tuple[DrawnLine, ...]]:
+    """Return the lines of a telescope of some moving stages, as they stand in it drawn in, the thinnest first and the barrel last.
+
+    Those of a stage move with what it is out, the tip of the thinnest to the end of the length.
+    """
+    step, widest = min(size, (1.0 - FREE) * 0.6 * closed / (count + 3.0)), 1.5 * size
+    bottom, found = 1.4 * step, list[tuple[DrawnLine, ...]]()
+    for stage in range(count, -1, -1):
+        half, moves = widest - stage * (widest - 0.45 * size) / count, float(stage > 0)
+        tip = closed - (count - stage) * step - 1.6 * step
+        if stage == count:
+            rod = ((0.0, bottom, half, 1.0), (1.0, 0.0, half, 0.0), (1.0, 0.0, -half, 0.0), (0.0, bottom, -half, 1.0))
+            found.append((outline(*rod, fill="ROD", closed=True),))
+            continue
+        box = [(0.0, along, across, moves) for along, across in ((bottom, half), (tip, half), (tip, -half), (bottom, -half))]
+        wide = half + 0.2 * size
+        ring = [(0.0, tip + way * 0.4 * step, across, moves) for way, across in ((-1, wide), (1, wide), (1, -wide), (-1, -wide))]
+        eye = (tube(0.0, 0.0, 0.0, bottom, 0.62 * size, "PISTON"),) if stage == 0 else ()
+        found.append((*eye, outline(*box, fill="BARREL", closed=True), outline(*ring, fill="PISTON", closed=True)))
+    return found
+
+
 def tube(share: float, start: float, other: float, end: float, half: float, fill: str) -> DrawnLine:
     """Return a box from a place along the element to another, half its width to either side [m]."""
     return outline((share, start, half), (other, end, half), (other, end, -half), (share, start, -half), fill=fill, closed=True)

@@ -173,7 +173,7 @@ def known_dimension(machine: Mechanism, name: Any) -> None:
     element, _, parameter = name.partition(".")
     member = machine.plan.members.get(element)
     if name not in machine and isinstance(member, ForceElement) and parameter in member.parameters:
-        what = getattr(member, parameter)
+        what = member.given(parameter)
         if what is not None:
             raise DefinitionError(f"{machine.plan.title}: {name} follows {label(what)}; vary what it follows.")
     _ = machine[name]  # raises for a name that is none, or that follows others

@@ -1,0 +1,340 @@
+"""A telescope: stages that slide out of one another, pushed out by oil alone. Every pressure in this file is gauge [Pa].
+
+    length - closed         the stage that moves         pressure
+    0 to s_1                1, the largest area          T / A_1
+    s_1 to s_1 + s_2        2                            T / A_2
+    ...
+
+The largest area comes out first and goes in last. The oil is the integral of the area over the length. At a border of two stages the
+next one moves while it extends, the one before while it retracts; at rest the smaller area counts, which asks for the higher pressure.
+
+    >>> from linkage.units import kN, bar, mm
+    >>> hoist = Telescope("A", "B", bores=[145 * mm, 125 * mm], strokes=[1.0, 0.9], closed=1.3)
+    >>> print(f"{[float(f'{40 * kN / each.push_area / bar:.2f}') for each in hoist.sizes]} bar at 40 kN")
+    [24.22, 32.6] bar at 40 kN
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+from itertools import accumulate, pairwise
+from types import MappingProxyType
+from typing import Any, ClassVar, cast, final
+
+import numpy as np
+
+from linkage.errors import DefinitionError, cited, unwarned
+from linkage.frozen import keep_own, refuses_changes
+from linkage.language import noted, said
+from linkage.loads import FRICTIONLESS, Acting, Case, Glyph, Parameter, Poses
+from linkage.loads.element import Formulas, value_text
+from linkage.motion import Column, Condition, Judge, Motion, least, most
+from linkage.quantities import Member, Quantity, Reference, quantity
+from linkage.statics import member_thrust
+from linkage.units import mm, show, shown_number
+from linkage.verdict import Verdict
+
+from .buckling import Buckling, never_pushed
+from .cylinder import MOST, RamSize, Works
+from .inputs import Array, follows, in_metres, number_set, one_number, positive, stroke_in_metres
+from .member import LENGTHS, PISTON, TOLERANCE, Ram, Side, buckling_request, carries_loads, circuits_of, thrust_request
+
+STAGES = 12
+"""More moving stages than any telescope has."""
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class StageSize(RamSize):
+    """The bore of the stage that moves [m], one number or an array over the poses; `count` telescopes side by side."""
+
+    bore: float | Array
+    count: int = 1
+    works: Works = "piston"
+
+    @property
+    def push_area(self) -> float | Array:
+        return self.count * (np.pi / 4.0 * self.bore**2)
+
+    @property
+    def pull_area(self) -> float | Array:
+        return 0.0 * self.push_area
+
+    def behind(self, force: Array) -> Array:
+        return np.asarray(np.where(force > 0.0, np.inf, 0.0 * force))[()]
+
+    def with_bore(self, bore: float) -> StageSize:
+        return replace(self, bore=bore)
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Telescope(Ram):
+    """`count` equal telescopes side by side: `hoist = Telescope(A, B, bores=[145 * mm, 125 * mm], strokes=[1.0, 0.9], closed=1.3)`.
+
+    `bores` are those on which the oil pushes the moving stages, the outermost first, and fall; `strokes` are how far each comes out of
+    the one before, `closed` the distance of the pins drawn in [m]. In a class they are the design variables `hoist.bore_1`,
+    `hoist.stroke_1`, ..., `hoist.closed`; a bore or stroke may follow dimensions. It is single acting: it pushes, and where the load
+    pulls at it no oil holds it. `mounting` and `safety` are for buckling, which is that of the thinnest stage that is out.
+    """
+
+    A: Reference
+    B: Reference
+    bores: Sequence[Parameter]
+    strokes: Sequence[Parameter]
+    closed: Parameter
+    count: int = 1
+    mounting: str = "pin-pin"
+    safety: float = 3.5
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {f"{what}_{stage}": "mm" for what in ("bore", "stroke") for stage in range(1, STAGES + 1)} | {"closed": "mm"}
+    )
+    not_negative: ClassVar[frozenset[str]] = frozenset(parameters)
+    optional: ClassVar[frozenset[str]] = frozenset(parameters) - {"closed"}
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"bores": "lengths", "strokes": "lengths"})
+    inside: ClassVar[Mapping[str, str]] = MappingProxyType({"length": "quantity", "piston_side": "chamber"})
+
+    def __post_init__(self) -> None:
+        keep_own(self)
+        for name in ("bores", "strokes"):
+            given = getattr(self, name)
+            if not isinstance(given, tuple) or not given:
+                raise DefinitionError(f"Telescope: {name}={cited(given)}: a list is expected, one a stage, {name}=[0.145, 0.125].")
+            if len(given) > STAGES:
+                raise DefinitionError(f"Telescope: {len(given)} {name}: at most {STAGES} stages are known; give one a moving stage.")
+        if len(self.bores) != len(self.strokes):
+            what = f"Telescope: {len(self.bores)} bores and {len(self.strokes)} strokes"
+            raise DefinitionError(f"{what}; give each moving stage one of both, the outermost first.")
+        super().__post_init__()
+        many = one_number(self.count, "Count of telescopes")
+        if not 1.0 <= many <= MOST or many != int(many):
+            raise DefinitionError(f"Count of telescopes = {cited(self.count)}; give a whole number from 1 on.")
+        Buckling(1.0, self.mounting, self.safety)
+        for number, bore in enumerate(self.bores, 1):
+            if not follows(bore):
+                positive(in_metres(cast(Array, bore), f"Bore of stage {number}"), f"Bore of stage {number}")
+        if not follows(*self.bores):
+            check_falling(cast("Sequence[Array]", self.bores), "Telescope")
+        for name in ("closed", *(f"stroke_{number}" for number in range(1, self.stages + 1))):
+            if not follows(self.given(name)):
+                positive(stroke_in_metres(self.given(name), self._called(name)), self._called(name))
+
+    def given(self, name: str) -> Any:
+        what, _, number = name.partition("_")
+        if not number:
+            return getattr(self, name)
+        each = self.bores if what == "bore" else self.strokes
+        return each[int(number) - 1] if int(number) <= len(each) else None
+
+    def having(self, values: Mapping[str, float]) -> Telescope:
+        found = {name: values.get(f"{self.name}.{name}", self.given(name)) for name in self.numbers}
+        stages = range(1, self.stages + 1)
+        bores, strokes = (tuple(found[f"{what}_{stage}"] for stage in stages) for what in ("bore", "stroke"))
+        return self.renewed(bores=bores, strokes=strokes, closed=found["closed"])
+
+    def words(self) -> list[str]:
+        lists = {name: f"[{', '.join(value_text(each) for each in getattr(self, name))}]" for name in ("bores", "strokes")}
+        more = {name: repr(value) for name, value in self.options().items()}
+        return [f"{name}={text}" for name, text in (lists | {"closed": value_text(self.closed)} | more).items()]
+
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        return (Glyph(self.drawn_as, self.ends, stages=self.ends_of_stages),)
+
+    def _called(self, name: str) -> str:
+        return LENGTHS["closed"].replace("cylinder", "telescope") if name == "closed" else f"Stroke of stage {name.partition('_')[2]}"
+
+    # -- its stages ----------------------------------------------------------------------------------------
+
+    @property
+    def stages(self) -> int:
+        """How many stages move."""
+        return len(self.bores)
+
+    @property
+    def keeps_area(self) -> bool:
+        return self.stages == 1
+
+    @property
+    def side(self) -> Works:
+        return PISTON
+
+    @property
+    def own_sides(self) -> tuple[Side, ...]:
+        return (PISTON,)
+
+    @property
+    def sizes(self) -> tuple[StageSize, ...]:
+        """The sizes of its stages as they are written here; DefinitionError where a bore follows something else."""
+        if follows(*self.bores):
+            raise DefinitionError(f"{self}: its bores follow the design; ask for sizes_in(motion).")
+        return tuple(StageSize(cast("float | Array", each), self.count) for each in self.bores)
+
+    def sizes_in(self, motion: Poses) -> tuple[StageSize, ...]:
+        """Return the sizes of its stages as a motion's designs have them; DefinitionError for bores that do not fall."""
+        bores = [number_set(self, motion, f"bore_{stage}") for stage in range(1, self.stages + 1)]
+        for stage, bore in enumerate(bores, 1):
+            positive(in_metres(bore, f"Bore of stage {stage}"), f"Bore of stage {stage}")
+        check_falling(bores, self.name or "Telescope")
+        return tuple(StageSize(bore[()], self.count) for bore in bores)
+
+    def ends_of_stages(self, motion: Poses) -> list[Array]:
+        """Return its closed length and the lengths at which its stages are out [m], one after another; they broadcast."""
+        names = ("closed", *(f"stroke_{stage}" for stage in range(1, self.stages + 1)))
+        return list(accumulate(self._length_set(motion, name) for name in names))
+
+    def _length_set(self, motion: Poses, name: str) -> Array:
+        return positive(stroke_in_metres(number_set(self, motion, name), self._called(name)), self._called(name))
+
+    def stage(self, motion: Poses, direction: str | None = None) -> Array:
+        """Return the number of the stage that moves at each pose, 1 for the outermost, shape (...).
+
+        At a border it is the next one while it is "extending" and at rest, the one before while it is "retracting".
+        """
+        return self.of_stage(motion, [np.asarray(float(number)) for number in range(1, self.stages + 1)], direction)
+
+    def of_stage(self, motion: Poses, each: Sequence[Any], direction: str | None = None) -> Array:
+        """Return which of some values, one a stage, is that of the stage that moves at each pose."""
+        if self.stages == 1:
+            return cast(Array, each[0])
+        length, borders = motion.distance(self.A, self.B), self.ends_of_stages(motion)[1:-1]
+        found = each[0]
+        for border, value in zip(borders, each[1:], strict=True):
+            is_next = length > border + TOLERANCE if direction == "retracting" else length >= border - TOLERANCE
+            found = np.where(is_next, value, found)
+        return cast(Array, found)
+
+    def sized(self, motion: Poses, direction: str | None = None) -> StageSize:
+        """Return the size of the stage that moves, to broadcast against a motion."""
+        return StageSize(self.of_stage(motion, [each.bore for each in self.sizes_in(motion)], direction), self.count)
+
+    def thickness(self, motion: Poses, direction: str | None = None) -> float | Array:
+        return self.sized(motion, direction).bore
+
+    def filled(self, side: Side, motion: Poses, start: Array, end: Array) -> Array:
+        return self.taken(motion, start, end)
+
+    def taken(self, motion: Poses, low: Array, high: Array) -> Array:
+        borders = self.ends_of_stages(motion)[1:-1]
+
+        def within(length: Array, stage: int) -> Array:
+            above = length if stage == 0 else np.maximum(length, borders[stage - 1])
+            return above if stage == self.stages - 1 else np.minimum(above, borders[stage])
+
+        parts = [size.push_area * (within(high, k) - within(low, k)) for k, size in enumerate(self.sizes_in(motion))]
+        return np.asarray(reduce(np.add, parts))[()]
+
+    # -- its lengths -----------------------------------------------------------------------------------------
+
+    @property
+    def lengths_given(self) -> tuple[str, ...]:
+        return tuple(LENGTHS)
+
+    def closed_and_stroke(self, motion: Poses) -> tuple[Array, Array]:
+        return self._length_given("closed", motion), self._length_given("stroke", motion)
+
+    def _length_given(self, name: str, motion: Any) -> Array:
+        ends = self.ends_of_stages(motion)
+        return ends[0] if name == "closed" else ends[-1] - ends[0]
+
+    def lengths_named(self, name: str) -> tuple[Quantity | str, ...]:
+        names = ("closed",) if name == "closed" else tuple(f"stroke_{stage}" for stage in range(1, self.stages + 1))
+        return tuple(quantity(self.given(each)) if follows(self.given(each)) else f"{self.name}.{each}" for each in names)
+
+    def larger_bores(self, motion: Poses, reserve: float) -> list[float]:
+        return []
+
+    # -- what it says ------------------------------------------------------------------------------------------
+
+    def columns_in(self, motion: Motion, case: Case = None, direction: str | None = None) -> list[Column]:
+        stage = np.where(motion.reached, self.stage(motion, direction), np.nan)
+        return [*super().columns_in(motion, case, direction), Column(noted("stage"), stage, "", 0)]
+
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return that it fits, that its thinnest stage does not buckle, and that nothing pulls at it where no pump line says so."""
+        found = dict(super().conditions(judge))
+        return found | ({"holding": self.pressed(self.name)} if self._is_alone(judge) else {})
+
+    def pressed(self, which: Ram | str) -> Condition:
+        """Return the condition that the load presses on it everywhere, with the drive at rest; of the class's, or of itself."""
+        return least(thrust_request(which, Acting(direction=FRICTIONLESS))) >= 0.0
+
+    def _is_alone(self, judge: Judge) -> bool:
+        """Return whether it carries loads on no line that has a verdict on holding."""
+        return carries_loads(judge) and not circuits_of(self, judge.plan)
+
+    def size_verdicts(self, judge: Judge) -> list[Verdict]:
+        if not self._is_alone(judge):
+            return []
+        found = judge.answer(self.pressed(self))
+        if np.isnan(found.value):
+            return []
+        pulled = self.pulled(judge)
+        text = said("the load presses on it everywhere, the least {where}.", where=found.place)
+        return [Verdict("holding", True, text, answer=found) if pulled is None else pulled]
+
+    def pulled(self, judge: Judge) -> Verdict | None:
+        found = judge.answer(self.pressed(self))
+        if found.ok or found.ok is None:
+            return None
+        text = said(
+            "the load pulls at it with up to {force}, {where}: it is single acting and no oil holds it; "
+            "let the load press on it there, or take a cylinder.",
+            force=show(-found.value, "kN", 4), where=found.place,
+        )  # fmt: skip
+        return Verdict("holding", False, text, answer=found)
+
+    def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
+        worst = judge.answer(most(buckling_request(self, Acting())) <= 1.0)
+        if np.isnan(worst.value) or not worst.value > 0.0:
+            return [never_pushed()]
+        with unwarned():  # the verdict itself says what comes of it
+            place, acting = judge.there(worst), judge.situation(worst)
+            push = float(member_thrust(place, self, acting)) / self.count
+            length, stage = float(place.distance(self.A, self.B)), int(self.stage(place, acting.direction))
+            bar = Buckling(float(self.sized(place, acting.direction).bore), self.mounting, self.safety)
+        return [bar.judged(length, push, worst.place, bool(worst.unbounded), stage=stage).answered(worst)]
+
+    def _reaches(self, judge: Judge, low: float, high: float, closed: float, opened: float) -> Verdict:
+        ends = [one_number(np.squeeze(each), "Length") for each in self.ends_of_stages(judge.motion)]
+        says = said(
+            "{pins} goes from {low} to {high}, the telescope is {closed} long closed and {opened} open, in stages of {strokes}",
+            pins=self._pins, low=shown_number(low, "mm", ".1f"), high=show(high, "mm", ".1f"), closed=shown_number(closed, "mm", ".1f"),
+            opened=show(opened, "mm", ".1f"), strokes=" + ".join(shown_number(b - a, "mm", ".0f") for a, b in pairwise(ends)),
+        )  # fmt: skip
+        faults = []
+        if closed > low + TOLERANCE:
+            much = show(closed - low, "mm", ".1f")
+            faults.append(said("it is {much} too long closed: take one with a shorter closed length", much=much))
+        if opened < high - TOLERANCE:
+            missing = show(high - opened, "mm", ".1f")
+            faults.append(said("{missing} are missing open: take longer strokes or one more stage", missing=missing))
+        for stage, (start, end) in enumerate(pairwise(ends), 1):
+            if end - start > closed:
+                stroke = show(end - start, "mm", ".1f")
+                faults.append(said("stage {stage} cannot come out by {stroke}, more than it is long closed", stage=stage, stroke=stroke))
+        return Verdict("length", not faults, f"{'; '.join([says, *faults])}.")
+
+    def sides_written(self, written: Formulas, thrust: Array) -> tuple[Array, Array]:
+        """Write the areas of its stages, and return the symbol of that which moves with no area on another side [m2]."""
+        areas = [self.count * written.pi / 4.0 * self.number(written, f"bore_{stage}") ** 2 for stage in range(1, self.stages + 1)]
+        if self.stages == 1:
+            return written.line(f"A_{self.name}", areas[0], "m2"), np.zeros(())
+        named = [written.line(f"A_{self.name}_{stage}", area, "m2") for stage, area in enumerate(areas, 1)]
+        steps = [self.number(written, name) for name in ("closed", *(f"stroke_{stage}" for stage in range(1, self.stages)))]
+        length, found = written.distance(self.A, self.B), named[0]
+        for border, area in zip(list(accumulate(steps))[1:], named[1:], strict=True):
+            found = np.where(length >= border, area, found)
+        return written.line(f"A_{self.name}", found, "m2"), np.zeros(())
+
+
+def check_falling(bores: Sequence[Any], what: str) -> None:
+    """Raise DefinitionError for bores of stages [m] that do not fall from the outermost one."""
+    for stage, (wide, thin) in enumerate(pairwise(bores), 2):
+        if np.any(np.greater_equal(thin, wide)):
+            inner, outer = (float(np.ravel(each)[0]) / mm for each in (thin, wide))
+            says = f"{what}: the bore of stage {stage}, {inner:.6g} mm, is not smaller than that of stage {stage - 1}, {outer:.6g} mm"
+            raise DefinitionError(f"{says}, in which it slides; let bores= fall from the outermost stage.")

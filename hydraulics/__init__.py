@@ -6,6 +6,8 @@ from linkage.language import add_catalogue
 
 from .accumulator import Accumulator as Accumulator
 from .accumulator import AccumulatorBlock as AccumulatorBlock
+from .barrel import OnBarrel as OnBarrel
+from .barrel import OnRod as OnRod
 from .buckling import Buckling as Buckling
 from .catalogue import CatalogueRow as CatalogueRow
 from .catalogue import catalogue as catalogue

@@ -69,6 +69,7 @@ from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, memb
 from linkage.units import mm, show, shown_number, unit_sign
 from linkage.verdict import Verdict
 
+from .barrel import HELD, MASSES, BarrelAndRod
 from .buckling import Buckling, never_pushed
 from .cylinder import BORES_MM, RODS_MM, CylinderSize, RamSize, Works, standard_bores, standard_rods
 from .inputs import Array, follows, number_set, one_number, positive, stroke_in_metres
@@ -492,7 +493,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Cylinder(Ram):
+class Cylinder(BarrelAndRod, Ram):
     """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
 
     In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
@@ -500,6 +501,9 @@ class Cylinder(Ram):
     piston. Its chambers are `lift.piston_side` and `lift.rod_side`, the distance of its pins is `lift.length`. `closed` is that distance
     drawn in, `stroke` how far it comes out [m], design variables as well where they are given; `mounting` and `safety` are for buckling.
     It holds what the mechanism needs, in the place of the drive of one stroke; one whose line gives its pressure has that force instead.
+
+    With a `barrel_mass` or a `rod_mass` [kg], of one cylinder, and with points OnBarrel or OnRod it is two bodies, `lift.barrel` on A and
+    `lift.piston_rod` on B, which slide in each other: both as long as it is closed, their masses in the middle.
     """
 
     A: Reference
@@ -512,10 +516,14 @@ class Cylinder(Ram):
     closed: Parameter | None = None
     mounting: str = "pin-pin"
     safety: float = 3.5
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm", "stroke": "mm", "closed": "mm"})
-    not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod", "stroke", "closed"})
-    optional: ClassVar[frozenset[str]] = frozenset({"stroke", "closed"})
-    inside: ClassVar[Mapping[str, str]] = MappingProxyType({"length": "quantity", "piston_side": "chamber", "rod_side": "chamber"})
+    barrel_mass: Parameter | None = None
+    rod_mass: Parameter | None = None
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm", "stroke": "mm", "closed": "mm", **MASSES})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod", "stroke", "closed", *MASSES})
+    optional: ClassVar[frozenset[str]] = frozenset({"stroke", "closed", *MASSES})
+    inside: ClassVar[Mapping[str, str]] = MappingProxyType({
+        "length": "quantity", "piston_side": "chamber", "rod_side": "chamber", **HELD,
+    })  # fmt: skip
     _on_lines: ClassVar[Works | None] = None
     """What lines say that it works with, where they do; told by the class that it is in."""
 

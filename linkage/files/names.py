@@ -54,8 +54,8 @@ class Names:
         if not isinstance(name, str):
             raise DefinitionError(f"{shortened(name)} stands where the name of a {kind} is expected.")
         owner, _, own = name.rpartition(".")
-        if name not in self.kinds and kind == "quantity" and self.kinds.get(owner) == "load" and own:
-            return name  # what a load holds by a name of its own, such as the length of a cylinder
+        if name not in self.kinds and kind in ("quantity", "link", "point") and self.kinds.get(owner) == "load" and own:
+            return name  # what a load holds by a name of its own, such as the length of a cylinder or its barrel
         if name not in self.kinds:
             raise unknown(kind.capitalize(), shortened(name, quote=False), self.of_kind(kind))
         if self.kinds[name] != kind:

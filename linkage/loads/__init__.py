@@ -33,4 +33,4 @@ from .element import (
 from .friction import GuideFriction, PinFriction
 from .point import Force, LinkMass, Moment, Support, Weight
 from .rope import Pulley, RopePath
-from .two_point import Actuator, Between, Damper, DrawnAs, Spring, TwoPoint
+from .two_point import Actuator, Between, Damper, DrawnAs, Halves, Spring, TwoPoint

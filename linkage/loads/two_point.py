@@ -22,6 +22,21 @@ from .element import AT_REST, Array, ForceElement, Formulas, Glyph, Load, Parame
 DrawnAs: TypeAlias = Literal["strut", "spring", "damper", "cylinder"]
 
 
+@final
+@dataclass(frozen=True)
+class Halves:
+    """The two bodies of a straight member, of which the second slides in the first: that on A, then that on B.
+
+    Their names, their links' names; the points at which the one guides the other, against moving across and turning, and at which
+    the member's thrust acts between them; what these two joints are called.
+    """
+
+    names: tuple[str, str]
+    labels: tuple[str, str]
+    points: tuple[str, str]
+    kinds: tuple[str, str]
+
+
 class TwoPoint(ForceElement):
     """The base of straight elements from A to B. A subclass is a frozen dataclass with A and B, and says `push`.
 
@@ -52,6 +67,10 @@ class TwoPoint(ForceElement):
     def ends(self) -> tuple[str, str]:
         """The names of its two points."""
         return name_of(self.A), name_of(self.B)
+
+    def halves(self, members: Mapping[str, Member]) -> Halves | None:
+        """Return the two bodies that it is, which slide in each other; None where it is one. The class's members by name."""
+        return None
 
     def growth(self, motion: Poses, rates: Mapping[str, Rate]) -> Array:
         """Return how fast its length grows [m/s] while strokes move at rates [1/s]; of no rates 0."""

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import final
+from typing import TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError
-from ..loads import ForceElement, PinFriction, TwoPoint
+from ..loads import ForceElement, Halves, PinFriction, TwoPoint
 from ..plan import Plan, arm_joint, arm_points, carrying_pairs, holds_an_arm, member_sides
-from ..quantities import Quantity, body_name, joined_names, name_of
+from ..quantities import Quantity, Where, body_name, joined_names, name_of
 from ..steps import Link
+from ..vectors import Line
 from .applied import AppliedThrust, member_title
 from .holding import Holders, PressureLine, same, sampled
 
@@ -36,12 +37,32 @@ class FreeBody:
 
 @final
 @dataclass(frozen=True, eq=False)
+class SlidingPair:
+    """A straight member of two bodies, the second of which slides in the first; see `Halves`."""
+
+    member: TwoPoint
+    halves: Halves
+    bodies: tuple[FreeBody, FreeBody]
+
+    @property
+    def points(self) -> set[str]:
+        """The points of both bodies."""
+        return {point for body in self.bodies for point in body.points}
+
+    def line(self, point: str) -> Callable[[Where], Line]:
+        """Return the line through a point on the axis, from A towards B."""
+        A, B = self.member.ends
+        return lambda where: Line(where.at(point), (where.at(B) - where.at(A)) * (1.0 / where.link_length(A, B)))
+
+
+@final
+@dataclass(frozen=True, eq=False)
 class Strut:
     """A straight two-point member P -> Q: a driven length, a cylinder that holds, or a member whose thrust a law gives.
 
     `quantity` is the driven length [m], None where the points alone tell it; `far` are the points on Q's side; `host` the body that
-    it is together with the points measured along it, if any; `line` what it holds with; `known` its thrust where a law gives it, so
-    that it drives nothing.
+    it is together with the points measured along it, if any; `pair` the two bodies that it is, where it is two; `line` what it holds
+    with; `known` its thrust where a law gives it, so that it drives nothing.
     """
 
     name: str
@@ -52,6 +73,7 @@ class Strut:
     host: str = ""
     line: PressureLine | None = None
     known: AppliedThrust | None = None
+    pair: SlidingPair | None = None
 
     @property
     def ends(self) -> tuple[str, str]:
@@ -65,20 +87,27 @@ class Strut:
         return self.line is not None or (isinstance(member, TwoPoint) and member.holds)
 
 
-def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[AppliedThrust]) -> tuple[tuple[FreeBody, ...], tuple[Strut, ...]]:
+Bodies: TypeAlias = tuple[tuple[FreeBody, ...], tuple[Strut, ...], tuple[SlidingPair, ...]]
+"""The bodies, the two-point members, and the pairs of bodies that some of them are."""
+
+
+def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[AppliedThrust]) -> Bodies:
     """Return the bodies and the two-point members: sliders first, then links, then those members that are bodies of their own."""
     fixed = frame_points(plan)
     sides = [side for _, joint in plan.joints for side in (joint.on, joint.by) if side.role == "slider"]
     sliders = [slider(point) for point in dict.fromkeys(side.points[0] for side in sides) if point not in fixed]
     arms = [telescope(plan, name) for name in plan.telescopes]
     links = declared_bodies(plan, arms)
+    pairs = sliding_pairs(plan, links)
+    links = [link for link in links if not any(set(link.points) == pair.points for pair in pairs)]
     struts, hosts = two_point_members(plan, holders, thrusts, links)
+    struts = tuple(replace(each, pair=next((pair for pair in pairs if pair.member.name == each.name), None)) for each in struts)
     renamed = [each for each in struts if each.host == each.name]
     links = [link for link in links if link not in [hosts[each.name] for each in renamed]]
     carrying = [replace(hosts[each.name], name=each.name, axis=each.ends) for each in renamed]
-    alone = [(strut.name, (strut.P, strut.Q)) for strut in struts if not strut.host]
+    alone = [(strut.name, (strut.P, strut.Q)) for strut in struts if not strut.host and strut.pair is None]
     own = [FreeBody(name, ends, ends, label=joined_names(*ends)) for name, ends in alone]
-    return (*sliders, *arms, *links, *carrying, *own), struts
+    return (*sliders, *arms, *links, *carrying, *own, *(body for pair in pairs for body in pair.bodies)), struts, pairs
 
 
 def declared_bodies(plan: Plan, arms: Iterable[FreeBody]) -> list[FreeBody]:
@@ -186,6 +215,26 @@ def far_points(plan: Plan, strut: Strut, host: FreeBody) -> frozenset[str]:
                 f"{strut.P}{point}=...), with an angle where it lies aside; or let two links meet there, Dyad({strut.P}, {strut.Q}, ...)."
             )
     return frozenset(far)
+
+
+def sliding_pairs(plan: Plan, links: Sequence[FreeBody]) -> tuple[SlidingPair, ...]:
+    """Return the members of the class that are two bodies each; DefinitionError for several between the same two points."""
+    found: list[SlidingPair] = []
+    for member in plan.of_kind(TwoPoint).values():
+        halves = member.halves(plan.members)
+        if halves is None:
+            continue
+        host = next(link for link in links if {*member.ends, *halves.points} <= set(link.points))
+        other = next((pair.member for pair in found if pair.points & {*halves.points}), None)
+        if other is not None:
+            what = f"{other.name} and {member.name} are two bodies each, and both are between {' and '.join(member.ends)}"
+            raise DefinitionError(f"{plan.title}: {what}: which of them carries a point is not told. Declare one with count=2.")
+        far = far_points(plan, Strut(member.name, *member.ends), host)
+        parts = tuple(point for point in host.points if point not in far), tuple(point for point in host.points if point in far)
+        axes = zip(member.ends, halves.points, strict=True)
+        bodies = [FreeBody(*each) for each in zip(halves.names, parts, axes, (False, False), halves.labels, strict=True)]
+        found.append(SlidingPair(member, halves, (bodies[0], bodies[1])))
+    return tuple(found)
 
 
 RIGID = 1e-7

@@ -255,6 +255,8 @@ class System:
 
     def thrust(self, strut: Strut) -> LinearForm:
         """Return a two-point member's thrust [N]: what pushes its far end against all that acts there."""
+        if strut.pair is not None:
+            return self.unknown(self.structure.sliding_joint(strut.pair, "t"), "t", 1.0)
         body = self.structure.body_of(strut)
 
         def far(contact: Contact) -> bool:

@@ -16,6 +16,7 @@ from ..motion.limits import where_words
 from ..motion.requests import stroke_of
 from ..plan import Mask
 from ..program import FloatArray
+from ..quantities import Reference, name_of
 from ..shown import Shown
 from ..units import kN
 from .agreement import check_joints
@@ -142,6 +143,20 @@ class PinForces(Shown):
         joint, sign = joint_on(self.joints, point, self.body_named(on), self.motion.plan.title, self.body_named(by))
         return sign * joint.force
 
+    def gland(self, member: Reference) -> GlandForce:
+        """Return what guides the rod of a cylinder in its barrel, where it is two bodies; DefinitionError for any other member."""
+        name, pairs = name_of(member), {each.member.name: each for each in self._structure.pairs}
+        if name not in pairs:
+            what = f"{self.motion.plan.title}: {name} is no member of two bodies"
+            of_two = f"those are {', '.join(pairs)}" if pairs else "give a cylinder barrel_mass=, rod_mass=, or points OnBarrel or OnRod"
+            raise DefinitionError(f"{what}; {of_two}.")
+        P, Q = pairs[name].member.ends
+        contact = self._structure.sliding_joint(pairs[name], "n")
+        joint = self.joints[self._structure.contacts.index(contact)]
+        arm = self.motion[Q] - self.motion[P]
+        across = (arm[0] * joint.force[1] - arm[1] * joint.force[0]) / np.hypot(arm[0], arm[1])
+        return GlandForce(contact.point, across, joint.couple, self.motion[contact.point])
+
     def on_body(self, name: str) -> Mapping[str, FloatArray]:
         """Return all forces on a body by the point they act at, joints and loads, shape (2, ...) [N]: they balance (for FEM).
 
@@ -189,6 +204,24 @@ class PinForces(Shown):
         lines += [f"  axle load {name}: {range_text(force, 'kN')}" for name, force in self.axle_loads.items()]
         against = "" if np.isnan(self.gap) else f"; against virtual work {self.gap:.0e}"
         return "\n".join([head, *lines, f"  residual of equilibrium {self.residual:.0e}{against}", *(f"  {each}" for each in self.remarks)])
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class GlandForce:
+    """What guides the rod of a cylinder in its barrel: it acts on the rod from the barrel, at the gland, the barrel's end.
+
+    `lateral` is the force across, shape (...) [N], positive to the left of A -> B; `moment` that about the gland, shape (...) [Nm],
+    positive counter-clockwise; `place` where that is, shape (2, ...) [m], and `point` its name.
+    """
+
+    point: str
+    lateral: FloatArray
+    moment: FloatArray
+    place: FloatArray
+
+    def __str__(self) -> str:
+        return f"{self.point}: lateral {range_text(self.lateral, 'kN')}, moment {range_text(self.moment, 'Nm')}"
 
 
 @final

@@ -19,7 +19,7 @@ from ..program import FloatArray
 from ..quantities import FRAME_SIDE, Angle, Joint, JointSide, Negative, Quantity, Ref, Sum, body_name, joined_names, name_of
 from ..steps import Guide, Link, Point
 from .applied import AppliedThrust
-from .bodies import FRAME, FRAME_NAME, Strut, frame_points, free_bodies, refuse_driven, sliding_blocks
+from .bodies import FRAME, FRAME_NAME, SlidingPair, Strut, frame_points, free_bodies, refuse_driven, sliding_blocks
 from .holding import Holders, holders_of
 from .poses import FlatPoses, quarter_turned
 
@@ -90,13 +90,13 @@ class Structure:
         self.plan, self.thrusts, elements = plan, tuple(thrusts), tuple(elements)
         self.fixed = frame_points(plan)
         self.holders: Holders = holders_of(plan, elements)
-        bodies, self.struts = free_bodies(plan, self.holders, thrusts)
+        bodies, self.struts, self.pairs = free_bodies(plan, self.holders, thrusts)
         sliding = dict.fromkeys((joint.point, plan.track(joint)) for _, joint in plan.joints if joint.kind == "guide")
         self.blocks = sliding_blocks(plan, elements, bodies, (point for point, _ in sliding))
         self.bodies = (*self.blocks, *bodies)
         runners = [joint.point for _, joint in plan.joints if joint.on.role == "runner"]
         self.lone = tuple(dict.fromkeys(point for point in runners if not self.owners(point)))
-        self.contacts = (*self.pins(), *self.joints())
+        self.contacts = (*self.pins(), *self.joints(), *self.sliding_joints())
 
     # -- contacts ------------------------------------------------------------------------------------------
 
@@ -130,6 +130,21 @@ class Structure:
             if joint.by == FRAME_SIDE and (base := measured_from(self.plan, joint, name)) is not None:
                 by = self.carrier(*base, name)
             yield Contact(kind, joint.point, on, by, holds, name, joint, track)
+
+    def sliding_joints(self) -> Iterator[Contact]:
+        """Yield what members of two bodies hold between these: across and against turning, and along where such a member acts."""
+        acting = {each.pair for each in self.struts}
+        for pair in self.pairs:
+            by, on = (self.bodies.index(body) for body in pair.bodies)
+            barrel, rod = (JointSide((end,)) for end in pair.member.ends)
+            for kind, point, holds in zip(pair.halves.kinds, pair.halves.points, ("nc", "t"), strict=True):
+                if holds == "nc" or pair in acting:
+                    yield Contact(kind, point, on, by, holds, joint=Joint(kind, point, rod, barrel, holds, pair.line(point)))
+
+    def sliding_joint(self, pair: SlidingPair, letter: str) -> Contact:
+        """Return the joint of a member of two bodies that holds n, c or t between them."""
+        points = pair.halves.points
+        return next(each for each in self.contacts if letter in each.holds and each.point in points and not each.owner and each.joint)
 
     def check(self, owner: str, joint: Joint) -> None:
         """Raise DefinitionError for a joint, of a step of one's own, that does not say enough to write its forces."""
@@ -192,7 +207,7 @@ class Structure:
 
     def carrier(self, P: str, Q: str, what: str) -> int:
         """Return the body that holds two points."""
-        common = [index for index in self.owners(P) if index in self.owners(Q)]
+        common = [index for index in self.owners(P) if index in self.owners(Q)] or self.halves_with(P, Q)
         if not common:
             raise DefinitionError(f"{self.plan.title}: {what}: {P} and {Q} do not belong to one body; for forces declare Link({P}, {Q}).")
         return common[0]
@@ -202,8 +217,16 @@ class Structure:
         if load.point not in self.plan.points:
             raise unknown("Point", load.point, self.plan.points, where=self.plan.title)
         if len(load.on) == 1:
-            return self.index(load.on[0])
+            pair = next((each for each in self.pairs if each.member.name == load.on[0] and load.point in each.points), None)
+            return self.index(load.on[0]) if pair is None else self.halves_with(load.point, *pair.member.ends)[0]
+        if load.on and not set(self.owners(load.on[0])) & set(self.owners(load.on[1])):
+            return (self.halves_with(load.point, *load.on) or [self.carrier(load.on[0], load.on[1], "a load")])[0]
         return self.carrier(load.on[0], load.on[1], "a load") if load.on else self.holder(load.point)
+
+    def halves_with(self, point: str, *others: str) -> list[int]:
+        """Return the body with a point, of a member of two bodies to which other points belong as well; none where there is none."""
+        pairs = (pair for pair in self.pairs if {point, *others} <= pair.points)
+        return [self.bodies.index(body) for pair in pairs for body in pair.bodies if point in body.points]
 
     def body_of(self, strut: Strut) -> int:
         """Return the body that a two-point member is, or is part of."""

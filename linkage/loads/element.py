@@ -91,13 +91,19 @@ class Share:
 @final
 @dataclass(frozen=True, eq=False)
 class Reeving:
-    """What one unit of a tie's force is in a member that bends, as a rope does over pulleys: its thrust, positive where it pushes.
+    """A member of a tie that bends, as a rope does over pulleys: what a thrust of one newton puts on the points that it runs over.
 
-    `loads` are what a thrust of one newton puts on the points that it runs over.
+    Its length may follow strokes, which then wind it up, each by the `rate` at which it does. Where it would have to push, another one
+    that draws back pulls instead, `back` by its name: `back_loads` are what one newton of that thrust then puts on points, `back_share`
+    the pull of the other one.
     """
 
-    of: Callable[[Any], Array]
     loads: Callable[[Any], list[Load]]
+    strokes: tuple[str, ...] = ()
+    rate: Callable[[Any, str], Array] = lambda motion, stroke: np.ones(())
+    back: str = ""
+    back_loads: Callable[[Any], list[Load]] = lambda motion: []
+    back_share: Callable[[Any], Array] = lambda motion: np.zeros(())
 
 
 @final

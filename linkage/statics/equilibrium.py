@@ -5,8 +5,8 @@ Each body has three rows (forces along x and y, moment about its first point ove
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from typing import final
 
@@ -14,6 +14,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..loads import Load, TwoPoint
+from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import Distance, Quantity, name_of
 from .applied import AppliedLoad, member_title
@@ -57,13 +58,17 @@ class LinearForm:
 @final
 @dataclass(frozen=True)
 class System:
-    """The equations of one structure at its poses. `frictions` are unit wrenches of friction; `length` a scale [m], if given."""
+    """The equations of one structure at its poses. `frictions` are unit wrenches of friction; `length` a scale [m], if given.
+
+    `pushed` says where ropes would have to push (n,), so that those which draw back pull, by their names.
+    """
 
     structure: Structure
     poses: FlatPoses
     loads: tuple[AppliedLoad, ...]
     frictions: Sequence[UnitWrench] = ()
     length: float = 0.0
+    pushed: Mapping[str, Mask] = field(default_factory=dict)
 
     @cached_property
     def unit_length(self) -> float:
@@ -108,10 +113,13 @@ class System:
     def runs(self) -> tuple[tuple[tuple[int, Load, Wrench], ...], ...]:
         """What one unit of each rope's force puts on bodies: the body, the load, its wrench."""
         poses, none, found = self.poses, np.zeros(self.poses.count), []
-        for line in self.structure.holders.runs:
-            assert line.tie is not None and line.tie.run is not None
-            unit, loads = poses.flattened(line.tie.run.of(poses.motion)), line.tie.run.loads(poses.motion)
-            forces = [(load, Wrench(poses.at(load.point), poses.flattened(load.force) * unit, none)) for load in loads]
+        for each in self.structure.holders.reeved:
+            run, pushed = each.run, self.pushed.get(each.name)
+            forces = [(load, poses.flattened(load.force)) for load in run.loads(poses.motion)]
+            if pushed is not None:
+                forces = [(load, np.where(pushed, 0.0, force)) for load, force in forces]
+                forces += [(load, np.where(pushed, poses.flattened(load.force), 0.0)) for load in run.back_loads(poses.motion)]
+            forces = [(load, Wrench(poses.at(load.point), force, none)) for load, force in forces]
             found.append(tuple((self.structure.bearer(load), load, wrench) for load, wrench in forces))
         return tuple(found)
 
@@ -186,7 +194,7 @@ class System:
     def drive(self, stroke: str) -> LinearForm:
         """Return the generalised force of a stroke [N or Nm]: each drive's force times how it follows the stroke."""
         forms = [force.multiplied(ratio) for ratio, force in self.drives(stroke)]
-        forms += [self.run(k) for k, line in enumerate(self.structure.holders.runs) if line.stroke == stroke]
+        forms += [self.run(k).multiplied(rate) for k, rate in self.wound(stroke)]
         if not forms:
             raise DefinitionError(
                 f"{self.structure.plan.title}: the joints know no drive of {stroke}; "
@@ -194,6 +202,12 @@ class System:
                 "or by the drives in the joints() of a step of one's own."
             )
         return reduce(LinearForm.plus, forms)
+
+    def wound(self, stroke: str) -> Iterator[tuple[int, FloatArray]]:
+        """Yield the ropes whose length follows a stroke, by their places, and how it does, shape (n,)."""
+        for place, each in enumerate(self.structure.holders.reeved):
+            if stroke in each.run.strokes:
+                yield place, self.poses.flattened(each.run.rate(self.poses.motion, stroke))
 
     def drives(self, stroke: str) -> Iterator[tuple[FloatArray, LinearForm]]:
         """Yield how each driven quantity follows a stroke, shape (n,), with the force that drives it; those that do not are left out."""

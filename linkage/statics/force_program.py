@@ -46,7 +46,7 @@ def by_program(poses: FlatPoses, applied: AppliedLoads) -> PoseForces | None:
     if not isinstance(motion, Motion):
         return None
     structure = Structure(poses.plan, applied.elements, applied.thrusts)
-    if any(line.changes_shares for line in structure.holders.lines):
+    if any(line.changes_shares for line in structure.holders.lines) or any(each.run.back for each in structure.holders.reeved):
         return None
     frictions = joint_frictions(structure, poses, applied.frictions, applied.rates) if applied.frictions else []
     places = [structure.contacts.index(each.contact) for each in frictions]
@@ -148,7 +148,7 @@ def traced_program(plan: Plan, applied: AppliedLoads, places: tuple[int, ...]) -
     guards = [*motion.notes.assumed, *(motion.node(each[0]) for each in assumed_joints(structure, poses))]
     kernels = friction_kernels(system, u, contacts, inputs, motion, guards) if places else None
     names = tuple(strut.name for strut in structure.struts)
-    ropes = tuple(line.tie.name for line in structure.holders.runs if line.tie is not None)
+    ropes = tuple(each.name for each in structure.holders.reeved)
     return ForceProgram(places, kernels, Kernel(nodes, guards), tuple(rows), tuple(plan.strokes), names, ropes)
 
 

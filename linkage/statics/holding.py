@@ -64,6 +64,15 @@ class PressureLine:
 
 @final
 @dataclass(frozen=True)
+class Reeved:
+    """A rope by its name, and how it runs."""
+
+    name: str
+    run: Reeving
+
+
+@final
+@dataclass(frozen=True)
 class Holders:
     """The lines that hold, in the order declared, and those that keep what is in them, each with the input that changes that."""
 
@@ -92,6 +101,12 @@ class Holders:
     def runs(self) -> tuple[PressureLine, ...]:
         """The closed ties that bend, each without straight members: ropes."""
         return tuple(line for line in self.closed if line.tie is not None and line.tie.run is not None)
+
+    @property
+    def reeved(self) -> tuple[Reeved, ...]:
+        """The same by their names, with how they run."""
+        ties = [line.tie for line in self.runs]
+        return tuple(Reeved(tie.name, tie.run) for tie in ties if tie is not None and tie.run is not None)
 
     def closed_by(self, name: str) -> PressureLine | None:
         """Return the closed line of an element; None where it is none."""
@@ -134,7 +149,7 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
     """Return the lines with the strokes they take."""
     ties = [tie for tie in (each.tie(plan.members) for each in elements) if tie is not None]
     closed = tuple(PressureLine(on_tie(tie), tie.cut, tie) for tie in ties if not tie.held and tie.gives)
-    cuts = {line.stroke for line in closed}
+    cuts = {line.stroke for line in closed} | {name for tie in ties if tie.run is not None for name in tie.run.strokes}
     held = {on_tie(tie): tie for tie in ties if tie.held}
     lines = [*joined_lines(plan, elements, ties), *held]
     if not lines and not ties:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
+from dataclasses import replace
+from functools import partial, reduce
 from itertools import pairwise
 from types import MappingProxyType
 from typing import ClassVar, Unpack, cast, final
@@ -35,7 +36,6 @@ from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Question, Ta
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import (
-    Dimension,
     InnerQuantity,
     Member,
     Number,
@@ -74,17 +74,18 @@ class Rope(ForceElement, Tabled, HasVerdicts):
 
     places: ClassVar[tuple[str, ...]] = ("run",)
     inside: ClassVar[Mapping[str, str]] = MappingProxyType({"first": "quantity", "last": "quantity"})
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"length": "mm", "force": "N"})
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"length": "mm", "force": "N", "stretch": "mm"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"length", "force"})
     optional: ClassVar[frozenset[str]] = frozenset({"length", "force"})
-    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"run": "run", "weights": "numbers"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"run": "run", "weights": "numbers", "against": "load"})
     section: ClassVar[str] = noted("Ropes")
     caption: ClassVar[str] = noted("Ropes and chains, over all that the machine runs")
 
     def __init__(
-        self, *run: Reference, length: Parameter | None = None, weights: Sequence[float] | None = None, force: Parameter | None = None
-    ) -> None:
-        self.run, self.length, self.force = tuple(run), length, force
+        self, *run: Reference, length: Parameter | None = None, weights: Sequence[float] | None = None, force: Parameter | None = None,
+        stretch: Parameter = 0.0, against: Reference | None = None,
+    ) -> None:  # fmt: skip
+        self.run, self.length, self.force, self.stretch, self.against = tuple(run), length, force, stretch, against
         self.weights = None if weights is None else tuple(weights)
         self._check()
 
@@ -101,16 +102,27 @@ class Rope(ForceElement, Tabled, HasVerdicts):
             if len(self.weights) != count or not all(is_number(each) and each > 0.0 for each in self.weights):
                 raise DefinitionError(f"{self}: weights={cited(self.weights)}: {count} numbers above zero are expected, one a part.")
             self.weights = tuple(map(float, self.weights))
+        if self.against is not None and (self.length is not None or self.force is not None):
+            what = f"{self}: it draws back against {label(self.against)}, which gives it its length"
+            raise DefinitionError(f"{what}; leave length= and force= out.")
         for name in self.numbers:
             self._check_number(name)
 
+    @property
+    def numbers(self) -> Mapping[str, str]:
+        stretches = self.force is None and not (is_number(self.stretch) and self.stretch == 0.0 and is_number(self.length))
+        return {name: unit for name, unit in super().numbers.items() if name != "stretch" or (stretches and self.length is not None)}
+
     def parts(self) -> tuple[Reference, ...]:
         numbers = (quantity(self.given(name)) for name in self.numbers)
-        return (*self.run, *(each for each in numbers if not each.is_constant))
+        against = () if self.against is None else (self.against,)
+        return (*self.run, *against, *(each for each in numbers if not each.is_constant))
 
     def __str__(self) -> str:
         more = [] if self.weights is None else [f"weights={list(self.weights)}"]
-        given = [f"{name}={value_text(self.given(name))}" for name in self.numbers]
+        shown = {name: value_text(self.given(name)) for name in self.numbers}
+        given = [f"{name}={text}" for name, text in shown.items() if name != "stretch" or text != "0.0"]
+        more += [] if self.against is None else [f"against={label(self.against)}"]
         return f"Rope({', '.join([*map(label, self.run), *given, *more])})"
 
     @property
@@ -128,6 +140,11 @@ class Rope(ForceElement, Tabled, HasVerdicts):
             if not isinstance(members.get(name_of(each)), (Point, Pulley)):
                 known = [name for name, member in members.items() if isinstance(member, (Point, Pulley))]
                 raise unknown("Point or pulley", name_of(each), known, where=f"{title}.{self.name}")
+        if self.against is not None:
+            found = members.get(name_of(self.against))
+            if not isinstance(found, Rope) or found.against is not None:
+                what = f"{opening}: {label(self.against)} is no Rope that gives a length"
+                raise DefinitionError(f"{what}; name the one that it draws back against.")
         stations, falls = self.stations(members), self.falls
         for one, other in pairwise(stations):
             if one.point == other.point:
@@ -175,7 +192,8 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         if pulley is not None:
             what = f"{opening}: how far it lies on {pulley.name} hangs on where {self.name}.{name} ends"
             raise DefinitionError(f"{what}; let it run over the pin {stations[beside].point} there, or give the other end's length.")
-        left: Quantity = Variable(f"{self.name}.length") if isinstance(self.length_given, Number) else self.length_given
+        left = self.written("length")
+        left = left + self.written("stretch") if "stretch" in self.numbers else left
         kept = stations[rest]
         if len(kept) > 1:
             radii, senses = tuple(each.radius_written for each in kept), tuple(each.sense for each in kept)
@@ -188,23 +206,28 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         """Its length as it is given [m]."""
         return quantity(cast("float | Quantity | str", self.length))
 
-    def cut(self, members: Mapping[str, Member]) -> str:
-        """Return the input by which its length changes: its own, or the stroke or the dimension that it follows."""
+    def written(self, name: str) -> Quantity:
+        """Return a number of it as a quantity of its class."""
+        given = quantity(self.given(name))
+        return Variable(f"{self.name}.{name}") if isinstance(given, Number) else given
+
+    @property
+    def cut(self) -> str:
+        """The input by which its length changes: itself, or how much longer it is than what it follows."""
+        return f"{self.name}.{'length' if isinstance(self.length_given, Number) else 'stretch'}"
+
+    def winding(self, members: Mapping[str, Member]) -> tuple[str, ...]:
+        """Return the strokes that its length follows by itself, not through points: those of winches."""
         length = self.length_given
-        if isinstance(length, Number):
-            return f"{self.name}.length"
         stack, found = [length.name] if length.name else [*needs(length)], list[str]()
         while stack:
             name = stack.pop()
-            if isinstance(members[name], (Stroke, Dimension)):
-                found.append(name)
-            stack += needs(members[name])
-        strokes = [name for name in found if isinstance(members[name], Stroke)]
-        return next(iter((*strokes, *found)), f"{self.name}.length")
+            found += [name] if isinstance(members[name], Stroke) and name not in found else []
+            stack += [] if isinstance(members[name], Point) else needs(members[name])
+        return tuple(found)
 
     def cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
-        cut = self.cut(members) if self.length is not None and self.gives(members) else ""
-        return () if not cut or isinstance(members.get(cut), Stroke) else (cut,)
+        return (self.cut,) if self.length is not None and self.gives(members) else ()
 
     # -- in statics ------------------------------------------------------------------------------------------
 
@@ -226,17 +249,36 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         if self.force is not None:
             return None
         gives = self.gives(members)
-        cut = self.cut(members) if gives else ""
-        return Tie(self.name, (), held=False, cut=cut, gives=gives, run=Reeving(partial(self._thrust_of, cut), self._pushes))
+        if not gives:
+            return Tie(self.name, (), held=False, run=Reeving(self._pushes))
+        back, strokes = self.drawn_back_by(members), self.winding(members)
+        run = Reeving(self._pushes, strokes, self._rate)
+        if back is not None:
+            run = replace(run, back=back.name, back_loads=back.back_pushes, back_share=back.share_against)
+        return Tie(self.name, (), held=False, cut=self.cut, gives=gives, run=run)
+
+    def drawn_back_by(self, members: Mapping[str, Member]) -> Rope | None:
+        """Return the rope that pulls where this one would have to push; None where there is none."""
+        ropes = [each for each in members.values() if isinstance(each, Rope) and each.against is not None]
+        return next((each for each in ropes if name_of(cast(Reference, each.against)) == self.name), None)
+
+    def share_against(self, motion: Poses) -> FloatArray:
+        """Return its pull for each newton that the rope it draws back against would have to push with."""
+        partner = cast(Rope, motion.plan.members[name_of(cast(Reference, self.against))])
+        ways = [(load.force * motion.ratio(load.point, wrt=partner.cut)).sum(axis=0) for load in self.pulls(motion)]
+        return np.asarray(1.0 / reduce(np.add, ways))[()]
+
+    def back_pushes(self, motion: Poses) -> list[Load]:
+        """Return what it puts on points for each newton that the rope it draws back against would have to push with."""
+        share = self.share_against(motion)
+        return [Load(each.point, each.force * share) for each in self.pulls(motion)]
 
     def _pushes(self, motion: Poses) -> list[Load]:
         return [Load(each.point, -1.0 * each.force) for each in self.pulls(motion)]
 
-    def _thrust_of(self, cut: str, motion: Poses) -> FloatArray:
-        """Return its thrust at a unit of what changes its length."""
-        if self.length is None or isinstance(self.length_given, Number) or not cut:
-            return np.ones(())
-        return np.asarray(1.0 / motion.ratio(self.length_given, wrt=cut))[()]
+    def _rate(self, motion: Poses, stroke: str) -> FloatArray:
+        """Return how its length follows a stroke."""
+        return np.asarray(motion.ratio(self.length_given, wrt=stroke))
 
     @takes_situation
     def tension(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> FloatArray:
@@ -254,11 +296,19 @@ class Rope(ForceElement, Tabled, HasVerdicts):
             return own.tension_in(whole, acting)
         if self.force is not None:
             return self.number(motion, "force") + np.zeros(motion.shape)
+        if self.against is not None:
+            partner = rope_in(name_of(self.against), motion.plan)
+            return np.asarray(np.maximum(-1.0 * partner.pull_in(motion, acting), 0.0) * self.share_against(motion))[()]
+        found = self.pull_in(motion, acting)
+        return found if self.drawn_back_by(motion.plan.members) is None else np.maximum(found, 0.0)
+
+    def pull_in(self, motion: AnyMotion, acting: Acting) -> FloatArray:
+        """Return what it would pull with alone, shape (...) [N]: below zero it would have to push."""
         found = closed_force(motion, self, acting)
         if found is None:
             what = f"{self.name} holds nothing: no step follows it"
             raise DefinitionError(f"{plan_of(motion).title}: {what}; let one, CD={self.name}.last, or give its force, force=12 * kN.")
-        return np.asarray(-1.0 * found * self._thrust_of(self.cut(motion.plan.members), motion))[()]
+        return np.asarray(-1.0 * found)[()]
 
     def path(self, motion: Poses) -> FloatArray:
         """Return the length of its path over a motion [m], shape (...), each straight part so often as its weight says."""
@@ -293,7 +343,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         found: dict[str, Condition] = {}
-        if self.is_held and self.gives(judge.plan.members):
+        if self.is_held and self.gives(judge.plan.members) and self.drawn_back_by(judge.plan.members) is None:
             found["tension"] = least(tension(self.name)) >= 0.0
         pulleys = [each.pulley for each in self.stations(judge.plan.members) if each.pulley is not None]
         return found | {f"wrap {each.name}": least(self.wrap_request(each.name)) >= 0.0 for each in pulleys}

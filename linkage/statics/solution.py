@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import final
 
@@ -49,17 +49,24 @@ class PoseForces:
     @property
     def tensions(self) -> Mapping[str, FloatArray]:
         """What ropes pull with by their names, shape (...) [N]."""
-        lines = [line.tie for line in self.structure.holders.runs]
-        return {tie.name: -1.0 * self.runs[tie.name] * tie.run.of(self.poses.motion) for tie in lines if tie and tie.run}
+        found: dict[str, FloatArray] = {}
+        for each in self.structure.holders.reeved:
+            force = self.runs[each.name]
+            found[each.name] = np.maximum(-1.0 * force, 0.0) if each.run.back else -1.0 * force
+            if each.run.back:
+                found[each.run.back] = np.maximum(force, 0.0) * each.run.back_share(self.poses.motion)
+        return found
 
     def run_loads(self) -> Iterator[AppliedLoad]:
         """Yield what ropes put on the points that they run over."""
-        for line in self.structure.holders.runs:
-            assert line.tie is not None and line.tie.run is not None
-            run, motion = line.tie.run, self.poses.motion
-            thrust = self.runs[line.tie.name] * run.of(motion)
-            for load in run.loads(motion):
-                yield AppliedLoad(load, np.asarray(load.force * thrust), line.tie.name)
+        motion = self.poses.motion
+        for each in self.structure.holders.reeved:
+            force = self.runs[each.name]
+            own = np.minimum(force, 0.0) if each.run.back else force
+            yield from (AppliedLoad(load, np.asarray(load.force * own), each.name) for load in each.run.loads(motion))
+            if each.run.back:
+                back = np.maximum(force, 0.0)
+                yield from (AppliedLoad(load, np.asarray(load.force * back), each.run.back) for load in each.run.back_loads(motion))
 
 
 def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseForces:
@@ -75,6 +82,10 @@ def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseFor
         other = Equilibrium(system, frictions, split, tuple(system.known(-1))).solution()
         u, q = (np.where(pulls[:, None], a, b) for a, b in ((other.u, found.u), (other.q, found.q)))
         found = Solution(system, u, q, np.where(pulls, other.locked, found.locked), frictions)
+    pushed = {each.name: found.value(system.run(k)) > 0.0 for k, each in enumerate(system.structure.holders.reeved) if each.run.back}
+    if any(each.any() for each in pushed.values()):
+        system = replace(system, pushed=pushed)
+        found = Equilibrium(system, frictions, split, tuple(system.known())).solution()
     full = poses.full
     joints = [found.transmitted(contact) for contact in system.structure.contacts]
     result = PoseForces(
@@ -82,7 +93,7 @@ def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseFor
         [(full(force), full(couple)) for force, couple in joints],
         {name: full(found.value(system.drive(name))) for name in poses.motion.strokes},
         {each.name: full(found.value(system.thrust(each))) for each in system.structure.struts},
-        {line.tie.name: full(found.value(system.run(k))) for k, line in enumerate(system.structure.holders.runs) if line.tie},
+        {each.name: full(found.value(system.run(k))) for k, each in enumerate(system.structure.holders.reeved)},
     )  # fmt: skip
     check_joints(system.structure, poses)
     return result

@@ -205,6 +205,10 @@ def eliminated_forces(
     `units` are unit wrenches of friction, `sizes` how large each is. DefinitionError where a body hangs loose or a link is redundant.
     """
     plan = motion.plan
+    backed = next((each for each in structure.holders.reeved if each.run.back), None)
+    if backed is not None:
+        what = f"the forces between bodies hang on which of {backed.name} and {backed.run.back} pulls, pose by pose"
+        raise UntracedError(f"{plan.title}: {what}: there are values, and no program that gives derivatives.")
     sampled = sampled_poses(plan)
     inputs = sampled._grid.flat
     places = [motion.node(part) for point in plan.points for part in motion._nodes(point)]

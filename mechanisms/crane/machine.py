@@ -13,7 +13,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, Dimension, Dyad, Featured, Ground, OnLink, Over, Stroke, ref
+from linkage import LEFT, Dimension, Dyad, Featured, Ground, Link, OnLink, Over, Rope, Stroke, ref
 from linkage.quantities import Function
 from linkage.units import MPa, deg, mm
 
@@ -131,12 +131,20 @@ class DirectCraneAbove(DirectCrane):
 class ChainCrane(Crane):
     """The telescope's cylinder pushes its first section, chains draw the second, which runs twice the cylinder's way (figure 2.2).
 
-    `extend` stands for cylinder and chains together: from the arm straight to the tip, of half the area and
-    twice the stroke of the real one, whose bore and rod are `chain_bore` and `chain_rod`. Pressure, oil and all pin forces but
-    those inside the telescope are the real one's; its thrust is twice that of `extend`.
+    Cylinder RD moves the first section DZ; `chain` runs from X on the arm over a sheave at D to the second section's end Y and draws it out,
+    `back` from K over a sheave at Z to Y and draws it in. The sheaves run as pins, along the arm; where they lie is illustrative.
     """
 
     chain_bore, chain_rod = Dimension(90 * mm, unit="mm"), Dimension(56 * mm, unit="mm")
-    extend = Cylinder("R", "T", bore=0.5**0.5 * chain_bore, rod=0.5**0.5 * chain_rod, works="both", closed=2.915, stroke=2.533)
+    chain_anchor, chain_tail = Dimension(1.2, unit="m"), Dimension(0.6, unit="m")  # X and Y from J, the telescope in
+    first = 0.5 * ref("t")                                # how far the cylinder has pushed the first section, m
+    D = OnLink("J", "K", JD=ref("l_p") + first)
+    Z = OnLink(D, "J", DZ=ref("l_p") - 0.75 * chain_tail)
+    X = OnLink("J", "K", JX=chain_anchor)
+    chain = Rope(X, D, "Y", length=2.0 * ref("l_p") - chain_anchor - chain_tail)
+    Y = OnLink("J", "K", JY=ref("l_p") + first - chain.last)
+    T = OnLink(Y, "K", YT=ref("l_p") - chain_tail)
+    back = Rope("K", Z, Y, against=chain)
+    inner, outer = Link(D, Z), Link(Y, T)
+    extend = Cylinder("R", D, bore=chain_bore, rod=chain_rod, works="both", closed=2.915, stroke=1.267)
     extend_line = LiftCircuit(extend, pressure=22 * MPa, mechanical_efficiency=0.95)
-    first = 0.5 * ref("t")                                # how far the real cylinder has pushed the first section, m

@@ -159,16 +159,24 @@ def test_moment_of_a_cylinder_over_its_way_is_its_oil():
 
 
 def test_chains_halve_the_way_and_double_the_force():
-    """Pressure and oil are those of the real cylinder, which goes half the telescope's way with twice its force."""
+    """The cylinder goes half the telescope's way with twice its force; the chains carry what the telescope does, each where it pulls."""
     at = {"phi": 1.0, "psi": PSI, "t": 1.0}
     crane = ChainCrane()
     motion = crane.at(**at)
     carried = Crane.extend.thrust(Crane().at(**at), case="lifting")
     areas = np.pi / 4 * np.where(carried > 0, 0.09**2, 0.09**2 - 0.056**2)
     needs = np.abs(2.0 * carried) / areas
+    assert_allclose(motion["T"], Crane().at(**at)["T"], rtol=1e-14)
+    assert_allclose(ChainCrane.extend.thrust(motion, case="lifting"), 2.0 * carried, rtol=1e-12)
     assert_allclose(ChainCrane.extend.sized(motion).pressure_for(ChainCrane.extend.thrust(motion, case="lifting")), needs, rtol=1e-12)
-    assert_allclose(motion.ratio("first", wrt="t"), 0.5, rtol=1e-12)
+    assert_allclose(motion.ratio(distance("R", "D"), wrt="t"), 0.5, rtol=1e-12)
+    out, back = (chain.tension(motion, case="lifting") for chain in (ChainCrane.chain, ChainCrane.back))
+    assert_allclose(out - back, carried, rtol=1e-12)
+    assert np.all(np.minimum(out, back) == 0.0) and out.max() > 0.0 and back.max() > 0.0
     direct, chained = (pin_forces(each.at(**at), case="lifting") for each in (Crane(), crane))
+    assert_allclose(chained.tensions["chain"], out, rtol=1e-9, atol=1e-6)
+    assert_allclose(chained.tensions["back"], back, rtol=1e-9, atol=1e-6)
+    assert chained.residual < 1e-12 and chained.gap < 1e-11
     for pin in ("O", "A", "V", "E"):
         assert_allclose(chained.force(pin), direct.force(pin), rtol=1e-9)
 

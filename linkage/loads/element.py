@@ -47,7 +47,8 @@ class Glyph:
     Between two points: `strut`, `spring`, `damper`, `cylinder`, `accumulator` (`count` of them, on the cylinder there). At one point:
     `weight`, `force`, `support`. On a body of some points: `mass`, `moment`; `away` is where from the first point, in the body's axes
     [m], without it in the middle of the points. `stages` of a cylinder that is drawn in stages gives, of a motion, its closed length and
-    the lengths at which its stages are out [m], one after another.
+    the lengths at which its stages are out [m], one after another. A `rope` runs over its points, a `pulley` turns about one: of what
+    signed `radii` at some poses [m], above zero where the rope turns left.
     """
 
     drawn_as: str
@@ -56,6 +57,7 @@ class Glyph:
     way: float = 0.0
     away: tuple[float, float] | None = None
     stages: Callable[[Any], Sequence[Any]] | None = None
+    radii: Callable[[Any], Sequence[Array]] = lambda motion: ()
 
 
 class TwoPinned(Protocol):

@@ -22,7 +22,7 @@ from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
 from ..quantities import Axes, Member, Number, Quantity, Reference, Variable, Where, label, name_of, quantity
 from ..vectors import Scalar, Side, Vec
-from .element import Array, ForceElement, Load, Parameter, Poses
+from .element import Array, ForceElement, Glyph, Load, Parameter, Poses
 
 
 @final
@@ -62,6 +62,9 @@ class Pulley(ForceElement):
     @property
     def scales(self) -> bool:
         return False
+
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        return (Glyph("pulley", (name_of(self.point),), radii=lambda motion: [self.number(motion, "radius")]),)
 
     def in_axes(self, axes: Axes) -> Pulley:
         return self.renewed(side=Side(-int(self.side))) if axes.mirrored else self

@@ -194,13 +194,15 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
     """Yield each element's load on each body: element, body, place (2,) [m], force (2,) [N] and moment there [Nm], colour.
 
     What the ground puts on a vehicle goes by the name of its support. Several forces of an element on a body go as their resultant, on
-    its line of action; a couple as a moment amid its points.
+    its line of action, those of a rope each at its point; a couple as a moment amid its points.
     """
-    groups: dict[tuple[str, str], list[tuple[FloatArray, FloatArray]]] = {}
+    groups: dict[tuple[str, str, str], list[tuple[FloatArray, FloatArray]]] = {}
+    ropes = rope_names(forces)
     ground = {each.element for each in forces.found._ground}
     for body, acting in forces.found._loads:
-        groups.setdefault((acting.element.partition("(")[0], body), []).append((forces.place(acting.load.point), forces.one(acting.force)))
-    for (element, body), parts in groups.items():
+        key = acting.element.partition("(")[0], body, acting.load.point if acting.element in ropes else ""
+        groups.setdefault(key, []).append((forces.place(acting.load.point), forces.one(acting.force)))
+    for (element, body, _), parts in groups.items():
         colour = GROUND if element in ground else LOAD
         places, each_of = np.array([place for place, _ in parts]), np.array([force for _, force in parts])
         force, middle = each_of.sum(axis=0), places.mean(axis=0)
@@ -214,6 +216,13 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
             centre = mass_centre(forces, element)
             place = place if centre is None else place + force * float((centre - place) @ force) / square
             yield element, body, place, force, 0.0, colour
+
+
+def rope_names(forces: ForcesAt) -> set[str]:
+    """Return the elements that are drawn as ropes, by name."""
+    plan = forces.found.motion.plan
+    elements = plan.of_kind(ForceElement).items()
+    return {name for name, each in elements if any(glyph.drawn_as == "rope" for glyph in each.glyphs(plan.members))}
 
 
 def mass_centre(forces: ForcesAt, element: str) -> FloatArray | None:

@@ -37,8 +37,10 @@ from .shapes import (
     hull,
     nested_tubes,
     plate_form,
+    pulley,
     staged_tubes,
     stages,
+    tangent,
     telescope_sections,
     tube,
     turning_with,
@@ -363,9 +365,12 @@ class Scene:
     def two_force(self) -> tuple[TwoForceMember, ...]:
         """The driven lengths and the straight elements; those on the same two points stand side by side, those along a bar beside it.
 
-        The cylinder that is declared on a driven length is that length.
+        The cylinder that is declared on a driven length is that length; one that an element gives, such as a rope, is that element.
         """
-        by_pair = {frozenset((bar.P, bar.Q)): [TwoForceMember(bar.P, bar.Q, "cylinder")] for bar in self.motion.plan.cylinders}
+        plan = self.motion.plan
+        given = {name for name in plan.members if getattr(plan.members.get(name.rpartition(".")[0]), "kind", "") == "load"}
+        driven_bars = [bar for bar in plan.cylinders if not given & plan.reaches(bar.length)]
+        by_pair = {frozenset((bar.P, bar.Q)): [TwoForceMember(bar.P, bar.Q, "cylinder")] for bar in driven_bars}
         driven = set(by_pair)
         for element, glyph in self.glyphs:
             pair = frozenset(glyph.points)
@@ -444,7 +449,29 @@ class Scene:
             lines += yokes(aside, self.size) if aside else ()
             if lines:
                 found.append(DrawnMark(joined_names(member.P, member.Q), (member.P, member.Q), tuple(lines)))
-        return (*found, *self.fed)
+        return (*found, *self.fed, *self.pulleys, *self.ropes)
+
+    @cached_property
+    def pulleys(self) -> tuple[DrawnMark, ...]:
+        """The pulleys that ropes run over, as circles."""
+        given = [(glyph.points[0], self._radii(glyph)[0]) for _, glyph in self.glyphs if glyph.drawn_as == "pulley"]
+        return tuple(DrawnMark(point, (point,), (pulley(radius),), 0.35) for point, radius in given if radius > 0.0)
+
+    @cached_property
+    def ropes(self) -> tuple[DrawnMark, ...]:
+        """The straight parts of ropes, each a thin line that leaves its pulleys along their tangents."""
+        found = []
+        for _, glyph in self.glyphs:
+            radii = self._radii(glyph) if glyph.drawn_as == "rope" else []
+            for (P, p), (Q, q) in pairwise(zip(glyph.points, radii, strict=False)):
+                short, long = self._lengths(P, Q)
+                if long:
+                    found.append(DrawnMark(joined_names(P, Q), (P, Q), (tangent(p, q, 0.5 * (short + long)),), 0.45, 1.1))
+        return tuple(found)
+
+    def _radii(self, glyph: Glyph) -> list[float]:
+        """Return the signed radii of what a glyph runs over [m], at the first pose."""
+        return [float(np.ravel(np.asarray(each, float))[0]) for each in glyph.radii(self.motion)]
 
     def _staged(self, member: TwoForceMember, aside: float) -> list[DrawnMark]:
         """Return a telescope as a mark for each stage, the thinnest first, each moved as far as its stages are out."""
@@ -613,6 +640,7 @@ class Scene:
         uses = Counter(point for points in self.bodies for point in points)
         uses.update(end for each in self.two_force for end in (each.P, each.Q))
         uses.update(rider for track in self.tracks for rider in track.riders)
+        uses.update(point for _, glyph in self.glyphs if glyph.drawn_as == "rope" for point in glyph.points)
         return uses
 
     @cached_property
@@ -699,8 +727,9 @@ class Scene:
 
     @cached_property
     def straights_reach(self) -> FloatArray:
-        """The corners of all accumulators, at some poses, shape (n, 2) [m]: they stand outside the points that carry them."""
-        return np.concatenate([np.empty((0, 2)), *(each.placed(each.corners, at) for at in self.some(5) for each in self.fed)])
+        """The corners of all accumulators and pulleys, at some poses, shape (n, 2) [m]: they stand outside the points that carry them."""
+        marks = (*self.fed, *self.pulleys)
+        return np.concatenate([np.empty((0, 2)), *(each.placed(each.corners, at) for at in self.some(5) for each in marks)])
 
     def _around(self) -> FloatArray:
         """Return the points of the surroundings that the sheet should show, shape (n, 2) [m]: of an open line the nearest ones alone."""

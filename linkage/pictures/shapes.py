@@ -207,6 +207,25 @@ def strut(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
     return (outline((0.0, 0.0, half), (1.0, 0.0, half), (1.0, 0.0, -half), (0.0, 0.0, -half), fill="ROD", closed=True),)
 
 
+# Ropes and the pulleys that they run over.
+
+
+def pulley(radius: float) -> DrawnLine:
+    """Return a circle of a radius [m]."""
+    return DrawnLine(np.column_stack([np.zeros(33), rounded(np.zeros((1, 2)), radius)]), closed=True)
+
+
+def tangent(start: float, end: float, length: float) -> DrawnLine:
+    """Return the common tangent of circles of signed radii [m], above zero to the left of it, whose centres are about a length apart [m].
+
+    Where it touches follows the length to the first order.
+    """
+    step = float(np.clip((end - start) / length, -1.0, 1.0))
+    across, along = np.sqrt(1.0 - step * step), step
+    ends = [(share, -2.0 * radius * along, -radius * across) for share, radius in ((0.0, start), (1.0, end))]
+    return outline(*((share + radius * along / length, way, side) for (share, way, side), radius in zip(ends, (start, end), strict=True)))
+
+
 # Cylinders, telescopes, and the accumulators of a gas-fed line; the blocks that slide on tracks.
 
 LONG, BLOCK, SLOT = 2.1, 1.25, 0.7

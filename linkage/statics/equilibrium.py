@@ -119,8 +119,8 @@ class System:
             if pushed is not None:
                 forces = [(load, np.where(pushed, 0.0, force)) for load, force in forces]
                 forces += [(load, np.where(pushed, poses.flattened(load.force), 0.0)) for load in run.back_loads(poses.motion)]
-            forces = [(load, Wrench(poses.at(load.point), force, none)) for load, force in forces]
-            found.append(tuple((self.structure.bearer(load), load, wrench) for load, wrench in forces))
+            wrenches = [(load, Wrench(poses.at(load.point), force, none)) for load, force in forces]
+            found.append(tuple((self.structure.bearer(load), load, wrench) for load, wrench in wrenches))
         return tuple(found)
 
     @cached_property

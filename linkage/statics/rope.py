@@ -325,7 +325,13 @@ class Rope(ForceElement, Tabled, HasVerdicts):
             written.given(f"T_{self.name}", lambda motion: self.tension_in(motion, Acting()), "kN")
 
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
-        return (Glyph("rope", tuple(each.point for each in self.stations(members))),)
+        stations = self.stations(members)
+
+        def radii(motion: Poses) -> list[FloatArray]:
+            found = [each.radius(motion) for each in stations]
+            return [np.zeros(()) if each is None else each for each in found]
+
+        return (Glyph("rope", tuple(each.point for each in stations), radii=radii),)
 
     # -- what it shows and says ------------------------------------------------------------------------------
 

@@ -29,6 +29,7 @@ from linkage import (
     pin_forces,
     tension,
 )
+from linkage.pictures.scene import Scene
 from linkage.units import deg, g0, mm
 from tests.extending.readings import READINGS, Case
 
@@ -189,6 +190,50 @@ def test_a_mirrored_part_wraps_the_other_way():
     for name in ("one.chain", "other.chain"):
         assert_allclose(Pair.plan.members[name].tension(motion), wanted, rtol=1e-12)
         assert_allclose(pin_forces(motion).tensions[name], wanted, rtol=1e-9)
+
+
+class Sledge(Mechanism):
+    """A sledge that one rope draws to the right and another one back, both over pins that are driven along its track."""
+
+    S = Stroke(0.2, 0.8)
+    O = Ground(0.0, 0.0)
+    rail = Guide(O, angle=20 * deg)
+    B = OnGuide(rail, at=1.0 + S)
+    A, E = Ground(0.0, 0.0), Ground(3.0 * np.cos(20 * deg), 3.0 * np.sin(20 * deg))
+    out = Rope(A, B, "D", length=2.5, weights=[1, 2])
+    D = OnGuide(rail, at=1.0 + S - out.last)
+    Z = OnGuide(rail, at=0.2 + S)
+    back = Rope(E, Z, D, against=out, weights=[2, 4])
+    push = Weight(D, mass=60, gravity=(-12.0, 0.0))
+
+
+def test_a_rope_draws_back_against_another_one():
+    """Each pulls where the load asks for it; what both do is the multiplier of the one length."""
+
+    class Forward(Sledge):
+        push = Weight("D", mass=60, gravity=(12.0, 0.0))
+
+    for machine, pulls, rests, share in ((Sledge, "out", "back", 1.0), (Forward, "back", "out", 0.5)):
+        motion = machine().sweep(3)
+        forces, tensions = pin_forces(motion), {name: machine.plan.members[name].tension(motion) for name in ("out", "back")}
+        for name, tension_of in tensions.items():
+            assert_allclose(forces.tensions[name], tension_of, rtol=1e-9)
+        assert_allclose(tensions[rests], 0.0)
+        assert_allclose(tensions[pulls], share * 60 * 12.0 * np.cos(20 * deg) / 2, rtol=1e-12)
+        assert forces.residual < 1e-12 and forces.gap < 1e-12
+        assert all(each.ok is not False for each in machine().verdicts() if "tension" in str(each))
+
+
+def test_a_drawn_rope_touches_its_pulleys():
+    scene, radius = Scene(Hoist().at(**STROKES)), 0.09
+    marks = [mark for mark in scene.ropes if "C" in mark.on]
+    assert len(marks) == 2
+    for at in scene.some(5):
+        for start, end in (mark.drawn(at)[0] for mark in marks):
+            along, arm = (end - start) / np.hypot(*(end - start)), at["C"] - start
+            assert along[0] * arm[1] - along[1] * arm[0] == pytest.approx(radius, rel=2e-2)
+            assert min(np.hypot(*(each - at["C"])) for each in (start, end)) == pytest.approx(radius, rel=2e-2)
+    assert not [each for each in scene.cylinders if {each.P, each.Q} == {"R", "D"}]
 
 
 def test_it_goes_through_pickle():

@@ -63,7 +63,7 @@ from linkage.motion import (
     most,
     require_motion,
 )
-from linkage.plan import Plan
+from linkage.plan import Mask, Plan
 from linkage.quantities import InnerQuantity, Member, Quantity, Reference, body_name, distance, label, name_of, needs, quantity
 from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, same
 from linkage.units import mm, show, shown_number, unit_sign
@@ -72,7 +72,7 @@ from linkage.verdict import Verdict
 from .barrel import HELD, MASSES, BarrelAndRod
 from .buckling import Buckling, never_pushed
 from .cylinder import BORES_MM, RODS_MM, CylinderSize, RamSize, Works, standard_bores, standard_rods
-from .inputs import Array, follows, number_set, one_number, positive, stroke_in_metres
+from .inputs import Array, follows, number_set, one_number, only_where, positive, stroke_in_metres
 
 TRIES = 4
 """Standard bores that are tried as a remedy, from the first that may do."""
@@ -222,9 +222,18 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return np.asarray(size.sense * size.area + 0.0 * sense)
 
     @property
+    def stages(self) -> int:
+        """How many stages move."""
+        return 1
+
+    @property
     def keeps_area(self) -> bool:
         """Whether its areas are the same at all its lengths."""
-        return True
+        return self.stages == 1
+
+    def is_in_stage(self, motion: Poses, stage: int, direction: str | None = None) -> Any:
+        """Return where a stage moves, by its number from 1, to broadcast against a motion; at a border as in a direction."""
+        return motion.distance(self.A, self.B) >= 0.0
 
     def pulled(self, judge: Judge) -> Verdict | None:
         """Return the verdict on a load that pulls at it where no oil holds it; None where there is no such load."""
@@ -306,6 +315,8 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
         At rest without friction and efficiencies; while it moves, on a side that works, as its circuit has it.
         """
+        if side not in self.own_sides:
+            raise DefinitionError(f"{self.name or self}: it has no {side} side, whose pressure could be asked for; it is single acting.")
         thrust = line_thrust(self, circuit or circuit_having(self, motion.plan, False), motion, acting)
         along, size = thrust if side == PISTON else -thrust, self.sized(motion, acting.direction)
         balance = along / (size.outward_area if side == PISTON else size.pull_area)
@@ -775,8 +786,63 @@ def buckling_request(cylinder: str | Ram, acting: Acting, *, below: bool = False
 
 
 def buckling_pieces(cylinder: str | Ram, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
-    """Return the one smooth piece of a rod's use: it goes on below zero in a pull."""
-    return (SmoothPiece(request, below=buckling_request(cylinder, request.situation, below=True)),)
+    """Return the smooth piece of a rod's use, one a stage: it goes on below zero in a pull."""
+    return in_stages((SmoothPiece(request, below=buckling_request(cylinder, request.situation, below=True)),), cylinder, plan)
+
+
+def in_stages(pieces: Sequence[SmoothPiece], cylinder: str | Ram, plan: Plan) -> tuple[SmoothPiece, ...]:
+    """Return smooth pieces as one for each stage of a telescope that one of several strokes moves, with no value in the other stages.
+
+    Along one stroke a jump from stage to stage is looked at from both sides as it is.
+    """
+    ram = cylinder_in(cylinder, plan)
+    if ram.keeps_area or len(plan.strokes) < 2:
+        return tuple(pieces)
+
+    def staged(request: LawRequest | None, stage: int) -> LawRequest | None:
+        return None if request is None else in_stage(request, cylinder, stage)
+
+    return tuple(
+        SmoothPiece(staged(each.request, stage), each.side, staged(each.reciprocal, stage), staged(each.below, stage))
+        for each in pieces for stage in range(1, ram.stages + 1)
+    )  # fmt: skip
+
+
+def in_stage(request: LawRequest, cylinder: str | Ram, stage: int) -> LawRequest:
+    """Return a request of a telescope where one of its stages moves, with no bound elsewhere."""
+    staged = Staged(request, cylinder, stage)
+    return replace(
+        request, formula=staged.values, text=staged.text, known=None if request.known is None else (request.known, "stage", stage),
+        pieces_in=None, unlimited_in=staged.is_elsewhere,
+    )  # fmt: skip
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Staged:
+    """A request of a telescope, and the stage in which it is asked."""
+
+    request: LawRequest
+    cylinder: str | Ram
+    stage: int
+
+    def is_there(self, motion: AnyMotion, acting: Acting) -> Any:
+        """Return where the stage moves, over a motion's poses."""
+        return cylinder_in(self.cylinder, motion.plan).is_in_stage(motion, self.stage, acting.direction)
+
+    def values(self, motion: AnyMotion, acting: Acting) -> Array:
+        """Return the request's values where the stage moves, NaN elsewhere."""
+        return only_where(self.is_there(motion, acting), self.request.formula(motion, acting))
+
+    def text(self, acting: Acting) -> str:
+        """Return how it is written."""
+        whole = self.request.text
+        return f"{whole if isinstance(whole, str) else whole(acting)} in stage {self.stage}"
+
+    def is_elsewhere(self, motion: Motion, acting: Acting) -> Mask:
+        """Return the mask of poses at which another stage moves, or the request has no bound."""
+        elsewhere = np.asarray(motion.reached & ~self.is_there(motion, acting))
+        return elsewhere if self.request.unlimited_in is None else elsewhere | self.request.unlimited_in(motion, acting)
 
 
 def rod_use(motion: AnyMotion, cylinder: Ram, acting: Acting, *, below: bool) -> Array:

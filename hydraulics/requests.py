@@ -35,6 +35,7 @@ from .member import (
     cylinder_request,
     formula_of_cylinder,
     found_in,
+    in_stages,
     line_thrust,
     thrust_request,
 )
@@ -191,13 +192,13 @@ def pressure_pieces(
         return (SmoothPiece(request),)
     on_side = partial(pressure_request, cylinder, request.situation, circuit, is_needed=is_needed)
     ram = cylinder_in(cylinder, plan)
-    sides = [side] if side else [driving_side(request.situation.direction)] if is_needed else SIDES
+    sides = [side] if side else [driving_side(request.situation.direction)] if is_needed else ram.own_sides
     if not side and not is_needed and any(same(ram, one) for each in plan.of_kind(Circuit).values() for one in each.feeds(plan.members)):
-        return (SmoothPiece(request, ram.side),)
+        return in_stages((SmoothPiece(request, ram.side),), cylinder, plan)
     own = circuit_having(ram, plan, False)
     if not (side or circuit) and own is not None and own.kind_in(plan.members) == "closed":
-        return (SmoothPiece(request),)
-    return tuple(SmoothPiece(on_side(each), each, below=on_side(each, below=True)) for each in sides)
+        return in_stages((SmoothPiece(request),), cylinder, plan)
+    return in_stages([SmoothPiece(on_side(each), each, below=on_side(each, below=True)) for each in sides], cylinder, plan)
 
 
 def circuit_name(circuit: Reference | None) -> str:
@@ -290,10 +291,10 @@ def reserve_pieces(cylinder: str | Ram, tried: Tried, request: LawRequest, plan:
     """Return the smooth piece of a reserve: of the side that drives, whose inverse goes on smoothly where the load drives."""
     acting = request.situation
     if acting.direction not in cylinder_in(cylinder, plan).driven:
-        return (SmoothPiece(request),)
+        return in_stages((SmoothPiece(request),), cylinder, plan)
     use = circuit_request("use", cylinder, acting, tried.circuit, tried.use, after=(tried.bore,))
     judged = reserve_request(cylinder, acting, tried.circuit, is_judged=True, bore=tried.bore)
-    return (SmoothPiece(judged, driving_side(acting.direction), use),)
+    return in_stages((SmoothPiece(judged, driving_side(acting.direction), use),), cylinder, plan)
 
 
 # Going back.
@@ -309,7 +310,12 @@ def going_back_request(
     formula = partial(going_back_over, circuit=circuit, way=way, resistance=resistance, tells=tells)
     options = way, resistance, tells
     found = circuit_request("going back", cylinder, acting, circuit, formula, after=options, measures="pressure")
-    return replace(found, directions=partial(one_direction, way))
+    return replace(found, directions=partial(one_direction, way), pieces_in=partial(whole_in_stages, cylinder))
+
+
+def whole_in_stages(cylinder: str | Ram, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
+    """Return a request that is smooth, as long as one stage of its cylinder moves, as its pieces."""
+    return in_stages((SmoothPiece(request),), cylinder, plan)
 
 
 def one_direction(way: str, plan: Plan) -> tuple[str, ...]:
@@ -358,7 +364,7 @@ def capacity_request(
     options = upwards, None if share == 1.0 else f"share={share:g}"
     return replace(
         circuit_request("capacity", cylinder, acting, circuit, lifted.capacity, (point,), options, measures="force"),
-        directions=no_direction, examine=partial(lifted.examine, cylinder),
+        directions=no_direction, examine=partial(lifted.examine, cylinder), pieces_in=partial(whole_in_stages, cylinder),
         unlimited_in=partial(formula_of_cylinder, lifted.is_driven, cylinder),
     )  # fmt: skip
 

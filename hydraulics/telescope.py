@@ -11,7 +11,7 @@ next one moves while it extends, the one before while it retracts; at rest the s
     >>> from linkage.units import kN, bar, mm
     >>> hoist = Telescope("A", "B", bores=[145 * mm, 125 * mm], strokes=[1.0, 0.9], closed=1.3)
     >>> print(f"{[float(f'{40 * kN / each.push_area / bar:.2f}') for each in hoist.sizes]} bar at 40 kN")
-    [24.22, 32.6] bar at 40 kN
+    [24.22, 32.59] bar at 40 kN
 """
 
 from __future__ import annotations
@@ -151,12 +151,7 @@ class Telescope(Ram):
 
     @property
     def stages(self) -> int:
-        """How many stages move."""
         return len(self.bores)
-
-    @property
-    def keeps_area(self) -> bool:
-        return self.stages == 1
 
     @property
     def side(self) -> Works:
@@ -203,9 +198,14 @@ class Telescope(Ram):
         length, borders = motion.distance(self.A, self.B), self.ends_of_stages(motion)[1:-1]
         found = each[0]
         for border, value in zip(borders, each[1:], strict=True):
-            is_next = length > border + TOLERANCE if direction == "retracting" else length >= border - TOLERANCE
-            found = np.where(is_next, value, found)
+            found = np.where(is_past(length, border, direction), value, found)
         return cast(Array, found)
+
+    def is_in_stage(self, motion: Poses, stage: int, direction: str | None = None) -> Any:
+        length, ends = motion.distance(self.A, self.B), self.ends_of_stages(motion)
+        within = length >= 0.0
+        within = within if stage == 1 else within & is_past(length, ends[stage - 1], direction)
+        return within if stage == self.stages else within & ~is_past(length, ends[stage], direction)
 
     def sized(self, motion: Poses, direction: str | None = None) -> StageSize:
         """Return the size of the stage that moves, to broadcast against a motion."""
@@ -329,6 +329,11 @@ class Telescope(Ram):
         for border, area in zip(list(accumulate(steps))[1:], named[1:], strict=True):
             found = np.where(length >= border, area, found)
         return written.line(f"A_{self.name}", found, "m2"), np.zeros(())
+
+
+def is_past(length: Array, border: Array, direction: str | None) -> Any:
+    """Return where a telescope moves with the stage beyond a border: at the border itself unless it is retracting."""
+    return length > border + TOLERANCE if direction == "retracting" else length >= border - TOLERANCE
 
 
 def check_falling(bores: Sequence[Any], what: str) -> None:

@@ -397,8 +397,8 @@ class Asked:
                     values[k] = values_over(motion, row.request)
                 if row.is_reciprocal:
                     unlimited[k] = values[k] <= 0.0
-                elif (np.isnan(values[k]) & motion.reached).any():
-                    unlimited[k] = self.without_bound(k, motion) & np.isnan(values[k])
+                if (np.isnan(values[k]) & motion.reached).any():
+                    unlimited[k] |= self.without_bound(k, motion) & np.isnan(values[k])
         values[:, ~motion.reached] = np.nan
         return values, unlimited & motion.reached
 

@@ -1,6 +1,8 @@
 """Telescopes: laws over their stages, a hoist by hand, one stage against a cylinder, and every door that a cylinder goes through."""
 
 
+import pickle
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -16,10 +18,11 @@ from hydraulics import (
     Telescope,
     buckling,
     capacity,
+    fits,
     pressure,
     reserve,
     thrust,
-)
+)  # fmt: skip
 from linkage import (
     RIGHT,
     DefinitionError,
@@ -32,10 +35,14 @@ from linkage import (
     Mechanism,
     OnGuide,
     OnLink,
+    Part,
     Stroke,
     Weight,
+    equations,
+    least,
     most,
 )  # fmt: skip
+from linkage.files import load, to_toml
 from linkage.units import bar, deg, kN, litre, minute, mm
 
 BORES, STROKES, CLOSED = [149 * mm, 129 * mm, 110 * mm, 91 * mm], [1.0, 1.1, 0.9, 1.05], 1.48
@@ -276,3 +283,76 @@ def test_what_cannot_be_is_said_with_the_remedy():
             made(**given)
     with pytest.raises(DefinitionError, match="is not smaller than that of stage 1"):
         Hoist(**{"hoist.bore_2": 0.16}).hoist.pressure(Hoist(**{"hoist.bore_2": 0.16}).sweep(3))
+
+
+class Sliding(Mechanism):
+    """A body that a telescope lifts, on which the load slides: two strokes."""
+
+    S, slide = Stroke(0.0, 4.0), Stroke(0.0, 1.5)
+    O, A = Ground(0.0, 0.0), Ground(5.6, -0.35)
+    B = Dyad(A, O, AB=1.5 + S, OB=5.82, side=RIGHT)
+    G = OnLink(O, B, OG=2.2 + slide)
+    body = Link(O, B)
+    load = Weight(G, mass=15e3)
+    hoist = Telescope(A, B, bores=BORES, strokes=STROKES, closed=CLOSED)
+    line = LiftCircuit(hoist, pressure=160 * bar, mechanical_efficiency=0.9)
+
+
+def test_over_several_strokes_both_sides_of_each_border_are_looked_at():
+    judge, borders = Sliding().judge(), ENDS[:-1] - 1.5
+    S = np.sort(np.concatenate([np.linspace(0.0, 4.0, 400), borders]))
+    motion = Sliding().at(S=S[:, None], slide=np.linspace(0.0, 1.5, 151)[None, :])
+    extending, retracting = (Sliding.line.pressure_for(motion, direction=way) for way in ("extending", "retracting"))
+    asked = {way: pressure("hoist", direction=way) for way in ("extending", "retracting")}
+    highest, lowest, spare, use = judge.answers([
+        most(asked["extending"]), least(asked["retracting"]), least(reserve("hoist")) >= 1.0, most(buckling("hoist")),
+    ])  # fmt: skip
+    assert highest.value == pytest.approx(extending.max(), rel=1e-7)
+    assert highest.strokes["S"] == pytest.approx(borders[-1], abs=1e-6)
+    assert lowest.value == pytest.approx(retracting.min(), rel=1e-7)
+    assert spare.ok and spare.value == pytest.approx(Sliding.line.reserve(motion, direction="extending").min(), rel=1e-7)
+    assert use.value == pytest.approx(motion[buckling("hoist")].max(), rel=1e-6)
+
+
+class Following(Hoist):
+    """Bores and a stroke that follow dimensions, two telescopes side by side."""
+
+    D = Dimension(149 * mm, unit="mm")
+    out = Dimension(1.0, unit="m")
+    hoist = Telescope("O", "P", bores=[D, D - 20 * mm, "inner", 91 * mm], strokes=["out", 1.1, 0.9, 1.05], closed=CLOSED, count=2)
+    inner = Dimension(110 * mm, unit="mm")
+
+
+class Whole(Mechanism):
+    """The hoist in a machine, and mirrored."""
+
+    right, left = Part(Following, O=(1.0, 0.0)), Part(Following, O=(-1.0, 0.0), mirrored=True, S="S", D="wide")
+    S, wide = Stroke(0.0, 4.0), Dimension(160 * mm, unit="mm")
+
+
+def test_files_pickles_dimensions_parts_and_equations():
+    design = Following(D=152 * mm, out=0.95, inner=108 * mm, **{"hoist.bore_4": 90 * mm, "hoist.stroke_2": 1.15})
+    expected = design.hoist.pressure(design.sweep(9))
+    areas = 2 * np.pi / 4 * np.square([152 * mm, 132 * mm, 108 * mm, 90 * mm])
+    stages = Following.hoist.stage(design.sweep(9)).astype(int)
+    assert_allclose(Following.line.holding(design.sweep(9)).working, 40 * kN / areas[stages - 1])
+    text = to_toml(design)
+    assert "Telescope" in text and '"inner", "90 mm"]' in text
+    for other in (load(text)(), pickle.loads(pickle.dumps(design))):
+        assert_array_equal(other.plan.members["hoist"].pressure(other.sweep(9)), expected)
+        assert other.plan.members["hoist"].name == "hoist"
+    changes = {"D": 152 * mm, "out": 0.95, "inner": 108 * mm, "hoist.bore_4": 90 * mm, "hoist.stroke_2": 1.15}
+    whole = Whole(**{f"right.{name}": value for name, value in changes.items()})
+    motion = whole.at(**{"S": 0.5, "right.S": np.linspace(0.0, 4.0, 9)})
+    assert_allclose(whole.plan.members["right.hoist"].pressure(motion), expected, rtol=1e-12)
+    assert_allclose(whole.plan.members["left.line"].holding(motion).working, 40 * kN / (2 * np.pi / 4 * 0.16**2))
+    written = str(equations(Following, forces=True))
+    for line in ("A_hoist_4", "A_hoist", "p_hoist"):
+        assert line in written
+
+
+def test_fits_is_a_condition_of_each_stage():
+    inside, short = Hoist(), Hoist(**{"hoist.stroke_3": 0.8})
+    assert inside.judge().answer(fits("hoist")).ok and not short.judge().answer(fits("hoist")).ok
+    assert "70.0 mm are missing open" in str(Hoist.hoist.verdicts(short.judge())[0])
+    assert not Hoist(**{"hoist.stroke_3": 1.5}).judge().answer(fits("hoist")).ok

@@ -15,6 +15,7 @@ from linkage.statics import holding, work
 from mechanisms.at_work.excavator import Excavator, HookExcavator
 from mechanisms.at_work.forwarder import Forwarder
 from mechanisms.at_work.front_loader import LoadedFrontLoader
+from mechanisms.at_work.hoist_tipper import HoistTipper
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.at_work.tipper import Tipper
 from mechanisms.at_work.tractor import PloughTractor, SpreaderTractor
@@ -23,7 +24,7 @@ from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
 from tests.machines import plane, test_excavator, test_tipper, test_wheel_loader
 
-MACHINES = [Excavator, HookExcavator, LoadedFrontLoader, PloughTractor, SpreaderTractor, Telehandler, Tipper, WheelLoader]
+MACHINES = [Excavator, HookExcavator, HoistTipper, LoadedFrontLoader, PloughTractor, SpreaderTractor, Telehandler, Tipper, WheelLoader]
 JOINED = [*MACHINES, Forwarder]
 ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
 PRINTED = {"boom": (-0.4737, 1.0923), "arm": (-0.5103, -2.5848), "bucket": (0.7839, -2.8659)}  # rad, at the shortest, at the longest
@@ -176,7 +177,19 @@ def test_the_forks_stay_level_where_the_telehandler_stacks():
     assert np.max(np.abs(motion.y("forks.X") - motion.y("forks.F"))) < 0.02
 
 
-# -- the tipper and the loader: the same linkages by hand ----------------------------------------------------
+# -- the tippers and the loader: the same linkages by hand ----------------------------------------------------
+
+
+def test_the_hoist_tippers_thrust_and_pressure_by_hand():
+    S = np.array([0.0, 1.0, 2.0, 3.0, 4.2])
+    motion, hinge = HoistTipper().at(S=S), np.hypot(5.70, 1.15)
+    frame, foot = np.hypot(5.60, 0.35), np.arctan2(-0.35, 5.60)
+    at_hinge = np.arccos((frame**2 + hinge**2 - (1.5 + S) ** 2) / (2 * frame * hinge))
+    lever = frame * hinge * np.sin(at_hinge) / (1.5 + S)
+    thrust = 19e3 * 9.80665 * 3.10 * np.cos(at_hinge + foot + np.radians(9.4)) / lever
+    assert_allclose(HoistTipper.hoist.thrust(motion), thrust, rtol=1e-9)
+    bores = np.array([0.149, 0.149, 0.129, 0.110, 0.091])
+    assert_allclose(HoistTipper.line.holding(motion).working, thrust / (np.pi / 4 * bores**2), rtol=1e-9)
 
 
 def test_the_tippers_places_and_thrust_by_hand():

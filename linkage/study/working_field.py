@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
-from itertools import combinations, pairwise
+from itertools import combinations
 from typing import Any, final
 
 import numpy as np
@@ -40,6 +40,7 @@ from ..units import show
 from .checks import check_one_design
 from .climb import Climb
 from .load_rule import LoadRule, rule_of
+from .reach import Reach
 
 OUT_OF_REACH = noted("out of reach")
 NOT_LIMITED = noted("not limited")
@@ -55,8 +56,6 @@ FEW, BEYOND = 6, 0.25
 """Steps of Newton from a pose near by, and how far past their ends strokes are followed there, in shares of their ranges."""
 PROBE = 1e4
 """The load by which it is seen how a further limit follows it [N]."""
-LINES, HALVED = 121, 36
-"""Lines across a field on which its border is looked for, and how often the way to it is halved."""
 
 
 @final
@@ -406,8 +405,8 @@ class FieldSearch:
                 found.append((ManyPlaces(places, many.spare), order, [np.array([0.0, 1.0])] * many.spare))
         return found
 
-    def poses(self, across: FloatArray, up: FloatArray) -> tuple[PlacePoses, int]:
-        """Return the poses that are found for places x by y, ascending, and how many of them have spare strokes at no end but their own."""
+    def poses(self, across: FloatArray, up: FloatArray) -> tuple[PlacePoses, Index]:
+        """Return the poses that are found for places x by y, ascending, and which of the `turns` gave each."""
         goals, outs = self.goals_over(across, up), np.zeros(len(self.many.places.free))
         found, solved = [], np.zeros(len(goals), bool)
         for many, order, ends in self.turns:
@@ -423,7 +422,7 @@ class FieldSearch:
             unit = np.empty_like(at.unit[met])
             unit[:, order] = at.unit[met]
             found.append(PlacePoses(at.place[met], unit))
-        return found[0].joined(*found[1:]), len(found[0].place)
+        return found[0].joined(*found[1:]), np.repeat(np.arange(len(found)), [len(each.place) for each in found])
 
     # -- the loads -----------------------------------------------------------------------------------------
 
@@ -518,10 +517,10 @@ class FieldSearch:
 
     def field(self) -> WorkingField:
         """Return the field."""
-        poses, inner = self.poses(*self.ascending)
+        poses, turn = self.poses(*self.ascending)
         found = self.carried(poses)
         if self.many.spare and len(poses.place):
-            found = self.refined(found, inner)
+            found = self.refined(found, int(np.sum(turn == 0)))
         best, whole = found.best(), np.zeros(0, bool)
         while len(best):  # a pose that the loads do not hang on altogether may not be assembled
             whole = self.many.places.reached(found.poses.unit[best]) & ~np.isnan(found.load[best])
@@ -657,7 +656,7 @@ class FieldSearch:
     def reach(self) -> Reach:
         """All that the point reaches."""
         with unwarned(), np.errstate(all="ignore"):
-            return Reach.of(self)
+            return Reach.of([(many, order) for many, order, _ in self.turns], self.rest, self.poses)
 
     def area(self) -> float:
         """Return the area of all that is reached [m2]; where each place is reached on one branch exactly, by the slopes."""
@@ -674,67 +673,3 @@ class FieldSearch:
 
 GAUSS = 48
 """Values of each stroke by which an area is integrated."""
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class Reach:
-    """What a point reaches, as parts of level lines: the heights of the lines, and of each part (line, left, right) [m]."""
-
-    heights: FloatArray
-    spans: tuple[tuple[int, float, float], ...]
-    is_single: bool
-
-    @classmethod
-    def of(cls, search: FieldSearch) -> Reach:
-        """Return all that a field's point reaches, the ends of the parts by halving."""
-        many = search.many
-        seen = many.looked_at().values[:2]
-        seen = seen[:, np.isfinite(seen).all(axis=0)]
-        (left, low), (right, high) = seen.min(axis=1), seen.max(axis=1)
-        wide, tall = max(right - left, 1e-6), max(high - low, 1e-6)
-        across = np.linspace(left - 0.02 * wide, right + 0.02 * wide, LINES)
-        edges = np.linspace(low - 0.02 * tall, high + 0.02 * tall, LINES + 1)
-        heights = 0.5 * (edges[1:] + edges[:-1])
-        poses, _ = search.poses(across, heights)
-        poses = poses.where(many.places.reached(poses.unit)) if len(poses.place) else poses
-        inside = np.zeros(across.size * heights.size, bool)
-        inside[poses.place] = True
-        single = np.unique(np.round(np.column_stack([poses.place, poses.unit]), 6), axis=0)
-        is_single = len(np.unique(single[:, 0])) == len(single) and not many.spare
-        grid = inside.reshape(heights.size, across.size)
-        line, place = np.nonzero(grid[:, 1:] != grid[:, :-1])
-        grows = grid[line, place + 1]
-        good = np.where(grows, across[place + 1], across[place])
-        bad = np.where(grows, across[place], across[place + 1])
-        first = np.zeros(inside.size, int)
-        first[poses.place] = np.arange(len(poses.place))
-        at = first[line * across.size + place + grows]
-        base, outs = poses.unit[at], np.zeros(poses.unit.shape[1])
-        for _ in range(HALVED):
-            middle = 0.5 * (good + bad)
-            goals = np.column_stack([middle, heights[line], np.tile(search.rest, (len(middle), 1))])
-            found, met = many.settled(PlacePoses(np.arange(len(middle)), base), goals, outs)
-            base = np.where(met[:, None], found.unit, base)
-            good, bad = np.where(met, middle, good), np.where(met, bad, middle)
-        ends: list[list[float]] = [[] for _ in heights]
-        for each, end in zip(line.tolist(), (0.5 * (good + bad)).tolist(), strict=True):
-            ends[each].append(end)
-        spans = tuple((k, a, b) for k, row in enumerate(ends) for a, b in zip(row[::2], row[1::2], strict=False))
-        return cls(heights, spans, is_single)
-
-    @property
-    def area(self) -> float:
-        """The area [m2]."""
-        return float(sum(right - left for _, left, right in self.spans) * (self.heights[1] - self.heights[0]))
-
-    @property
-    def border(self) -> FloatArray:
-        """The border in straight pieces, shape (n, 2, 2) [m]: of two neighbouring lines the parts that only one of them has within."""
-        ends: list[list[tuple[float, int]]] = [[] for _ in self.heights]
-        for line, left, right in self.spans:
-            ends[line] += [(left, line), (right, line)]
-        joined = [sorted(one + other) for one, other in pairwise(ends)]
-        pieces = [pair for row in joined for pair in zip(row[::2], row[1::2], strict=True)]
-        found = [[(across, self.heights[line]) for across, line in pair] for pair in pieces]
-        return read_only(np.array(found, float).reshape(-1, 2, 2))

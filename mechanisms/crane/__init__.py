@@ -33,6 +33,7 @@ from .flow import boom_drive_of as boom_drive_of
 from .flow import design_crane as design_crane
 from .flow import design_skeleton as design_skeleton
 from .flow import with_drives as with_drives
+from .load_map import envelope as envelope
 from .load_map import load_map as load_map
 from .machine import BellCrankCrane as BellCrankCrane
 from .machine import ChainCrane as ChainCrane
@@ -41,8 +42,6 @@ from .machine import DirectCrane as DirectCrane
 from .machine import DirectCraneAbove as DirectCraneAbove
 from .moments import arm_bound as arm_bound
 from .moments import boom_bound as boom_bound
-from .reach import Envelope as Envelope
-from .reach import envelope as envelope
 from .skeleton import BackBrokenSkeleton as BackBrokenSkeleton
 from .skeleton import CraneSkeleton as CraneSkeleton
 from .strength import strength as strength

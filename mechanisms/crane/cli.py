@@ -22,10 +22,9 @@ from . import FIGURES, crane_figure
 from .cylinders import arm_moment, boom_moment
 from .duty import Duty
 from .flow import design_crane, design_skeleton
-from .load_map import load_map
+from .load_map import envelope, load_map
 from .machine import Crane
 from .moments import arm_bound, boom_bound
-from .reach import envelope
 from .skeleton import CraneSkeleton
 from .strength import strength_text
 

@@ -15,14 +15,14 @@ from linkage import DefinitionError, draw, plot
 from linkage.errors import unknown
 from linkage.pictures import style
 from linkage.pictures.sheet import panels, sheet
+from linkage.study.reach import Reach
 from linkage.units import kN
 
 from .drive_figures import one_movement
 from .drive_report import worst_movements
 from .flow import arm_drive_of, boom_drive_of
-from .load_map import load_map
+from .load_map import envelope, load_map
 from .machine import Crane
-from .reach import Envelope, envelope
 from .skeleton import POSITIONS, CraneSkeleton
 
 COUNT = 361
@@ -124,7 +124,7 @@ def shipped_map(crane: Crane) -> Figure:
     return plot(load_map(crane, np.linspace(-0.2 * far, top - 0.3, down), np.linspace(0.05 * far, far - 0.02, across)))
 
 
-def outline(ax: Axes, found: Envelope) -> None:
+def outline(ax: Axes, found: Reach) -> None:
     """Draw the border of the reach."""
     ax.add_collection(LineCollection(list(found.border), colors=style.INK, linewidths=1.4, capstyle="round", zorder=5.5), autolim=False)
 
@@ -141,13 +141,10 @@ def reach_figure(crane: Crane) -> Figure:
     page.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
     (left, low), (right, high) = edges.min(axis=0), edges.max(axis=0)
     sheet(ax, (left - 0.4, right + 0.4, low - 0.4, high + 0.4))
-    x, y = found.centre
-    wedges = []
-    for ray, near, far in found.spans:
-        turned = found.angles[ray] + 0.5 * (found.angles[1] - found.angles[0]) * np.array([-1.0, 1.0, 1.0, -1.0])
-        radius = np.array([near, near, far, far])
-        wedges.append(np.column_stack([x + radius * np.cos(turned), y + radius * np.sin(turned)]))
-    ax.add_collection(PolyCollection(wedges, facecolors=REACHED, edgecolors=REACHED, linewidths=0.8, zorder=1.5), autolim=False)
+    middle = 0.5 * (found.heights[1:] + found.heights[:-1])
+    below, above = np.append(found.heights[0], middle), np.append(middle, found.heights[-1])
+    strips = [[(a, below[k]), (b, below[k]), (b, above[k]), (a, above[k])] for k, a, b in found.spans]
+    ax.add_collection(PolyCollection(strips, facecolors=REACHED, edgecolors=REACHED, linewidths=0.8, zorder=1.5), autolim=False)
     outline(ax, found)
     surroundings(ax, crane)
     draw(crane.position(3), ax=ax, faint=True)

@@ -1,4 +1,4 @@
-"""The load map: the working field of the crane's tip, its drives as far as the design and its cylinders' lengths let them."""
+"""The load map and all that the tip reaches: its working field, the drives as far as design and cylinders' lengths let them."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from hydraulics.inputs import one_number, positive
 from linkage import LoadCase, WorkingField, drive_force, working_field
 from linkage.errors import known_name
 from linkage.loads.point import on_slope
+from linkage.study.reach import Reach
 
 from .cylinders import drive_limits
 from .machine import Crane
@@ -42,6 +43,11 @@ def load_map(
     return working_field(
         crane, TIP, radii, heights, along=(-x, -y), over=drive_limits(crane), case=case, without=[LOAD], limits=limits
     )
+
+
+def envelope(crane: Crane) -> Reach:
+    """Return all that the tip of one crane reaches, its border and area; what stands in the way, vehicle and ground, is not looked at."""
+    return load_map(crane, [0.0], [0.0]).search.reach
 
 
 def known_case(crane: Crane, case: str) -> LoadCase:

@@ -1,0 +1,176 @@
+"""All that a point reaches, as parts of level lines that stand closer where their ends bend: its border and its area."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TypeAlias, final
+
+import numpy as np
+
+from ..frozen import read_only
+from ..motion.line import Index
+from ..motion.many_places import ManyPlaces, PlacePoses
+from ..plan import Mask
+from ..program import FloatArray
+
+Turn: TypeAlias = tuple[ManyPlaces, Index]
+"""Poses with some strokes standing at values: what solves for the others, and the order of all strokes in it."""
+ACROSS, PANELS, LEVELS = 121, 24, 7
+"""Places of a line that are looked at, panels of lines at first, and how often one is halved."""
+CLOSE = 5e-6
+"""The share of the area that a panel may be wrong by."""
+ROUNDS, HALVED, AT_END = 4, 20, 1e-5
+"""How often a line is followed on with other strokes at their ends, how often the way to its end is halved, and what counts as an end."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Reach:
+    """What a point reaches: heights of level lines, ascending, and the parts of each that are reached, (line, left, right) [m]."""
+
+    heights: FloatArray
+    spans: tuple[tuple[int, float, float], ...]
+    is_single: bool
+    area: float
+
+    @classmethod
+    def of(
+        cls, turns: Sequence[Turn], rest: FloatArray, poses: Callable[[FloatArray, FloatArray], tuple[PlacePoses, Index]]
+    ) -> Reach:
+        """Return all that is reached; `poses` gives those of places x by y with the numbers of their `turns`, `rest` are kept values."""
+        lines = LevelLines(turns, rest, poses)
+        heights = np.linspace(*lines.tall, 2 * PANELS + 1)
+        known = dict(zip(heights.tolist(), lines.spans(heights), strict=True))
+        panels = [(heights[k], heights[k + 1], heights[k + 2]) for k in range(0, 2 * PANELS, 2)]
+        is_single, area = lines.is_single, 0.0
+        for level in range(LEVELS + 1):
+            size = max(area + sum(simpson(panel, known)[0] for panel in panels), 1e-12)
+            rough = [panel for panel in panels if level < LEVELS and simpson(panel, known)[1] > CLOSE * size]
+            area += sum(simpson(panel, known)[0] for panel in panels if panel not in rough)
+            halves = [half for low, mid, high in rough for half in ((low, 0.5 * (low + mid), mid), (mid, 0.5 * (mid + high), high))]
+            new = np.array([mid for _, mid, _ in halves])
+            if len(new):
+                known |= zip(new.tolist(), lines.spans(new), strict=True)
+            panels = halves
+        ordered = sorted(known)
+        spans = tuple((k, left, right) for k, height in enumerate(ordered) for left, right in known[height])
+        return cls(read_only(np.array(ordered)), spans, is_single, float(area))
+
+    @property
+    def border(self) -> FloatArray:
+        """The border in straight pieces, shape (n, 2, 2) [m]: of two neighbouring lines the parts that only one of them has within."""
+        ends: list[list[tuple[float, int]]] = [[] for _ in self.heights]
+        for line, left, right in self.spans:
+            ends[line] += [(left, line), (right, line)]
+        joined = [sorted(one + other) for one, other in pairwise(ends)]
+        pieces = [pair for row in joined for pair in zip(row[::2], row[1::2], strict=True)]
+        found = [[(across, self.heights[line]) for across, line in pair] for pair in pieces]
+        return read_only(np.array(found, float).reshape(-1, 2, 2))
+
+
+Spans: TypeAlias = list[tuple[float, float]]
+
+
+def simpson(panel: tuple[float, float, float], known: dict[float, Spans]) -> tuple[float, float]:
+    """Return the area of a panel of three lines, and about how wrong it may be [m2]."""
+    low, mid, high = (sum(right - left for left, right in known[height]) for height in panel)
+    tall = panel[2] - panel[0]
+    return tall * (low + 4.0 * mid + high) / 6.0, tall * abs(low - 2.0 * mid + high) / 6.0
+
+
+@final
+class LevelLines:
+    """Level lines of a point, and the parts of them that it reaches."""
+
+    def __init__(
+        self, turns: Sequence[Turn], rest: FloatArray, poses: Callable[[FloatArray, FloatArray], tuple[PlacePoses, Index]]
+    ) -> None:
+        self.turns, self.rest, self.poses = turns, rest, poses
+        self.many = turns[0][0]
+        seen = self.many.looked_at().values[:2]
+        seen = seen[:, np.isfinite(seen).all(axis=0)]
+        (left, low), (right, high) = seen.min(axis=1), seen.max(axis=1)
+        wide, tall = max(right - left, 1e-6), max(high - low, 1e-6)
+        self.across = np.linspace(left - 0.02 * wide, right + 0.02 * wide, ACROSS)
+        self.tall = low - 0.02 * tall, high + 0.02 * tall
+        self.is_single = not self.many.spare
+
+    def spans(self, heights: FloatArray) -> list[Spans]:
+        """Return the parts of lines at some heights that are reached (left, right) [m]."""
+        up, count = np.sort(heights), self.across.size
+        poses, turn = self.poses(self.across, up)
+        whole = self.many.places.reached(poses.unit) if len(poses.place) else np.zeros(0, bool)
+        poses, turn = poses.where(whole), turn[whole]
+        inside = np.zeros(count * up.size, bool)
+        inside[poses.place] = True
+        if self.is_single:
+            each = np.unique(np.round(np.column_stack([poses.place, poses.unit]), 6), axis=0)
+            self.is_single = len(np.unique(each[:, 0])) == len(each)
+        grid = inside.reshape(up.size, count)
+        line, place = np.nonzero(grid[:, 1:] != grid[:, :-1])
+        grows = grid[line, place + 1]
+        good, bad = self.across[place + grows], self.across[place + ~grows]
+        edge, row = [], []
+        for way in (True, False):  # a place may be the last one at either end of a part
+            at = np.full(inside.size, -1)
+            at[(line * count + place + grows)[grows == way]] = np.flatnonzero(grows == way)
+            row.append(np.flatnonzero(at[poses.place] >= 0))
+            edge.append(at[poses.place[row[-1]]])
+        rows = np.concatenate(row)
+        good = self.ends(up[line], good, bad, PlacePoses(np.concatenate(edge), poses.unit[rows]), turn[rows])
+        found: list[list[float]] = [[] for _ in up]
+        for k, end in zip(line.tolist(), good.tolist(), strict=True):
+            found[k].append(end)
+        spans = [list(zip(row[::2], row[1::2], strict=False)) for row in found]
+        return [spans[k] for k in np.searchsorted(up, heights)]
+
+    def ends(self, height: FloatArray, good: FloatArray, bad: FloatArray, start: PlacePoses, turn: Index) -> FloatArray:
+        """Return how far lines are reached from `good` towards `bad` (m,) [m]; it begins at poses of the good places.
+
+        At the border of all that is reached strokes stand at ends: from where a way ends it goes on with those that do in the place of
+        the spare ones, and it begins with such poses where there are some.
+        """
+        reached = good
+        fits = self.standing(start.unit)[turn, np.arange(len(turn))]
+        chosen = fits | ~np.isin(start.place, start.place[fits])
+        start, turn = start.where(chosen), turn[chosen]
+        for _ in range(ROUNDS):
+            if not len(start.place):
+                break
+            far, unit = self.halved(height, reached, bad, start, turn)
+            gone = np.abs(far - good[start.place])
+            order = np.lexsort((gone, start.place))
+            best = order[np.append(np.diff(start.place[order]) > 0, True)]
+            edge = start.place[best]
+            on = np.abs(far[best] - reached[edge]) > 1e-9 * np.abs(bad - good)[edge]
+            reached = reached.copy()
+            reached[edge] = far[best]
+            edge, base = edge[on], unit[best][on]
+            turn, row = np.nonzero(self.standing(base) & (self.many.spare > 0))
+            start = PlacePoses(edge[row], base[row])
+        return reached
+
+    def standing(self, unit: FloatArray) -> Mask:
+        """Return whether the spare strokes of each turn stand at their ends in poses (r, k), shape (turns, r)."""
+        at_end = np.minimum(unit, 1.0 - unit) < AT_END
+        return np.array([at_end[:, order[many.solved :]].all(axis=1) for many, order in self.turns])
+
+    def halved(
+        self, height: FloatArray, good: FloatArray, bad: FloatArray, start: PlacePoses, turn: Index
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return how far each pose gets on its line with the spare strokes of its turn standing (r,) [m], and the poses there (r, k)."""
+        unit, near, far = start.unit.copy(), good[start.place], bad[start.place]
+        for each in np.unique(turn):
+            many, order = self.turns[each]
+            rows, outs = np.flatnonzero(turn == each), np.zeros(unit.shape[1])
+            base = unit[rows][:, order]
+            for _ in range(HALVED):
+                middle = 0.5 * (near[rows] + far[rows])
+                goals = np.column_stack([middle, height[start.place[rows]], np.tile(self.rest, (len(rows), 1))])
+                found, met = many.settled(PlacePoses(np.arange(len(rows)), base), goals, outs, damped=False)
+                base = np.where(met[:, None], found.unit, base)
+                near[rows], far[rows] = np.where(met, middle, near[rows]), np.where(met, far[rows], middle)
+            unit[np.ix_(rows, order)] = base
+        return near, unit

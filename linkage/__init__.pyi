@@ -96,11 +96,15 @@ from .steps import drawn as drawn
 from .study import ISO_10567 as ISO_10567
 from .study import ISO_14397_1 as ISO_14397_1
 from .study import OECD_2 as OECD_2
+from .study import FunctionTask as FunctionTask
 from .study import LoadRule as LoadRule
+from .study import PathTask as PathTask
+from .study import PoseTask as PoseTask
 from .study import WorkingField as WorkingField
 from .study import around as around
 from .study import working_field as working_field
 from .study.optimise import optimise as optimise
+from .study.task_search import synthesise as synthesise
 from .surroundings import Outline as Outline
 from .units import MPa as MPa
 from .units import bar as bar

@@ -11,7 +11,10 @@ from .sensitivity import Effect, SobolIndices, Tornado, sobol, tornado
 from .settings import Settings, settings_for
 from .space import around
 from .survey import Survey, survey
+from .synthesis import Synthesis, SynthesisedMachine
 from .targets import Solutions
+from .task_search import synthesise
+from .tasks import FunctionTask, PathTask, PoseTask
 from .tolerances import Tolerance, sigma, spread
 from .working_field import WorkingField, working_field
 from .zone import Zone, zone

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeAlias, final
+from typing import Any, NamedTuple, Protocol, TypeAlias, final
 from warnings import catch_warnings, simplefilter
 
 import numpy as np
@@ -19,6 +19,7 @@ from ..errors import DefinitionError
 from ..motion.line import Index
 from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most
 from ..program import FloatArray
+from .constrained_step import constrained_step
 from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Truth, reduced, scale_among, size_of_rows, terms_size
 
 FAR = 10.0
@@ -39,6 +40,8 @@ OTHER_SIZE = 4.0
 HALVINGS = 40
 STEEP = 1e3
 """What an infinite derivative counts, of scaled numbers by unit coordinates."""
+DAMPED, MOST_DAMPED = 1e-3, 1e10
+"""The damping of the first step of least squares, and that at which no step leads on."""
 LINES, WIDENED = 24, 8
 """Lines of a constraint that trust-constr is given at most, and how often others are added that its end misses."""
 
@@ -114,18 +117,40 @@ class SearchEnd:
         return self.whole and self.missing <= MET and bool(np.isfinite(self.value))
 
 
+class LeastSquares(Protocol):
+    """Misses the squares of which are to be least in the place of an objective, with unknowns of their own from 0 to 1, such as strokes."""
+
+    @property
+    def own(self) -> FloatArray:
+        """Where the own unknowns begin, shape (w,)."""
+
+    def misses(self, at: FloatArray) -> FloatArray:
+        """Return the scaled misses (k,) at unit coordinates, then own unknowns (n + w,); NaN where they have no value."""
+
+    def slopes(self, at: FloatArray) -> FloatArray:
+        """Return their derivatives (k, n + w)."""
+
+
 @final
 class Local:
     """A problem with one combination of choices, as a solver sees it.
 
     Its variables are the unit coordinates, then those of the leaves, then the worst of several objectives, and by how much each of the
-    `elastic` constraints gives way; where there are such, the sum of that is to be least.
+    `elastic` constraints gives way; where there are such, the sum of that is to be least. With `squares`, these are to be least instead,
+    and `own` is where their own unknowns come to.
     """
 
     def __init__(
-        self, problem: Problem, combination: Sequence[int], start: FloatArray, *, elastic: Sequence[Constraint] = ()
+        self,
+        problem: Problem,
+        combination: Sequence[int],
+        start: FloatArray,
+        *,
+        elastic: Sequence[Constraint] = (),
+        squares: LeastSquares | None = None,
     ) -> None:
         self.problem, self.combination, self.elastic = problem, tuple(combination), tuple(elastic)
+        self.squares, self.own = squares, np.zeros(0) if squares is None else np.array(squares.own, float)
         self.n = len(problem.space.variables)
         self._looks: dict[bytes, tuple[Evaluated, bool]] = {}
         self._rows: dict[bytes, list[Row]] = {}
@@ -377,6 +402,8 @@ class Local:
         low, high = np.full(self.width, -np.inf), np.full(self.width, np.inf)
         low[: self.n], high[: self.n] = 0.0, 1.0
         low[self.width - self.slack :] = 0.0
+        if self.squares is not None:
+            return self._fitted(self.squares, z, (low, high), most)
         if method == "trust-constr":
             return self._trusted(z, Bounds(low, high), most)
         return self._sequential(z, Bounds(low, high), most)
@@ -408,6 +435,48 @@ class Local:
                 return watch.best
             raise
         return watch.better(np.asarray(result.x, float))
+
+    def _fitted(self, squares: LeastSquares, z: FloatArray, ends: tuple[FloatArray, FloatArray], most: int) -> FloatArray:
+        """Return what steps of Levenberg and Marquardt come to that keep all lines; the own unknowns are kept."""
+        w, price, damping = len(self.own), 1.0, DAMPED
+        low, high = (np.concatenate([each, np.full(w, end)]) for each, end in zip(ends, (0.0, 1.0), strict=True))
+        at = np.concatenate([z, self.own])
+        error, missing = self._fit_merit(squares, at)
+        lines, by = self._lines_of_squares(at)
+        for _ in range(most):
+            columns = [*range(self.n), *range(self.width, self.width + w)]
+            slopes = np.zeros((len(squares.misses(at[columns])), self.width + w))
+            slopes[:, columns] = squares.slopes(at[columns])
+            step = constrained_step(slopes, squares.misses(at[columns]), by, lines, (low - at, high - at), damping)
+            new = at + step
+            found, short = self._fit_merit(squares, new)
+            gain = error + price * missing - found - price * short
+            if not gain > 0.0 and short < missing * (1.0 - 1e-3) and np.isfinite(found):  # what is missing counts more
+                price = max(2.0 * (found - error) / (missing - short), 2.0 * price)
+                gain = error + price * missing - found - price * short
+            if gain > 0.0:
+                at, error, missing, damping = new, found, short, max(0.1 * damping, 1e-12)
+                lines, by = self._lines_of_squares(at)
+            else:
+                damping *= 5.0
+            if damping > MOST_DAMPED or np.abs(step).max(initial=0.0) < 1e-13 or (0.0 < gain <= 1e-12 * error and missing <= 0.1 * MET):
+                break
+        self.own = at[self.width :]
+        return at[: self.width]
+
+    def _fit_merit(self, squares: LeastSquares, at: FloatArray) -> tuple[float, float]:
+        """Return the sum of the squares and what is missing of the worst line; infinite where the design cannot be worked with."""
+        if not self._looked_at(at[: self.n])[1]:
+            return np.inf, np.inf
+        error = float(np.sum(squares.misses(np.concatenate([at[: self.n], at[self.width :]])) ** 2))
+        return (error, max(self.violation(at[: self.width]), 0.0)) if np.isfinite(error) else (np.inf, np.inf)
+
+    def _lines_of_squares(self, at: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return all lines, an equation as two, with their derivatives by the solver's variables and the own unknowns."""
+        held, equal = (self._stacked(at[: self.width], equations) for equations in (False, True))
+        lines = np.concatenate([held[0], equal[0], -equal[0]])
+        by = np.concatenate([held[1], equal[1], -equal[1]])
+        return lines, np.concatenate([by, np.zeros((len(by), len(at) - self.width))], axis=1)
 
     def _watched(self, z: FloatArray, patience: float = PATIENCE) -> Watch:
         """Return the objective for a solver; it is kept, so that the best so far is known where the solver is stopped."""

@@ -1,0 +1,224 @@
+"""How far designs are off a task: all its points in one pose set of one kernel, with exact derivatives of a whole population."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import unwarned
+from ..motion import Grid, Request, stroke_display_unit
+from ..motion.descent import descended
+from ..motion.line import Index
+from ..motion.requests import slope
+from ..plan import Mask, Plan
+from ..program import FloatArray, Kernel, RunOptions
+from .measured import traced_number
+from .problem import Problem, is_still
+from .sampling import all_placed
+from .tasks import TaskRows
+
+TURN = 2.0 * np.pi
+WHOLE = 96
+"""Poses of a stroke at which a population is looked at, whether it is assembled over all of it."""
+PIECE = 1 << 20
+"""Poses of a population that are looked at at a time."""
+ENOUGH = 1e-15
+"""Of a task's size: a miss that is smaller is rounding."""
+WAY = RunOptions("numpy")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Timing:
+    """The strokes of the points: `base` + `moves` @ (low + width * own), own unknowns (w,) from 0 to 1; `turn` that of a crank, else 0.
+
+    Of a crank the unknowns go over three turns, so that no end is in the way.
+    """
+
+    stroke: str
+    start: float
+    span: float
+    turn: float
+    moves: FloatArray
+
+    @classmethod
+    def of(cls, problem: Problem, stroke: str, timed: Any, count: int) -> Timing:
+        """Return how the points of a task are timed on the one stroke of a machine that moves."""
+        low, high = (float(end) for end in (problem.ranges[stroke].low, problem.ranges[stroke].high))
+        is_turn = stroke_display_unit(problem.plan, stroke, "mm") == "deg" and abs(abs(high - low) - TURN) < 1e-9
+        if timed is True:
+            moves = np.zeros((count, 0))
+        elif timed == "steps" and is_turn:
+            moves = np.ones((count, 1))
+        elif timed == "steps":
+            moves = np.stack([np.linspace(1.0, 0.0, count), np.linspace(0.0, 1.0, count)], axis=1)
+        else:
+            moves = np.eye(count)
+        return cls(stroke, low, high - low, TURN if is_turn else 0.0, moves)
+
+    @property
+    def width(self) -> int:
+        """How many unknowns there are."""
+        return int(self.moves.shape[1])
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Where the unknowns' range begins, and how long it is [SI]."""
+        return (self.start - self.span, 3.0 * self.span) if self.turn else (self.start, self.span)
+
+    def strokes(self, base: FloatArray, own: FloatArray) -> FloatArray:
+        """Return the strokes (m, n) [SI] of unknowns (m, w)."""
+        low, wide = self.reach
+        return np.asarray(base + (low + wide * own) @ self.moves.T)
+
+    def own(self, strokes: FloatArray) -> FloatArray:
+        """Return the unknowns (m, w) of strokes (m, w) [SI]."""
+        low, wide = self.reach
+        return np.asarray((strokes - low) / wide)
+
+    def within(self, strokes: FloatArray) -> FloatArray:
+        """Return strokes [SI] within the range, of a crank modulo a turn."""
+        return np.asarray(self.start + np.mod(strokes - self.start, self.turn)) if self.turn else strokes
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class FitProgram:
+    """Whether every point has a place, and what a task wants, as a kernel; and with the derivatives behind them as another."""
+
+    values: Kernel
+    graded: Kernel
+
+    @classmethod
+    def of(cls, plan: Plan, requests: Sequence[Request], owners: tuple[str, ...]) -> FitProgram:
+        """Return the program of requests, on a plan that is not traced yet."""
+        placed = all_placed().nodes(plan)
+        values = [*placed, *(node for each in requests for node in each.nodes(plan))]
+        shares = [node for each in requests for node in slope(each, owners).nodes(plan)] if owners else []
+        return cls(Kernel(values), Kernel([*values, *shares]))
+
+
+@final
+class Fit:
+    """A task on the designs of a problem: misses and their derivatives by unit coordinates (m, n), then by the points' own unknowns."""
+
+    def __init__(
+        self, problem: Problem, rows: TaskRows, timing: Timing, combination: Sequence[int] = (), at: FloatArray | None = None
+    ) -> None:
+        self.problem, self.rows, self.timing, self.combination = problem, rows, timing, tuple(combination)
+        self.known = np.zeros(rows.count) if at is None else at
+        self.plan, self.space = problem.plan, problem.space
+        self.requests = [traced_number(self.plan, each) for each in rows.quantities]
+        self.owners = tuple(dict.fromkeys(each.owner for each in self.space.variables))
+        inputs = (*self.owners, timing.stroke)
+        key: Hashable = ("fit", tuple(each.key for each in self.requests), inputs)
+        self.program = self.plan.made(key, lambda twin: FitProgram.of(twin, self.requests, inputs))
+        self.held = {name: float(one.low) for name, one in problem.ranges.items() if is_still(one)}
+        self.n, self.width = len(self.space.variables), timing.width
+
+    def dimensions(self, unit: FloatArray) -> dict[str, Any]:
+        """Return the dimensions of designs (m, n)."""
+        return self.problem.dimensions_at(unit[..., : self.n], self.combination)
+
+    def grid(self, designs: Mapping[str, Any], strokes: FloatArray) -> Grid:
+        """Return designs at strokes (n,), or (m, n) where each has its own."""
+        own = strokes.ndim == 2
+        every = {name: np.full(strokes.shape, value) for name, value in self.held.items()} | {self.timing.stroke: strokes}
+        return Grid(self.plan, designs, every, per_design=own)
+
+    def values(self, designs: Mapping[str, Any], strokes: FloatArray, count: int) -> tuple[FloatArray, Mask]:
+        """Return what is wanted of m designs at strokes, (m, r, n), NaN out of reach, and where it is reached (m, n)."""
+        found = self._run(self.program.values, designs, strokes, count)
+        return np.moveaxis(found[1:], 0, 1), np.isfinite(found[0])
+
+    def _run(self, kernel: Kernel, designs: Mapping[str, Any], strokes: FloatArray, count: int) -> FloatArray:
+        """Return a kernel's values (outputs, m, n), NaN where a point has no place."""
+        self.problem.count.add(count)
+        grid = self.grid(designs, strokes)
+        with unwarned(), np.errstate(all="ignore"):
+            found = kernel(grid.flat, way=WAY, size=grid.size).values
+        found = np.array(np.broadcast_to(found, (len(found), count, strokes.shape[-1])))
+        found[:, ~np.isfinite(found[0])] = np.nan
+        return found
+
+    def whole(self, unit: FloatArray) -> Mask:
+        """Return which designs (m, n) are assembled at all poses of the stroke that are looked at, (m,)."""
+        return np.asarray(self.swept(unit)[1].all(axis=1))
+
+    def swept(self, unit: FloatArray, count: int = WHOLE) -> tuple[FloatArray, Mask]:
+        """Return what is wanted over the whole stroke, (m, r, count), and where it is reached; of a crank without the end of its turn."""
+        strokes = self.timing.start + self.timing.span * np.linspace(0.0, 1.0, count, endpoint=not self.timing.turn)
+        size = max(PIECE // count, 1)
+        parts = [self.values(self.dimensions(each), strokes, len(each)) for each in np.split(unit, range(size, len(unit), size))]
+        return np.concatenate([part[0] for part in parts]), np.concatenate([part[1] for part in parts])
+
+    def misses(self, at: FloatArray, base: FloatArray) -> FloatArray:
+        """Return how far designs and their own unknowns (m, n + w) are off, (m, r * n)."""
+        strokes = self.timing.strokes(base, at[:, self.n :])
+        values, _ = self.values(self.dimensions(at), strokes, len(at))
+        return self.rows.off(values).reshape(len(at), len(self.requests) * self.rows.count)
+
+    def slopes(self, at: FloatArray, base: FloatArray) -> FloatArray:
+        """Return the derivatives of the misses, (m, r * n, n + w)."""
+        strokes = self.timing.strokes(base, at[:, self.n :])
+        found = self._run(self.program.graded, self.dimensions(at), strokes, len(at))
+        r, points, p = len(self.requests), strokes.shape[1], len(self.owners) + 1
+        shares = np.nan_to_num(found[1 + r :], posinf=0.0, neginf=0.0).reshape(r, p, len(at), points)
+        shares *= self.rows.weights[:, None, None, None]
+        by_unit = np.einsum("vo,romn->mrnv", self.problem._by_owner, shares[:, :-1])
+        by_own = self.timing.reach[1] * np.moveaxis(shares[:, -1], 0, 1)[..., None] * self.timing.moves
+        return np.concatenate([by_unit, by_own], axis=-1).reshape(len(at), r * points, -1)
+
+    def descend(
+        self, at: FloatArray, base: FloatArray, steps: int, *, whole: bool = False, held: Sequence[int] = ()
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return where the misses are least near starts (m, n + w), and the sums of their squares (m,), infinite out of reach.
+
+        `whole`: only through designs that are assembled over the whole stroke. Coordinates that are `held` stay where they are.
+        """
+        if not len(at):
+            return at, np.zeros(0)
+
+        def misses(unit: FloatArray, which: Index) -> FloatArray:
+            found = self.misses(unit, base[which])
+            if whole:
+                found[~self.whole(unit)] = np.nan
+            return found
+
+        def slopes(unit: FloatArray, which: Index) -> FloatArray:
+            found = self.slopes(unit, base[which])
+            found[:, :, [*held]] = 0.0
+            return found
+
+        found, off = descended(misses, slopes, at, steps, enough=ENOUGH * self.rows.size)
+        return found, squared(off)
+
+    def errors(self, at: FloatArray, base: FloatArray) -> FloatArray:
+        """Return the sums of the squares of the misses (m,), infinite out of reach."""
+        return squared(self.misses(at, base)) if len(at) else np.zeros(0)
+
+
+def squared(off: FloatArray) -> FloatArray:
+    """Return the sums of the squares of misses (m, k); infinite where one has no value."""
+    error = np.sum(off**2, axis=1)
+    return np.where(np.isfinite(error), error, np.inf)
+
+
+@final
+class FitSquares:
+    """The misses of a fit as a solver with conditions takes them, in parts of what they are at a start."""
+
+    def __init__(self, fit: Fit, at: FloatArray, base: FloatArray) -> None:
+        self.fit, self.base, self.own = fit, base[None], np.array(at[fit.n :])
+        self.size = float(np.sqrt(fit.errors(at[None], self.base)[0])) or 1.0
+
+    def misses(self, at: FloatArray) -> FloatArray:
+        """Return the scaled misses (k,)."""
+        return np.asarray(self.fit.misses(at[None], self.base)[0] / self.size)
+
+    def slopes(self, at: FloatArray) -> FloatArray:
+        """Return their derivatives (k, n + w)."""
+        return np.asarray(self.fit.slopes(at[None], self.base)[0] / self.size)

@@ -1,0 +1,266 @@
+"""Where a synthesis starts: a population that runs, each laid onto the task by the best shift, turn and size, at the best strokes.
+
+Shift, turn and size of a plane figure on another one in closed form. Source: I. L. Dryden, K. V. Mardia, Statistical Shape Analysis
+(1998), 4.1: with both as complex numbers, the best factor is the quotient of their products.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+
+from ..motion.line import Index
+from ..program import FloatArray
+from .box import unit_points
+from .fit import Fit
+
+POPULATION = 1 << 12
+"""Designs that are looked at first, of every combination of choices; fewer where there are many."""
+SHARES = (1.0, 0.8, 0.6, 0.4, 0.25, 0.12)
+"""Parts of a stroke over which the points may lie."""
+PLACES = 24
+"""Places along the stroke at which the first point may lie."""
+WHOLE_ENOUGH = 16
+"""Designs that run over the whole stroke: where there are fewer, those that only reach the points are taken too."""
+CHUNK = 1 << 21
+"""Numbers that are laid onto the task at a time."""
+KEPT_SHAPE = 1e-8
+"""Of a path's size: what a shift, a turn or another size of the dimensions may change of its form."""
+APART = 0.05
+"""Starts are not nearer to one another than this part of the box's diagonal, while there are others."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Likeness:
+    """What moves, turns and scales a whole mechanism by its dimensions: which of it keeps the form of its paths.
+
+    `points` are the variables (x, y) of fixed points, `lengths` those of lengths, by their place. A turn adds to the stroke what it turns
+    by, where `with_stroke`.
+    """
+
+    points: tuple[tuple[int, int], ...]
+    lengths: tuple[int, ...]
+    shift: bool
+    scale: bool
+    turn: bool
+    with_stroke: bool
+
+    @classmethod
+    def of(cls, fit: Fit, sample: FloatArray, *, timed: bool) -> Likeness:
+        """Return what keeps the form of a task's path, tried on some designs (m, n) that are assembled over the whole stroke."""
+        entries, variables = fit.plan.table.entries, fit.space.variables
+        places = {each.name: place for place, each in enumerate(variables) if each.step is None}
+        lengths = tuple(place for name, place in places.items() if entries[variables[place].owner].kind == "length")
+        points = tuple(
+            (place, places[f"{name[:-2]}.y"])
+            for name, place in places.items()
+            if name.endswith(".x") and f"{name[:-2]}.y" in places and entries[variables[place].owner].kind == "coordinate"
+        )
+        nothing = cls(points, lengths, False, False, False, False)
+        if not fit.rows.is_path or not len(sample):
+            return nothing
+
+        def keeps(factor: complex, by: complex, ahead: float) -> bool:
+            return nothing._keeps(fit, sample, factor, by, ahead)
+
+        size = float(np.ptp(fit.rows.wanted, axis=1).max())
+        shift = bool(points) and keeps(1.0, complex(0.3, -0.2) * size, 0.0)
+        scale = keeps(1.2, 0.0, 0.0)
+        plain = keeps(np.exp(0.4j), 0.0, 0.0)
+        ahead = not plain and not timed and fit.timing.turn > 0.0 and keeps(np.exp(0.4j), 0.0, 0.4)
+        return cls(points, lengths, shift, scale, plain or ahead, ahead)
+
+    def _keeps(self, fit: Fit, sample: FloatArray, factor: complex, by: complex, ahead: float) -> bool:
+        """Return whether paths of dimensions that are changed are the paths, changed."""
+        count = len(sample)
+        strokes = fit.timing.start + fit.timing.span * np.linspace(0.05, 0.9, 7)
+        values = fit.space.values(sample)
+        before, _ = fit.values(by_owner(fit, values), strokes, count)
+        after, _ = fit.values(by_owner(fit, self.applied(values, np.full(count, factor), np.full(count, by))), strokes + ahead, count)
+        wanted, found = factor * as_complex(before) + by, as_complex(after)
+        size = np.abs(wanted).max() + abs(by)
+        return bool(np.isfinite(found).all() and np.abs(found - wanted).max() <= KEPT_SHAPE * size)
+
+    def applied(self, values: FloatArray, factor: Any, by: Any) -> FloatArray:
+        """Return the variables (m, n) of mechanisms that are scaled and turned by complex factors, then shifted, (m,) each."""
+        found = np.array(values, float)
+        for x, y in self.points:
+            moved = factor * (values[:, x] + 1j * values[:, y]) + by
+            found[:, x], found[:, y] = moved.real, moved.imag
+        for place in self.lengths:
+            found[:, place] *= np.abs(factor)
+        return found
+
+    def laid(self, path: Any, onto: Any) -> tuple[Any, Any, FloatArray]:
+        """Return by which factor and shift (m,) paths (m, n), complex, lie best on one (n,), and the errors (m,)."""
+        by, factor = np.zeros(len(path), complex), np.ones(len(path), complex)
+        middle = path.mean(axis=1, keepdims=True) if self.shift else np.zeros((len(path), 1))
+        aim = onto.mean() if self.shift else 0.0
+        own, other = path - middle, onto - aim
+        product, size = (other * np.conj(own)).sum(axis=1), np.sum(np.abs(own) ** 2, axis=1)
+        with np.errstate(all="ignore"):
+            if self.scale and self.turn:
+                factor = product / size
+            elif self.scale:
+                factor = np.maximum(product.real, 1e-3 * np.abs(product)) / size + 0.0j
+            elif self.turn:
+                factor = product / np.abs(product)
+        by = aim - factor * middle[:, 0]
+        error = np.sum(np.abs(factor[:, None] * own - other) ** 2, axis=1)
+        return factor, by, np.where(np.isfinite(error), error, np.inf)
+
+
+def as_complex(values: FloatArray) -> Any:
+    """Return coordinates (m, 2, n) as complex numbers (m, n)."""
+    return values[:, 0] + 1j * values[:, 1]
+
+
+def by_owner(fit: Fit, values: FloatArray) -> dict[str, Any]:
+    """Return the dimensions of variables (m, n) [SI], beyond their ranges too."""
+    chosen: Mapping[str, Any] = fit.space.chosen(fit.combination)
+    own = {each.owner: each.sign * values[:, place] for place, each in enumerate(fit.space.variables)}
+    return dict(fit.problem.machine.dimensions) | dict(chosen) | own
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Starts:
+    """Where local searches start: unit coordinates with the points' own unknowns (m, n + w), and the strokes' base (m, n)."""
+
+    at: FloatArray
+    base: FloatArray
+    running: int
+
+
+def starts_for(fit: Fit, many: int, seed: int, timed: Any, population: int, present: FloatArray) -> Starts:
+    """Return the best starts that stand apart, of a population spread over the box and the machine as it is."""
+    unit = np.concatenate([present[None], unit_points(population, fit.n, "sobol", seed)])
+    values, reached = fit.swept(unit, poses_of(fit, timed))
+    whole = reached.all(axis=1)
+    enough = int(whole.sum()) >= WHOLE_ENOUGH
+    kept = whole if enough else reached.any(axis=1)
+    if not kept.any():
+        return Starts(np.zeros((0, fit.n + fit.width)), np.zeros((0, fit.rows.count)), 0)
+    likeness = Likeness.of(fit, unit[whole][:3], timed=timed is True)
+    unit, values = unit[kept], values[kept]
+    if timed is True:
+        base = np.broadcast_to(fit.known, (len(unit), fit.rows.count))
+        exact, _ = fit.values(fit.dimensions(unit), fit.known, len(unit))
+        best = Best.of(likeness, fit, exact, np.arange(fit.rows.count)[None])
+        own = np.zeros((len(unit), 0))
+    else:
+        picks, base_of, own_of = patterns(fit, timed, values.shape[2])
+        best = Best.of(likeness, fit, values, picks)
+        base, own = base_of[best.pattern], own_of[best.pattern]
+    laid = likeness.applied(fit.space.values(unit), best.factor, best.by)
+    if likeness.with_stroke:
+        own = own + np.angle(best.factor)[:, None] / fit.timing.reach[1]
+    at = np.concatenate([fit.space.unit(laid), np.clip(own, 0.0, 1.0)], axis=1)
+    error = fit.errors(at, base)
+    places = standing_apart(unit, error, many)
+    return Starts(at[places], np.array(base[places]), int(whole.sum()))
+
+
+def standing_apart(unit: FloatArray, error: FloatArray, many: int) -> Index:
+    """Return the numbers of the best designs (m, n) that stand apart, then of others, while their errors are finite."""
+    order = [int(each) for each in np.argsort(error, kind="stable") if np.isfinite(error[each])]
+    chosen: list[int] = []
+    far = APART * np.sqrt(max(unit.shape[1], 1))
+    for place in order:
+        if all(np.linalg.norm(unit[place] - unit[other]) > far for other in chosen):
+            chosen.append(place)
+        if len(chosen) == many:
+            break
+    taken = set(chosen)
+    return np.array([*chosen, *(place for place in order if place not in taken)][:many], int)
+
+
+def poses_of(fit: Fit, timed: Any) -> int:
+    """Return at how many poses of the stroke a population is looked at: of equal steps so many for each."""
+    if timed == "steps" and fit.timing.turn:
+        return fit.rows.count * max(1, round(96 / fit.rows.count))
+    return 97 if not fit.timing.turn else 96
+
+
+def patterns(fit: Fit, timed: Any, count: int) -> tuple[Index, FloatArray, FloatArray]:
+    """Return how the points may lie on the poses of a sweep: their poses (k, n), and what bases (k, n) and unknowns (k, w) that means."""
+    timing, n = fit.timing, fit.rows.count
+    if timed == "steps" and timing.turn:
+        step, way = count // n, np.arange(n)
+        first = np.tile(np.arange(count), 2)
+        sense = np.repeat([1, -1], count)
+        picks = np.mod(first[:, None] + sense[:, None] * step * way, count)
+        base = sense[:, None] * way * timing.span / n
+        return picks, base, timing.own(timing.start + timing.span * first[:, None] / count)
+    shares = lengths_along(fit)
+    rows = []
+    for along, is_closed in shares:
+        for part in SHARES:
+            if is_closed and part != 1.0:
+                continue
+            for place in np.linspace(0.0, 1.0, PLACES, endpoint=not timing.turn):
+                rows += [place + part * along, place - part * along]
+    parts = np.array(rows)
+    if not timing.turn:
+        parts = parts[((parts >= -1e-9) & (parts <= 1.0 + 1e-9)).all(axis=1)]
+    last = count if timing.turn else count - 1
+    poses = np.round(parts * last).astype(int)
+    picks = np.mod(poses, count) if timing.turn else np.clip(poses, 0, last)
+    strokes = timing.start + timing.span * parts
+    own = timing.own(strokes if timed is False else strokes[:, [0, -1]])
+    return picks, np.zeros((len(parts), n)), own
+
+
+def lengths_along(fit: Fit) -> list[tuple[FloatArray, bool]]:
+    """Return where the points of a task lie along it, from 0 to 1: by the way between them, as one that is open, and one that is closed."""
+    wanted = fit.rows.wanted * fit.rows.weights[:, None]
+    if wanted.shape[1] < 2:
+        return [(np.zeros(wanted.shape[1]), False)]
+    ways = np.linalg.norm(np.diff(wanted, axis=1), axis=0)
+    along = np.concatenate([[0.0], np.cumsum(ways)])
+    back = float(np.linalg.norm(wanted[:, -1] - wanted[:, 0]))
+    total = float(along[-1]) or 1.0
+    even = np.arange(wanted.shape[1]) / (wanted.shape[1] - 1)
+    found = [(along / total, False), (even, False)]
+    if fit.timing.turn:
+        found += [(along / (total + back), True), (np.arange(wanted.shape[1]) / wanted.shape[1], True)]
+    return found
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Best:
+    """Of every design of a population the best pattern (m,), and by which factor and shift it lies best on the task."""
+
+    pattern: Index
+    factor: Any
+    by: Any
+    error: FloatArray
+
+    @classmethod
+    def of(cls, likeness: Likeness, fit: Fit, values: FloatArray, picks: Index) -> Best:
+        """Return the best of patterns (k, n) of the values (m, r, poses) of a population."""
+        m, (k, n) = len(values), picks.shape
+        size = max(CHUNK // max(k * n, 1), 1)
+        parts = [cls._of_few(likeness, fit, values[first : first + size], picks) for first in range(0, m, size)]
+        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("pattern", "factor", "by", "error")))
+
+    @classmethod
+    def _of_few(cls, likeness: Likeness, fit: Fit, values: FloatArray, picks: Index) -> Best:
+        m, (k, n) = len(values), picks.shape
+        each = np.arange(m)
+        if fit.rows.is_path:
+            path = as_complex(values)[:, picks].reshape(m * k, n)
+            factor, by, error = likeness.laid(path, fit.rows.wanted[0] + 1j * fit.rows.wanted[1])
+            pattern = np.asarray(np.argmin(error.reshape(m, k), axis=1))
+            chosen = each * k + pattern
+            return cls(pattern, factor[chosen], by[chosen], error[chosen])
+        off = fit.rows.off(np.moveaxis(values[:, :, picks], 2, 1).reshape(m * k, len(values[0]), n))
+        summed = np.sum(off**2, axis=(1, 2)).reshape(m, k)
+        table: FloatArray = np.where(np.isfinite(summed), summed, np.inf)
+        pattern = np.asarray(np.argmin(table, axis=1))
+        return cls(pattern, np.ones(m, complex), np.zeros(m, complex), table[each, pattern])

@@ -1,0 +1,337 @@
+"""What a synthesis found: the machines that do a task, the best first, and what those miss that do not run."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import islice, product
+from typing import Any, final
+
+import numpy as np
+
+from ..disk import Place, replacing_text
+from ..errors import DefinitionError, StudyError, cited
+from ..frozen import read_only
+from ..language import said
+from ..mechanism import Mechanism
+from ..motion import stroke_display_unit
+from ..motion.judging import transmissions
+from ..plan import Mask
+from ..program import FloatArray
+from ..quantities import is_number
+from ..shown import Shown
+from ..units import deg, factor, mm, show, shown_in
+from .checks import unit_of
+from .fit import Fit
+from .optimum import steps_about
+from .problem import Problem
+from .result_tables import heading_with_unit, tried_names
+from .tasks import Task
+
+RUN = 721
+"""Poses of a stroke at which is looked where a machine that does not run can be assembled."""
+MOST_ROUNDINGS = 1024
+TOLD = 3
+"""Answers that a sentence lists, and machines that do not run."""
+CLOSEST_CHANGE_POINT = 1e-6
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class SynthesisedMachine(Shown):
+    """A machine that does a task over its whole stroke.
+
+    `error` is the sum of the squares of its misses [SI^2], `rms` their root mean square a point, `most` the largest miss [SI], at the point
+    `worst`, counted from 1. `strokes` (n,) are those at which it comes to the points, `reached` (r, n) what it has there. `transmission` is
+    the least transmission angle of its joints [rad], NaN without one, `ranked` what it was ranked by, NaN where that is the error.
+    """
+
+    machine: Mechanism
+    error: float
+    rms: float
+    most: float
+    worst: int
+    strokes: FloatArray
+    reached: FloatArray
+    transmission: float
+    ranked: float
+    sentence: str
+    at: FloatArray = field(repr=False)
+    base: FloatArray = field(repr=False)
+    combination: tuple[int, ...] = field(repr=False)
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Miss:
+    """A machine that comes near a task but is no answer: its `error` [SI^2], and `why`, where it is not assembled or what it misses."""
+
+    machine: Mechanism
+    error: float
+    why: str
+
+    def __str__(self) -> str:
+        return self.why
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class RoundedMachine:
+    """A machine on drawing dimensions, its `error` [SI^2], what it misses at the most [SI], and what that costs in words."""
+
+    machine: Mechanism
+    error: float
+    most: float
+    sentence: str
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Synthesis(Shown):
+    """All distinct machines that were found for a task, the best first, each assembled over its whole stroke.
+
+    `solutions` are these; none where nothing runs. `misses` are the best of those that are no answers. `population` designs were spread
+    over the box, of which `running` are assembled over the whole stroke, `starts` local searches begun; `evaluations` counts all designs
+    that were looked at. `limit` is that of the designs where it was reached; None where the search came to its end.
+    """
+
+    start: Mechanism
+    task: Task
+    solutions: tuple[SynthesisedMachine, ...]
+    misses: tuple[Miss, ...]
+    population: int
+    running: int
+    starts: int
+    evaluations: int
+    limit: int | None
+    problem: Problem = field(repr=False)
+    fits: tuple[Fit, ...] = field(repr=False)
+
+    @property
+    def machine(self) -> Mechanism:
+        """The best machine; StudyError where there is none."""
+        return self.best.machine
+
+    @property
+    def best(self) -> SynthesisedMachine:
+        """The best answer; StudyError where there is none, with the nearest miss."""
+        if not self.solutions:
+            raise StudyError(str(self))
+        return self.solutions[0]
+
+    @property
+    def error(self) -> float:
+        """The error of the best machine [SI^2]; infinite where there is none."""
+        return self.solutions[0].error if self.solutions else float("inf")
+
+    @property
+    def sentence(self) -> str:
+        """The answers in words, the best of them and the count; or what misses least, and why."""
+        title, found = self.problem.plan.title, self.solutions
+        searched = said(
+            "{population} designs, of which {running} run, {starts} searches, {evaluations} designs looked at.",
+            population=self.population, running=self.running, starts=self.starts, evaluations=self.evaluations,
+        )  # fmt: skip
+        if self.limit is not None:
+            searched += " " + said("The limit of {limit} designs was reached: this is the best so far.", limit=self.limit)
+        if found:
+            lines = [
+                said(
+                    "{title}: {count} different machines that run, the best first; {searched}",
+                    title=title, count=len(found), searched=searched,
+                )
+            ]  # fmt: skip
+            lines += [f"  {place}. {each}" for place, each in enumerate(found[:TOLD], 1)]
+            return "\n".join(lines)
+        lines = [said("{title}: no machine that runs was found for it; {searched}", title=title, searched=searched)]
+        return "\n".join([*lines, *(f"  {each}" for each in self.misses[:TOLD])])
+
+    def __str__(self) -> str:
+        return self.sentence
+
+    __repr__ = __str__
+
+    def rounded(self, to: float = 1.0 * mm, angle: float = 0.1 * deg, *, place: int = 0) -> RoundedMachine:
+        """Return an answer with its lengths on steps of `to` [m] and its angles on steps of `angle` [rad], as a drawing gives them.
+
+        Of the steps about each value those are taken that run, keep the conditions and miss the task least; untimed strokes are found anew.
+        """
+        for name, value in (("to", to), ("angle", angle)):
+            if not is_number(value) or value <= 0.0:
+                raise DefinitionError(f"rounded({name}={cited(value)}): a step above zero is expected, such as 1 * mm.")
+        if not self.solutions:
+            raise StudyError(str(self))
+        if isinstance(place, bool) or not isinstance(place, int) or not 0 <= place < len(self.solutions):
+            raise DefinitionError(f"rounded(place={cited(place)}): there are {len(self.solutions)} answers, from 0 on.")
+        return rounded_machine(self, self.solutions[place], to, angle)
+
+    def csv(self, path: Place) -> None:
+        """Write a row for each answer into a CSV file: its rank, errors, dimensions and strokes; FileError where it cannot be written."""
+        with replacing_text(path) as stream:
+            writer = csv.writer(stream)
+            writer.writerow(self.header())
+            writer.writerows(self.table_rows())
+
+    def header(self) -> list[str]:
+        """Return the headings of the answers' table, with units."""
+        plan, fit = self.problem.plan, self.fits[0]
+        names = [heading_with_unit((name, unit_of(plan, name))) for name in tried_names(self.problem.space)]
+        stroke = fit.timing.stroke
+        unit = stroke_display_unit(plan, stroke, "mm")
+        strokes = [heading_with_unit((f"{stroke} {place}", unit)) for place in range(1, fit.rows.count + 1)]
+        return ["rank", "error", "rms", "most", "worst", heading_with_unit(("transmission", "deg")), *names, *strokes]
+
+    def table_rows(self) -> list[list[str]]:
+        """Return the rows of the answers' table, errors in SI, full precision."""
+        plan, space = self.problem.plan, self.problem.space
+        by = factor(shown_in(stroke_display_unit(plan, self.fits[0].timing.stroke, "mm")))
+        rows = []
+        for rank, each in enumerate(self.solutions, 1):
+            values = [each.machine[name] / factor(shown_in(unit_of(plan, name))) for name in tried_names(space)]
+            numbers = [each.error, each.rms, each.most, each.worst, each.transmission / deg, *values, *(each.strokes / by)]
+            rows.append([str(rank), *("" if number != number else repr(float(number)) for number in numbers)])
+        return rows
+
+
+# What is said of a machine.
+
+
+def misses_of(fit: Fit, at: FloatArray, base: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the strokes (n,) at which a design comes to the points, what it has there (r, n), and how far each is missed (n,)."""
+    strokes = fit.timing.strokes(base[None], at[None, fit.n :])
+    values, _ = fit.values(fit.dimensions(at[None]), strokes, 1)
+    far = np.linalg.norm(fit.rows.off(values)[0], axis=0)
+    return fit.timing.within(strokes[0]), values[0], far
+
+
+def in_order(fit: Fit, at: FloatArray, base: FloatArray) -> bool:
+    """Return whether a design comes to the points one after the other, to either side, within one turn or the stroke."""
+    strokes = fit.timing.strokes(base[None], at[None, fit.n :])[0]
+    steps = np.diff(strokes) * (1.0 if strokes[-1] >= strokes[0] else -1.0)
+    wide = abs(fit.timing.span)
+    return bool((steps >= -1e-9 * wide).all() and abs(strokes[-1] - strokes[0]) <= (1.0 + 1e-9) * wide)
+
+
+def poorest_transmission(machine: Mechanism, over: Any) -> tuple[float, str]:
+    """Return the least transmission angle of a machine's joints [rad], and of which; NaN without one."""
+    judge = machine.judge(over)
+    asked = transmissions(judge)
+    if not asked:
+        return float("nan"), ""
+    answers = judge.answers([*asked.values()])
+    value, name = min((float(each.value), name) for name, each in zip(asked, answers, strict=True))
+    return value, name
+
+
+def machine_words(fit: Fit, machine: Mechanism, far: FloatArray, angle: float, joint: str, *, ordered: bool) -> str:
+    """Return an answer in words: its misses, order, circuit, Grashof class and least transmission angle."""
+    unit = miss_unit(fit)
+    rms, worst = float(np.sqrt(np.mean(far**2))), int(np.argmax(far))
+    parts = [
+        said(
+            "error {error}, rms {rms}, at most {most} at point {worst}",
+            error=f"{float(np.sum(far**2)):.6g}", rms=show(rms, unit, 4), most=show(float(far[worst]), unit, 4), worst=worst + 1,
+        )
+    ]  # fmt: skip
+    parts.append(
+        said("all {count} points in order, on one circuit and one branch", count=len(far))
+        if ordered
+        else said("all {count} points on one circuit and one branch, in an order of their own", count=len(far))
+    )
+    parts += [str(each) for each in machine.four_bars]
+    if np.isfinite(angle):
+        parts.append(said("least transmission angle {angle}, of {joint}", angle=show(angle, "deg", 3), joint=joint))
+    if np.isfinite(angle) and angle < CLOSEST_CHANGE_POINT:
+        parts.append(said("it passes a change point"))
+    return "; ".join(parts) + "."
+
+
+def miss_unit(fit: Fit) -> str:
+    """Return the unit in which misses are shown."""
+    return "mm" if len(fit.requests) > 1 else {"length": "mm", "angle": "deg"}.get(fit.requests[0].measured(fit.plan), "")
+
+
+def circuit_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
+    """Return where a design cannot be assembled over its stroke, and which points lie on which part of it; "" of one that can."""
+    _, reached = fit.swept(at[None], RUN)
+    mask = reached[0]
+    if mask.all():
+        return ""
+    number = connected_parts(mask, closed=bool(fit.timing.turn))
+    strokes = misses_of(fit, at, base)[0]
+    share = (strokes - fit.timing.start) / fit.timing.span
+    places = np.round(share * (RUN if fit.timing.turn else RUN - 1)).astype(int) % RUN
+    groups: dict[int, list[int]] = {}
+    for point, place in enumerate(places.tolist(), 1):
+        near = place if mask[place] else int(np.argmin(np.where(mask, np.abs(np.arange(RUN) - place), RUN))) if mask.any() else place
+        groups.setdefault(int(number[near]), []).append(point)
+    unit = stroke_display_unit(fit.plan, fit.timing.stroke, "mm")
+    gaps = np.flatnonzero(~mask) / (RUN if fit.timing.turn else RUN - 1)
+    low, high = (show(float(fit.timing.start + fit.timing.span * each), unit, 4) for each in (gaps.min(), gaps.max()))
+    where = said("it cannot be assembled between {stroke} = {low} and {high}", stroke=fit.timing.stroke, low=low, high=high)
+    if len(groups) < 2:
+        return where
+    named = [said("points {points} lie on circuit {number}", points=ranges(each), number=k) for k, each in enumerate(groups.values(), 1)]
+    return f"{where}; {', '.join(named)}"
+
+
+def connected_parts(mask: Mask, *, closed: bool) -> FloatArray:
+    """Return the number of the connected part of a stroke that each pose (n,) lies in; a turn's last part goes on with its first."""
+    number = np.cumsum(np.concatenate([[0], (mask[1:] & ~mask[:-1]).astype(int)]))
+    if closed and mask[0] and mask[-1]:
+        number[number == number[-1]] = number[0]
+    return np.asarray(number, float)
+
+
+def ranges(points: Sequence[int]) -> str:
+    """Return numbers as text, those in a row as ranges: `1-4, 7`."""
+    rows: list[list[int]] = []
+    for each in points:
+        if rows and rows[-1][-1] == each - 1:
+            rows[-1].append(each)
+        else:
+            rows.append([each])
+    return ", ".join(str(row[0]) if len(row) == 1 else f"{row[0]}-{row[-1]}" for row in rows)
+
+
+# Drawing dimensions.
+
+
+def rounded_machine(found: Synthesis, answer: SynthesisedMachine, to: float, angle: float) -> RoundedMachine:
+    """Return an answer on drawing dimensions; see `Synthesis.rounded`."""
+    problem = found.problem
+    fit = next(each for each in found.fits if each.combination == answer.combination)
+    values = problem.space.values(answer.at[: fit.n])
+    near = []
+    for variable, value in zip(problem.space.variables, values, strict=True):
+        step = None if variable.step is not None else {"mm": to, "deg": angle}.get(variable.unit)
+        near.append(steps_about(float(value), step, variable) if step else [float(value)])
+    rows = np.array([*islice(product(*near), MOST_ROUNDINGS)])
+    with problem.count.without_limit():
+        at = np.concatenate([problem.space.unit(rows), np.tile(answer.at[fit.n :], (len(rows), 1))], axis=1)
+        base = np.tile(answer.base, (len(rows), 1))
+        at, error = fit.descend(at, base, 20, held=range(fit.n))
+        short = problem.missing_of_each(fit.combination, at[:, : fit.n]).max(axis=0, initial=0.0)
+        error = np.where(fit.whole(at) & (short <= 1e-7), error, np.inf)
+        place = int(np.argmin(error))
+        if not np.isfinite(error[place]):
+            raise StudyError(f"{problem.plan.title}: no design on these steps runs and keeps all; take finer ones.")
+        far = misses_of(fit, at[place], base[place])[2]
+    machine = problem.machine_of(at[place, : fit.n], fit.combination)
+    unit = miss_unit(fit)
+    settings = ", ".join(f"{each.name} = {each.show(value)}" for each, value in zip(problem.space.variables, rows[place], strict=True))
+    most, before = (show(each, unit, 4) for each in (float(far.max()), answer.most))
+    sentence = said("{settings}: at most {most} off, unrounded {before}.", settings=settings, most=most, before=before)
+    return RoundedMachine(machine, float(error[place]), float(far.max()), sentence)
+
+
+def frozen(array: Any) -> FloatArray:
+    """Return a read-only copy."""
+    return read_only(np.array(array, float))

@@ -1,0 +1,198 @@
+"""Tasks of a synthesis: a path of a point, a function of the stroke, poses of a body, as values that quantities are to have."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited
+from ..frozen import read_only, refuses_changes
+from ..mechanism import Mechanism
+from ..motion.kinds import measure_of
+from ..program import FloatArray
+from ..quantities import angle, is_number, real, x, y
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class TaskRows:
+    """What a task wants: quantities, their values (r, n) [SI], the weight of each, and which of them count modulo a turn.
+
+    `is_path` says that the first two are the coordinates of one point, and no other.
+    """
+
+    quantities: tuple[Any, ...]
+    wanted: FloatArray
+    weights: FloatArray
+    turns: FloatArray
+    is_path: bool
+
+    @property
+    def count(self) -> int:
+        """How many points the task has."""
+        return int(self.wanted.shape[1])
+
+    @property
+    def size(self) -> float:
+        """How large the task is [SI]: the largest of what its values differ by, or are, weighed."""
+        spans = np.ptp(self.wanted, axis=1) * self.weights
+        return float(spans.max()) or float(np.abs(self.wanted).max()) or 1.0
+
+    def off(self, values: FloatArray) -> FloatArray:
+        """Return how far values (m, r, n) are off, weighed, shape (m, r, n): angles modulo a turn."""
+        found = values - self.wanted
+        turn = 2.0 * np.pi * self.turns[:, None]
+        whole = np.round(found / np.where(turn > 0.0, turn, 1.0))
+        return np.asarray((found - turn * whole) * self.weights[:, None])
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False, init=False)
+class PathTask:
+    """A path that a point is to go along: `PathTask([(0.1, 0.2), (0.1, 0.3)], of="P")`, points (n, 2) [m].
+
+    `at` are the strokes (n,) [SI] of timed points. Without them the points are passed in the order in which they stand, to either side,
+    within one turn, unless `in_order=False`.
+    """
+
+    points: FloatArray
+    of: str
+    at: FloatArray | None
+    in_order: bool
+
+    def __init__(self, points: Any, of: str, at: Any = None, *, in_order: bool = True) -> None:
+        found = table_of(f"PathTask(of={cited(of)})", "points", points, 2)
+        vars(self).update(points=found, of=of, at=timed_strokes("PathTask", at, len(found)), in_order=bool(in_order))
+
+    def rows(self, machine: Mechanism) -> TaskRows:
+        """Return what is wanted of a machine."""
+        check_point(machine, self.of)
+        return TaskRows((x(self.of), y(self.of)), read_only(self.points.T), np.ones(2), np.zeros(2), True)
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False, init=False)
+class FunctionTask:
+    """Values that an output or a quantity is to have at strokes: `FunctionTask([0.0, 0.1], [0.0, 5 * deg], of="tilt")`, (n,) each [SI].
+
+    Angles count modulo a turn.
+    """
+
+    at: FloatArray | None
+    values: FloatArray
+    of: Any
+    in_order: bool
+
+    def __init__(self, strokes: Any, values: Any, of: Any) -> None:
+        found = table_of(f"FunctionTask(of={cited(of)})", "values", values, 0)
+        vars(self).update(values=found, of=of, at=timed_strokes("FunctionTask", strokes, len(found)), in_order=True)
+
+    def rows(self, machine: Mechanism) -> TaskRows:
+        """Return what is wanted of a machine."""
+        turns = measure_of(machine.plan, self.of) == "angle"
+        return TaskRows((self.of,), read_only(self.values[None]), np.ones(1), np.full(1, float(turns)), False)
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False, init=False)
+class PoseTask:
+    """Poses that a body is to take: `PoseTask(x, y, angle, of="C D")`, where C is to be [m] and the direction of CD [rad], (n,) each.
+
+    `at` are the strokes (n,) [SI] of timed poses. An angle counts as what `length` [m] does with it, by default the distance of CD.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    angle: FloatArray
+    of: str
+    at: FloatArray | None
+    length: float | None
+    in_order: bool
+
+    def __init__(self, x: Any, y: Any, angle: Any, of: str, at: Any = None, *, length: float | None = None, in_order: bool = True) -> None:
+        what = f"PoseTask(of={cited(of)})"
+        parts = {name: table_of(what, name, each, 0) for name, each in (("x", x), ("y", y), ("angle", angle))}
+        if len({len(each) for each in parts.values()}) > 1:
+            sizes = ", ".join(f"{name} {len(each)}" for name, each in parts.items())
+            raise DefinitionError(f"{what}: x, y and angle are to have one length; theirs are {sizes}.")
+        if length is not None and not (is_number(length) and length > 0.0):
+            raise DefinitionError(f"{what}: length={cited(length)}: a length above zero is expected, in m.")
+        if not isinstance(of, str) or len(of.split()) != 2:
+            raise DefinitionError(f'{what}: two points of the body are expected, such as of="C D".')
+        vars(self).update(parts, of=of, at=timed_strokes("PoseTask", at, len(parts["x"])), length=length, in_order=bool(in_order))
+
+    def rows(self, machine: Mechanism) -> TaskRows:
+        """Return what is wanted of a machine."""
+        first, second = self.of.split()
+        for each in (first, second):
+            check_point(machine, each)
+        length = self.length
+        if length is None:
+            pose = machine.at(unreachable="nan", **machine.plan.sketch_strokes)
+            length = float(np.nanmax(pose.distance(first, second)))
+        weights = np.array([1.0, 1.0, length if length > 0.0 else 1.0])
+        wanted = np.array([self.x, self.y, self.angle])
+        return TaskRows((x(first), y(first), angle(first, second)), wanted, weights, np.array([0.0, 0.0, 1.0]), False)
+
+
+Task: TypeAlias = PathTask | FunctionTask | PoseTask
+
+
+def table_of(what: str, name: str, given: Any, width: int) -> FloatArray:
+    """Return finite numbers (n,), or (n, width) where there is a width, a copy; DefinitionError for anything else."""
+    try:
+        found = real(given)
+    except (TypeError, ValueError, OverflowError):
+        found = np.empty(())
+    shape = (found.shape[0] if found.ndim else 0, *((width,) if width else ()))
+    if found.shape != shape or not found.size or not np.isfinite(found).all():
+        rows = f"pairs (x, y), shape (n, {width})" if width else "numbers in a row, shape (n,)"
+        raise DefinitionError(f"{what}: {name}={cited(given)}: finite {rows}, are expected, in SI.")
+    return read_only(np.array(found, float))
+
+
+def timed_strokes(what: str, given: Any, count: int) -> FloatArray | None:
+    """Return the strokes of timed points (n,); DefinitionError where they are not as many as the points."""
+    if given is None:
+        return None
+    found = table_of(what, "at" if what != "FunctionTask" else "strokes", given, 0)
+    if len(found) != count:
+        raise DefinitionError(f"{what}: {len(found)} strokes for {count} points; say the stroke of each.")
+    return found
+
+
+def check_point(machine: Mechanism, name: Any) -> None:
+    """Raise DefinitionError for what is no point of a machine that moves."""
+    if not isinstance(name, str) or name not in machine.plan.points or name not in machine.plan.moving:
+        known = ", ".join(machine.plan.moving)
+        raise DefinitionError(f"{machine.plan.title}: of={cited(name)}: a point that moves is expected, one of {known}.")
+
+
+def task_of(title: str, given: Sequence[tuple[str, Any, type]]) -> Task:
+    """Return the one task that is given by its keyword; DefinitionError for none, several, or another kind."""
+    said = [(name, value, kind) for name, value, kind in given if value is not None]
+    if len(said) != 1:
+        raise DefinitionError(f"{title}: say one task, path=PathTask(...), function=FunctionTask(...) or motion=PoseTask(...).")
+    ((name, value, kind),) = said
+    if not isinstance(value, kind):
+        raise DefinitionError(f"{title}: {name}={cited(value)}: a {kind.__name__}(...) is expected.")
+    return value  # type: ignore[return-value]
+
+
+def timed_as(title: str, task: Task, timed: Any) -> Any:
+    """Return how the points of a task are timed: True, False or "steps"; by default True where their strokes are said."""
+    if timed is None:
+        return task.at is not None
+    if timed is not True and timed is not False and timed != "steps":
+        raise DefinitionError(f'{title}: timed={cited(timed)}: True, False or "steps" is expected.')
+    if timed is True and task.at is None:
+        raise DefinitionError(f"{title}: timed=True: the points have no strokes; give them, at=[...], or say timed=False.")
+    if isinstance(task, FunctionTask) and timed is not True:
+        raise DefinitionError(f"{title}: timed={cited(timed)}: a function is of its strokes, which are said; leave it out.")
+    return timed

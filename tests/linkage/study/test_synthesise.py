@@ -1,0 +1,216 @@
+"""Synthesis: published tasks by an evaluator of its own, tasks that a known machine does, conditions, and what is no answer."""
+
+import csv
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from linkage import (
+    DefinitionError,
+    FunctionTask,
+    PathTask,
+    PoseTask,
+    StudyError,
+    around,
+    deg,
+    distance,
+    least,
+    mm,
+    synthesise,
+    transmission,
+)
+from linkage.motion.measures import Given
+from linkage.study.fit import Fit, Timing
+from linkage.study.problem import Problem
+from linkage.study.space import Space
+from mechanisms.classics.four_bar import FourBar
+from mechanisms.three_point_hitch import ThreePointHitch
+from tests.linkage.study import synthesis_tasks as papers
+from tests.linkage.study.synthesis_tasks import Bar, box, places
+
+SQUARE_MM = mm**2
+
+
+def runs_by_its_own_circles(machine):
+    """Return whether a bar closes at 5,001 angles of a whole turn."""
+    return bool(np.isfinite(places(machine, np.linspace(0.0, 2 * np.pi, 5001))).all())
+
+
+def judged(answer, points):
+    """Check an answer by the evaluator of its own, and return its error [mm^2]."""
+    assert runs_by_its_own_circles(answer.machine)
+    off = places(answer.machine, answer.strokes) - np.transpose(points) * mm
+    assert_allclose(np.sum(off**2), answer.error, rtol=1e-6, atol=1e-24)
+    assert_allclose(np.hypot(*off).max(), answer.most, rtol=1e-6, atol=1e-12)
+    return answer.error / SQUARE_MM
+
+
+def test_eighteen_points_at_equal_steps_are_met_better_than_any_design_read():
+    found = synthesise(Bar(), path=PathTask(np.array(papers.EIGHTEEN) * mm, of="P"), vary=box(50 * mm), timed="steps")
+    assert judged(found.best, papers.EIGHTEEN) <= 0.00902889
+    steps = np.diff(np.unwrap(found.best.strokes))
+    assert_allclose(np.abs(steps), 20 * deg, atol=1e-12)
+    assert np.all(np.sign(steps) == np.sign(steps[0]))
+    errors = [judged(each, papers.EIGHTEEN) for each in found.solutions]
+    assert errors == sorted(errors) and len(errors) > 5
+    assert "all 18 points in order, on one circuit and one branch; least transmission angle" in str(found)
+
+
+def test_five_timed_points():
+    task = PathTask(np.array(papers.FIVE) * mm, of="P", at=papers.FIVE_AT)
+    found = synthesise(Bar(), path=task, vary=box(50 * mm, held=True))
+    assert judged(found.best, papers.FIVE) <= 7.4158e-7
+    assert_allclose(found.best.strokes, papers.FIVE_AT, atol=1e-15)
+
+
+@pytest.mark.parametrize("kind", ["path", "function", "poses"])
+@pytest.mark.parametrize("timed", [True, False])
+def test_derivatives_are_those_of_the_misses(kind, timed):
+    """Central differences, by dimensions and by the points' own strokes."""
+    bar, at = FourBar(), np.array([0.4, 1.0, 1.9, 3.0])
+    pose = bar.at(phi=at)
+    task = {
+        "path": PathTask(pose["P"].T, of="P"),
+        "function": FunctionTask(at, pose["psi"], of="psi"),
+        "poses": PoseTask(*pose["A"], pose.angle("A", "B"), of="A B"),
+    }[kind]
+    space = Space.of(bar, {"OA": (0.03, 0.05), "C": around(20 * mm), "BAP": (0.2, 0.8), "AB": (0.1, 0.14)})
+    problem = Problem(bar, [Given(0.0)], [], space)
+    fit = Fit(problem, task.rows(bar), Timing.of(problem, "phi", timed, 4), (), at)
+    random = np.random.default_rng(3)
+    unit = random.uniform(0.2, 0.8, (5, fit.n + fit.width))
+    base = np.tile(at if timed else np.zeros(4), (5, 1))
+    found, step = fit.slopes(unit, base), 1e-6
+    for place in range(unit.shape[1]):
+        moved = np.eye(unit.shape[1])[place] * step
+        change = (fit.misses(unit + moved, base) - fit.misses(unit - moved, base)) / (2 * step)
+        assert_allclose(found[:, :, place], change, rtol=0, atol=1e-6 * np.abs(found).max())
+    assert np.abs(found).max() > 0.0
+
+
+def test_a_known_bar_is_found_again_from_its_untimed_path():
+    known = FourBar(OA=0.036, AB=0.11, CB=0.085, AP=0.05)
+    points = known.at(phi=np.linspace(0.3, 5.5, 14))["P"].T
+    vary = {"OA": (0.01, 0.08), "AB": (0.05, 0.2), "CB": (0.05, 0.2), "AP": (0.01, 0.12), "BAP": (-1.5, 1.5), "C": around(30 * mm)}
+    found = synthesise(FourBar(), path=PathTask(points, of="P"), vary=vary, timed=False)
+    assert found.best.most <= 1e-9
+    assert_allclose(found.machine.at(phi=found.best.strokes)["P"].T, points, rtol=0, atol=2e-9)
+    found.machine.sweep(721)
+
+
+def test_a_known_hitch_is_found_again_along_its_stroke():
+    known = ThreePointHitch(MK=0.83, CD=0.60, OB=0.31)
+    strokes = np.linspace(0.0, 0.25, 6)
+    vary = {"MK": (0.75, 1.0), "CD": (0.55, 0.65), "OB": (0.28, 0.33)}
+    poses = known.at(S=strokes)
+    for task in (
+        dict(path=PathTask(poses["G"].T, of="G", at=strokes)),
+        dict(path=PathTask(poses["G"].T, of="G")),
+        dict(motion=PoseTask(*poses["F"], poses.angle("F", "K"), of="F K", at=strokes)),
+    ):
+        found = synthesise(ThreePointHitch(), vary=vary, **task)
+        assert found.best.most <= 1e-9
+        timed = next(iter(task.values())).at is not None
+        for name, value in (("MK", 0.83), ("CD", 0.60), ("OB", 0.31)) if timed else ():
+            assert_allclose(found.machine[name], value, rtol=0, atol=1e-8)
+            assert_allclose(found.best.strokes, strokes, rtol=0, atol=1e-8)
+
+
+def test_a_function_is_that_of_freudenstein():
+    """Three pairs of angles: K1 cos(psi) - K2 cos(phi) + K3 = cos(phi - psi) is linear in three ratios."""
+    phi = np.array([30, 70, 120]) * deg
+    psi = FourBar(OA=0.035, AB=0.11, CB=0.07).at(phi=phi)["psi"] + np.array([0.02, -0.01, 0.015])
+    table = np.stack([np.cos(psi), -np.cos(phi), np.ones(3)], axis=1)
+    K1, K2, K3 = np.linalg.solve(table, np.cos(phi - psi))
+    a, c = 0.1 / K1, 0.1 / K2
+    b = np.sqrt(a**2 + c**2 + 0.1**2 - 2.0 * a * c * K3)
+    assert min(a, b, c) > 0.0
+    vary = {name: (0.3 * size, 3.0 * size) for name, size in (("OA", a), ("AB", b), ("CB", c))}
+    found = synthesise(FourBar(), function=FunctionTask(phi, psi, of="psi"), vary=vary, over={"phi": (30 * deg, 120 * deg)})
+    exact = [each for each in found.solutions if each.most <= 1e-11]
+    assert exact
+    assert min(np.abs([each.machine["OA"] - a, each.machine["AB"] - b, each.machine["CB"] - c]).max() for each in exact) <= 1e-10
+
+
+def test_conditions_are_kept_and_cost_something():
+    task = PathTask(np.array(papers.EIGHTEEN) * mm, of="P")
+    held = [least(transmission("B")) >= 35 * deg, least(distance("O", "C")) <= 1.2 * mm]
+    found = synthesise(Bar(), path=task, vary=box(50 * mm), timed="steps", subject_to=held, starts=16)
+    assert 0.00902889 * SQUARE_MM < found.best.error <= 0.0092415 * SQUARE_MM
+    for each in found.solutions:
+        judged(each, papers.EIGHTEEN)
+        turn = each.machine.sweep(721)
+        sines = np.sin(turn.transmission_angle("B"))
+        assert sines.min() >= np.sin(35 * deg) - 1e-7
+        assert float(turn.distance("O", "C")[0]) <= 1.2 * mm * (1 + 1e-6)
+
+
+def test_the_same_seed_gives_the_same_bits():
+    task = PathTask(np.array(papers.LINE) * mm, of="P")
+    one, two = (synthesise(Bar(), path=task, vary=box(60 * mm, 5 * mm), seed=4, starts=4) for _ in range(2))
+    assert [each.error for each in one.solutions] == [each.error for each in two.solutions]
+    assert [dict(each.machine.dimensions) for each in one.solutions] == [dict(each.machine.dimensions) for each in two.solutions]
+    assert one.solutions or one.misses
+
+
+def test_what_cannot_run_is_no_answer():
+    """A triple rocker: no length in the box lets anything turn fully."""
+    vary = {"OA": (0.058, 0.062), "AB": (0.058, 0.062), "CB": (0.068, 0.072), "BAP": (-1.0, 1.0)}
+    points = [(0.03, 0.06), (0.02, 0.07), (0.01, 0.075)]
+    found = synthesise(FourBar(), path=PathTask(points, of="P"), vary=vary)
+    assert not found.solutions and not np.isfinite(found.error)
+    assert found.misses and all("cannot be assembled between phi" in each.why for each in found.misses)
+    assert "no machine that runs was found" in str(found)
+    with pytest.raises(StudyError, match="no machine that runs"):
+        found.machine  # noqa: B018
+
+
+def test_a_table_and_a_drawing(tmp_path):
+    found = synthesise(Bar(), path=PathTask(np.array(papers.EIGHTEEN) * mm, of="P"), vary=box(50 * mm), timed="steps", starts=16)
+    found.csv(tmp_path / "answers.csv")
+    with open(tmp_path / "answers.csv", newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    assert len(rows) == len(found.solutions)
+    assert float(rows[0]["error"]) == found.error
+    assert_allclose([float(rows[0][f"phi {k}, deg"]) for k in (1, 18)], found.best.strokes[[0, -1]] / deg)
+    coarse = found.rounded(0.1 * mm, 1 * deg)
+    assert coarse.error > found.error
+    for name in ("OA", "AB", "CB"):
+        assert abs(coarse.machine[name] / (0.1 * mm) - round(coarse.machine[name] / (0.1 * mm))) < 1e-6
+    assert runs_by_its_own_circles(coarse.machine)
+    assert "unrounded" in str(coarse)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({}, "say one task"),
+        ({"path": PathTask([(0, 1)], of="P"), "function": FunctionTask([0.1], [0.2], of="psi")}, "say one task"),
+        ({"path": [(0, 1)]}, "a PathTask"),
+        ({"path": PathTask([(0, 1)], of="X")}, "a point that moves is expected"),
+        ({"path": PathTask([(0, 1)], of="P"), "timed": True}, "have no strokes"),
+        ({"path": PathTask([(0, 1)], of="P"), "timed": "step"}, "is expected"),
+        ({"path": PathTask([(0, 1)], of="P"), "rank": "OA"}, "one number of a design"),
+        ({"function": FunctionTask([0.1], [0.2], of="psi"), "timed": False}, "leave it out"),
+    ],
+)
+def test_what_cannot_be_asked_is_said(given, words):
+    with pytest.raises(DefinitionError, match=words):
+        synthesise(FourBar(), vary={"OA": (0.03, 0.05)}, **given)
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: PathTask([1.0, 2.0], of="P"), "pairs"),
+        (lambda: PathTask([(0.0, np.nan)], of="P"), "finite"),
+        (lambda: PathTask([(0, 1), (0, 2)], of="P", at=[0.1]), "1 strokes for 2 points"),
+        (lambda: PoseTask([0], [1], [1, 2], of="A B"), "one length"),
+        (lambda: PoseTask([0], [1], [1], of="A"), "two points"),
+        (lambda: FunctionTask([0.1, 0.2], [0.2], of="psi"), "2 strokes for 1 points"),
+    ],
+)
+def test_a_task_that_is_none_is_refused(make, words):
+    with pytest.raises(DefinitionError, match=words):
+        make()

@@ -447,9 +447,15 @@ class Local:
             columns = [*range(self.n), *range(self.width, self.width + w)]
             slopes = np.zeros((len(squares.misses(at[columns])), self.width + w))
             slopes[:, columns] = squares.slopes(at[columns])
-            step = constrained_step(slopes, squares.misses(at[columns]), by, lines, (low - at, high - at), damping)
+            misses, room = squares.misses(at[columns]), (low - at, high - at)
+            step = constrained_step(slopes, misses, by, lines, room, damping)
+            found, short = self._fit_merit(squares, at + step)
+            if not error + price * missing > found + price * short:  # again, by what the lines come to there
+                there = self._lines_of_squares(at + step)[0]
+                if there.shape == lines.shape:
+                    step = constrained_step(slopes, misses, by, np.minimum(there - by @ step, lines), room, damping)
+                    found, short = self._fit_merit(squares, at + step)
             new = at + step
-            found, short = self._fit_merit(squares, new)
             gain = error + price * missing - found - price * short
             if not gain > 0.0 and short < missing * (1.0 - 1e-3) and np.isfinite(found):  # what is missing counts more
                 price = max(2.0 * (found - error) / (missing - short), 2.0 * price)
@@ -465,11 +471,11 @@ class Local:
         return at[: self.width]
 
     def _fit_merit(self, squares: LeastSquares, at: FloatArray) -> tuple[float, float]:
-        """Return the sum of the squares and what is missing of the worst line; infinite where the design cannot be worked with."""
+        """Return the sum of the squares, and by how much the worst line is missed; infinite where the design cannot be worked with."""
         if not self._looked_at(at[: self.n])[1]:
             return np.inf, np.inf
         error = float(np.sum(squares.misses(np.concatenate([at[: self.n], at[self.width :]])) ** 2))
-        return (error, max(self.violation(at[: self.width]), 0.0)) if np.isfinite(error) else (np.inf, np.inf)
+        return (error, max(self.violation(at[: self.width]) - CLEAR, 0.0)) if np.isfinite(error) else (np.inf, np.inf)
 
     def _lines_of_squares(self, at: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return all lines, an equation as two, with their derivatives by the solver's variables and the own unknowns."""

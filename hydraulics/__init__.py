@@ -40,5 +40,8 @@ from .requests import pressure as pressure
 from .requests import reserve as reserve
 from .requests import thrust as thrust
 from .telescope import Telescope as Telescope
+from .valve import HoldingValve as HoldingValve
+from .valve import load_pressure as load_pressure
+from .valve import pilot_pressure as pilot_pressure
 
 add_catalogue("hydraulics", Path(__file__).with_name("locale"))

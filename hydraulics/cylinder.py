@@ -167,7 +167,8 @@ class RamSize(ABC):
 
     def behind(self, force: Array) -> Array:
         """Return the pressure on the other side that gives a force, not below zero [N]; infinite where there is none."""
-        return np.asarray(force / self.back_area)[()]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(force > 0.0, force / self.back_area, 0.0)[()]
 
     def oil(self, travel: ArrayLike) -> Array:
         """Return the oil [m3] that the working side of all cylinders takes in over a travel [m] in its direction, same shape.

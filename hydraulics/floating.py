@@ -20,14 +20,14 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import refuses_changes
 from linkage.language import said
-from linkage.loads import AT_REST, Acting, Declared, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
+from linkage.loads import AT_REST, Acting, Declared, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, Tie, require_poses
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Judge, Motion, least, most
 from linkage.plan import ArrayReading
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, quantity
-from linkage.statics import AnyMotion, plan_of, stroke_followed
+from linkage.statics import AnyMotion, motion_in_case, plan_of, stroke_followed
 from linkage.units import show
 from linkage.vectors import Scalar
 from linkage.verdict import Verdict
@@ -36,6 +36,7 @@ from .accumulator import AccumulatorBlock
 from .gas import Polytropic
 from .inputs import Array, all_finite, follows, in_pascals, number_set
 from .member import Circuit, Ram, Side, the_cylinder
+from .standing import shut_verdicts, standing_pressure
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
@@ -71,7 +72,13 @@ class GasLine(Circuit):
         return tuple(the_cylinder(motion, each) for each in self.references)
 
     def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
-        return self.pressure(motion)
+        return self.pressure_under(motion, acting)
+
+    def pressure_under(self, motion: AnyMotion, acting: Acting | None) -> Array:
+        """Return the pressure of the gas [Pa gauge], or where a load case shuts the line what the loads make of it."""
+        motion = motion_in_case(motion, acting)
+        is_shut = acting is not None and self.as_in(motion)._is_shut
+        return standing_pressure(self, motion, cast(Acting, acting)) if is_shut else self.pressure(motion)
 
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return the gas's force twice: its cylinder has no other [N]."""
@@ -79,6 +86,10 @@ class GasLine(Circuit):
         return thrust, thrust
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return the verdicts on the gas's pressure wherever it runs, and on that of the line where a load case shuts it."""
+        return [*self.gas_verdicts(judge), *shut_verdicts(self, judge)]
+
+    def gas_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the range of the line's pressure wherever it runs, whether fluid is left everywhere, and what its accumulators bear."""
         def pressure(motion: Motion) -> Array:
             return self.pressure(motion)
@@ -191,6 +202,8 @@ class GasLine(Circuit):
         return written.line(f"p_{ram.name}", pressure, "bar")
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
+        if self._is_shut:
+            return []
         given = rates if rates.has_friction else AT_REST
         return [Push(ram, self.thrust_of(ram, motion, given)) for ram in self.rams(motion)]
 
@@ -238,14 +251,17 @@ class FloatCircuit(GasLine):
             said = f"block={cited(self.block)} is no AccumulatorBlock"
             raise DefinitionError(f"FloatCircuit: {said}; write AccumulatorBlock([Accumulator(...)]).")
 
-    def kind_in(self, members: Mapping[str, Member]) -> str:
+    def kind_open(self, members: Mapping[str, Member]) -> str:
         return "given"
+
+    def tie(self, members: Mapping[str, Member]) -> Tie | None:
+        return Tie(self.name, self.shares(members), held=True) if self._is_shut else None
 
     def gas_block(self, plan: Declared) -> Block:
         return self.block
 
     def line_pressure(self, motion: AnyMotion, acting: Acting | None = None) -> Array:
-        return self.pressure(motion)
+        return self.pressure_under(motion, acting)
 
     def parts(self) -> tuple[Reference, ...]:
         followed = self.block.following if isinstance(self.block, AccumulatorBlock) else ()
@@ -273,7 +289,7 @@ class FloatCircuit(GasLine):
         return tuple(Glyph("accumulator", cylinder.ends, count) for cylinder in self.members(members))
 
     def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
-        return self.members(members)
+        return () if self._is_shut else self.members(members)
 
     def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
         filled = "are given the same block, which would be filled twice: gas stands in one line"

@@ -21,7 +21,7 @@ from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
 from .inputs import not_negative, one_number
-from .line import LiftLine
+from .line import LiftLine, LineValve
 from .member import PISTON, SIDES, AllOf, Ram, carries_loads, one_design, thrust_request
 from .requests import going_back_request, pressure_request, reserve_request
 
@@ -63,7 +63,7 @@ def line_verdicts(circuit: LiftLine, judge: Judge, resistance: float = 0.0, unit
         *(with_name(each.lifting(), each.ram, several) for each in cylinders),
         oil_verdict(circuit, judge),
         *(with_name(each.holding(), each.ram, several) for each in cylinders),
-        *(with_name(each.going_back(resistance), each.ram, several) for each in cylinders),
+        *(with_name(each.going_back(resistance), each.ram, several) for each in cylinders if not is_valved(circuit, judge)),
     ]
 
 
@@ -83,7 +83,14 @@ def line_conditions(circuit: LiftLine, judge: Judge) -> dict[str, Condition]:
     if idle(cylinders) is not None:
         return {}
     several = len(cylinders) > 1
-    return {f"{rule} {each.ram.name}" if several else rule: one for each in cylinders for rule, one in each.conditions().items()}
+    found = [(rule, each.ram.name, one) for each in cylinders for rule, one in each.conditions().items()]
+    judged = [each for each in found if each[0] != "lowering" or not is_valved(circuit, judge)]
+    return {f"{rule} {name}" if several else rule: one for rule, name, one in judged}
+
+
+def is_valved(circuit: LiftLine, judge: Judge) -> bool:
+    """Return whether a valve holds a line, over which the load goes down."""
+    return any(each.holds_line(circuit) for each in judge.plan.of_kind(LineValve).values())
 
 
 def the_circuit(circuit: LiftLine | str, motion: Motion) -> LiftLine:

@@ -42,7 +42,7 @@ from linkage.loads.element import Formulas
 from linkage.motion import Condition, Judge, Motion, Question
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import AnyMotion, elements_of, member_thrust, same
+from linkage.statics import AnyMotion, elements_of, member_thrust, motion_in_case, same
 from linkage.verdict import Verdict
 
 from .floating import Feeds
@@ -62,6 +62,7 @@ from .inputs import (
 from .judged import line_conditions, line_questions, line_verdicts
 from .line import Choice, Holding, LiftLine, Lowering, WayBack, Work
 from .member import Circuit, Ram, Reading, by_other_lines, line_thrust, lines_of, the_cylinder, thrust_along
+from .standing import is_blocked, shut_verdicts, standing_pressure
 
 
 class PumpLine(LiftLine):
@@ -186,9 +187,10 @@ class PumpLine(LiftLine):
             pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
             return Work(np.where(pushes, out, back), np.where(pushes, 1.0, -1.0), size, k_m)
         way = acting.direction or ("retracting" if size.works == "rod" else "extending")
-        thrust = line_thrust(cylinder, self, motion, replace(acting, direction=way))
+        thrust = line_thrust(cylinder, self, motion, replace(acting, direction=way), with_tanks=False)
+        drained = by_other_lines(cylinder, self, motion_in_case(motion, acting), None, True)
         sense = np.sign(thrust) if way == "frictionless" else np.full(np.shape(thrust), 1.0 if way == "extending" else -1.0)
-        return Work(thrust, sense, size, k_m)
+        return Work(thrust, sense, size, k_m, 0.0 if drained is None else drained)
 
     def works(self, what: str, motion: AnyMotion, loads: Loads, choice: Choice) -> list[Work]:
         """Return what the cylinder that is named has to do, or each of them; `what` is the function that is asked."""
@@ -206,15 +208,20 @@ class PumpLine(LiftLine):
         `choice`: `case=`, `direction=` of the cylinder where it is not its working direction, `cylinder=` of a line of several (else
         the one that needs most).
         """
-        return np.asarray(np.max([self._pressure(motion, work) for work in self.works("pressure_for", motion, loads, choice)], axis=0))
+        rams = self.meant(motion, choice.pop("cylinder", None))
+        acting = situation_of("pressure_for", loads=loads, **choice)
+        return np.asarray(np.max([self.pressure_in(ram, motion, acting) for ram in rams], axis=0))
 
     def _pressure(self, motion: AnyMotion, work: Work) -> Array:
         back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
         share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
-        return np.asarray(np.maximum(work.force + back, 0.0) / (work.area * share))[()]
+        return np.asarray(np.maximum(work.force + back + work.against, 0.0) / (work.area * share))[()]
 
     def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
-        return self._pressure(motion, self.work_of(self.one(motion, cylinder), motion, acting))
+        motion, ram = motion_in_case(motion, acting), self.one(motion, cylinder)
+        if is_blocked(ram, motion.plan.members):
+            return np.asarray(np.maximum(standing_pressure(self, motion, acting), 0.0))[()]
+        return self._pressure(motion, self.work_of(ram, motion, acting))
 
     def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
         return self.reserve(motion, cylinder=cylinder, acting=acting)
@@ -230,7 +237,7 @@ class PumpLine(LiftLine):
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the verdicts on lifting, oil, holding and lowering."""
         try:
-            return line_verdicts(self, judge, unit=self.unit_in(judge))
+            return [*line_verdicts(self, judge, unit=self.unit_in(judge)), *shut_verdicts(self, judge)]
         except DefinitionError as error:
             return [Verdict("lifting", False, " ".join(str(error).split()))]
 
@@ -258,7 +265,7 @@ class PumpLine(LiftLine):
     def _given(self, motion: Poses, work: Work, share: float) -> Array:
         """Return what the pressures on both sides give with the areas of a work [N], below zero where the back pressure is the stronger."""
         pushes = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * work.area
-        return np.asarray(pushes - self.back(motion) * work.other_area)[()]
+        return np.asarray(pushes - self.back(motion) * work.other_area - work.against)[()]
 
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return between which two thrusts one of its cylinders lifts, at a `share` of the pump's pressure, or holds [N].
@@ -269,13 +276,16 @@ class PumpLine(LiftLine):
         proper_share(share)
         ram = self.one(motion, cylinder)
         size = ram.sized(motion)
-        others = by_other_lines(ram, self, motion, None)  # type: ignore[arg-type]
+        others = by_other_lines(ram, self, motion, None, None if not lifting else False)  # type: ignore[arg-type]
+        tanks = by_other_lines(ram, self, motion, None, True)  # type: ignore[arg-type]
+        drained = 0.0 if tanks is None else tanks
         if not lifting:
             held = self.held(motion)
             low, high = np.asarray(-held * size.inward_area), np.asarray(held * size.outward_area)
         else:
             k_m, nothing = self.efficiency(motion, "mechanical"), np.zeros(())
-            pull, push = (self._given(motion, Work(way, way, size, k_m), share) * k_m for way in (np.asarray(-1.0), np.asarray(1.0)))
+            works = (Work(way, way, size, k_m, drained) for way in (np.asarray(-1.0), np.asarray(1.0)))
+            pull, push = (self._given(motion, work, share) * k_m for work in works)
             low, high = (-pull if size.works in ("rod", "both") else nothing), (nothing if size.works == "rod" else push)
         return (low, high) if others is None else (low + others, high + others)
 

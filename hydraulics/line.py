@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass, replace
-from typing import Unpack, final
+from typing import ClassVar, Unpack, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.frozen import refuses_changes
-from linkage.loads import Acting, ActingKeywords, Case, Declared, Loads, Poses
-from linkage.motion import Motion
+from linkage.loads import Acting, ActingKeywords, Case, Declared, ForceElement, Loads, Poses
+from linkage.motion import HasVerdicts, Motion
 from linkage.plan import Mask
 from linkage.quantities import Reference
 from linkage.statics import AnyMotion
@@ -34,12 +34,16 @@ class Choice(ActingKeywords, total=False):
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Work:
-    """A cylinder's thrust [N] while it grows (`sense` 1) or shrinks (-1), its size, and the mechanical efficiency."""
+    """A cylinder's thrust [N] while it grows (`sense` 1) or shrinks (-1), its size, and the mechanical efficiency.
+
+    `drained` is the thrust of tanks on its other side [N], which the pump works against as well.
+    """
 
     thrust: Array
     sense: Array
     size: RamSize
     k_m: Array
+    drained: Array | float = 0.0
 
     @property
     def pulls(self) -> Mask:
@@ -62,6 +66,11 @@ class Work:
     def along(self) -> Array:
         """The thrust in the direction in which the working side pushes or pulls [N]."""
         return np.where(self.pulls, -self.thrust, self.thrust)
+
+    @property
+    def against(self) -> Array:
+        """What tanks on the other side push against it [N]."""
+        return np.where(self.pulls, 1.0, -1.0) * self.drained
 
     @property
     def supplied(self) -> Mask:
@@ -124,6 +133,17 @@ class WayBack:
         other = empties if ram.is_single_acting else other  # nothing pushes it back: what is missing where it empties
         brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
         return cls(np.asarray(np.maximum(brings, 0.0) / empties)[()], np.asarray((against * empties - brings) / other)[()])
+
+
+class LineValve(ForceElement, HasVerdicts):
+    """The base of valves that hold what is in a line; the load then goes down over them."""
+
+    places: ClassVar[tuple[str, ...]] = ()
+    file_section: ClassVar[str] = "hydraulics"
+
+    @abstractmethod
+    def holds_line(self, line: Circuit) -> bool:
+        """Return whether it holds a line."""
 
 
 class LiftLine(Circuit):

@@ -15,7 +15,7 @@ from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, TypeAlias, TypeVar, Unpack, cast, final
+from typing import Any, ClassVar, Literal, Self, TypeAlias, TypeVar, Unpack, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -65,7 +65,7 @@ from linkage.motion import (
 )
 from linkage.plan import Mask, Plan
 from linkage.quantities import InnerQuantity, Member, Quantity, Reference, body_name, distance, label, name_of, needs, quantity
-from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, same
+from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, motion_in_case, same
 from linkage.units import mm, show, shown_number, unit_sign
 from linkage.verdict import Verdict
 
@@ -317,6 +317,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """
         if side not in self.own_sides:
             raise DefinitionError(f"{self.name or self}: it has no {side} side, whose pressure could be asked for; it is single acting.")
+        motion = motion_in_case(motion, acting)
         thrust = line_thrust(self, circuit or circuit_having(self, motion.plan, False), motion, acting)
         along, size = thrust if side == PISTON else -thrust, self.sized(motion, acting.direction)
         balance = along / (size.outward_area if side == PISTON else size.pull_area)
@@ -865,6 +866,7 @@ def pressure_of(cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
     held = motion._of_the_whole(cylinder) if isinstance(motion, Motion) else None
     if held is not None:
         return pressure_of(held[1], held[0], acting)
+    motion = motion_in_case(motion, acting)
     circuit = circuit_having(cylinder, motion.plan)
     if circuit is not None:
         return circuit.pressure_in(cylinder, motion, acting)
@@ -888,7 +890,9 @@ def circuit_having(cylinder: Ram, plan: Declared, is_needed: bool = True) -> Cir
 
 
 def circuits_of(cylinder: Ram, plan: Declared) -> list[Circuit]:
-    """Return the circuits of a class that have a cylinder's working side."""
+    """Return the circuits of a class that have a cylinder's working side, which its lines there may tell."""
+    own = plan.members.get(cylinder.name) if cylinder.name else None
+    cylinder = own if isinstance(own, Ram) else cylinder
     found = [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
     other = [line for line, chamber in lines_of(cylinder, plan.members) if chamber.side != cylinder.side and cylinder.side in SIDES]
     return [each for each in found if not any(same(each, line) for line in other)] if other else found
@@ -900,6 +904,8 @@ class Circuit(ForceElement, HasVerdicts):
     places: ClassVar[tuple[str, ...]] = ()
     file_section: ClassVar[str] = "hydraulics"
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "load"})
+    _is_shut: ClassVar[bool] = False
+    """Whether a load case shuts it; told by the case."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -926,8 +932,26 @@ class Circuit(ForceElement, HasVerdicts):
         return self.references
 
     def kind_in(self, members: Mapping[str, Member]) -> str:
-        """Return the kind of its line, among the members of its class: one of KINDS."""
+        """Return the kind of its line, among the members of its class: one of KINDS. A shut one keeps the oil that it has: it is held."""
+        kind = self.kind_open(members)
+        return "held" if self._is_shut and kind == "given" else kind
+
+    def kind_open(self, members: Mapping[str, Member]) -> str:
+        """Return the kind of its line while no load case shuts it."""
         return "held"
+
+    @property
+    def is_drained(self) -> bool:
+        """Whether a tank gives its pressure."""
+        return False
+
+    def when_shut(self) -> Self:
+        return self if self._is_shut else self.renewed(_is_shut=True)
+
+    def as_in(self, motion: Poses) -> Self:
+        """Return it as the machine of a motion has it, such as shut."""
+        found = motion.plan.members.get(self.name) if self.name else None
+        return found if isinstance(found, type(self)) else self
 
     def filling(self, members: Mapping[str, Member]) -> list[tuple[Ram, Chamber]]:
         """Return the chambers on its line with their cylinders, as the class has them: of each the side that works."""
@@ -1011,23 +1035,29 @@ def works_by_lines(cylinder: Ram, members: Mapping[str, Member]) -> Works | None
     return "regenerative" if working[0][0] is working[1][0] else "both"
 
 
-def by_other_lines(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting | None) -> Array | None:
+def by_other_lines(
+    ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting | None, tanks: bool | None = None
+) -> Array | None:
     """Return what lines other than one put on a cylinder over a motion's poses [N]; None for nothing.
 
-    Without a situation only lines whose pressure is given count.
+    Without a situation only lines whose pressure is given count. `tanks`: those of tanks alone, or all but those.
     """
+    motion = motion_in_case(motion, acting)
     members = motion.plan.members
     parts = []
     for other, chamber in lines_of(ram, members):
         kind = other.kind_in(members)
+        if tanks is not None and tanks is not (kind == "given" and other.is_drained):
+            continue
         if (line is None or not same(other, line)) and (kind == "given" or (kind == "closed" and acting is not None)):
             parts.append(other.line_pressure(motion, acting) * chamber_area(chamber, ram, motion))
     return reduce(np.add, parts) if parts else None
 
 
-def line_thrust(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting) -> Array:
-    """Return what a line has to put on a cylinder [N]: what it carries without what its other lines do."""
-    thrust, others = member_thrust(motion, ram, acting), by_other_lines(ram, line, motion, acting)
+def line_thrust(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting, *, with_tanks: bool = True) -> Array:
+    """Return what a line has to put on a cylinder [N]: what it carries without what its other lines do, those on tanks where asked for."""
+    motion = motion_in_case(motion, acting)
+    thrust, others = member_thrust(motion, ram, acting), by_other_lines(ram, line, motion, acting, None if with_tanks else False)
     return thrust if others is None else thrust - others
 
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from abc import ABC
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial, reduce
 from math import pi
 from types import MappingProxyType
@@ -48,7 +48,7 @@ from linkage.loads.two_point import end_forces
 from linkage.motion import Condition, Judge, Motion, Question, least, most
 from linkage.quantities import AtPose, Distance, Member, Number, Quantity, Reference, Stroke, Variable, Where, label, name_of, quantity
 from linkage.quantities.quantity import plain
-from linkage.statics import AnyMotion, LawRequest, member_thrust, plan_of, same, tied_forces
+from linkage.statics import AnyMotion, LawRequest, motion_in_case, plan_of, same
 from linkage.units import show
 from linkage.vectors import Scalar
 from linkage.verdict import Verdict
@@ -68,13 +68,13 @@ from .member import (
     Side,
     by_other_lines,
     chamber_area,
-    changes_in_motion,
     is_named,
     lines_giving,
     lines_of,
     names_behind,
     the_cylinder,
 )
+from .standing import EMPTY, intensified, shut_verdicts, standing_pressure
 
 
 class Supply(ForceElement, ABC):
@@ -287,10 +287,14 @@ class OilLine(PumpLine, GasLine):
         """The accumulators on it; None where there are none."""
         return next((each for each in self.on if not isinstance(each, (Chamber, str, Member))), None)
 
-    def kind_in(self, members: Mapping[str, Member]) -> str:
+    def kind_open(self, members: Mapping[str, Member]) -> str:
         if self.supplies(members, Pump):
             return "held"
         return "given" if self.block is not None or self.supplies(members, Tank) else "closed"
+
+    @property
+    def is_drained(self) -> bool:
+        return self.kind_of_line == "given" and self.block is None
 
     def filling(self, members: Mapping[str, Member]) -> list[tuple[Ram, Chamber]]:
         """Return the chambers on it with their cylinders, as the class has them; of a bare cylinder the side that works."""
@@ -406,6 +410,8 @@ class OilLine(PumpLine, GasLine):
     def tie(self, members: Mapping[str, Member]) -> Tie | None:
         """Return how its pressure acts on its cylinders, where it is closed, or held beside a closed line."""
         kind = self.kind_in(members)
+        if self._is_shut and self.kind_open(members) == "given":
+            return Tie(self.name, self.shares(members), held=True)
         if kind == "held":
             return PumpLine.tie(self, members)
         if kind == "given":
@@ -525,36 +531,25 @@ class OilLine(PumpLine, GasLine):
         """
         return self.line_pressure(motion, situation_of("pressure", loads=loads, **situation))
 
+    @takes_situation
+    def intensified(self, motion: Any, loads: Any = None, **situation: Unpack[ActingKeywords]) -> Array:
+        """Return the pressure in it, shape (...) [Pa gauge], in a load case that shuts it, while the pump of the other side gives all.
+
+        The piston pushes with the pump's pressure, and the smaller annulus takes up what the load does not: it may be far above the
+        pump's. DefinitionError where no pump is on the other side of one of its cylinders.
+        """
+        return intensified(self, motion, situation_of("intensified", loads=loads, **situation))
+
     def line_pressure(self, motion: Any, acting: Acting | None = None) -> Array:
-        members, asked = motion.plan.members, Acting() if acting is None else acting
-        kind = self.kind_in(members)
+        motion, asked = motion_in_case(motion, acting), Acting() if acting is None else acting
+        members = motion.plan.members
+        kind = self.kind_open(members)
         if kind == "held":
             return self.pressure_for(motion, acting=asked)
-        if kind == "closed":
-            return self._kept_pressure(motion, asked)
+        if kind == "closed" or self.as_in(motion)._is_shut:
+            return standing_pressure(self, motion, asked)
         tanks = self.supplies(members, Tank)
         return in_pascals(tanks[0].set_to(motion, "pressure"), "Pressure of the tank") if tanks else GasLine.pressure(self, motion)
-
-    def _kept_pressure(self, motion: AnyMotion, acting: Acting) -> Array:
-        members = motion.plan.members
-        lines = connected(self, members)
-        ties = [Tie(line.name, line.shares(members), held=False) for line in lines]
-        least = [line.least(motion) for line in lines]
-        found = tied_forces(motion, ties, lambda ram: self._tied_thrust(ram, motion, acting), least)
-        place = next(k for k, line in enumerate(lines) if same(line, self))
-        return np.asarray(found[place] + np.zeros(motion.shape))[()] if motion.shape else found[place]
-
-    def _tied_thrust(self, ram: Ram, motion: AnyMotion, acting: Acting) -> Array:
-        """Return what a cylinder carries without what lines of a given pressure put on it; a direction is that of the first cylinder."""
-        first = self.members(motion.plan.members)[0]
-        if acting.direction is None or same(ram, first) or not changes_in_motion(motion, acting.loads):
-            thrust = member_thrust(motion, ram, acting)
-        else:
-            ahead, back = (member_thrust(motion, ram, opposed(acting, way)) for way in (False, True))
-            stroke = next(iter(motion.strokes))
-            thrust = np.where(ram.growth(motion, {stroke: 1.0}) * first.growth(motion, {stroke: 1.0}) < 0.0, back, ahead)
-        others = by_other_lines(ram, None, motion, None)
-        return thrust if others is None else thrust - others
 
     def least(self, motion: Poses) -> Array | float:
         """Return the pressure below which it runs empty [Pa]."""
@@ -625,7 +620,7 @@ class OilLine(PumpLine, GasLine):
     # -- by its kind -----------------------------------------------------------------------------------------
 
     def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
-        if self.kind_in(motion.plan.members) == "held":
+        if self.kind_open(motion.plan.members) == "held":
             return PumpLine.pressure_in(self, cylinder, motion, acting)
         return self.line_pressure(motion, acting) + np.zeros(motion.shape)
 
@@ -636,7 +631,7 @@ class OilLine(PumpLine, GasLine):
         where its relief valve opens; unbounded where a closed line has both sides of it.
         """
         members, ram = motion.plan.members, the_cylinder(motion, cylinder)
-        kind = self.kind_in(members)
+        kind = self.kind_open(members)
         if kind == "held":
             return PumpLine.bounds_of(self, cylinder, motion, lifting, share=share)
         others = by_other_lines(ram, self, motion, None)  # type: ignore[arg-type]
@@ -653,7 +648,7 @@ class OilLine(PumpLine, GasLine):
         return (low, high) if own_side(self, ram, members) == PISTON else (high, low)
 
     def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
-        return PumpLine.reserve_of(self, cylinder, motion, acting) if self.kind_in(motion.plan.members) == "held" else None
+        return PumpLine.reserve_of(self, cylinder, motion, acting) if self.kind_open(motion.plan.members) == "held" else None
 
     def gauges_of(self, cylinder: Ram) -> Any:
         return PumpLine.gauges_of(self, cylinder) if self.kind_of_line == "held" else {}
@@ -674,7 +669,8 @@ class OilLine(PumpLine, GasLine):
             return PumpLine.verdicts(self, judge)
         if self.block is not None:
             return [*GasLine.verdicts(self, judge), *self._relieved(judge)]
-        return [self.kept_verdict(judge)] if self.kind_of_line == "closed" else []
+        kept = [self.kept_verdict(judge)] if self.kind_of_line == "closed" else []
+        return [*kept, *shut_verdicts(self, judge)]
 
     @property
     def pressure_request(self) -> LawRequest:
@@ -732,8 +728,6 @@ class OilLine(PumpLine, GasLine):
             GasLine.formulas(self, written)
 
 
-EMPTY = 1e-9
-"""A pressure that is lower by less than this part of the greatest is that to rounding."""
 USUAL: Mapping[str, float] = MappingProxyType({"oil": 0.0, "make_up": 0.0, "seal_friction": 0.0, "exponent": 1.0})
 
 
@@ -789,22 +783,3 @@ def is_fed_wholly(ram: Ram, members: Mapping[str, Member]) -> bool:
     lines = [each for each in members.values() if isinstance(each, Circuit)]
     on = [line for line in lines if any(same(ram, each) for each, _ in line.filling(members))]
     return all(line.kind_in(members) == "given" for line in on)
-
-
-def connected(line: OilLine, members: Mapping[str, Member]) -> list[Any]:
-    """Return the lines, held and closed ones, that share cylinders with one, through any of them; itself first."""
-    others = [each for each in members.values() if isinstance(each, Circuit) and each.kind_in(members) != "given"]
-    found: list[Any] = [next(each for each in others if same(each, line))]
-    for each in found:
-        rams = [ram for ram, _ in each.filling(members)]
-        found += [
-            other for other in others
-            if not any(same(other, one) for one in found) and any(same(ram, own) for ram, _ in other.filling(members) for own in rams)
-        ]  # fmt: skip
-    return found
-
-
-def opposed(acting: Acting, is_against: bool) -> Acting:
-    """Return a situation in which a cylinder moves the other way, or the same."""
-    turned = {"extending": "retracting", "retracting": "extending"}
-    return replace(acting, direction=turned[acting.movement]) if is_against and acting.movement in turned else acting

@@ -18,7 +18,7 @@ from linkage.mechanism import Mechanism
 from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most
 from linkage.plan import Mask, Plan
 from linkage.quantities import Reference, distance, name_of
-from linkage.statics import AnyMotion, LawRequest, member_thrust, same
+from linkage.statics import AnyMotion, LawRequest, member_thrust, plan_in_case, same
 
 from .cylinder import RamSize
 from .inputs import Array, direction_of, only_where, proper_share
@@ -30,6 +30,7 @@ from .member import (
     Circuit,
     Ram,
     buckling_request,
+    by_other_lines,
     circuit_having,
     cylinder_in,
     cylinder_request,
@@ -39,6 +40,7 @@ from .member import (
     line_thrust,
     thrust_request,
 )
+from .standing import moves_in, no_direction
 
 Circuits: TypeAlias = str | LiftLine
 """A circuit by its name, or itself; "" for the only one that has a cylinder."""
@@ -68,6 +70,8 @@ def circuit_with(plan: Plan, ram: Ram, circuit: Circuits, word: str) -> LiftLine
     feeding = {name: each for name, each in circuits.items() if any(same(ram, one) for one in each.members(plan.members))}
     if circuit and circuit not in feeding:
         raise DefinitionError(f"{plan.title}: {circuit} does not feed {ram.name}; that is on {', '.join(feeding) or 'none'}.")
+    pumped = {name: each for name, each in feeding.items() if each.kind_open(plan.members) == "held"}
+    feeding = pumped if pumped and not circuit else feeding  # a tank or gas on the other side lifts nothing
     if circuit or len(feeding) == 1:
         return feeding[circuit or next(iter(feeding))]
     if feeding:
@@ -193,6 +197,7 @@ def pressure_pieces(
     on_side = partial(pressure_request, cylinder, request.situation, circuit, is_needed=is_needed)
     ram = cylinder_in(cylinder, plan)
     sides = [side] if side else [driving_side(request.situation.direction)] if is_needed else ram.own_sides
+    plan = plan_in_case(plan, request.situation)
     if not side and not is_needed and any(same(ram, one) for each in plan.of_kind(Circuit).values() for one in each.feeds(plan.members)):
         return in_stages((SmoothPiece(request, ram.side),), cylinder, plan)
     own = circuit_having(ram, plan, False)
@@ -238,6 +243,7 @@ def reserve_request(
     return replace(
         circuit_request("reserve", cylinder, acting, circuit, tried.reserve, after=options),
         directions=partial(driven_or_both, cylinder, True), pieces_in=partial(reserve_pieces, cylinder, tried),
+        cases_in=partial(moves_in, cylinder),
         unlimited_in=partial(formula_of_cylinder, tried.is_driven, cylinder),
     )  # fmt: skip
 
@@ -281,9 +287,10 @@ class Tried:
     def use(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         """Return one over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
         circuit, size = circuit_with(motion.plan, ram, self.circuit, "use"), self.with_bore(ram.sized(motion, acting.direction))
-        k_m, thrust = circuit.efficiency(motion, "mechanical"), line_thrust(ram, circuit, motion, acting)
+        k_m, thrust = circuit.efficiency(motion, "mechanical"), line_thrust(ram, circuit, motion, acting, with_tanks=False)
+        drained = by_other_lines(ram, circuit, motion, None, True)
         sense = 1.0 if acting.direction == "extending" else -1.0
-        most = circuit.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m))
+        most = circuit.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m, 0.0 if drained is None else drained))
         return np.asarray(sense * thrust / (k_m * most))[()]
 
 
@@ -293,6 +300,7 @@ def reserve_pieces(cylinder: str | Ram, tried: Tried, request: LawRequest, plan:
     if acting.direction not in cylinder_in(cylinder, plan).driven:
         return in_stages((SmoothPiece(request),), cylinder, plan)
     use = circuit_request("use", cylinder, acting, tried.circuit, tried.use, after=(tried.bore,))
+    use = replace(use, cases_in=partial(moves_in, cylinder))
     judged = reserve_request(cylinder, acting, tried.circuit, is_judged=True, bore=tried.bore)
     return in_stages((SmoothPiece(judged, driving_side(acting.direction), use),), cylinder, plan)
 
@@ -310,7 +318,8 @@ def going_back_request(
     formula = partial(going_back_over, circuit=circuit, way=way, resistance=resistance, tells=tells)
     options = way, resistance, tells
     found = circuit_request("going back", cylinder, acting, circuit, formula, after=options, measures="pressure")
-    return replace(found, directions=partial(one_direction, way), pieces_in=partial(whole_in_stages, cylinder))
+    given = partial(one_direction, way), partial(whole_in_stages, cylinder), partial(moves_in, cylinder)
+    return replace(found, directions=given[0], pieces_in=given[1], cases_in=given[2])
 
 
 def whole_in_stages(cylinder: str | Ram, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
@@ -393,11 +402,6 @@ class Lifted:
         """Return the mask of poses at which the load drives or does nothing, so that the capacity has no bound."""
         thrust = member_thrust(motion, ram, Acting(acting.loads, acting.case))
         return np.asarray(np.isfinite(thrust) & np.isnan(self.capacity(motion, ram, acting)))
-
-
-def no_direction(plan: Plan) -> tuple[str, ...]:
-    """Return that a request is judged in no direction of motion."""
-    return ()
 
 
 # The use of a rod.

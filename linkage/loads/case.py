@@ -29,21 +29,23 @@ class LoadCase(Member):
 
     `scale` multiplies loads by name, 0 leaves one out; `only` keeps those named and leaves out all others. `gravity` (x, y)
     [m/s2] replaces every element's own; without it each keeps its own. `slope` [rad] turns whichever holds: positive where the
-    ground rises towards +x, so that weights also pull towards -x.
+    ground rises towards +x, so that weights also pull towards -x. `shut` names lines of oil or gas whose valves are shut: at each pose
+    such a line keeps what it has there, holds, and its pressure is what the loads make of it.
     """
 
     kind: ClassVar[str] = "load case"
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType(
-        {"scale": "load factors", "only": "load list", "slope": "angle", "gravity": "gravity"}
+        {"scale": "load factors", "only": "load list", "slope": "angle", "gravity": "gravity", "shut": "load list"}
     )
     title: str = ""
     scale: Mapping[str, float] = field(default_factory=dict)
     only: Sequence[Reference] | None = None
     slope: float = 0.0
     gravity: tuple[float, float] | None = None
+    shut: Sequence[Reference] = ()
 
     def __post_init__(self) -> None:
-        check_words(self.title, self.scale, self.only)
+        check_words(self.title, self.scale, self.only, self.shut)
         keep_own(self)
         for name, value in {**self.scale, "slope": self.slope}.items():
             if not is_number(value):
@@ -64,8 +66,13 @@ class LoadCase(Member):
         """The names of the loads that it speaks of."""
         return (*self.scale, *(name_of(each) for each in self.only or ()))
 
+    @property
+    def shut_names(self) -> tuple[str, ...]:
+        """The names of the lines that it shuts."""
+        return tuple(name_of(each) for each in self.shut)
+
     def parts(self) -> tuple[Reference, ...]:
-        return self.mentioned
+        return (*self.mentioned, *self.shut_names)
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         """Raise DefinitionError for a name that is no load of the class."""
@@ -75,6 +82,7 @@ class LoadCase(Member):
                 raise unknown("Load", name, loads, where=f"{title}.{self.name}")
         for name in self.scale:
             check_factor(self, name, members[name], f"{title}.{self.name}")
+        shut_members(self, members, f"{title}.{self.name}")
         for name, other in members.items():
             if isinstance(other, LoadCase) and other is not self and self.label in (other.label, name):
                 what = f"{self.name} and {name} are both called {self.label!r}, so that it does not tell which one is meant"
@@ -96,6 +104,7 @@ class LoadCase(Member):
         words += [f"only={[name_of(each) for each in self.only]!r}"] if self.only is not None and not isinstance(self.only, str) else []
         words += [f"slope={in_degrees(float(self.slope))}"] if is_number(self.slope) and self.slope else []
         words += [f"gravity={self.gravity!r}"] if self.gravity is not None else []
+        words += [f"shut={[*self.shut_names]!r}"] if self.shut and not isinstance(self.shut, str) else []
         return f"LoadCase({', '.join(words)})"
 
 
@@ -108,7 +117,22 @@ def check_factor(case: LoadCase, name: str, element: object, where: str) -> None
         raise DefinitionError(f"{where}: {what} {says}; {remedy}.")
 
 
-def check_words(title: object, scale: object, only: object) -> None:
+def shut_members(case: LoadCase, members: Mapping[str, Member], where: str) -> dict[str, Member]:
+    """Return what a case shuts, as it is then, by name; DefinitionError for what cannot be shut, with what can."""
+    found, elements = dict[str, Member](), {name: each for name, each in members.items() if isinstance(each, ForceElement)}
+    for name in case.shut_names:
+        closed = elements[name].when_shut() if name in elements else None
+        if closed is None:
+            able = [each for each, element in elements.items() if element.when_shut() is not None]
+            if name not in elements:
+                raise unknown("Line", name, able, where=f"{where}, shut")
+            can = f"what can be shut is {', '.join(able)}" if able else "no line is declared, such as line = OilLine(lift.rod_side, Tank())"
+            raise DefinitionError(f"{where}: shut=[{name!r}]: {name} is a {type(elements[name]).__name__} and cannot be shut; {can}.")
+        found[name] = closed
+    return found
+
+
+def check_words(title: object, scale: object, only: object, shut: object) -> None:
     """Raise DefinitionError for a title that is no text, and for what is no choice of loads."""
     if not isinstance(title, str):
         example = 'LoadCase("transport", scale={"load": 2.0})'
@@ -121,6 +145,8 @@ def check_words(title: object, scale: object, only: object) -> None:
         raise DefinitionError(f"{opening}: only={only!r} is not a list of loads; write [{only!r}].")
     if only is not None and not isinstance(only, (list, tuple)):
         raise DefinitionError(f'{opening}: only={cited(only)} is not a list of loads; write their names, only=["load"].')
-    for each in (*scale, *(only or ())):
+    if not isinstance(shut, (list, tuple)):
+        raise DefinitionError(f'{opening}: shut={cited(shut)} is not a list of lines; write their names, shut=["line"].')
+    for each in (*scale, *(only or ()), *shut):
         if not isinstance(each, (str, Member)):
             raise DefinitionError(f"{opening}: {cited(each)} is neither a load nor the name of one.")

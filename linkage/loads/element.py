@@ -357,6 +357,10 @@ class ForceElement(Jointed):
         """Return how one force of this element acts on straight members, where `joined` does not tell; the class's members by name."""
         return None
 
+    def when_shut(self) -> ForceElement | None:
+        """Return it as it is where a load case shuts it, `LoadCase(shut=[...])`: what is in it stays; None for what cannot be shut."""
+        return None
+
     def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
         """Return what no other element may have beside it, in words with the remedy; the class's members by name."""
         return {}

@@ -211,9 +211,10 @@ class Domain:
         drives: list[str] = [""]
         if request.of_strokes and not self.is_path:
             drives = [acting.drive] if acting.drive else [*(self.running or self.plan.strokes)]
+        cases = self.cases(acting)
         found = [
             Situation(case, direction, drive)
-            for case in self.cases(acting) for direction in directions
+            for case in [each for each in cases if request.occurs_in(self.plan, each)] or cases for direction in directions
             for drive in (drives if direction not in ("", "frictionless") else [""])
         ]  # fmt: skip
         return found

@@ -83,6 +83,10 @@ class Request(Arithmetic):
         """
         return self
 
+    def occurs_in(self, plan: Plan, case: str) -> bool:
+        """Return whether it is judged in a load case, by its name: in all unless it says so."""
+        return True
+
     def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
         """Return the directions of motion in which it is judged, of DIRECTIONS; none where it is of no force.
 

@@ -17,7 +17,7 @@ from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from ..vectors import Scalar
 from .chain import KinematicChain, chain_of
-from .members import Members
+from .members import Members, named_by
 from .reading import ArrayReading, Reading
 from .trace import Trace
 from .tracked_angles import angles_that_count, followed_angles, has_angles, load_quantities
@@ -138,6 +138,13 @@ class Plan(Members):
         fork = object.__new__(type(self))
         vars(fork).update(vars(self), _first=self._first or self)
         vars(fork).pop("trace", None)
+        return fork
+
+    def exchanged(self, members: Mapping[str, Member]) -> Plan:
+        """Return the same plan with some members in another state, in which they place nothing else: places and program stay."""
+        fork = self._fork()
+        vars(fork).update(members=named_by({**self.members, **members}, self.aliases), _kernels={})
+        vars(fork).pop("key", None)
         return fork
 
     @cached_property

@@ -1,6 +1,6 @@
 """Forces: the drive's by virtual work, the joints' by equilibrium of every body, supports, friction. N and Nm."""
 
-from .applied import applied_loads, elements_of
+from .applied import applied_loads, elements_of, motion_in_case, plan_in_case
 from .force_requests import drive_force, pin_force, pin_forces_under, thrust_from_forces
 from .holding import same, stroke_followed, tied_forces
 from .joint_forces import GlandForce, JointForce, PinForces, pin_forces

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Protocol, TypeAlias, final
+from typing import Protocol, TypeAlias, TypeVar, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,13 +30,15 @@ from ..loads import (
     TwoPinned,
     check_together,
 )  # fmt: skip
-from ..loads.case import check_factor
+from ..loads.case import check_factor, shut_members
 from ..motion import Motion, rates_of, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import joined_names, name_of
 from .poses import AnyMotion
+
+Anywhere = TypeVar("Anywhere", bound=AnyMotion)
 
 
 @final
@@ -108,6 +111,7 @@ def applied_loads(motion: AnyMotion, acting: Acting, rates: Rates, without: str 
     `rates` are those of the situation at the motion's poses. An element named `without` is left out. `parts_of` reads the law of an
     element, where that is not read on arrays.
     """
+    motion = motion_in_case(motion, acting)
     plan, read = motion.plan, parts_of or array_parts
     elements = applied_elements(plan, acting, without)
     each_of = [read(each, motion, rates) for each in elements]
@@ -201,6 +205,8 @@ def applied_elements(plan: Plan, acting: Acting, without: str = "") -> list[Appl
     found = []
     for name, element in present:
         check_factor(load_case, name, element, f"{plan.title}, {load_case.label}")
+    shut = set(load_case.shut_names)
+    present = [(name, (element.when_shut() if element.name in shut else None) or element) for name, element in present]
     for name, element in present:  # one without a name, which is given to count, is not left out by `only`
         factor = load_case.factor(name) if element.name else float(load_case.scale.get(name, 1.0))
         if name != without and factor != 0.0:
@@ -217,6 +223,31 @@ def case_of(plan: Plan, case: Case) -> LoadCase:
     cases = plan.of_kind(LoadCase)
     titled = {each.label: each for each in cases.values()}
     return (titled | cases)[known_name("Load case", case, [*dict.fromkeys((PLAIN_CASE, *cases, *titled))], where=plan.title)]
+
+
+def plan_in_case(plan: Plan, acting: Acting | None) -> Plan:
+    """Return a plan as it is in a load case that shuts lines: the same places, of a machine whose lines are shut; else itself."""
+    case = case_of(plan, acting.case) if acting is not None and acting.case is not None else None
+    if case is None or not case.shut:
+        return plan
+    shut = shut_members(case, plan.members, f"{plan.title}, {case.label}")
+    if all(plan.members[name] is each for name, each in shut.items()):
+        return plan
+    return plan.made(("shut", *sorted(shut)), lambda fork: fork.exchanged(shut))
+
+
+def motion_in_case(motion: Anywhere, acting: Acting | None) -> Anywhere:
+    """Return a motion as it is in a load case that shuts lines: the same poses of that plan; else itself."""
+    plan = plan_in_case(motion.plan, acting)
+    if plan is motion.plan:
+        return motion
+
+    def shut() -> Anywhere:
+        found = copy(motion)
+        vars(found).update(plan=plan)
+        return found
+
+    return motion._once(("in case", plan), shut) if isinstance(motion, Motion) else shut()
 
 
 def elements_of(plan: Plan, loads: Loads) -> list[tuple[str, ForceElement]]:

@@ -150,11 +150,11 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
     ties = [tie for tie in (each.tie(plan.members) for each in elements) if tie is not None]
     closed = tuple(PressureLine(on_tie(tie), tie.cut, tie) for tie in ties if not tie.held and tie.gives)
     cuts = {line.stroke for line in closed} | {name for tie in ties if tie.run is not None for name in tie.run.strokes}
-    held = {on_tie(tie): tie for tie in ties if tie.held}
-    lines = [*joined_lines(plan, elements, ties), *held]
-    if not lines and not ties:
+    if not ties and not joined_lines(plan, elements, ties):
         return Holders()
     motion, strokes = sampled(plan), list(plan.strokes)
+    free, held = joined_lines(plan, elements, ties), independent(motion, [tie for tie in ties if tie.held])
+    lines, tied = [*free, *map(on_tie, held)], [*(None for _ in free), *held]
     for tie in ties:
         if not tie.held and not tie.gives:
             check_kept(motion, tie)
@@ -176,14 +176,19 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
             "by a FloatCircuit or an Actuator."
         )
     pairs = [(line, strokes[place]) for line, place in zip(lines, best, strict=True)]
-    for line, stroke in pairs:
-        apart = [each for each in line if not followed_way(motion, each, stroke) > 0.0]
+    taken = {stroke for _, stroke in pairs}
+    for (line, stroke), own in zip(pairs, tied, strict=True):
+        is_shared = own is not None and {name for name in strokes if any(followed_way(motion, each, name) > 0.0 for each in line)} <= taken
+        apart = [] if is_shared else [each for each in line if not followed_way(motion, each, stroke) > 0.0]
         if apart:
             raise DefinitionError(
                 f"{plan.title}: {line_names(line)} are on one line, but {line_names(apart)} does not move with {stroke}: one pressure "
                 f"cannot hold several strokes. Give each a circuit of its own, LiftCircuit({line_names(apart[:1])}, pressure=...)."
             )
-    taking = (PressureLine(line, stroke, held.get(line), steady_rate(plan, line, stroke, line in held)) for line, stroke in pairs)
+    taking = [
+        PressureLine(line, stroke, tie, steady_rate(plan, line, stroke, tie is not None))
+        for (line, stroke), tie in zip(pairs, tied, strict=True)
+    ]
     return Holders(tuple(taking), closed)
 
 
@@ -193,6 +198,20 @@ def on_tie(tie: Tie) -> tuple[TwoPoint, ...]:
     for share in tie.shares:
         found += [] if any(same(share.member, each) for each in found) else [share.member]
     return tuple(found)
+
+
+def independent(motion: Motion, ties: Sequence[Tie]) -> list[Tie]:
+    """Return the ties whose sums follow the strokes each in a way of its own: both sides of one cylinder take over one stroke."""
+    if len(ties) < 2:
+        return [*ties]
+    with unwarned():
+        ways = [
+            [sum(np.asarray(each.of(motion)) * each.member.growth(motion, {stroke: 1.0}) for each in tie.shares) for tie in ties]
+            for stroke in motion.plan.strokes
+        ]  # fmt: skip
+    matrix = np.concatenate([np.stack([np.nan_to_num(np.broadcast_to(way, motion.shape)) for way in row], axis=-1) for row in ways])
+    kept = sorted(column for _, column in pivots_of(matrix))
+    return [tie for place, tie in enumerate(ties) if place in kept]
 
 
 KEPT = 1e-6

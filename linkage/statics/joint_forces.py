@@ -20,14 +20,14 @@ from ..quantities import Reference, name_of
 from ..shown import Shown
 from ..units import kN
 from .agreement import check_joints
-from .applied import AppliedLoad, AppliedLoads, applied_loads, rates_in
+from .applied import AppliedLoad, AppliedLoads, applied_loads, motion_in_case, rates_in
 from .bodies import FRAME_NAME
 from .force_program import forces_at
 from .joints import Contact, Structure, acting_place, force_direction
 from .poses import FlatPoses
 from .solution import PoseForces, locked_words
 from .vehicle import ground_loads, standing_if_any, tipping_words
-from .work import by_work, poses_held, without_work, work_gap
+from .work import by_work, poses_held, without_held, without_work, work_gap
 
 
 @takes_situation
@@ -47,7 +47,7 @@ def pin_forces(
 
 def joint_forces(motion: Motion, acting: Acting, split: str = "refuse") -> PinForces:
     """Return every joint force at every pose in a situation: `split` as `pin_forces` has it."""
-    motion = require_motion(motion)._whole
+    motion = motion_in_case(require_motion(motion)._whole, acting)
     rates = rates_in(motion, acting)
     if acting.drive is not None:
         stroke_of(motion.plan, acting.drive, "drive")
@@ -192,7 +192,7 @@ class PinForces(Shown):
     @cached_property
     def gap(self) -> float:
         """The largest difference of the drives' forces to those by virtual work, over the works of the loads; NaN with friction."""
-        return work_gap(self._found.poses, self._found.applied, self.drives)
+        return work_gap(self._found.poses, without_held(self._found.applied, self._structure.holders), self.drives)
 
     def __str__(self) -> str:
         head = f"{self.motion.plan.title}, {self.case}, {self.direction}"

@@ -15,6 +15,7 @@ from ..motion.grid import MotionLike
 from ..motion.requests import identity_of
 from ..plan import Mask, Plan
 from ..program import FloatArray, Node, Notes
+from .applied import motion_in_case
 from .poses import AnyMotion
 from .traced_loads import TracedMotion, traced_apart
 
@@ -61,7 +62,7 @@ class LawRequest(Request):
     On a traced motion it gives one number of a program. Where `acting` is None it hangs on no situation, and is `formula(motion)`.
     `text` is what one writes, of the situation where it hangs on one; `known` tells the formula from others, whatever the situation:
     None where it may change. `mover` is the cylinder in whose directions it is judged, else these are the strokes'; `directions(plan)`
-    are those in which it is, all where there is friction unless it says so.
+    are those in which it is, all where there is friction unless it says so; `cases_in(plan, case)` whether it is in a load case.
 
     The rest is asked for where a request has something of its own to say: `examine(plan)` raises DefinitionError where a plan has nothing
     of the kind, `measured_in(plan)` says what it measures there, `pieces_in(request, plan)` its smooth pieces, `unlimited_in(motion,
@@ -76,6 +77,7 @@ class LawRequest(Request):
     measures: str = ""
     mover: Hashable = None
     directions: Callable[[Plan], tuple[str, ...]] | None = None
+    cases_in: Callable[[Plan, str], bool] | None = None
     examine: Callable[[Plan], object] | None = None
     measured_in: Callable[[Plan], str] | None = None
     pieces_in: Callable[[LawRequest, Plan], tuple[SmoothPiece, ...]] | None = None
@@ -87,7 +89,7 @@ class LawRequest(Request):
 
     def law(self, motion: AnyMotion) -> FloatArray:
         """Return the values over a motion's poses [SI], shape (...); one number of a program where the motion is traced."""
-        return self.formula(motion) if self.acting is None else self.formula(motion, self.acting)
+        return self.formula(motion) if self.acting is None else self.formula(motion_in_case(motion, self.acting), self.acting)
 
     def of(self, motion: MotionLike) -> FloatArray:
         return self.law(require_motion(motion))
@@ -123,6 +125,9 @@ class LawRequest(Request):
             return ()
         return self.directions(plan) if self.directions is not None else DIRECTIONS if rubs else DIRECTIONS[:1]
 
+    def occurs_in(self, plan: Plan, case: str) -> bool:
+        return self.cases_in is None or self.cases_in(plan, case)
+
     def measured(self, plan: Plan) -> str:
         return self.measures if self.measured_in is None else self.measured_in(plan)
 
@@ -134,7 +139,7 @@ class LawRequest(Request):
         return self.unlimited_in is not None
 
     def unlimited(self, motion: MotionLike) -> Mask | None:
-        return None if self.unlimited_in is None else self.unlimited_in(require_motion(motion), self.situation)
+        return None if self.unlimited_in is None else self.unlimited_in(motion_in_case(require_motion(motion), self.acting), self.situation)
 
     # -- bound to a plan ---------------------------------------------------------------------------------
 

@@ -29,7 +29,7 @@ from ..plan import Mask
 from ..program import FloatArray, is_traced
 from ..quantities import is_number, needs
 from .agreement import AGREES, disagreeing
-from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
+from .applied import AppliedLoads, applied_elements, applied_loads, member_title, motion_in_case, path_tangent, rates_in
 from .force_program import forces_at
 from .holding import Holders, Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
 from .law_requests import situation_identity
@@ -59,7 +59,7 @@ def driving_force(
 
 def stroke_force(motion: Motion, acting: Acting, drive: str | None, efficiency: float = 1.0) -> FloatArray:
     """Return the generalised force of a stroke in a situation, shape (...): of `drive`, the only one where that is None."""
-    require_motion(motion)
+    motion = motion_in_case(require_motion(motion), acting)
     stroke = stroke_of(motion.plan, drive, "drive")
     rates = rates_in(motion, acting, stroke)
     applied = applied_loads(motion, acting, rates)
@@ -113,6 +113,11 @@ def work_gap(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, Float
     return worst
 
 
+def without_held(applied: AppliedLoads, holders: Holders) -> AppliedLoads:
+    """Return what acts without what laws put on members that hold: what these carry in all is told by the strokes they hold."""
+    return replace(applied, thrusts=tuple(each for each in applied.thrusts if not any(same(each.member, one) for one in holders.cylinders)))
+
+
 def work_misses(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, FloatArray]) -> Iterator[tuple[str, FloatArray, float]]:
     """Yield each drive with the difference of its forces by equilibrium and by work (n,), and the largest power of the loads.
 
@@ -134,7 +139,7 @@ def without_work(found: PoseForces) -> tuple[Mask, str]:
     poses, applied, lost, words = found.poses, found.applied, np.zeros(found.poses.count, bool), ""
     if applied.frictions:
         return lost, words
-    for name, missed, power in work_misses(poses, applied, found.drives):
+    for name, missed, power in work_misses(poses, without_held(applied, found.structure.holders), found.drives):
         size = power or max((float(np.max(np.abs(each.force), initial=0.0)) for each in applied.loads), default=0.0)
         bad = disagreeing(poses, missed, AGREES * size + LEAST, size)
         if bad.any() and not words:
@@ -159,7 +164,9 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
     held = motion._of_the_whole(member) if isinstance(motion, Motion) else None
     if held is not None:
         return member_thrust(*held, acting)
-    plan = plan_of(motion)
+    plan_of(motion)
+    motion = motion_in_case(motion, acting)
+    plan = motion.plan
     member = standing_for(motion, member)
     holders = holders_of(plan, [*(each.element for each in applied_elements(plan, replace(acting, case=None))), member])
     line = holders.line_of(member)

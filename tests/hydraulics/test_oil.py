@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, OilLine, Pump, Tank
+from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, OilLine, Pump, Tank, capacity, reserve
 from linkage import LEFT, RIGHT, DefinitionError, Dyad, Force, Ground, Guide, Link, Mechanism, OnGuide, OnLink, Stroke, Weight, pin_forces
 from linkage.units import bar, deg, kN, litre, minute, mm
 
@@ -168,3 +168,65 @@ def test_what_cannot_be_is_said_with_the_remedy():
             other = OilLine("master.rod_side", "slave.rod_side")
 
         Locked.lift.thrust(Locked().sweep(3))
+
+
+class OnTank(Press):
+    supply = Pump(200 * bar, flow=100 * litre / minute, mechanical_efficiency=0.9, hydraulic_efficiency=0.95)
+    line, back = OilLine("ram.piston_side", "supply"), OilLine("ram.rod_side", Tank(5 * bar))
+
+
+class WithBackPressure(Press):
+    line = LiftCircuit("ram", pressure=200 * bar, mechanical_efficiency=0.9, hydraulic_efficiency=0.95, back_pressure=5 * bar)
+
+
+def test_a_tank_on_the_other_side_is_a_back_pressure_while_it_lifts():
+    a, b = WithBackPressure().sweep(3), OnTank().sweep(3)
+    for name in ("reserve", "pressure_for", "largest"):
+        assert getattr(OnTank.line, name)(b) == pytest.approx(getattr(WithBackPressure.line, name)(a), rel=1e-14)
+    assert b[reserve("ram")] == pytest.approx(a[reserve("ram")], rel=1e-14)
+    assert b[capacity("ram", "P")] == pytest.approx(a[capacity("ram", "P")], rel=1e-12)
+    lifting = [[str(each) for each in machine().verdicts() if each.rule == "lifting"] for machine in (OnTank, WithBackPressure)]
+    assert lifting[0] == lifting[1]
+    size = OnTank.ram.size  # it always counts: at rest it presses on the load's side
+    assert OnTank.line.holding(b).working == pytest.approx((40 * kN + 5 * bar * size.pull_area) / size.push_area)
+
+
+def test_a_regenerative_line_has_bounds_and_holds():
+    motion, area = Regenerative().sweep(2), np.pi / 4 * 0.085**2
+    assert Regenerative.ram.bounds(motion, True)[1] == pytest.approx(200 * bar * area)
+    assert Regenerative.line.reserve(motion) == pytest.approx(200 * bar * area / (40 * kN))
+    assert np.all(Regenerative.line.holding(motion).other == 0.0)
+    (oil,) = [each for each in Regenerative().verdicts() if each.rule == "oil"]
+    assert f"{0.5 * area / litre:.2f} l from end to end, {0.5 * area / (100 * litre / minute):.1f} s" in oil.sentence
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_halves_on_one_line_and_joined_lines_of_one_pressure_change_nothing(seed):
+    rng = np.random.default_rng(seed)
+    x, y, bore, pull = rng.uniform(0.7, 1.0), rng.uniform(-0.6, -0.4), rng.uniform(0.06, 0.1), rng.uniform(2e3, 9e3)
+    half = bore / np.sqrt(2.0)
+
+    class Arm(Mechanism):
+        S = Stroke(0.0, 0.3)
+        O, A = Ground(0.0, 0.0), Ground(x, y)
+        B = Dyad(A, O, AB=0.9 + S, OB=0.7, side=LEFT)
+        G = OnLink(O, B, OG=2.0)
+        ram = Cylinder(A, B, bore=bore, rod=0.6 * bore)
+        pulled = Force(G, (0.3 * pull, -pull))
+        supply = Pump(200 * bar)
+        line, back = OilLine("ram.piston_side", supply), OilLine("ram.rod_side", Tank(5 * bar))
+
+    class Halves(Arm):
+        ram, more = Cylinder("A", "B", bore=half, rod=0.6 * half), Cylinder("A", "B", bore=half, rod=0.6 * half)
+        line = OilLine("ram.piston_side", "more.piston_side", "supply")
+        back = OilLine("ram.rod_side", "more.rod_side", Tank(5 * bar))
+
+    class Parted(Halves):
+        back, other = OilLine("ram.rod_side", Tank(5 * bar)), OilLine("more.rod_side", Tank(5 * bar))
+
+    motions = [each().sweep(5) for each in (Arm, Halves, Parted)]
+    whole, halves, parted = (machine.line.pressure(motion) for machine, motion in zip((Arm, Halves, Parted), motions, strict=True))
+    assert halves == pytest.approx(whole, rel=1e-12) and parted == pytest.approx(whole, rel=1e-12)
+    thrusts = [pin_forces(motion).thrusts for motion in motions]
+    assert thrusts[1]["ram"] + thrusts[1]["more"] == pytest.approx(thrusts[0]["ram"], rel=1e-9)
+    assert thrusts[2]["ram"] == pytest.approx(0.5 * thrusts[0]["ram"], rel=1e-9)

@@ -1,0 +1,330 @@
+"""A holding valve on a line: what opens it while the load goes down. Gauge pressures [Pa].
+
+The valve opens by the pressure of the line that it holds and, `ratio` times as much, by that of the other side:
+p + ratio p_pilot = setting. Lowering solves that together with the thrust, T = sum of a p over the chambers of a cylinder.
+Source: P. Chapple, Principles of Hydraulic Systems Design, on counterbalance valves; makers set them 1.3 times above the load's pressure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import partial, reduce
+from types import MappingProxyType
+from typing import Any, ClassVar, Unpack, cast, final
+
+import numpy as np
+
+from linkage.errors import DefinitionError, cited, unknown
+from linkage.frozen import refuses_changes
+from linkage.language import said
+from linkage.loads import (
+    Acting,
+    ActingKeywords,
+    Case,
+    Load,
+    Parameter,
+    Poses,
+    situation_of,
+    takes_situation,
+)  # fmt: skip
+from linkage.motion import Condition, Judge, Question, at, most
+from linkage.plan import Plan
+from linkage.quantities import Member, Reference, label, name_of
+from linkage.statics import AnyMotion, LawRequest, case_words, member_thrust, motion_in_case, same, stroke_followed
+from linkage.units import show
+from linkage.verdict import Verdict
+
+from .inputs import Array, follows, in_pascals, number_set, positive
+from .line import LiftLine, LineValve
+from .member import PISTON, Chamber, Circuit, Ram, carries_loads, chamber_area
+from .standing import moves_in
+
+USUAL_SETTING = 1.3
+"""The setting over the greatest pressure that the load makes, at the least, as makers advise."""
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class HoldingValve(LineValve):
+    """A counterbalance valve: `valve = HoldingValve(lifting, pilot=other, setting=210 * bar, ratio=4)`.
+
+    It holds what is in `line`, the loaded side's, and is opened by the pressure of that and by the one of `pilot`, the line of the other
+    side, which counts `ratio` times: p + ratio p_pilot = `setting` [Pa gauge]. While the load is lowered the pump pushes through the
+    pilot line, whatever that is on while it lifts. In a class setting and ratio are design variables, `valve.setting`, `valve.ratio`. It
+    puts no force on the machine.
+    """
+
+    line: Reference
+    pilot: Reference
+    setting: Parameter
+    ratio: Parameter
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"setting": "bar", "ratio": ""})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"setting", "ratio"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"line": "load", "pilot": "load"})
+
+    def __post_init__(self) -> None:
+        for name, what in WORDS.items():
+            given = getattr(self, name)
+            if not follows(given):
+                value = positive(given, what, REMEDIES[name])
+                if name == "setting":
+                    in_pascals(value, what)
+        for each in (self.line, self.pilot):
+            if not isinstance(each, (str, Circuit)):
+                raise DefinitionError(f"HoldingValve: {cited(each)} is no line; name one, HoldingValve(line, pilot=other, ...).")
+        super().__post_init__()
+
+    def __str__(self) -> str:
+        return f"HoldingValve({', '.join([label(self.line), f'pilot={label(self.pilot)}', *self.words()])})"
+
+    def options(self) -> dict[str, Any]:
+        return {}
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return []
+
+    @property
+    def scales(self) -> bool:
+        return False
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (self.line, self.pilot, *super().parts())
+
+    def lines(self, members: Mapping[str, Member]) -> tuple[Circuit, Circuit]:
+        """Return the line that it holds and that of its pilot, as a class has them."""
+        line, pilot = (members[name_of(each)] if isinstance(each, str) or each.name else each for each in (self.line, self.pilot))
+        return cast(Circuit, line), cast(Circuit, pilot)
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        """Raise DefinitionError for what is no line, and where no cylinder lies between the two lines."""
+        opening = f"{title}: {self.name} = {self}"
+        known = [name for name, each in members.items() if isinstance(each, Circuit)]
+        for each in (self.line, self.pilot):
+            if name_of(each) not in known:
+                raise unknown("Line", name_of(each), known, where=f"{title}.{self.name}")
+        line, pilot = self.lines(members)
+        if same(line, pilot):
+            raise DefinitionError(f"{opening}: {line.name} cannot be its own pilot; name the line of the other side, pilot=other.")
+        for ram, chamber in line.filling(members):
+            others = [each.side for one, each in pilot.filling(members) if same(one, ram)]
+            if not others or chamber.side in others:
+                what = f"{opening}: {pilot.name} has not the other side of {ram.name}, whose {chamber.side} side {line.name} has"
+                other = "rod" if chamber.side == PISTON else "piston"
+                raise DefinitionError(f"{what}; name the line that does, such as OilLine({ram.name}.{other}_side, Tank()).")
+        if self.pumped(members) is None:
+            what = f"{opening}: no pump is on {line.name} or {pilot.name}, so that their cylinders carry what is given and lower nothing"
+            raise DefinitionError(f"{what}; put a Pump on {line.name}.")
+        valves = [each for each in members.values() if isinstance(each, HoldingValve) and not same(each, self)]
+        doubled = [each.name for each in valves if each.holds_line(line)]
+        if doubled:
+            raise DefinitionError(f"{opening}: {doubled[0]} holds {line.name} as well; a line has one holding valve, take one out.")
+
+    def holds_line(self, line: Circuit) -> bool:
+        return name_of(self.line) == line.name
+
+    def at_designs(self, motion: Poses, name: str) -> Array:
+        """Return its setting or its ratio as a motion's designs have it [SI]; DefinitionError unless it is above zero."""
+        return positive(number_set(self, motion, name), f"{self.name}: {WORDS[name].lower()}", REMEDIES[name])
+
+    # -- while the load goes down --------------------------------------------------------------------------
+
+    @takes_situation
+    def pilot_pressure(self, motion: Any, loads: Any = None, **situation: Unpack[ActingKeywords]) -> Array:
+        """Return the pressure in the pilot line that lowers the load, shape (...) [Pa gauge]; 0 where the load opens the valve by itself.
+
+        Lowering counts the declared friction of that direction, and the mechanical efficiency of the line's pump.
+        """
+        return self.lowered(motion, situation_of("pilot_pressure", loads=loads, **situation))[1]
+
+    @takes_situation
+    def line_pressure(self, motion: Any, loads: Any = None, **situation: Unpack[ActingKeywords]) -> Array:
+        """Return the pressure in the line that it holds while the load is lowered, shape (...) [Pa gauge]."""
+        return self.lowered(motion, situation_of("line_pressure", loads=loads, **situation))[0]
+
+    @takes_situation
+    def load_pressure(self, motion: Any, loads: Any = None, **situation: Unpack[ActingKeywords]) -> Array:
+        """Return what the load alone makes in the line at rest, shape (...) [Pa gauge]; 0 where it drives the other way."""
+        return self.loaded(motion, situation_of("load_pressure", loads=loads, **situation))
+
+    def loaded(self, motion: AnyMotion, acting: Acting, *, below: bool = False) -> Array:
+        """Return the same, at rest; below zero where the load drives the other way if that is asked for."""
+        motion = motion_in_case(motion, acting)
+        thrust, own, _ = self.works(motion, replace(acting, direction=None, rates=None), False)
+        found = thrust / own
+        return found if below else np.asarray(np.maximum(found, 0.0))[()]
+
+    def lowered(self, motion: AnyMotion, acting: Acting, *, below: bool = False) -> tuple[Array, Array]:
+        """Return the pressures of the line and of its pilot while the load is lowered [Pa gauge].
+
+        p + ratio q = setting and a p + b q = T for the areas a of the line and b of the pilot. Where the pilot opens the valve wholly
+        nothing stands in the line. `below`: the pilot's goes on below zero where the load opens the valve by itself.
+        """
+        motion = motion_in_case(motion, acting)
+        line, _ = self.lines(motion.plan.members)
+        thrust, own, other = self.works(motion, replace(acting, rates=None), acting.direction is None)
+        if isinstance(line, LiftLine) and line.kind_open(motion.plan.members) == "held":
+            k_m = line.efficiency(motion, "mechanical")
+            thrust = np.where(thrust * np.sign(own) > 0.0, thrust * k_m, thrust / k_m)
+        setting, ratio = self.at_designs(motion, "setting"), self.at_designs(motion, "ratio")
+        pilot = (own * setting - thrust) / (own * ratio - other)
+        pilot = np.where(setting - ratio * pilot < 0.0, thrust / other, pilot)
+        shown = pilot if below else np.maximum(pilot, 0.0)
+        return np.asarray((thrust - other * np.maximum(pilot, 0.0)) / own)[()], np.asarray(shown)[()]
+
+    def works(self, motion: AnyMotion, acting: Acting, is_lowered: bool) -> tuple[Array, Array, Array]:
+        """Return the thrusts and the areas of line and pilot, of several cylinders each times how its length follows their stroke.
+
+        While the load `is_lowered` each cylinder moves in the direction in which its chamber of the line empties.
+        """
+        members = motion.plan.members
+        line, pilot = self.lines(members)
+        own = line.filling(members)
+        stroke = stroke_followed(motion.plan, own[0][0]) if len(own) > 1 else ""
+
+        def total(values: list[tuple[Ram, Array]]) -> Array:
+            ways = [value * ram.growth(motion, {stroke: 1.0}) if stroke else value for ram, value in values]
+            return np.asarray(reduce(np.add, ways))[()]
+
+        def areas(filling: list[tuple[Ram, Chamber]]) -> Array:
+            return total([(ram, chamber_area(each, ram, motion)) for ram, each in filling if any(same(ram, one) for one, _ in own)])
+
+        emptied = [(ram, replace(acting, direction=EMPTIES[each.side]) if is_lowered else acting) for ram, each in own]
+        return total([(ram, member_thrust(motion, ram, given)) for ram, given in emptied]), areas(own), areas(pilot.filling(members))
+
+    # -- asked for, and judged -----------------------------------------------------------------------------
+
+    def pumped(self, members: Mapping[str, Member]) -> LiftLine | None:
+        """Return the line whose pump pushes in the pilot line: itself, or that of the line that it holds; None where neither has one."""
+        _, pilot = self.lines(members)
+        for each in (pilot, self.lines(members)[0]):
+            if isinstance(each, LiftLine) and each.kind_open(members) == "held":
+                return each
+        return None
+
+    def questions(self, judge: Judge) -> list[Question]:
+        return [most(valve_request("load_pressure", self.name, Acting())), most(valve_request("pilot_pressure", self.name, Acting()))]
+
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        pump = self.pumped(judge.plan.members)
+        setting = at(LawRequest(text=f"{self.name}.setting", formula=partial(self.at_designs, name="setting")))
+        found: dict[str, Condition] = {"setting": most(valve_request("load_pressure", self.name, Acting())) <= setting}
+        if pump is not None:
+            supply = at(LawRequest(text=f"{pump.name} supply", formula=pump.supply))
+            found["pilot"] = most(valve_request("pilot_pressure", self.name, Acting())) <= supply
+        return found
+
+    def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return whether the load stays below the setting, and whether the pump opens the valve, wherever the machine runs."""
+        if not carries_loads(judge):
+            return []
+        try:
+            return [self.setting_verdict(judge), self.pilot_verdict(judge)]
+        except DefinitionError as error:
+            return [Verdict("setting", False, " ".join(str(error).split()))]
+
+    def setting_verdict(self, judge: Judge) -> Verdict:
+        """Return whether the load opens the valve by itself, and what it would be set to as makers advise."""
+        setting = float(np.ravel(self.at_designs(judge.motion, "setting"))[0])
+        found = judge.answer(most(valve_request("load_pressure", self.name, Acting())))
+        line, _ = self.lines(judge.plan.members)
+        if not found.value > 0.0:
+            text = said("the load presses nowhere on the side of {line}: the valve holds nothing.", line=line.name)
+            return Verdict("setting", True, text, answer=found)
+        advised = show(USUAL_SETTING * float(found.value), "bar", 4)
+        pressure = show(found.value, "bar", 4)
+        says = said("the load makes up to {pressure} in {line}, {where}", pressure=pressure, line=line.name, where=found.place)
+        if found.value >= setting:
+            text = said(
+                "{says}: the valve, set to {setting}, opens by itself there. Set it to {advised}, 1.3 times that, or take a larger bore.",
+                says=says, setting=show(setting, "bar", 4), advised=advised,
+            )  # fmt: skip
+            return Verdict("setting", False, text, answer=found)
+        share = setting / float(found.value)
+        if share < USUAL_SETTING * (1.0 - 1e-9):
+            text = said(
+                "{says}; the setting of {setting} is {share:.2f} times that, where 1.3 times is usual: {advised}.",
+                says=says, setting=show(setting, "bar", 4), share=share, advised=advised,
+            )  # fmt: skip
+            return Verdict("setting", True, text, answer=found)
+        text = said("{says}; the setting of {setting} is {share:.2f} times that.", says=says, setting=show(setting, "bar", 4), share=share)
+        return Verdict("setting", True, text, answer=found)
+
+    def pilot_verdict(self, judge: Judge) -> Verdict:
+        """Return whether the pump's pressure is enough to lower the load."""
+        members = judge.plan.members
+        _, pilot = self.lines(members)
+        found, pump = judge.answer(most(valve_request("pilot_pressure", self.name, Acting()))), self.pumped(members)
+        line = judge.answer(most(valve_request("line_pressure", self.name, Acting())))
+        says = said(
+            "lowering takes up to {pilot_pressure} in {pilot}, {where}, with up to {line_pressure} in the side that empties",
+            pilot_pressure=show(found.value, "bar", 4), pilot=pilot.name, where=found.place, line_pressure=show(line.value, "bar", 4),
+        )  # fmt: skip
+        assert pump is not None
+        supply = float(np.ravel(pump.supply(judge.motion))[0])
+        if found.value <= supply * (1.0 + 1e-9):
+            return Verdict("pilot", True, said("{says}, of the pump's {supply}.", says=says, supply=show(supply, "bar", 4)), answer=found)
+        text = said(
+            "{says}: more than the pump's {supply}. Take a valve of a larger ratio, or set it lower if the load allows it.",
+            says=says, supply=show(supply, "bar", 4),
+        )  # fmt: skip
+        return Verdict("pilot", False, text, answer=found)
+
+
+EMPTIES: Mapping[str, str] = MappingProxyType({"piston": "retracting", "rod": "extending"})
+"""The direction of a cylinder in which a side of it empties."""
+WORDS: Mapping[str, str] = MappingProxyType({"setting": "Setting of the valve", "ratio": "Pilot ratio of the valve"})
+REMEDIES: Mapping[str, str] = MappingProxyType({
+    "setting": "give the pressure at which it opens without a pilot, such as 210 * bar",
+    "ratio": "give the area of the pilot over that of the valve, such as 4",
+})  # fmt: skip
+
+
+def pilot_pressure(valve: Reference, *, case: Case = None, acting: Acting | None = None) -> LawRequest:
+    """Return the request for the pilot pressure that lowers the load over a HoldingValve [Pa gauge]: `valve.pilot_pressure(motion)`."""
+    return valve_request("pilot_pressure", name_of(valve), situation_of("pilot_pressure", acting, case=case))
+
+
+def load_pressure(valve: Reference, *, case: Case = None, acting: Acting | None = None) -> LawRequest:
+    """Return the request for what the load alone makes in the line of a HoldingValve [Pa gauge]: `valve.load_pressure(motion)`."""
+    return valve_request("load_pressure", name_of(valve), situation_of("load_pressure", acting, case=case))
+
+
+def valve_request(word: str, valve: str, acting: Acting) -> LawRequest:
+    """Return the request for what a holding valve tells, by the name of its method."""
+    return LawRequest(
+        formula=partial(over_valve, word, valve), text=partial(valve_text, word, valve), known=(word, valve), acting=acting,
+        measures="pressure", mover=valve, directions=at_rest, examine=partial(valve_in, valve),
+        cases_in=None if word == "load_pressure" else partial(lowers_in, valve),
+    )  # fmt: skip
+
+
+def valve_text(word: str, valve: str, acting: Acting) -> str:
+    """Return how what is asked of a valve is written."""
+    return f"{word}({', '.join([valve, *case_words(acting.case)])})"
+
+
+def over_valve(word: str, valve: str, motion: AnyMotion, acting: Acting) -> Array:
+    """Return what a valve tells over a motion's poses."""
+    found: Array = getattr(valve_in(valve, motion.plan), word)(motion, acting=acting)
+    return found + np.zeros(motion.shape)
+
+
+def valve_in(valve: str, plan: Plan) -> HoldingValve:
+    """Return the holding valve of a name; DefinitionError where there is none."""
+    valves = plan.of_kind(HoldingValve)
+    if valve not in valves:
+        raise unknown("HoldingValve", valve, valves, where=plan.title)
+    return valves[valve]
+
+
+def at_rest(plan: Plan) -> tuple[str, ...]:
+    """Return that the direction is the valve's own."""
+    return ()
+
+
+def lowers_in(valve: str, plan: Plan, case: str) -> bool:
+    """Return whether a load case lets the load go down: it shuts no line of its cylinders."""
+    line, _ = valve_in(valve, plan).lines(plan.members)
+    return all(moves_in(ram.name, plan, case) for ram in line.members(plan.members))

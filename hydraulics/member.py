@@ -64,7 +64,9 @@ from linkage.motion import (
     require_motion,
 )
 from linkage.plan import Mask, Plan
-from linkage.quantities import InnerQuantity, Member, Quantity, Reference, body_name, distance, label, name_of, needs, quantity
+from linkage.quantities import (
+    InnerQuantity, Member, Number, Quantity, Reference, Variable, body_name, distance, label, name_of, needs, quantity,
+)  # fmt: skip
 from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, motion_in_case, same
 from linkage.units import mm, show, shown_number, unit_sign
 from linkage.verdict import Verdict
@@ -135,6 +137,14 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     @abstractmethod
     def filled(self, side: Side, motion: Poses, start: Array, end: Array) -> Array:
         """Return how much larger a chamber is at one length than at another [m3], both [m] as arrays that broadcast against the motion."""
+
+    @abstractmethod
+    def filled_written(self, side: Side, start: Quantity, end: Quantity) -> Quantity:
+        """Return the same as a quantity of its class, over the area of a circle of diameter 1 [m]."""
+
+    @abstractmethod
+    def length_written(self, sides: Sequence[Side], start: Quantity, oil: Quantity) -> Quantity:
+        """Return its length, as a quantity [m], where some chambers hold more oil than at a length: so much, over the same area."""
 
     @abstractmethod
     def taken(self, motion: Poses, low: Array, high: Array) -> Array:
@@ -220,6 +230,11 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         if size.works == "both":
             return np.asarray(np.where(sense[()] < 0.0, -size.pull_area, size.push_area))
         return np.asarray(size.sense * size.area + 0.0 * sense)
+
+    def number_written(self, name: str) -> Quantity:
+        """Return a number of it as a quantity of its class."""
+        given = quantity(self.given(name))
+        return Variable(f"{self.name}.{name}") if isinstance(given, Number) else given
 
     @property
     def stages(self) -> int:
@@ -601,6 +616,18 @@ class Cylinder(BarrelAndRod, Ram):
 
     def filled(self, side: Side, motion: Poses, start: Array, end: Array) -> Array:
         return np.asarray((end - start) * chamber_area(Chamber(self, side), self, motion))[()]
+
+    def filled_written(self, side: Side, start: Quantity, end: Quantity) -> Quantity:
+        return self._square_written(side) * (end - start)
+
+    def length_written(self, sides: Sequence[Side], start: Quantity, oil: Quantity) -> Quantity:
+        return start + oil / reduce(lambda a, b: a + b, map(self._square_written, sides))
+
+    def _square_written(self, side: Side) -> Quantity:
+        """Return the signed area of a chamber over that of a circle of diameter 1, as a quantity of its class."""
+        square = self.number_written("bore") ** 2
+        square = square if side == PISTON else self.number_written("rod") ** 2 - square
+        return square if self.count == 1 else square * float(self.count)
 
     def taken(self, motion: Poses, low: Array, high: Array) -> Array:
         return np.asarray(self.sized(motion).area * (high - low))[()]

@@ -493,11 +493,11 @@ class OilLine(PumpLine, GasLine):
             return quantity(self.filled[ram.name])
         if isinstance(self.filled, str):
             wanted = ("closed", "stroke") if self.filled == "open" else ("closed",)
-            lost = next((name for name in wanted if ram.given(name) is None), None)
+            lost = next((name for name in wanted if name not in ram.lengths_given), None)
             if lost is not None:
                 raise DefinitionError(f"{self.name} = {self}: {ram.name} says no {lost}; declare it, or give lengths, filled=dict(...).")
-            first, *others = (written_number(ram, name) for name in wanted)
-            return reduce(lambda a, b: a + b, others, first)
+            named = [each for name in wanted for each in ram.lengths_named(name)]
+            return reduce(lambda a, b: a + b, (Variable(each) if isinstance(each, str) else each for each in named))
         strokes = [name for name, member in members.items() if isinstance(member, Stroke)]
         return AtPose(Distance(ram.A, ram.B), FrozenDict(self.strokes_filled(strokes)), put_in_later(members))
 
@@ -516,9 +516,9 @@ class OilLine(PumpLine, GasLine):
             oil = oil + Variable(self.cut)
         taken = oil * (4.0 / pi)
         for ram, each in others:
-            taken = taken - square_written(each, ram) * (Distance(ram.A, ram.B) - self.length_filled(ram, members))
-        area = reduce(lambda a, b: a + b, (square_written(each, own) for ram, each in filling if ram.name == own.name))
-        return LineLength(self.length_filled(own, members) + taken / area)
+            taken = taken - ram.filled_written(each.side, self.length_filled(ram, members), Distance(ram.A, ram.B))
+        sides = [each.side for ram, each in filling if ram.name == own.name]
+        return LineLength(own.length_written(sides, self.length_filled(own, members), taken))
 
     # -- its pressure and its oil ------------------------------------------------------------------------------
 
@@ -758,19 +758,6 @@ def option_text(value: Any) -> str:
     if isinstance(value, Mapping):
         return f"dict({', '.join(f'{name}={plain(each)}' for name, each in value.items())})"
     return repr(plain(value))
-
-
-def written_number(ram: Ram, name: str) -> Quantity:
-    """Return a number of a cylinder as a quantity of its class."""
-    given = quantity(ram.given(name))
-    return Variable(f"{ram.name}.{name}") if isinstance(given, Number) else given
-
-
-def square_written(chamber: Chamber, ram: Ram) -> Quantity:
-    """Return the signed area of a chamber over that of a circle of diameter 1, as a quantity of its class [m2]."""
-    square = written_number(ram, "bore") ** 2
-    square = square if chamber.side == PISTON else written_number(ram, "rod") ** 2 - square
-    return square if ram.count == 1 else square * float(ram.count)
 
 
 def own_side(line: OilLine, ram: Ram, members: Mapping[str, Member]) -> Side:

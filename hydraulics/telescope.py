@@ -218,14 +218,29 @@ class Telescope(Ram):
         return self.taken(motion, start, end)
 
     def taken(self, motion: Poses, low: Array, high: Array) -> Array:
-        borders = self.ends_of_stages(motion)[1:-1]
-
-        def within(length: Array, stage: int) -> Array:
-            above = length if stage == 0 else np.maximum(length, borders[stage - 1])
-            return above if stage == self.stages - 1 else np.minimum(above, borders[stage])
-
-        parts = [size.push_area * (within(high, k) - within(low, k)) for k, size in enumerate(self.sizes_in(motion))]
+        ends = self.ends_of_stages(motion)
+        parts = [size.push_area * (part(high, ends, k) - part(low, ends, k)) for k, size in enumerate(self.sizes_in(motion))]
         return np.asarray(reduce(np.add, parts))[()]
+
+    def _written(self) -> tuple[list[Quantity], list[Quantity]]:
+        """Return the squares of its bores, times the count, and the lengths at which its stages end, as quantities of its class."""
+        stages = range(1, self.stages + 1)
+        squares = [self.number_written(f"bore_{stage}") ** 2 for stage in stages]
+        ends = accumulate(self.number_written(name) for name in ("closed", *(f"stroke_{stage}" for stage in stages)))
+        return [each if self.count == 1 else each * float(self.count) for each in squares], list(ends)
+
+    def filled_written(self, side: Side, start: Quantity, end: Quantity) -> Quantity:
+        squares, ends = self._written()
+        parts: list[Quantity] = [square * (part(end, ends, k) - part(start, ends, k)) for k, square in enumerate(squares)]
+        return reduce(lambda a, b: a + b, parts)
+
+    def length_written(self, sides: Sequence[Side], start: Quantity, oil: Quantity) -> Quantity:
+        squares, ends = self._written()
+        held = oil + self.filled_written(PISTON, ends[0], start)
+        rooms = [square * (high - low) for square, (low, high) in zip(squares, pairwise(ends), strict=True)]
+        full = list(accumulate([quantity(0.0), *rooms]))
+        out: list[Quantity] = [(part(held, full, k) - full[k]) / square for k, square in enumerate(squares)]
+        return reduce(lambda a, b: a + b, out, ends[0])
 
     # -- its lengths -----------------------------------------------------------------------------------------
 
@@ -329,6 +344,12 @@ class Telescope(Ram):
         for border, area in zip(list(accumulate(steps))[1:], named[1:], strict=True):
             found = np.where(length >= border, area, found)
         return written.line(f"A_{self.name}", found, "m2"), np.zeros(())
+
+
+def part(whole: Any, ends: Sequence[Any], stage: int) -> Any:
+    """Return a length, or an amount of oil, as far as it lies in a stage, by its number from 0; the outer stages have no outer ends."""
+    above = whole if stage == 0 else np.maximum(whole, ends[stage])
+    return above if stage == len(ends) - 2 else np.minimum(above, ends[stage + 1])
 
 
 def is_past(length: Array, border: Array, direction: str | None) -> Any:

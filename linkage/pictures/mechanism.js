@@ -109,11 +109,13 @@ function hatches(line, fixed) {
   return found;
 }
 /* What some points carry, or nothing does: lines, each place a way along and across, and a share of the length where it stretches. */
-function linework({ on: [P, Q], lines, hatched, slide: [from, least, most] = [0, 0, 0] }, ink = "ink", thin = 0.8) {
+function linework({ on: [P, Q], lines, hatched, slide }, ink = "ink", thin = 0.8) {
   const group = draw(sheet, "g", { stroke: css(ink), join: "round", cap: "round" }), flip = (rows) => rows.map(([x, y]) => [x * zoom, -y * zoom]);
-  const out = (length) => Math.min(Math.max(length / zoom - from, least), most);
+  const [from, least, most] = slide || [0, 0, 0], out = (length) => min(max(length / zoom - from, least), most), tubes = [];
+  const held = slide && data.cylinders.find((each) => each.P === P && each.Q === Q && each.pressure !== undefined);
   const drawn = lines.map(({ rows, fill, closed, bold }) => {
     const line = draw(group, closed ? "polygon" : "polyline", { fill: fill ? css(fill) : "none", w: (bold ? 1.5 : thin) * EDGE });
+    if (held && fill === "barrel") tubes.push(line);
     const put = (length) => set(line, { points: pairs(rows.map(([along, across, share = 0, slides = 0]) => [share * length + (along + slides * out(length)) * zoom, -across * zoom])) });
     put(0);
     return rows[0].length > 2 && put;
@@ -122,6 +124,7 @@ function linework({ on: [P, Q], lines, hatched, slide: [from, least, most] = [0,
   return (at) => {
     const [x, y] = P === undefined ? px(0, 0) : at[P], beyond = Q === undefined ? [x + 1, y] : at[Q];
     for (const put of drawn) put(apart([x, y], beyond));
+    for (const tube of tubes) set(tube, { fill: heat(pose.values[held.pressure][0], pose.values[held.most] ? pose.values[held.most][0] : scale.most) });
     set(group, { transform: turned([x, y], beyond) });
   };
 }

@@ -41,9 +41,11 @@ from linkage import (
     equations,
     least,
     most,
+    pin_forces,
 )  # fmt: skip
 from linkage.files import load, to_toml
 from linkage.units import bar, deg, kN, litre, minute, mm
+from tests.hydraulics.test_oil import Levelled
 
 BORES, STROKES, CLOSED = [149 * mm, 129 * mm, 110 * mm, 91 * mm], [1.0, 1.1, 0.9, 1.05], 1.48
 ENDS = CLOSED + np.cumsum(STROKES)
@@ -356,3 +358,25 @@ def test_fits_is_a_condition_of_each_stage():
     assert inside.judge().answer(fits("hoist")).ok and not short.judge().answer(fits("hoist")).ok
     assert "70.0 mm are missing open" in str(Hoist.hoist.verdicts(short.judge())[0])
     assert not Hoist(**{"hoist.stroke_3": 1.5}).judge().answer(fits("hoist")).ok
+
+
+class TelescopicMaster(Levelled):
+    master = Telescope("M", "N", bores=[100 * mm, 80 * mm], strokes=[0.15, 0.25], closed=0.14)
+
+
+class TelescopicSlave(Levelled):
+    slave = Telescope("U", "W", bores=[110 * mm, 90 * mm], strokes=[0.18, 0.2], closed=0.40, count=2)
+
+
+@pytest.mark.parametrize("machine, name", [(TelescopicMaster, "master"), (TelescopicSlave, "slave")])
+def test_a_closed_line_keeps_the_oil_of_a_telescope_through_its_stages(machine, name):
+    motion, level, ram = machine().sweep(9), machine.plan.members["level"], machine.plan.members[name]
+    assert set(ram.stage(motion)) == {1.0, 2.0}
+    assert np.abs(level.oil(motion)).max() < 1e-12 * 0.4 * np.pi / 4 * 0.1**2
+    thrusts = pin_forces(motion).thrusts
+    for each in ("lift", "master", "slave"):
+        assert_allclose(thrusts[each], machine.plan.members[each].thrust(motion), rtol=1e-11)
+    step, energy = 1e-6, {}
+    for k in (-2, -1, 1, 2):
+        energy[k] = 2000 * 9.80665 * machine(**{"level.oil": k * step}).sweep(9)["F"][1]
+    assert_allclose(level.pressure(motion), (energy[-2] - 8 * energy[-1] + 8 * energy[1] - energy[2]) / (12 * step), rtol=1e-8)

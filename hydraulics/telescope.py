@@ -219,7 +219,7 @@ class Telescope(Ram):
 
     def taken(self, motion: Poses, low: Array, high: Array) -> Array:
         ends = self.ends_of_stages(motion)
-        parts = [size.push_area * (within_stage(high, ends, k) - within_stage(low, ends, k)) for k, size in enumerate(self.sizes_in(motion))]
+        parts = [size.push_area * (in_part(high, ends, k) - in_part(low, ends, k)) for k, size in enumerate(self.sizes_in(motion))]
         return np.asarray(reduce(np.add, parts))[()]
 
     def _written(self) -> tuple[list[Quantity], list[Quantity]]:
@@ -231,7 +231,7 @@ class Telescope(Ram):
 
     def filled_written(self, side: Side, start: Quantity, end: Quantity) -> Quantity:
         squares, ends = self._written()
-        parts: list[Quantity] = [square * (within_stage(end, ends, k) - within_stage(start, ends, k)) for k, square in enumerate(squares)]
+        parts: list[Quantity] = [square * (in_part(end, ends, k) - in_part(start, ends, k)) for k, square in enumerate(squares)]
         return reduce(lambda a, b: a + b, parts)
 
     def length_written(self, sides: Sequence[Side], start: Quantity, oil: Quantity) -> Quantity:
@@ -239,7 +239,7 @@ class Telescope(Ram):
         held = oil + self.filled_written(PISTON, ends[0], start)
         rooms = [square * (high - low) for square, (low, high) in zip(squares, pairwise(ends), strict=True)]
         full = list(accumulate([quantity(0.0), *rooms]))
-        out: list[Quantity] = [(within_stage(held, full, k) - full[k]) / square for k, square in enumerate(squares)]
+        out: list[Quantity] = [(in_part(held, full, k) - full[k]) / square for k, square in enumerate(squares)]
         return reduce(lambda a, b: a + b, out, ends[0])
 
     # -- its lengths -----------------------------------------------------------------------------------------
@@ -346,7 +346,7 @@ class Telescope(Ram):
         return written.line(f"A_{self.name}", found, "m2"), np.zeros(())
 
 
-def within_stage(whole: Any, ends: Sequence[Any], stage: int) -> Any:
+def in_part(whole: Any, ends: Sequence[Any], stage: int) -> Any:
     """Return a length, or an amount of oil, as far as it lies in a stage, by its number from 0; the outer stages have no outer ends."""
     above = whole if stage == 0 else np.maximum(whole, ends[stage])
     return above if stage == len(ends) - 2 else np.minimum(above, ends[stage + 1])

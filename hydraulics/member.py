@@ -65,7 +65,18 @@ from linkage.motion import (
 )
 from linkage.plan import Mask, Plan
 from linkage.quantities import (
-    InnerQuantity, Member, Number, Quantity, Reference, Variable, body_name, distance, label, name_of, needs, quantity,
+    InnerQuantity,
+    Member,
+    Number,
+    Quantity,
+    Reference,
+    Variable,
+    body_name,
+    distance,
+    label,
+    name_of,
+    needs,
+    quantity,
 )  # fmt: skip
 from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, motion_in_case, same
 from linkage.units import mm, show, shown_number, unit_sign

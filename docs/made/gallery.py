@@ -12,7 +12,7 @@ from .machines import doc, title
 GROUPS = {
     "Machines at work": (
         "excavator", "hook_excavator", "telehandler", "wheel_loader", "loaded_front_loader", "forwarder", "tipper", "hoist_tipper",
-        "spreader_tractor", "plough_tractor",
+        "tail_lift", "spreader_tractor", "plough_tractor",
     ),
     "Hitches, lifts and headers": ("three_point_hitch", "mower_lift", "header_balancer", "front_loader", "scissor_lift"),
     "Cranes and grapples": ("crane", "boom_drive", "arm_drive", "grapple"),

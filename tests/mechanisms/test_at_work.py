@@ -16,6 +16,7 @@ from mechanisms.at_work.excavator import Excavator, HookExcavator
 from mechanisms.at_work.forwarder import Forwarder
 from mechanisms.at_work.front_loader import LoadedFrontLoader
 from mechanisms.at_work.hoist_tipper import HoistTipper
+from mechanisms.at_work.tail_lift import TailLift
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.at_work.tipper import Tipper
 from mechanisms.at_work.tractor import PloughTractor, SpreaderTractor
@@ -24,7 +25,10 @@ from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
 from tests.machines import plane, test_excavator, test_tipper, test_wheel_loader
 
-MACHINES = [Excavator, HookExcavator, HoistTipper, LoadedFrontLoader, PloughTractor, SpreaderTractor, Telehandler, Tipper, WheelLoader]
+MACHINES = [
+    Excavator, HookExcavator, HoistTipper, LoadedFrontLoader, PloughTractor, SpreaderTractor,
+    TailLift, Telehandler, Tipper, WheelLoader,
+]
 JOINED = [*MACHINES, Forwarder]
 ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
 PRINTED = {"boom": (-0.4737, 1.0923), "arm": (-0.5103, -2.5848), "bucket": (0.7839, -2.8659)}  # rad, at the shortest, at the longest
@@ -426,3 +430,14 @@ def test_tractor_and_hitch_know_one_figure():
     plain = SpreaderTractor().at(S=0.1)
     for axle, share in (("front", 1.1 / 2.75), ("rear", 1.65 / 2.75)):
         assert_allclose(standing(heavy).reactions[axle] - standing(plain).reactions[axle], 1000.0 * plane.G * share, rtol=1e-10)
+
+
+def test_the_tail_lifts_pilot_pressure_by_hand():
+    motion, mass = TailLift().sweep(S=4, tilt=0.0), 1680.0
+    assert np.abs(motion["level"]).max() < 1e-12  # a parallelogram
+    thrust = mass * 9.80665 * motion.ratio("P", wrt="S")[1]  # the platform only translates
+    assert_allclose(TailLift.lift.thrust(motion, case="full"), thrust, rtol=1e-9)
+    piston, annulus = (2 * np.pi / 4 * area for area in (0.063**2, 0.063**2 - 0.036**2))
+    expected = np.linalg.solve([[1.0, 3.0], [piston, -annulus]], np.stack([np.full(4, 140e5), thrust]))
+    assert_allclose(TailLift.valve.pilot_pressure(motion), expected[1], rtol=1e-9)
+    assert_allclose(TailLift.lifting.pressure(motion, case="parked"), thrust / piston, rtol=1e-9)

@@ -63,7 +63,7 @@ def line_verdicts(circuit: LiftLine, judge: Judge, resistance: float = 0.0, unit
         *(with_name(each.lifting(), each.ram, several) for each in cylinders),
         oil_verdict(circuit, judge),
         *(with_name(each.holding(), each.ram, several) for each in cylinders),
-        *(with_name(each.going_back(resistance), each.ram, several) for each in cylinders if not is_valved(circuit, judge)),
+        *(with_name(each.going_back(resistance), each.ram, several) for each in cylinders if each.goes_back_here),
     ]
 
 
@@ -179,8 +179,19 @@ class LiftingCylinder:
         return {
             "lifting": least(reserve_request(*asked)) >= 1.0,
             "holding": AllOf((holding, pressed)) if self.ram.is_single_acting else holding,
-            "lowering": back <= supply if self.ram.side == "both" else back <= 0.0,
+            **({} if self.goes_back_by_another else {"lowering": back <= supply if self.ram.side == "both" else back <= 0.0}),
         }
+
+    @property
+    def goes_back_here(self) -> bool:
+        """Whether its going back is judged with this line: no valve and no other pump drives it."""
+        return not (self.goes_back_by_another or is_valved(self.circuit, self.judge))
+
+    @property
+    def goes_back_by_another(self) -> bool:
+        """Whether another held line has its other side, so that its pump drives it back, as is judged there."""
+        own = self.judge.plan.members.get(self.ram.name)
+        return isinstance(own, Ram) and own.side == "both" and self.ram.side != "both"
 
     def show(self, pressure: Any) -> str:
         """Return a pressure in the unit of the sentences."""
@@ -222,7 +233,8 @@ class LiftingCylinder:
 
     def other_side(self) -> str:
         """Return the remedy where the thrust changes its sign and one side alone is declared."""
-        return said('; works="both" judges the other side as well') if self.ram.side != "both" and not self.ram.is_single_acting else ""
+        alone = self.ram.side == "both" or self.ram.is_single_acting or self.goes_back_by_another
+        return "" if alone else said('; works="both" judges the other side as well')
 
     def remedy(self, reserve: float) -> str:
         """Return what makes up for a reserve below 1: a pressure, or a standard bore with its reserve."""
@@ -255,6 +267,7 @@ class LiftingCylinder:
         if pulled is not None:
             return pulled
         order = self.ram.own_sides if self.ram.side != "rod" else SIDES[::-1]
+        order = order[:1] if self.goes_back_by_another else order
         asked = [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), circuit, side)) <= limit for side in order]
         found = self.judge.answers(asked)
         endless = next((each for each in found if each.unbounded), None)

@@ -78,7 +78,8 @@ from linkage.quantities import (
     needs,
     quantity,
 )  # fmt: skip
-from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, member_thrust, motion_in_case, same
+from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, lock_words, member_thrust, motion_in_case, same
+from linkage.steps import Link
 from linkage.units import mm, show, shown_number, unit_sign
 from linkage.verdict import Verdict
 
@@ -135,6 +136,10 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     @abstractmethod
     def side(self) -> Works:
         """What it works with."""
+
+    def on_side(self, side: Side) -> Ram:
+        """Return it as it works with one of its sides, for the line that this has: itself where it has no other."""
+        return self
 
     @property
     @abstractmethod
@@ -623,7 +628,11 @@ class Cylinder(BarrelAndRod, Ram):
     def sized(self, motion: Poses, direction: str | None = None) -> CylinderSize:
         """Return the size that a motion's designs have; bore and rod [m] broadcast against the motion."""
         bore, rod = number_set(self, motion, "bore"), number_set(self, motion, "rod")
-        return CylinderSize(bore[()], rod[()], self.count, self.as_in(motion).side)
+        return CylinderSize(bore[()], rod[()], self.count, self.side if self._on_lines else self.as_in(motion).side)
+
+    def on_side(self, side: Side) -> Cylinder:
+        """Return it as it works with one of its sides, for the line that this has."""
+        return self.renewed(_on_lines=side)
 
     def filled(self, side: Side, motion: Poses, start: Array, end: Array) -> Array:
         return np.asarray((end - start) * chamber_area(Chamber(self, side), self, motion))[()]
@@ -1166,7 +1175,17 @@ def names_behind(starts: Iterable[Reference], members: Mapping[str, Member]) -> 
         if name not in found:
             found.add(name)
             stack += needs(members[name]) if name in members else ()
+            stack += needed_by_links(name, members)
     return found
+
+
+def needed_by_links(pin: str, members: Mapping[str, Member]) -> list[str]:
+    """Return the names that the links of a parts list need which hold a pin that no step places yet, the links' other points too."""
+    held = members.get(pin)
+    if held is None or getattr(held, "is_fixed", True) or any(True for _ in needs(held)):
+        return []
+    links = [each for each in members.values() if isinstance(each, Link) and pin in each.point_names]
+    return [name for each in links for name in (*needs(each), *each.point_names)]
 
 
 def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:
@@ -1175,9 +1194,10 @@ def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:
 
 
 def carries_loads(judge: Judge) -> bool:
-    """Return whether anything acts on a machine by itself."""
+    """Return whether anything acts on a machine by itself, that no closed line locks."""
     motion = judge.motion
-    return any(each.loads(motion) or each.pushes(motion, AT_REST) for each in motion.plan.of_kind(ForceElement).values())
+    acts = any(each.loads(motion) or each.pushes(motion, AT_REST) for each in motion.plan.of_kind(ForceElement).values())
+    return acts and not lock_words(judge.plan)
 
 
 def judge_of(motion: Motion, acting: Acting | None = None) -> Judge:

@@ -48,7 +48,7 @@ from linkage.loads.two_point import end_forces
 from linkage.motion import Condition, Judge, Motion, Question, least, most
 from linkage.quantities import AtPose, Distance, Member, Number, Quantity, Reference, Stroke, Variable, Where, label, name_of, quantity
 from linkage.quantities.quantity import plain
-from linkage.statics import AnyMotion, LawRequest, motion_in_case, plan_of, same
+from linkage.statics import AnyMotion, LawRequest, lock_words, motion_in_case, plan_of, same
 from linkage.units import show
 from linkage.vectors import Scalar
 from linkage.verdict import Verdict
@@ -230,6 +230,9 @@ class OilLine(PumpLine, GasLine):
             raise DefinitionError(f'OilLine(filled={self.filled!r}): say "open", "closed", or lengths, filled=dict(slave=0.72).')
         if self.filled is not None and not isinstance(self.filled, (str, Mapping)):
             raise DefinitionError(f"OilLine(filled={cited(self.filled)}): lengths of cylinders are expected, filled=dict(slave=0.72).")
+        for name, length in self.filled.items() if isinstance(self.filled, Mapping) else ():
+            if not isinstance(length, (str, Quantity)):
+                one_number(length, f"OilLine: filled, {name}")
         if self.filled is not None and self.at is not None:
             raise DefinitionError("OilLine(at=..., filled=...): both say where it is filled; leave one out.")
         for name in ("make_up", "charge_pressure", "seal_friction"):
@@ -316,7 +319,11 @@ class OilLine(PumpLine, GasLine):
         return tuple(found)
 
     def rams(self, motion: Poses) -> tuple[Ram, ...]:
-        return self.members(motion.plan.members)
+        members = motion.plan.members
+        found = self.members(members)
+        if self.kind_in(members) != "held":
+            return found
+        return tuple(ram.on_side(own_side(self, ram, members)) if ram.side == "both" else ram for ram in found)
 
     def among(self, members: Mapping[str, Member]) -> OilLine:
         return self.renewed(kind_of_line=self.kind_in(members))
@@ -508,7 +515,8 @@ class OilLine(PumpLine, GasLine):
         if not self.fills(own.name):
             what = f"{self.name} = {self}: nothing says how long {own.name} is where the line is filled"
             raise DefinitionError(f"{what}; add filled=dict({own.name}=...) in m.")
-        others = [(ram, each) for ram, each in filling if ram.name != own.name]
+        alike = [(ram, each) for ram, each in filling if ram is own or are_beside(ram, own)]
+        others = [(ram, each) for ram, each in filling if all(ram is not one for one, _ in alike)]
         oil = self.oil_given
         if isinstance(oil, Number):
             oil = Variable(self.cut)
@@ -517,6 +525,10 @@ class OilLine(PumpLine, GasLine):
         taken = oil * (4.0 / pi)
         for ram, each in others:
             taken = taken - ram.filled_written(each.side, self.length_filled(ram, members), Distance(ram.A, ram.B))
+        if len({ram.name for ram, _ in alike}) > 1:  # side by side on the same pins they share what comes
+            areas = [(ram, ram.filled_written(each.side, Number(0.0), Number(1.0))) for ram, each in alike]
+            mine = reduce(lambda a, b: a + b, (area for ram, area in areas if ram is own))
+            taken = taken * (mine / reduce(lambda a, b: a + b, (area for _, area in areas)))
         sides = [each.side for ram, each in filling if ram.name == own.name]
         return LineLength(own.length_written(sides, self.length_filled(own, members), taken))
 
@@ -656,7 +668,9 @@ class OilLine(PumpLine, GasLine):
     def questions(self, judge: Judge) -> list[Question]:
         if self.kind_of_line == "held":
             return PumpLine.questions(self, judge)
-        return [least(self.pressure_request), most(self.pressure_request)] if self.kind_of_line == "closed" else []
+        if self.kind_of_line != "closed" or lock_words(judge.plan):
+            return []
+        return [least(self.pressure_request), most(self.pressure_request)]
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         if self.kind_of_line == "held":
@@ -738,6 +752,11 @@ def chamber_named(given: Any) -> Any:
         if name and side in ("piston_side", "rod_side"):
             return Chamber(name, PISTON if side == "piston_side" else ROD)
     return given
+
+
+def are_beside(a: Ram, b: Ram) -> bool:
+    """Return whether two rams of one stage stand side by side on the same pins."""
+    return set(map(name_of, a.ends)) == set(map(name_of, b.ends)) and not (a.is_single_acting or b.is_single_acting)
 
 
 def put_in_later(members: Mapping[str, Member]) -> tuple[str, ...]:

@@ -6,13 +6,13 @@ from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass
 from itertools import combinations
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
 from ..errors import DefinitionError, about, unknown
-from ..plan import needed_names
-from ..quantities import Member, Quantity, Reference, name_of, needs
+from ..plan import needed_names, with_inner
+from ..quantities import Member, Number, Quantity, Reference, Variable, name_of, needs
 from ..steps import Group, Guide, Link, OnLink, Pin, Slide, Step
 from ..vectors import Side
 from .part_sketch import with_begun_pins
@@ -219,8 +219,33 @@ def assembled(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     members = with_begun_pins(members, title)
     if not any(is_loose(member) or sketched(member) for member in members.values()):
         return dict(members)
-    check_names(members, title)
-    return Assembler(members, title).run()
+    inner = held_inside(members, title)
+    check_names({**members, **inner}, title)
+    return {name: member for name, member in Assembler({**members, **inner}, title).run().items() if name not in inner}
+
+
+def held_inside(members: Mapping[str, Member], title: str) -> dict[str, Member]:
+    """Return what members hold by names of their own where others need it, as `lift.length`, as they are in the design that is drawn."""
+    among = {name: member.among(members) for name, member in members.items()}
+    wanted = {name: needed_names(name, member, title) for name, member in among.items()}
+    with_inner(among, wanted, title)
+    defaults = {variable: default for member in among.values() for variable, default, *_ in member.variables()}
+    return {name: drawn_in(member, defaults) for name, member in among.items() if name not in members}
+
+
+def drawn_in(value: Any, defaults: Mapping[str, float]) -> Any:
+    """Return a quantity with the numbers of the design that is drawn in the place of design variables."""
+    if isinstance(value, Variable) and value.variable in defaults:
+        return Number(defaults[value.variable])
+    if not isinstance(value, Quantity):
+        return tuple(drawn_in(each, defaults) for each in value) if isinstance(value, tuple) else value
+    changed = {name: drawn_in(each, defaults) for name, each in vars(value).items() if is_unnamed(each)}
+    return value.renewed(**changed)
+
+
+def is_unnamed(value: object) -> bool:
+    """Return whether a part of a quantity belongs to it alone: another quantity without a name, or several."""
+    return isinstance(value, tuple) or (isinstance(value, Quantity) and not value.name)
 
 
 def is_loose(member: Member) -> bool:

@@ -397,7 +397,7 @@ class Value(Request):
         if scale is None:
             return super().scale(plan, left)
         for name in self.strokes:
-            scale = scale / (abs(plan.strokes[name].end - plan.strokes[name].start) or 1.0)
+            scale = scale / (CUT if name in plan.cuts else abs(plan.strokes[name].end - plan.strokes[name].start) or 1.0)
         return LEAST * scale if self.along else scale
 
     @property
@@ -415,6 +415,8 @@ def ratio(target: str | Member, wrt: str | None = None, order: int = 1) -> Value
     return Value(target, (wrt,) * order_of(order))
 
 
+CUT = 1e-3
+"""What changes a closed line beside the strokes, as oil [m3], goes about so far."""
 SMALL = 1e-9
 """A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, unwarned
-from ..loads import TwoPoint
-from ..plan import Mask, called, failures, missing_words, opening
+from ..loads import ForceElement, TwoPoint
+from ..plan import Mask, Plan, called, failures, missing_words, opening
 from ..program import FloatArray
 from ..quantities import Distance
 from ..steps import Point
@@ -197,16 +197,17 @@ def dead_points(
 ) -> list[tuple[float, str]]:
     """Return where along a stroke, in some ranges, lengths of elements that hold stand still: the stroke and the element's name.
 
-    Those whose two points a stroke drives apart never do. The others are held.
+    Those whose two points a stroke drives apart never do, and what a closed line alone holds drives nothing. The others are held.
     """
     plan = motion.plan
     ranges = [(low, high) for low, high in ranges if low < high]
     if not ranges:
         return []
     driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
+    idle = kept_alone(plan)
     found: list[tuple[float, str]] = []
     for name, element in plan.of_kind(TwoPoint).items():
-        if not element.holds or frozenset(element.ends) in driven:
+        if not element.holds or frozenset(element.ends) in driven or name in idle:
             continue
         if not any(stroke in plan.reaches(end) for end in element.ends):
             continue
@@ -216,6 +217,13 @@ def dead_points(
         at = np.array(sorted(root for low, high in ranges for root in roots_between(rate, low, high)))
         found += [(float(each), name) for each in at[first_times(motion, stroke, held, at)]]
     return sorted(found)
+
+
+def kept_alone(plan: Plan) -> set[str]:
+    """Return the names of what closed ties hold, and no other one."""
+    ties = [tie for tie in (each.tie(plan.members) for each in plan.of_kind(ForceElement).values()) if tie is not None]
+    kept, held = ({share.member.name for tie in ties if tie.held is way for share in tie.shares} for way in (False, True))
+    return kept - held
 
 
 def follows_stroke(
@@ -260,6 +268,8 @@ def roots_between(rate: Curve, low: float, high: float) -> list[float]:
     values = rate(at)
     known = np.flatnonzero(np.isfinite(values) & (values != 0.0))  # a sample on a root lies between its neighbours
     crossed = np.flatnonzero((values[known[:-1]] < 0.0) != (values[known[1:]] < 0.0))
+    if not crossed.size:
+        return []
     before, after = known[crossed], known[crossed + 1]
     roots, _ = sign_changes(rate, at[before], at[after], CLOSE * span)
     senses = np.sign(values[before])

@@ -3,7 +3,17 @@
 from .bodies import Body, merged
 from .chain import ChainBody, KinematicChain, Pair, arm_joint, arm_points, gruebler, holds_an_arm
 from .measure import plan_measure
-from .members import as_written, carrying_pairs, construction_order, member_sides, needed_names, printed, strokes_text, written_out
+from .members import (
+    as_written,
+    carrying_pairs,
+    construction_order,
+    member_sides,
+    needed_names,
+    printed,
+    strokes_text,
+    with_inner,
+    written_out,
+)
 from .missing import Mask, called, failures, missing_words, negative, opening
 from .part import Part, check_circuits, has_no_axes, with_parts
 from .plan import Plan

@@ -157,7 +157,7 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
     lines, tied = [*free, *map(on_tie, held)], [*(None for _ in free), *held]
     for tie in ties:
         if not tie.held and not tie.gives:
-            check_kept(motion, tie)
+            check_kept(motion, tie, ties)
     follows = line_shares(motion, lines)
     follows[:, [name in cuts for name in strokes]] = 0.0  # the oil that is put in is driven by the closed line itself
     for line, row in zip(lines, follows, strict=True):
@@ -218,7 +218,19 @@ KEPT = 1e-6
 """A sum that changes by less than this part of its terms' ways is kept."""
 
 
-def check_kept(motion: Motion, tie: Tie) -> None:
+def lock_words(plan: Plan) -> str:
+    """Return why closed ties lock a machine, in words; "" where they do not."""
+    ties = [tie for tie in (each.tie(plan.members) for each in plan.of_kind(ForceElement).values()) if tie is not None]
+    try:
+        for tie in ties:
+            if not tie.held and not tie.gives:
+                check_kept(sampled(plan), tie, ties)
+    except DefinitionError as error:
+        return str(error)
+    return ""
+
+
+def check_kept(motion: Motion, tie: Tie, ties: Sequence[Tie] = ()) -> None:
     """Raise DefinitionError for a closed tie whose sum the strokes change, though it gives nothing that could follow."""
     plan = motion.plan
     for stroke in plan.strokes:
@@ -234,10 +246,23 @@ def check_kept(motion: Motion, tie: Tie) -> None:
             takes = [np.ravel(part)[int(np.argmax(whole))] for part in parts]
             words = " and ".join(f"{each.member.name} {way:+.4g}" for each, way in zip(tie.shares, takes, strict=True))
             what = f"{tie.name} locks the machine: it is closed, and a unit of {stroke} would change what is in it by {words} [SI]"
+            what += ratio_words(motion, tie, ties)
             raise DefinitionError(
                 f"{plan.title}: {what}. Let a step follow it, such as Dyad(U, P, UW={tie.shares[-1].member.name}.length), make the ratios "
                 "of its areas those of the other line, or open it by a Tank."
             )
+
+
+def ratio_words(motion: Motion, tie: Tie, ties: Sequence[Tie]) -> str:
+    """Return how the shares of two members are to each other in a tie and in another one of the same two; "" where there is none."""
+    members = on_tie(tie)
+    closed = [each for each in ties if each is not tie and not each.held]
+    others = [each for each in closed if {one.name for one in on_tie(each)} == {one.name for one in members}]
+    if len(members) != 2 or not others:
+        return ""
+    first, second = members
+    ratios = [float(np.ravel(share_in(each, first, motion) / share_in(each, second, motion))[0]) for each in (others[0], tie)]
+    return f"; {first.name} to {second.name} is {ratios[0]:.4g} on {others[0].name} and {ratios[1]:.4g} on {tie.name}"
 
 
 def check_run(motion: Motion, tie: Tie, run: Reeving, stroke: str) -> None:

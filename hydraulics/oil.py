@@ -424,7 +424,8 @@ class OilLine(PumpLine, GasLine):
         if kind == "given":
             return None
         gives = next((f"{ram.name}.length" for ram, _ in self.filling(members) if self._gives(ram, members)), "")
-        return Tie(self.name, self.shares(members), held=False, cut=self.cut if gives else "", gives=gives)
+        added = None if gives or self.oil_given.is_constant else self.oil_given
+        return Tie(self.name, self.shares(members), held=False, cut=self.cut if gives else "", gives=gives, added=added)
 
     def shares(self, members: Mapping[str, Member]) -> tuple[Share, ...]:
         return tuple(Share(ram, partial(chamber_area, chamber, ram)) for ram, chamber in self.filling(members))

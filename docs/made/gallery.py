@@ -13,6 +13,7 @@ GROUPS = {
     "Machines at work": (
         "excavator", "hook_excavator", "telehandler", "wheel_loader", "loaded_front_loader", "forwarder", "tipper", "hoist_tipper",
         "tail_lift", "spreader_tractor", "plough_tractor",
+        "levelled_telehandler", "axle", "crossed_axle",
     ),
     "Hitches, lifts and headers": ("three_point_hitch", "mower_lift", "header_balancer", "front_loader", "scissor_lift"),
     "Cranes and grapples": ("crane", "boom_drive", "arm_drive", "grapple"),

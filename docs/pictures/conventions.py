@@ -1,4 +1,4 @@
-"""Draw the pictures of docs/conventions.md: `python docs/pictures/conventions.py`, into docs/images.
+"""Draw the pictures of docs/conventions.md and of oil lines: `python docs/pictures/conventions.py`, into docs/images.
 
 One unit of every sheet is an inch, so that a sheet is as wide as it is shown: 7 inches, some 700 pixels.
 """
@@ -14,7 +14,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patches import FancyArrowPatch
+from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch, Polygon
 from matplotlib.patheffects import withStroke
 
 from linkage.pictures import style
@@ -436,6 +436,60 @@ def gauge_and_absolute() -> Figure:
     return figure
 
 
+def pipe(ax: Axes, *places: Place) -> None:
+    """Draw an oil line through some places."""
+    x, y = zip(*places, strict=True)
+    ax.plot(x, y, color=style.CURVE, linewidth=2.2, zorder=2.0, solid_joinstyle="round")
+
+
+def pump(ax: Axes, at: Place) -> None:
+    """Draw a pump: a circle with a triangle towards its line."""
+    ax.add_patch(Circle(at, 0.17, facecolor=style.PAPER, edgecolor=style.INK, linewidth=1.4, zorder=6.0))
+    corners = [shifted(at, UP, 0.17), shifted(at, 0.9, 0.08), shifted(at, pi - 0.9, 0.08)]
+    ax.add_patch(Polygon(corners, facecolor=style.INK, zorder=7.0))
+
+
+def tank(ax: Axes, at: Place) -> None:
+    """Draw a tank: an open vessel under the end of its line."""
+    x, y = at
+    ax.plot([x - 0.2, x - 0.2, x + 0.2, x + 0.2], [y + 0.1, y - 0.15, y - 0.15, y + 0.1], color=style.INK, linewidth=1.4, zorder=6.0)
+
+
+def gas(ax: Axes, at: Place) -> None:
+    """Draw an accumulator: a vessel with its gas over the oil."""
+    x, y = at
+    vessel = FancyBboxPatch((x - 0.05, y - 0.14), 0.10, 0.28, boxstyle="round,pad=0.06", facecolor=style.PAPER, edgecolor=style.INK)
+    vessel.set(linewidth=1.4, zorder=6.0)
+    ax.add_patch(vessel)
+    ax.plot([x - 0.11, x + 0.11], [y, y], color=style.INK, linewidth=1.0, zorder=7.0)
+    corners = [(x - 0.05, y + 0.12), (x + 0.05, y + 0.12), (x, y + 0.04)]
+    ax.add_patch(Polygon(corners, facecolor=style.PAPER, edgecolor=style.INK, zorder=7.0))
+
+
+def oil() -> Figure:
+    """Return two cylinders on a line of each kind: what lies on it, what is given and what answers."""
+    kinds = (
+        ("held", pump, "V, by the pose", "p"),
+        ("closed", None, "V = oil", "p, and a length"),
+        ("given", tank, "p of the tank", "V"),
+        ("given, by gas", gas, "p, by the V taken", "V, and so p"),
+    )
+    figure, ax = sheet(3.5)
+    for place, (kind, symbol, given, answer) in enumerate(kinds):
+        x = 0.2 + 1.75 * place
+        word(ax, (x + 0.62, 3.2), kind, size=style.LABEL)
+        for at, out in ((x + 0.25, 0.62), (x + 1.0, 0.28)):
+            cylinder(ax, (at, 1.62), (at, 2.5 + 0.5 * out), out)
+            pipe(ax, (at, 1.62), (at, 1.25))
+        pipe(ax, (x + 0.25, 1.25), (x + 1.0, 1.25))
+        if symbol is not None:
+            pipe(ax, (x + 0.625, 1.25), (x + 0.625, 0.95))
+            symbol(ax, (x + 0.625, 0.86))
+        word(ax, (x + 0.62, 0.42), f"given: {given}", style.CURVE, size=style.SMALL)
+        word(ax, (x + 0.62, 0.18), f"answers: {answer}", style.ACCENT, size=style.SMALL)
+    return figure
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     "conventions_axes": axes_and_gravity,
     "conventions_thrust": thrust,
@@ -446,6 +500,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "conventions_carriage": carriage,
     "conventions_strokes": strokes,
     "conventions_pressure": gauge_and_absolute,
+    "conventions_oil": oil,
 }
 
 if __name__ == "__main__":

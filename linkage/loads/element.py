@@ -114,7 +114,8 @@ class Tie:
     """Straight members whose thrusts follow one force, each with its share: the sum of their lengths, by these shares, is its way.
 
     One that is `held` takes over a stroke. A closed one keeps its sum, which changes with the input `cut` alone, and gives the quantity
-    `gives`; without that it adds nothing to what others keep already. One that has a `run` has no straight members.
+    `gives`; without that it adds nothing to what others keep already, and its sum changes as `added` does. One that has a `run` has no
+    straight members.
     """
 
     name: str
@@ -123,6 +124,7 @@ class Tie:
     cut: str = ""
     gives: str = ""
     run: Reeving | None = None
+    added: Quantity | None = None
 
 
 @final

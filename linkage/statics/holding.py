@@ -240,8 +240,9 @@ def check_kept(motion: Motion, tie: Tie, ties: Sequence[Tie] = ()) -> None:
                 continue
             shares = [np.asarray(each.of(motion)) for each in tie.shares]
             parts = [share * each.member.growth(motion, {stroke: 1.0}) for share, each in zip(shares, tie.shares, strict=True)]
+            added = motion.ratio(tie.added, wrt=stroke) if tie.added is not None else np.zeros(())
             ways = sum(np.abs(share) * ends_way(motion, each.member, stroke) for share, each in zip(shares, tie.shares, strict=True))
-        whole, size = np.nan_to_num(np.abs(sum(parts))), np.nan_to_num(sum(map(np.abs, parts)))
+        whole, size = np.nan_to_num(np.abs(sum(parts) - added)), np.nan_to_num(sum(map(np.abs, parts)))
         if np.any((whole > KEPT * size) & (size > SLOWEST * np.nan_to_num(ways))):
             takes = [np.ravel(part)[int(np.argmax(whole))] for part in parts]
             words = " and ".join(f"{each.member.name} {way:+.4g}" for each, way in zip(tie.shares, takes, strict=True))
@@ -610,9 +611,10 @@ def tied_forces(
         if any(np.any(number_or_one(way) < 0.0) for _, way in ways):
             names = " and ".join(ties[place].name for place, _ in ways)
             raise DefinitionError(f"{plan.title}: the thrusts leave the pressures of {names} open against each other; open one by a Tank.")
-        up = reduce(np.maximum, ((least[place] - found[place]) / way for place, way in ways))
-        for place, way in ways:
-            found[place] = found[place] + up * way
+        lacking = [(least[place] - found[place]) / way for place, way in ways]
+        up = reduce(np.maximum, lacking)
+        for (place, way), lack in zip(ways, lacking, strict=True):  # exactly the least where that is what binds
+            found[place] = least[place] + (up - lack) * way
     return found
 
 

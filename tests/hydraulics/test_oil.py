@@ -109,6 +109,30 @@ def test_a_closed_line_keeps_its_oil_and_its_pressure_is_the_work_on_it():
     assert level.pressure(motion) == pytest.approx(slope, rel=1e-8)
 
 
+class Tilted(Levelled):
+    """Both sides joined, of one ratio; a valve puts oil into one and takes what the rods leave out of the other."""
+
+    V = Stroke(-2 * litre, 2 * litre)
+    master, slave = Cylinder("M", "N", bore=100 * mm, rod=56 * mm), Cylinder("U", "W", bore=125 * mm, rod=70 * mm)
+    level = OilLine(master.piston_side, slave.piston_side, filled=dict(slave=0.72), oil=V)
+    other = OilLine(master.rod_side, slave.rod_side, filled=dict(slave=0.72), oil=(0.56**2 - 1) * V)
+
+
+def test_oil_that_is_put_into_both_sides_moves_the_slave_by_its_area():
+    motion = Tilted().at(S=[1.3, 1.6], V=[-1 * litre, 0.5 * litre])
+    kept = Tilted().at(S=[1.3, 1.6], V=0.0)
+    moved = motion.distance("U", "W") - kept.distance("U", "W")
+    assert moved == pytest.approx(np.array([-1.0, 0.5]) * litre / (np.pi / 4 * 0.125**2), rel=1e-12)
+    assert Tilted.level.oil(motion) == pytest.approx([-1 * litre, 0.5 * litre])
+    pushes = [
+        np.pi / 4 * (Tilted.level.pressure(motion) * bore**2 - Tilted.other.pressure(motion) * (bore**2 - rod**2))
+        for bore, rod in ((0.125, 0.070), (0.100, 0.056))
+    ]
+    assert Tilted.slave.thrust(motion) == pytest.approx(pushes[0], rel=1e-12)
+    assert Tilted.master.thrust(motion) == pytest.approx(pushes[1], rel=1e-12)
+    assert min(Tilted.level.pressure(motion).min(), Tilted.other.pressure(motion).min()) == 0.0
+
+
 class Charged(Axle):
     circuit = FloatCircuit("left", vessel(), charge_pressure=90 * bar, seal_friction=2 * bar)
 

@@ -209,10 +209,18 @@ def squared(off: FloatArray) -> FloatArray:
 
 @final
 class FitSquares:
-    """The misses of a fit as a solver with conditions takes them, in parts of what they are at a start."""
+    """The misses of a fit as a solver with conditions takes them, in parts of what they are at a start; points `in_order` stay so."""
 
-    def __init__(self, fit: Fit, at: FloatArray, base: FloatArray) -> None:
+    def __init__(self, fit: Fit, at: FloatArray, base: FloatArray, *, in_order: bool) -> None:
         self.fit, self.base, self.own = fit, base[None], np.array(at[fit.n :])
+        self.own_lines = np.zeros((0, fit.width)), np.zeros(0)
+        if in_order and fit.width > 1:
+            sense, every = 1.0 if self.own[-1] >= self.own[0] else -1.0, np.eye(fit.width)
+            self.own = np.array(sense * np.maximum.accumulate(sense * self.own))
+            turn = fit.timing.turn / fit.timing.reach[1] if fit.timing.turn else 1.0  # all within one turn
+            self.own = np.where(sense * (self.own - self.own[0]) > turn, self.own[0] + sense * turn, self.own)
+            lines = sense * np.concatenate([np.diff(every, axis=0), every[[0]] - every[[-1]]])
+            self.own_lines = lines, np.append(np.zeros(fit.width - 1), turn)
         self.size = float(np.sqrt(fit.errors(at[None], self.base)[0])) or 1.0
 
     def misses(self, at: FloatArray) -> FloatArray:

@@ -35,6 +35,8 @@ SMALL = 1e-6
 """An objective of less than this part of what the box makes of it is next to nothing."""
 CLEAR = 1e-9
 """The least squared sine of a loop that counts as assembled."""
+APPROACH = (1e-2, 1e-3, 1e-4, 1e-5, CLEAR)
+"""The same by which least squares come near the edge of what can be assembled, where their misses go like roots."""
 OTHER_SIZE = 4.0
 """LeafNumbers so many times larger or smaller than at the start are scaled anew."""
 HALVINGS = 40
@@ -124,6 +126,10 @@ class LeastSquares(Protocol):
     def own(self) -> FloatArray:
         """Where the own unknowns begin, shape (w,)."""
 
+    @property
+    def own_lines(self) -> tuple[FloatArray, FloatArray]:
+        """What is zero or above of the own unknowns: by factors (l, w), beside constants (l,)."""
+
     def misses(self, at: FloatArray) -> FloatArray:
         """Return the scaled misses (k,) at unit coordinates, then own unknowns (n + w,); NaN where they have no value."""
 
@@ -151,6 +157,7 @@ class Local:
     ) -> None:
         self.problem, self.combination, self.elastic = problem, tuple(combination), tuple(elastic)
         self.squares, self.own = squares, np.zeros(0) if squares is None else np.array(squares.own, float)
+        self.clear = CLEAR
         self.n = len(problem.space.variables)
         self._looks: dict[bytes, tuple[Evaluated, bool]] = {}
         self._rows: dict[bytes, list[Row]] = {}
@@ -322,12 +329,12 @@ class Local:
         assert look.margin_slopes is not None
         slopes = np.zeros((look.margins.shape[1], self.width))
         slopes[:, : self.n] = look.margin_slopes.T
-        values, slopes = without_gaps(look.margins[0] - CLEAR, slopes)
+        values, slopes = without_gaps(look.margins[0] - self.clear, slopes)
         values = values + slopes[:, : self.n] @ way - loss
         if here is not look and here.margins.shape == look.margins.shape:  # of a design that is refused nothing is known
             assert here.margin_slopes is not None
             told = np.isfinite(told_margins(here))
-            values = np.where(told, here.margins[0] - CLEAR, values)
+            values = np.where(told, here.margins[0] - self.clear, values)
             slopes[told, : self.n] = here.margin_slopes.T[told]
         return Row(None, values, slopes, is_reach=True)
 
@@ -403,7 +410,10 @@ class Local:
         low[: self.n], high[: self.n] = 0.0, 1.0
         low[self.width - self.slack :] = 0.0
         if self.squares is not None:
-            return self._fitted(self.squares, z, (low, high), most)
+            for self.clear in APPROACH:
+                self._rows.clear()
+                z = self._fitted(self.squares, z, (low, high), most)
+            return z
         if method == "trust-constr":
             return self._trusted(z, Bounds(low, high), most)
         return self._sequential(z, Bounds(low, high), most)
@@ -443,11 +453,11 @@ class Local:
         at = np.concatenate([z, self.own])
         error, missing = self._fit_merit(squares, at)
         lines, by = self._lines_of_squares(at)
+        columns = [*range(self.n), *range(self.width, self.width + w)]
         for _ in range(most):
-            columns = [*range(self.n), *range(self.width, self.width + w)]
-            slopes = np.zeros((len(squares.misses(at[columns])), self.width + w))
-            slopes[:, columns] = squares.slopes(at[columns])
             misses, room = squares.misses(at[columns]), (low - at, high - at)
+            slopes = np.zeros((len(misses), self.width + w))
+            slopes[:, columns] = squares.slopes(at[columns])
             step = constrained_step(slopes, misses, by, lines, room, damping)
             found, short = self._fit_merit(squares, at + step)
             if not error + price * missing > found + price * short:  # again, by what the lines come to there
@@ -480,9 +490,12 @@ class Local:
     def _lines_of_squares(self, at: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return all lines, an equation as two, with their derivatives by the solver's variables and the own unknowns."""
         held, equal = (self._stacked(at[: self.width], equations) for equations in (False, True))
-        lines = np.concatenate([held[0], equal[0], -equal[0]])
-        by = np.concatenate([held[1], equal[1], -equal[1]])
-        return lines, np.concatenate([by, np.zeros((len(by), len(at) - self.width))], axis=1)
+        assert self.squares is not None
+        own, beside = self.squares.own_lines
+        by = np.zeros((len(held[0]) + 2 * len(equal[0]) + len(own), len(at)))
+        by[: len(by) - len(own), : self.width] = np.concatenate([held[1], equal[1], -equal[1]])
+        by[len(by) - len(own) :, self.width :] = own
+        return np.concatenate([held[0], equal[0], -equal[0], own @ at[self.width :] + beside]), by
 
     def _watched(self, z: FloatArray, patience: float = PATIENCE) -> Watch:
         """Return the objective for a solver; it is kept, so that the best so far is known where the solver is stopped."""

@@ -95,8 +95,20 @@ class Likeness:
             found[:, place] *= np.abs(factor)
         return found
 
-    def laid(self, path: Any, onto: Any) -> tuple[Any, Any, FloatArray]:
-        """Return by which factor and shift (m,) paths (m, n), complex, lie best on one (n,), and the errors (m,)."""
+    def sizes(self, fit: Fit, unit: FloatArray) -> FloatArray:
+        """Return between which factors the lengths of designs (m, n) stay within their ranges, shape (2, m)."""
+        values, variables = fit.space.values(unit), [fit.space.variables[place] for place in self.lengths]
+        low, high = np.full(len(unit), 1e-3), np.full(len(unit), 1e3)
+        with np.errstate(all="ignore"):
+            for place, each in zip(self.lengths, variables, strict=True):
+                low, high = np.fmax(low, each.low / values[:, place]), np.fmin(high, each.high / values[:, place])
+        return np.array([np.minimum(low, 1.0), np.maximum(high, 1.0)])
+
+    def laid(self, path: Any, onto: Any, sizes: FloatArray) -> tuple[Any, Any, FloatArray]:
+        """Return by which factor and shift (m,) paths (m, n), complex, lie best on one (n,), and the errors (m,).
+
+        The factors stay between `sizes` (2, m).
+        """
         by, factor = np.zeros(len(path), complex), np.ones(len(path), complex)
         middle = path.mean(axis=1, keepdims=True) if self.shift else np.zeros((len(path), 1))
         aim = onto.mean() if self.shift else 0.0
@@ -109,6 +121,8 @@ class Likeness:
                 factor = np.maximum(product.real, 1e-3 * np.abs(product)) / size + 0.0j
             elif self.turn:
                 factor = product / np.abs(product)
+            if self.scale:
+                factor = factor * (np.clip(np.abs(factor), *sizes) / np.abs(factor))
         by = aim - factor * middle[:, 0]
         error = np.sum(np.abs(factor[:, None] * own - other) ** 2, axis=1)
         return factor, by, np.where(np.isfinite(error), error, np.inf)
@@ -150,11 +164,11 @@ def starts_for(fit: Fit, many: int, seed: int, timed: Any, population: int, pres
     if timed is True:
         base = np.broadcast_to(fit.known, (len(unit), fit.rows.count))
         exact, _ = fit.values(fit.dimensions(unit), fit.known, len(unit))
-        best = Best.of(likeness, fit, exact, np.arange(fit.rows.count)[None])
+        best = Best.of(likeness, fit, unit, exact, np.arange(fit.rows.count)[None])
         own = np.zeros((len(unit), 0))
     else:
         picks, base_of, own_of = patterns(fit, timed, values.shape[2])
-        best = Best.of(likeness, fit, values, picks)
+        best = Best.of(likeness, fit, unit, values, picks)
         base, own = base_of[best.pattern], own_of[best.pattern]
     laid = likeness.applied(fit.space.values(unit), best.factor, best.by)
     if likeness.with_stroke:
@@ -242,20 +256,22 @@ class Best:
     error: FloatArray
 
     @classmethod
-    def of(cls, likeness: Likeness, fit: Fit, values: FloatArray, picks: Index) -> Best:
-        """Return the best of patterns (k, n) of the values (m, r, poses) of a population."""
+    def of(cls, likeness: Likeness, fit: Fit, unit: FloatArray, values: FloatArray, picks: Index) -> Best:
+        """Return the best of patterns (k, n) of the values (m, r, poses) of a population (m, n)."""
         m, (k, n) = len(values), picks.shape
         size = max(CHUNK // max(k * n, 1), 1)
-        parts = [cls._of_few(likeness, fit, values[first : first + size], picks) for first in range(0, m, size)]
+        pieces = [slice(first, first + size) for first in range(0, m, size)]
+        parts = [cls._of_few(likeness, fit, unit[each], values[each], picks) for each in pieces]
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("pattern", "factor", "by", "error")))
 
     @classmethod
-    def _of_few(cls, likeness: Likeness, fit: Fit, values: FloatArray, picks: Index) -> Best:
+    def _of_few(cls, likeness: Likeness, fit: Fit, unit: FloatArray, values: FloatArray, picks: Index) -> Best:
         m, (k, n) = len(values), picks.shape
         each = np.arange(m)
         if fit.rows.is_path:
             path = as_complex(values)[:, picks].reshape(m * k, n)
-            factor, by, error = likeness.laid(path, fit.rows.wanted[0] + 1j * fit.rows.wanted[1])
+            sizes = np.repeat(likeness.sizes(fit, unit), k, axis=1)
+            factor, by, error = likeness.laid(path, fit.rows.wanted[0] + 1j * fit.rows.wanted[1], sizes)
             pattern = np.asarray(np.argmin(error.reshape(m, k), axis=1))
             chosen = each * k + pattern
             return cls(pattern, factor[chosen], by[chosen], error[chosen])

@@ -38,8 +38,9 @@ from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, task_of, ti
 STARTS = 64
 STEPS, TURNS = 60, 5
 """Steps of a local search between two looks at the limit, and how many times so many."""
-POLISHED = 8
-"""Ends that do not keep a condition, or that stand where a machine just runs, from which is searched on with all conditions."""
+POLISHED, FEW = 8, 3
+"""Ends that do not keep a condition, or that stand where a machine just runs, from which is searched on with all conditions: after a few
+of them, only from those that may come to less."""
 SAME, NEAR = 1e-5, 1e-2
 """Of a side of the box: ends nearer than the first are one, nearer than the second where their errors are the same."""
 ALIKE = 1e-6
@@ -170,24 +171,24 @@ class TaskSearch:
 
     def searched(self, fit: Fit, first: Starts) -> list[Ends]:
         """Return what the local searches of a combination come to, then those that go on with the conditions."""
-        free, error = self.descended(fit, first.at, first.base, whole=False)
+        free = self.descended(fit, first.at, first.base, whole=False)
         with self.problem.count.without_limit():
             runs = fit.whole(free) if len(free) else np.zeros(0, bool)
-        found = [self.ends_of(fit, free, first.base, error)]
+        ends = self.ends_of(fit, free, first.base)
+        found = [ends]
         away = np.flatnonzero(~runs)
         if len(away) and not self.problem.count.is_spent:  # again, through machines that run
             again = away[fit.whole(first.at[away])]
-            at, error = self.descended(fit, first.at[again], first.base[again], whole=True)
-            found.append(self.ends_of(fit, at, first.base[again], error))
+            at = self.descended(fit, first.at[again], first.base[again], whole=True)
+            found.append(self.ends_of(fit, at, first.base[again]))
         stepped = [place for place, each in enumerate(self.problem.space.variables) if each.step is not None]
         if stepped:
             found = [self.on_steps(each, stepped) for each in found]
-        edge = found[1] if len(found) > 1 else None
-        polished = self.polished(found[0], edge)
+        polished = self.polished(found, ends, first)
         return [*found, *([polished] if polished is not None else [])]
 
-    def descended(self, fit: Fit, at: FloatArray, base: FloatArray, *, whole: bool) -> tuple[FloatArray, FloatArray]:
-        """Return where local searches end, and the errors, or where they stand when the limit is reached."""
+    def descended(self, fit: Fit, at: FloatArray, base: FloatArray, *, whole: bool) -> FloatArray:
+        """Return where local searches end, or where they stand when the limit is reached."""
         at = np.array(at)
         with self.problem.count.without_limit():
             error = fit.errors(at, base)
@@ -199,11 +200,13 @@ class TaskSearch:
             with self.problem.count.without_limit():
                 at[going], error[going] = fit.descend(at[going], base[going], STEPS, whole=whole)
             going = going[error[going] < (1.0 - 1e-9) * before]
-        return at, error
+        return at
 
-    def ends_of(self, fit: Fit, at: FloatArray, base: FloatArray, error: FloatArray) -> Ends:
-        """Return ends, with which of them run over the whole stroke and keep the conditions."""
+    def ends_of(self, fit: Fit, at: FloatArray, base: FloatArray) -> Ends:
+        """Return ends, with their errors and with which of them run over the whole stroke and keep the conditions."""
         good = np.zeros(len(at), bool)
+        with self.problem.count.without_limit():
+            error = fit.errors(at, base)
         if len(at):
             with self.problem.count.without_limit():
                 good = fit.whole(at) & np.isfinite(error)
@@ -220,38 +223,52 @@ class TaskSearch:
             rows = np.arange(variable.steps) * float(variable.step or 1.0) / variable.span
             at[:, place] = rows[np.abs(rows - at[:, [place]]).argmin(axis=1)]
         with self.problem.count.without_limit():
-            at, error = fit.descend(at, ends.base, STEPS, held=stepped)
-        return self.ends_of(fit, at, ends.base, error)
+            at, _ = fit.descend(at, ends.base, STEPS, held=stepped)
+        return self.ends_of(fit, at, ends.base)
 
-    def polished(self, ends: Ends, edge: Ends | None) -> Ends | None:
-        """Return ends that go on with all conditions: of those that miss one, and of those at the edge of running; None for none."""
-        fit, rows = ends.fit, []
-        for each in (ends, edge):
-            if each is not None and len(each.at):
-                with self.problem.count.without_limit():
-                    whole = fit.whole(each.at)
-                able = whole & np.isfinite(each.error) & (~each.good if each is ends else np.ones(len(whole), bool))
-                rows += [(float(each.error[place]), each.at[place], each.base[place]) for place in np.flatnonzero(able)]
-        best = min((float(error) for error, good in zip(ends.error, ends.good, strict=True) if good), default=np.inf)
-        rows = sorted((row for row in rows if row[0] < best), key=lambda row: row[0])
-        found: list[tuple[FloatArray, FloatArray]] = []
+    def polished(self, found: Sequence[Ends], free: Ends, first: Starts) -> Ends | None:
+        """Return ends of searches with all conditions, of those that miss one or the order; where they do not run, from their starts.
+
+        Only of those of which the error leaves hope to better what is good already; None of none.
+        """
+        fit, fixed = free.fit, [place for place, each in enumerate(self.problem.space.variables) if each.step is not None]
+        good = [self.good_in_order(each) for each in found]
+        best = min((float(each.error[k]) for each, mask in zip(found, good, strict=True) for k in np.flatnonzero(mask)), default=np.inf)
+        ended: list[tuple[FloatArray, FloatArray]] = []
         tried: list[FloatArray] = []
-        for _, at, base in rows:
-            if len(tried) == POLISHED or self.problem.count.is_spent:
+        for k in np.argsort(free.error, kind="stable"):
+            if len(tried) == POLISHED or self.problem.count.is_spent or not free.error[k] < best or fixed:
                 break
-            if any(np.abs(at[: fit.n] - other).max() < NEAR for other in tried):
+            if good[0][k] or any(np.abs(free.at[k] - other).max() < NEAR for other in tried):
                 continue
-            tried.append(at[: fit.n])
-            with suppress(LinkageError):
-                found.append((self.with_conditions(fit, at, base), base))
-        if not found:
+            tried.append(free.at[k])
+            for start in (free.at[k], first.at[k]):
+                with suppress(LinkageError):
+                    ended.append((self.with_conditions(fit, start, first.base[k]), first.base[k]))
+                    break
+            if len(ended) >= FEW:  # then only what may be better than these
+                one = self.ends_of(fit, *(np.array(column) for column in zip(*ended, strict=True)))
+                best = min([best, *one.error[self.good_in_order(one)].tolist()])
+        if not ended:
             return None
-        at, base = (np.array(column) for column in zip(*found, strict=True))
-        return self.ends_of(fit, at, base, fit.errors(at, base))
+        return self.ends_of(fit, *(np.array(column) for column in zip(*ended, strict=True)))
+
+    def good_in_order(self, ends: Ends) -> Mask:
+        """Return which ends run, keep the conditions and come to the points in order."""
+        if not self.ordered:
+            return ends.good
+        order = [in_order(ends.fit, at, base) for at, base in zip(ends.at, ends.base, strict=True)]
+        return np.asarray(ends.good & np.array(order, bool))
+
+    @property
+    def ordered(self) -> bool:
+        """Whether untimed points are to be passed in order."""
+        return self.timed is False and self.task.in_order
 
     def with_conditions(self, fit: Fit, at: FloatArray, base: FloatArray) -> FloatArray:
         """Return what a design and its points' unknowns (n + w,) come to by a search that keeps all conditions."""
-        local = Local(self.problem, fit.combination, at[: fit.n], squares=FitSquares(fit, at, base))
+        squares = FitSquares(fit, at, base, in_order=self.ordered)
+        local = Local(self.problem, fit.combination, at[: fit.n], squares=squares)
         end = local.run()
         return np.concatenate([end.unit, local.own])
 
@@ -307,7 +324,7 @@ class TaskSearch:
         circuits = circuit_words(fit, at, base)
         if circuits:
             return circuits
-        if self.timed is False and self.task.in_order and not in_order(fit, at, base):
+        if self.ordered and not in_order(fit, at, base):
             return "it comes to the points in another order"
         try:
             answers = machine.judge(self.over).answers([reachable, *self.conditions])

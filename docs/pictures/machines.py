@@ -16,6 +16,7 @@ from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.crane import ArmDrive, BoomDrive
 from mechanisms.crane.drive_figures import drive_figure
 from mechanisms.crane.figures import crane_figure
+from mechanisms.grapple import CrossheadGrapple
 from mechanisms.grapple import figures as grapple
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import figures as hitch
@@ -51,6 +52,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "at_work_excavator_chart": excavator_chart,
     "at_work_telehandler_chart": telehandler_chart,
     **{f"grapple_{name}": partial(grapple.figure, name) for name in ("moments", "stems")},
+    "grapple_crosshead": partial(grapple.figure, "stems", CrossheadGrapple()),
     **{f"three_point_hitch_{name}": partial(hitch.figure, name) for name in ("capacity", "lift", "zones")},
 }
 FILMS: dict[str, Callable[[Path], None]] = {"mower_lift.gif": lift_film}

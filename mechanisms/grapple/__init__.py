@@ -14,6 +14,7 @@ from .design import feasible as feasible
 from .duty import Duty as Duty
 from .duty import assumed_moment as assumed_moment
 from .duty import grapple_for as grapple_for
+from .machine import CrossheadGrapple as CrossheadGrapple
 from .machine import Grapple as Grapple
 from .machine import InnerGrapple as InnerGrapple
 from .report import GrappleState as GrappleState

@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 
+from hydraulics import Cylinder
 from linkage import DefinitionError, Motion
 from linkage.errors import unknown
 from linkage.pictures import style
@@ -71,7 +72,8 @@ def stems(grapple: Grapple) -> Figure:
 
 
 def _stems_title(grapple: Grapple) -> str:
-    size = ", ".join(f"{word} {float(grapple[name]) / mm:.0f}" for word, name in (("bore", "bore"), ("rod", "rod"), ("stroke", "S")))
+    motion = grapple.at(theta=0.0)
+    size = ", ".join(f"{word} {float(motion.value(name)) / mm:.0f}" for word, name in (("bore", "bore"), ("rod", "rod"), ("stroke", "S")))
     return f"The grapple and its stems, {float(grapple['d_0']) / mm:.0f} to {float(grapple['D_0']) / mm:.0f} mm; cylinder, mm: {size}"
 
 
@@ -81,8 +83,13 @@ def _room(way: Motion) -> tuple[float, float, float, float]:
     pad = 0.16 * half
     wide = max(float(np.abs(way.x(point)).max()) for point in "ACEO") + 2.0 * pad
     low = min(-half, *(float(way.y(point).min()) for point in "AC")) - 1.8 * pad
-    high = max(half, *(float(way.y(point).max()) for point in "CE")) + 2.2 * pad
+    high = max(half, *(float(way.y(point).max()) for point in ("C", "E", rod_end(way)))) + 2.2 * pad
     return -wide, wide, low, high
+
+
+def rod_end(motion: Motion) -> str:
+    """Return the pin that the cylinder's rod ends at: C, or the crosshead that the links of both levers hang on."""
+    return motion.plan.of_kind(Cylinder)["lift"].ends[1]
 
 
 def _rosette(ax: Axes, motion: Motion, theta: float) -> None:
@@ -148,8 +155,11 @@ def _bar(P: FloatArray, Q: FloatArray, half: float) -> FloatArray:
 
 
 def _cylinder(ax: Axes, motion: Motion, sense: float) -> None:
-    """Draw the cylinder from E to C: barrel, and the rod out of it."""
-    E, C = motion["E"].ravel(), motion["C"].ravel()
+    """Draw the cylinder from E to its rod's end: barrel, and the rod out of it; and the link from a crosshead to C."""
+    E, C = motion["E"].ravel(), motion[rod_end(motion)].ravel()
+    if rod_end(motion) != "C":
+        link = _mirrored(_bar(C, motion["C"].ravel(), 0.25 * THICK * float(motion.inputs["D_0"])), sense)
+        ax.add_patch(Polygon(link, facecolor=style.BODIES[2], edgecolor=style.INK, linewidth=0.9, zorder=4.8))
     bore, closed = float(motion.inputs["bore"]), float(motion["closed"])
     along = (C - E) / np.hypot(*(C - E))
     mouth = E + along * min(0.86 * closed, 0.95 * float(np.hypot(*(C - E))))
@@ -170,6 +180,8 @@ def _names(ax: Axes, motion: Motion) -> None:
     x_out, y_out = 12.0 * (C - O) / np.hypot(*(C - O))
     aside = {"T": (0.0, 8.0), "O": (-x_out, -y_out - 3.0), "A": (0.0, -14.0), "C": (x_out, y_out), "E": (0.0, 15.0)}
     ax.plot(*T, "v", color=style.INK, markersize=6, zorder=9.0)
+    if rod_end(motion) != "C":
+        aside[rod_end(motion)] = (14.0, 6.0)
     for name, offset in aside.items():
         ax.annotate(
             name, (float(motion.x(name)), float(motion.y(name))), xytext=offset, textcoords="offset points", ha="center", va="center",

@@ -9,19 +9,23 @@ import numpy as np
 from hydraulics import Cylinder, LiftCircuit
 from hydraulics.inputs import positive
 from linkage import (
+    RIGHT,
     Column,
     Crank,
     DefinitionError,
     Dimension,
+    Dyad,
     Featured,
     Force,
     Ground,
+    Guide,
     LoadCase,
     Mechanism,
     Motion,
     OnLink,
     Outline,
     Over,
+    SliderDyad,
     Stroke,
     distance,
     ref,
@@ -29,9 +33,10 @@ from linkage import (
     y,
 )
 from linkage.language import said
+from linkage.quantities import Quantity
 from linkage.units import MPa, deg, mm
 
-from .report import grapple_columns, grapple_verdicts
+from .report import crosshead_verdicts, grapple_columns, grapple_verdicts
 
 
 class Grapple(Mechanism):
@@ -135,8 +140,9 @@ class Grapple(Mechanism):
         """Set the design [SI]; DefinitionError also for what cannot be: no stem, a wrap of no angle, a side that is neither."""
         super().__init__(**dimensions)
         for name in ("D_0", "d_0", "hinge_gap", "opening", "bush", "bore", "rod", "S", "rho"):
-            positive(self[name], name)
-        if np.any(np.abs(np.asarray(self["side_E"])) != 1.0):
+            if name in self.dimensions:
+                positive(self[name], name)
+        if "side_E" in self.dimensions and np.any(np.abs(np.asarray(self["side_E"])) != 1.0):
             raise DefinitionError(f"side_E = {self['side_E']}: 1 for the left of the way of C, -1 for the right.")
         if np.any(np.asarray(self["d_0"]) >= np.asarray(self["D_0"])):
             small, large = np.max(self["d_0"]) / mm, np.min(self["D_0"]) / mm
@@ -174,3 +180,45 @@ class InnerGrapple(Grapple):
     open_length = ref("closed") + ref("S")
     shut_length = ref("closed") + 0.0
     lift = Cylinder("E", "C", bore="bore", rod="rod", closed="closed", stroke="S", works="rod")
+
+
+class CrossheadGrapple(Grapple):
+    """One cylinder on both levers: EK stands on the housing, its crosshead K slides along the axis, the links KC draw both pins C.
+
+    It closes by drawing in, with its rod side. The stroke follows the levers' way, and E where the closed cylinder closes them. M_g is the
+    share of one lever, a half of what the cylinder gives. The dimensions are for the shipped stems and the assumed M_1: of a grid of bends,
+    OC, links of up to 0.9 m and standard bores those of the least bore with which the cylinder stands over the housing. Shorter links
+    leave it no room there, so the head is about 1 m tall; the links run in front of the housing.
+    """
+
+    bore = Dimension(100 * mm, unit="mm")
+    rod = Dimension(45 * mm, unit="mm")
+    rho = Dimension(100 * mm, unit="mm")
+    bend = Dimension(155 * deg, unit="deg")
+    link = Dimension(900 * mm, unit="mm")                       # CK
+    side_E = dx = dy = way = u = v = x_E = y_E = None           # type: ignore[assignment]
+
+    x_shut = x("O") + ref("rho") * np.cos(ref("to_A") + ref("bend") - ref("closing_angle"))
+    y_shut = y("O") + ref("rho") * np.sin(ref("to_A") + ref("bend") - ref("closing_angle"))
+    K_open = ref("y_open") + np.sqrt(link**2 - ref("x_open")**2)
+    K_shut = y_shut + np.sqrt(link**2 - x_shut**2)
+    S: Quantity = K_open - K_shut
+    open_length = ref("closed") + S
+    shut_length = ref("closed") + 0.0
+    E = Ground(0.0, K_shut - ref("closed"))
+    axis = Guide(E, angle=90 * deg)
+    K = SliderDyad("C", axis, CK=link, side=RIGHT)
+    EC = distance(E, K)
+    room = y(E) - (ref("D_0") / 2 + 0.03)                       # over the housing
+
+    P = Ground(-x("O"), y("O"))                                 # the left-hand lever: P, B, G for O, A, C
+    G = Dyad(K, P, KG=link, PG="rho", side=RIGHT)
+    B = OnLink(P, G, PB="OA", GPB="bend")
+    stem_left = Force(B, (ref("push") * ref("x_in"), -ref("push") * ref("y_in")))
+    empty = LoadCase("empty", scale={"stem": 0.0, "stem_left": 0.0})
+
+    lift = Cylinder(E, K, bore="bore", rod="rod", closed="closed", stroke=S, works="rod")
+
+    def rules(self, motion: Motion) -> list[str]:
+        """Return what an engineer should know: moment over the stems, place over the housing, opening, stroke, hinge."""
+        return [*crosshead_verdicts(motion)]

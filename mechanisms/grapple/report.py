@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from hydraulics import LiftCircuit
-from linkage import Column, DefinitionError, Motion, least, most, pin_force, ref
+from linkage import Column, DefinitionError, Force, Motion, least, most, pin_force, ref
 from linkage.language import said
 from linkage.motion import Answer, Judge, Question, require_motion
 from linkage.program import FloatArray
@@ -98,9 +98,10 @@ class GrappleState:
 
     @cached_property
     def given(self) -> FloatArray:
-        """M_g [N m], what the full pressure gives about the hinge."""
+        """M_g [N m], what the full pressure gives about the hinge of each of the levers whose stem the cylinder presses."""
         circuit: LiftCircuit = self.motion.plan.of_kind(LiftCircuit)["circuit"]
-        return circuit.largest(self.motion) * circuit.efficiency(self.motion, "mechanical") * self.H
+        levers = len(self.motion.plan.of_kind(Force))
+        return circuit.largest(self.motion) * circuit.efficiency(self.motion, "mechanical") * self.H / levers
 
     @cached_property
     def needed(self) -> FloatArray:
@@ -137,6 +138,20 @@ def grapple_verdicts(motion: Motion) -> list[Verdict]:
         moment_verdict(motion), passing_verdict(motion), room_verdict(motion), opening_verdict(motion), stroke_verdict(motion),
         hinge_verdict(motion),
     ]  # fmt: skip
+
+
+def crosshead_verdicts(motion: Motion) -> list[Verdict]:
+    """Return the same of one cylinder on both levers, which stands over the housing and passes neither hinge nor stem."""
+    if require_grapple(motion)._design_shape:
+        return grapple_verdicts(motion)
+    room, needed = float(np.ravel(motion["room"])[0]), float(motion.inputs["bore"] / 2.0)
+    remedy = "" if room >= needed else said(": it stands in the housing; take longer links, a shorter OC or a smaller bore")
+    text = said(
+        "the cylinder's pin E stands {room} over the housing; half its bore is {needed}", room=show(room, "mm", ".1f"),
+        needed=show(needed, "mm", ".1f"),
+    )  # fmt: skip
+    standing = Verdict("room", room >= needed, f"{text}{remedy}.")
+    return [moment_verdict(motion), standing, opening_verdict(motion), stroke_verdict(motion), hinge_verdict(motion)]
 
 
 def answers_over(motion: Motion, questions: list[Question]) -> list[Answer]:

@@ -13,6 +13,7 @@ from linkage.cli import main
 from linkage.units import MPa, deg, mm
 from mechanisms.grapple import (
     Combination,
+    CrossheadGrapple,
     Duty,
     Grapple,
     GrappleState,
@@ -335,6 +336,48 @@ def test_a_duty_without_a_design_is_told():
         design(Duty(cylinders=[(0.04, 0.022)], strokes=[0.1]))
     with pytest.raises(DefinitionError, match="objective"):
         design(Duty(), "evn")
+
+
+# -- one cylinder on both levers ---------------------------------------------------------------------------
+
+
+def test_one_cylinder_on_both_levers_by_virtual_work():
+    """Pins by circles, the crosshead's way by differences: the thrust does the work that both stems take, and closes the reserve."""
+    machine = CrossheadGrapple()
+    motion = gripping(machine.at(theta=0.0), 31)
+    theta, (x, y), link, rho = motion.strokes["theta"], np.ravel(machine.at(theta=0.0)["O"]), 0.9, 0.1
+    shipped = Grapple().at(theta=theta)
+    assert_allclose(motion["A"], shipped["A"], atol=1e-12)
+
+    def crosshead(at):
+        turned = float(machine.at(theta=0.0)["to_A"]) + 155 * deg + at
+        return y + rho * np.sin(turned) + np.sqrt(link**2 - (x + rho * np.cos(turned)) ** 2)
+
+    rate = (crosshead(theta + 1e-6) - crosshead(theta - 1e-6)) / 2e-6
+    assert_allclose(motion["K"], [np.zeros(31), crosshead(theta)], atol=1e-12)
+    assert_allclose(motion["B"], motion["A"] * [[-1.0], [1.0]], atol=1e-12)
+    thrust = machine.plan.members["lift"].thrust(motion)
+    assert_allclose(thrust, -2.0 * shipped["M_1"] / rate, rtol=1e-8)
+    force = np.pi / 4 * (0.1**2 - 0.045**2) * 20e6 * 0.95
+    assert_allclose(moment_ratio(motion), force * rate / (2.0 * shipped["M_1"]), rtol=1e-8)
+    assert_allclose(machine.plan.members["circuit"].reserve(motion), moment_ratio(motion), rtol=1e-12)
+    assert (moment_ratio(motion).min(), moment_ratio(motion).max()) == pytest.approx((1.11455, 1.6290), rel=1e-3)
+    stroke = machine.strokes["theta"]
+    assert_allclose(crosshead(stroke.start) - crosshead(stroke.end), motion["S"], rtol=1e-9)
+
+
+def test_both_levers_pull_alike_on_the_crosshead():
+    forces = pin_forces(gripping(CrossheadGrapple().at(theta=0.0), 7))
+    right, left = forces.force("C"), forces.force("G")
+    assert_allclose(np.hypot(*right), np.hypot(*left), rtol=1e-9)
+    assert_allclose(np.hypot(*forces.force("O")), np.hypot(*forces.force("P")), rtol=1e-9)
+
+
+def test_verdicts_of_one_cylinder_on_both_levers():
+    said = "\n".join(CrossheadGrapple().verdicts())
+    assert "FAIL" not in said and "E stands 70.0 mm over the housing" in said
+    assert "FAIL room" in "\n".join((made := CrossheadGrapple(link=0.7)).rules(made.at(theta=0.0)))
+    assert "FAIL moment" in "\n".join((made := CrossheadGrapple(bore=0.08)).rules(made.at(theta=0.0)))
 
 
 # -- duties, words, commands -------------------------------------------------------------------------------

@@ -37,6 +37,8 @@ TOLERANCE = 1e-13
 """Of the size of what it measures: a target that is missed by no more is met."""
 FAR = 0.6
 """How far outside the ranges, in shares of them, steps of Newton are followed."""
+SURE = 1e-8
+"""A step, in shares of the ranges, after which a target is met without another look: its error is this one's square."""
 LEAP = 0.35
 """The longest step, in shares of the ranges."""
 EDGE = 1e-10
@@ -138,13 +140,23 @@ class ManyPlaces:
 
     # -- steps -------------------------------------------------------------------------------------------
 
+    def seen_in(self, unit: FloatArray, order: Index | None) -> tuple[FloatArray, FloatArray]:
+        """Return the same of poses that have their strokes in orders of their own (n, k), None for that of `places`."""
+        if order is None:
+            return self.seen(unit)
+        usual = np.empty_like(unit)
+        np.put_along_axis(usual, order, unit, axis=1)
+        values, slopes = self.seen(usual)
+        return values, np.take_along_axis(slopes, order[:, None, :], axis=2)
+
     def settled(
-        self, start: PlacePoses, goals: FloatArray, outs: FloatArray, *, damped: bool | str = True, iterations: int = ITERATIONS
-    ) -> tuple[PlacePoses, Mask]:
+        self, start: PlacePoses, goals: FloatArray, outs: FloatArray, *, damped: bool | str = True, iterations: int = ITERATIONS,
+        order: Index | None = None,
+    ) -> tuple[PlacePoses, Mask]:  # fmt: skip
         """Return where steps of Newton lead from some poses to what their places want (places, t), and which have met it.
 
         The spare strokes stay. Those that do not settle go on with damped steps inside the ranges, where `damped`; "unsettled" are those
-        alone that have not left the ranges.
+        alone that have not left the ranges. Without damping each may have its strokes in an `order` of its own (n, k).
         """
         k, places = self.solved, self.places
         unit, wanted = start.unit.copy(), goals[start.place]
@@ -153,18 +165,18 @@ class ManyPlaces:
         for _ in range(iterations):
             if not len(going):
                 break
-            values, slopes = self.seen(unit[going])
+            values, slopes = self.seen_in(unit[going], None if order is None else order[going])
             off = places.off(values, wanted[going])
             here = (np.abs(off) <= self.tolerance).all(axis=1)
             step = solved_systems(slopes[:, :, :k], off)
             size = np.abs(step).max(axis=1)
             good = np.isfinite(size)
             step *= np.minimum(1.0, LEAP / np.where(size > 0.0, size, 1.0))[:, None]
-            met[going[here]] = True
+            near = here | (size <= SURE)
             lost[going[~good]] = True
-            on = good & ~here
-            going = going[on]
-            unit[going, :k] -= step[on]
+            unit[going[good & ~here], :k] -= step[good & ~here]
+            met[going[near]] = True
+            going = going[good & ~near]
             out = ((unit[going, :k] < low) | (unit[going, :k] > high)).any(axis=1)
             lost[going[out]] = True
             going = going[~out]

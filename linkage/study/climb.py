@@ -38,13 +38,15 @@ class Climb:
     """Poses whose spare strokes go to where most is carried; the first `solved` strokes of each are solved for.
 
     `moved` gives poses (m, n, k) with the spare strokes at some values (m, n, s), and the load of each limiter there (limiters, m, n),
-    NaN where there is none. `base` are the best poses found and `load` theirs [N]; `centre` (n, k) is where each stands now, maybe a
-    little past an end, `worth` what that counts, `room` how far around it is looked, in shares of the spare strokes' ranges (n,).
+    NaN where there is none; `order` is that in which the strokes of each stand (n, k). `base` are the best poses found and `load` theirs
+    [N]; `centre` (n, k) is where each stands now, maybe a little past an end, `worth` what that counts, `room` how far around it is
+    looked, in shares of the spare strokes' ranges (n,).
     """
 
-    moved: Callable[[PlacePoses, FloatArray], tuple[FloatArray, FloatArray]]
+    moved: Callable[[PlacePoses, Index, FloatArray], tuple[FloatArray, FloatArray]]
     solved: int
     base: PlacePoses
+    order: Index
     load: FloatArray
     centre: FloatArray
     worth: FloatArray
@@ -52,16 +54,16 @@ class Climb:
 
     @classmethod
     def begun(
-        cls, moved: Callable[[PlacePoses, FloatArray], tuple[FloatArray, FloatArray]], solved: int, base: PlacePoses, load: FloatArray,
-        room: float,
+        cls, moved: Callable[[PlacePoses, Index, FloatArray], tuple[FloatArray, FloatArray]], solved: int, base: PlacePoses,
+        order: Index, load: FloatArray, room: float,
     ) -> Climb:  # fmt: skip
         """Return where it begins."""
-        return cls(moved, solved, base, load, base.unit, load, np.full(len(load), room))
+        return cls(moved, solved, base, order, load, base.unit, load, np.full(len(load), room))
 
     def where(self, rows: Index) -> Climb:
         """Return some of them."""
         base, load, centre, worth = self.base.where(rows), self.load[rows], self.centre[rows], self.worth[rows]
-        return replace(self, base=base, load=load, centre=centre, worth=worth, room=self.room[rows])
+        return replace(self, base=base, order=self.order[rows], load=load, centre=centre, worth=worth, room=self.room[rows])
 
     @property
     def is_settled(self) -> bool:
@@ -81,12 +83,14 @@ class Climb:
         room = here.room[:, None]
         middle = np.clip(here.centre[:, k:], np.minimum(room, 0.5), np.maximum(1.0 - room, 0.5))
         poses = PlacePoses(here.base.place, here.centre)
-        unit, of = self.moved(poses, middle[None] + around[:, None] * room)
+        unit, of = self.moved(poses, here.order, middle[None] + around[:, None] * room)
         best = here.better(unit, of)
         with_ends = np.concatenate([of_best(of, best.load), 0.25 * COST * ends_of(unit[:, :, :k]).transpose(2, 0, 1)])
         at, share = best_of_parabolas(with_ends.transpose(0, 2, 1), len(of), s)
+        guess = np.einsum("na,ank->nk", bases_at(at), unit)
         promised = np.where(share < 1.0, share / (1.0 - np.minimum(share, 0.999)), np.inf) * best.load
-        unit, of = self.moved(poses, (middle + at * room)[None])
+        begin = PlacePoses(here.base.place, np.where(np.isfinite(guess), guess, here.centre))
+        unit, of = self.moved(begin, here.order, (middle + at * room)[None])
         best = best.better(unit, of)
         worth = np.nan_to_num(load_less_cost(unit, of, k, best.load)[0], nan=-np.inf)
         kept = worth - here.worth >= KEPT * np.maximum(promised - here.worth, 0.0)
@@ -118,6 +122,15 @@ class Climb:
             parts[name] = getattr(self, name).copy()
             parts[name][rows] = getattr(some, name)
         return replace(self, base=PlacePoses(self.base.place, unit), **parts)
+
+
+def bases_at(at: FloatArray) -> FloatArray:
+    """Return the weights of values at -1, 0 and 1 of each spare stroke at places (n, s) between them, shape (n, 3**s)."""
+    each = np.stack([0.5 * at * (at - 1.0), 1.0 - at * at, 0.5 * at * (at + 1.0)], axis=2)
+    found = each[:, 0]
+    for other in each.swapaxes(0, 1)[1:]:
+        found = (found[:, :, None] * other[:, None, :]).reshape(len(at), -1)
+    return found
 
 
 def ends_of(unit: FloatArray) -> FloatArray:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import combinations
 from typing import Any, final
 
@@ -464,20 +464,16 @@ class FieldSearch:
 
     def climbed(self, base: PlacePoses, load: FloatArray, looks: int, room: float) -> tuple[PlacePoses, FloatArray]:
         """Return poses whose spare strokes went to where more is carried, and their loads [N]."""
-        unit, load = base.unit.copy(), load.copy()
-        chosen = self.spared(base.unit)
-        for each, (many, order, _) in enumerate(self.turns):
-            rows = np.flatnonzero(chosen == each)
-            if not len(rows):
-                continue
-            start = PlacePoses(base.place[rows], base.unit[rows][:, order])
-            climb = Climb.begun(partial(self.moved, many, order), many.solved, start, load[rows], room)
-            for _ in range(looks):
-                if climb.is_settled:
-                    break
-                climb = climb.step()
-            unit[np.ix_(rows, order)], load[rows] = climb.base.unit, climb.load
-        return PlacePoses(base.place, unit), load
+        order = np.array([each for _, each, _ in self.turns])[self.spared(base.unit)]
+        start = PlacePoses(base.place, np.take_along_axis(base.unit, order, axis=1))
+        climb = Climb.begun(self.moved, self.many.solved, start, order, load, room)
+        for _ in range(looks):
+            if climb.is_settled:
+                break
+            climb = climb.step()
+        unit = np.empty_like(base.unit)
+        np.put_along_axis(unit, order, climb.base.unit, axis=1)
+        return PlacePoses(base.place, unit), climb.load
 
     def spared(self, unit: FloatArray) -> Index:
         """Return which of the `turns` has the strokes to spare at each pose (n,): the first, but where its others are near a dead point."""
@@ -496,22 +492,23 @@ class FieldSearch:
             left = left[(np.abs(spare[left] - spare[of_place[place[left]]]) > NEXT[s]).any(axis=1)]
         return np.concatenate(chosen)
 
-    def moved(self, many: ManyPlaces, order: Index, base: PlacePoses, to: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def moved(self, base: PlacePoses, order: Index, to: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return poses (m, n, k) with the spare strokes at some values (m, n, s), a little past the others' ends too, and their loads.
 
-        Strokes stand in the order of `many`. Loads of each limiter (limiters, m, n) [N]; NaN where the place is not met.
+        Strokes stand in the `order` of each (n, k). Loads of each limiter (limiters, m, n) [N]; NaN where the place is not met.
         """
-        k, (n, width) = many.solved, base.unit.shape
-        _, slopes = many.seen(base.unit)
+        many, k, (n, width) = self.many, self.many.solved, base.unit.shape
+        _, slopes = many.seen_in(base.unit, order)
         change = np.einsum("nts,mns->mnt", slopes[:, :, k:], to - base.unit[None, :, k:])
         along = solved_systems(np.tile(slopes[:, :, :k], (len(to), 1, 1)), change.reshape(-1, k))
         guess = np.tile(base.unit, (len(to), 1))
         guess[:, :k] -= np.where(np.isfinite(along), along, 0.0)
         guess[:, k:] = to.reshape(-1, width - k)
         start = PlacePoses(np.tile(base.place, len(to)), guess)
-        found, met = many.settled(start, self.goals, np.full(width, BEYOND), damped=False, iterations=FEW)
+        every = np.tile(order, (len(to), 1))
+        found, met = many.settled(start, self.goals, np.full(width, BEYOND), damped=False, iterations=FEW, order=every)
         of, unit = np.full((len(self.names), len(guess)), np.nan), np.empty_like(guess)
-        unit[:, order] = found.unit
+        np.put_along_axis(unit, every, found.unit, axis=1)
         of[:, met] = self.carried(PlacePoses(found.place[met], unit[met])).of
         return found.unit.reshape(len(to), n, width), of.reshape(-1, len(to), n)
 

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 
 from hydraulics import Cylinder
-from linkage import DefinitionError, Motion
+from linkage import DefinitionError, Motion, ref
 from linkage.errors import unknown
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
@@ -73,7 +73,8 @@ def stems(grapple: Grapple) -> Figure:
 
 def _stems_title(grapple: Grapple) -> str:
     motion = grapple.at(theta=0.0)
-    size = ", ".join(f"{word} {float(motion.value(name)) / mm:.0f}" for word, name in (("bore", "bore"), ("rod", "rod"), ("stroke", "S")))
+    named = (("bore", "bore"), ("rod", "rod"), ("stroke", "S"))
+    size = ", ".join(f"{word} {float(motion.value(ref(name))) / mm:.0f}" for word, name in named)
     return f"The grapple and its stems, {float(grapple['d_0']) / mm:.0f} to {float(grapple['D_0']) / mm:.0f} mm; cylinder, mm: {size}"
 
 

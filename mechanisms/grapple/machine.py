@@ -67,7 +67,7 @@ class Grapple(Mechanism):
 
     bore = Dimension(50 * mm, unit="mm")
     rod = Dimension(28 * mm, unit="mm")
-    S = Dimension(250 * mm, unit="mm")                          # the cylinder's stroke
+    S: Quantity = Dimension(250 * mm, unit="mm")                # the cylinder's stroke
     dead = Dimension(120 * mm, unit="mm")                       # its closed length beyond the stroke: dead + dead_bores bore
     dead_bores = Dimension(1.6)
     rho = Dimension(192.613145857 * mm, unit="mm")               # OC

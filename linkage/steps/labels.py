@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol, final
 
 from ..errors import DefinitionError
@@ -43,7 +44,7 @@ class Slot:
         """`length` or `angle`."""
         return "length" if len(self.points) == 2 else "angle"
 
-    @property
+    @cached_property
     def spellings(self) -> dict[str, int]:
         """The valid spellings with their sign: reversed, an angle changes it."""
         words = joined_names if self.spoken is None else self.spoken.word

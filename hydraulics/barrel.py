@@ -84,6 +84,10 @@ class BarrelAndRod(TwoPoint):
         given = quantity(self.given("closed"))
         return Variable(f"{self.name}.closed") if isinstance(given, Number) else given
 
+    @property
+    def scales(self) -> bool:
+        return any(self.given(name) is not None for name in MASSES) or super().scales
+
     def halves(self, members: Mapping[str, Member]) -> Halves | None:
         if not self.name or self._inner_ends[0] not in members:
             return None
@@ -173,7 +177,8 @@ class OnCylinder(Point):
     def parts(self) -> tuple[Reference, ...]:
         gland = f"{name_of(self.cylinder)}.{GLAND}"
         numbers = tuple(value for _, value in self.numbers() if not value.is_constant)
-        return (*self.ends, *numbers, *(() if self.name == gland else (gland,)))
+        owner: tuple[Reference, ...] = () if self.name.startswith(f"{name_of(self.cylinder)}.") else (self.cylinder, gland)
+        return (*self.ends, *numbers, *owner)
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         return tuple((name, value.number, "coordinate", "") for name, value in self.numbers() if isinstance(value, Number))

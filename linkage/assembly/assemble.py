@@ -221,7 +221,8 @@ def assembled(members: Mapping[str, Member], title: str) -> dict[str, Member]:
         return dict(members)
     inner = held_inside(members, title)
     check_names({**members, **inner}, title)
-    return {name: member for name, member in Assembler({**members, **inner}, title).run().items() if name not in inner}
+    held = frozenset(name for name, each in inner.items() if not isinstance(each, Quantity))
+    return {name: member for name, member in Assembler({**members, **inner}, title, held).run().items() if name not in inner}
 
 
 def held_inside(members: Mapping[str, Member], title: str) -> dict[str, Member]:
@@ -267,14 +268,16 @@ def sketched(member: Member) -> bool:
 class Assembler:
     """Settles one member after another, numerically at the sketch where positions choose."""
 
-    def __init__(self, members: Mapping[str, Member], title: str) -> None:
-        self.title = title
+    def __init__(self, members: Mapping[str, Member], title: str, held: frozenset[str] = frozenset()) -> None:
+        """Take all members; `held` are those that others hold by names of their own: a sketch brings them along with their owners."""
+        self.title, self.held = title, held
+        self.known: set[str] = set()
         self.settled: dict[str, Member] = {}
         self.pending = {name: member for name, member in members.items() if not (is_loose(member) or is_open(member))}
         self.parts = Parts(
             placed=set(),
             pins={name: member for name, member in members.items() if isinstance(member, Pin) and is_loose(member)},
-            links={name: member for name, member in members.items() if isinstance(member, Link)},
+            links={name: member for name, member in members.items() if isinstance(member, Link) and name not in held},
             slides={name: member for name, member in members.items() if isinstance(member, Slide)},
             guides={name: member for name, member in members.items() if isinstance(member, Guide)},
             place=self.place,
@@ -304,13 +307,16 @@ class Assembler:
         """Settle every member all of whose parts are settled."""
         progress = True
         while progress:
-            ready = [name for name, member in self.pending.items() if set(needs(member)) <= set(self.settled) and not self.waits(member)]
+            ready = [name for name, member in self.pending.items() if set(needs(member)) <= self.known and not self.waits(member)]
             for name in ready:
                 self.settle(name, self.pending.pop(name))
             progress = bool(ready)
 
     def settle(self, name: str, member: Member) -> None:
         """Settle a member: measure what it lacks, choose its side."""
+        self.known.add(name)
+        if name in self.held:
+            return
         if isinstance(member, Step):
             named = copy(member)
             object.__setattr__(named, "_name", name)
@@ -329,10 +335,12 @@ class Assembler:
         name = next(f"group{k}" for k in range(1, len(self.parts.pins) + 2) if f"group{k}" not in self.settled)
         object.__setattr__(group, "_name", name)
         self.settled[name] = group
+        self.known.add(name)
         for pin in group.pins:
             member = copy(self.parts.pins[pin])
             member.group = group
             self.settled[pin] = member
+            self.known.add(pin)
             self.parts.placed.add(pin)
 
     def place(self, point: str) -> Place:

@@ -458,6 +458,7 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> dict[str, An
     names = list(scene.motion.plan.points)
     index = {name: place for place, name in enumerate(names)}
     forms = list(zip(scene.plates, scene.bodies, scene.colours, strict=True))
+    letters = {**scene.letters, **dict.fromkeys(scene.inner, "")}
     return {
         "size": scene.size,
         "names": names,
@@ -473,7 +474,7 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> dict[str, An
         "dots": [index[name] for name in scene.dots],
         "grounds": [{"point": index[name], "way": round(way, 4)} for name, way in props(scene).items()],
         "labels": label_offsets(scene),
-    } | ({"letters": [scene.letters.get(name, name) for name in names], "legend": scene.letter_legend} if scene.letters else {})
+    } | ({"letters": [letters.get(name, name) for name in names], "legend": scene.letter_legend} if letters else {})
 
 
 def track_rows(scene: Scene, live: LiveText) -> dict[str, list[int]]:

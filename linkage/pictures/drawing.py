@@ -88,7 +88,7 @@ class Drawing:
         clouds = [np.concatenate([points, *keep_clear]) for points in label_free(self.scene, poses)]
         gap = 1.15 * size * scale + 1.5
         minor = self.scene.minor
-        names = [name for name in self.scene.places if all_points or name not in minor]
+        names = [name for name in self.scene.places if name not in self.scene.inner and (all_points or name not in minor)]
         letters = self.scene.letters
         spots = offsets(names, poses, clouds, scale, gap, font, minor=minor, letters=letters)
         for name, spot in spots.items():

@@ -116,9 +116,9 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
     found, arrows, turning = forces.found, [], []
     for place, joint in enumerate(found.joints):
         on, by, sign = joint.on, joint.by, 1.0
-        if on == FRAME or (on in found.thrusts and by not in found.thrusts and by != FRAME):
+        if on == FRAME or (on in found.members and by not in found.members and by != FRAME):
             on, by, sign = by, on, -1.0
-        members = [each for each in (on, by) if each in found.thrusts]
+        members = [found.members[each] for each in (on, by) if each in found.members]
         colour = MEMBER if members else PIN
         text = " ".join([*members[:1], *([] if by == FRAME else [said("on {body}", body=short_name(forces, on))])])
         name = f"force {joint.point} {place} on {on} from {by}"
@@ -138,7 +138,7 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
 def short_name(forces: ForcesAt, body: str) -> str:
     """Return a body's name as it is written at an arrow: one of many points goes by its first two, of its part's own."""
     points = next((each.points for each in forces.found._structure.bodies if each.name == body), ())
-    if len(body) <= 8 or len(points) < 3:
+    if len(body) <= 8 or len(points) < 3 or body in forces.found.members:
         return body
     owner = max((each.rpartition(".")[0] for each in points), key=[each.rpartition(".")[0] for each in points].count)
     own = [each for each in points if each.rpartition(".")[0] == owner]
@@ -156,7 +156,7 @@ def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
     for place, joint in enumerate(found.joints):
         if body in (joint.on, joint.by):
             other, sign = (joint.by, 1.0) if joint.on == body else (joint.on, -1.0)
-            colour, from_other = MEMBER if other in found.thrusts else PIN, from_words(forces, other)
+            colour, from_other = MEMBER if other in found.members else PIN, from_words(forces, other)
             force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
             if joint.has_force:
                 arrows.append(

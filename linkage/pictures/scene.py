@@ -13,8 +13,9 @@ from typing import TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, cited
-from ..loads import ForceElement, Glyph
+from ..loads import ForceElement, Glyph, Halves, TwoPoint
 from ..motion import Motion, require_motion
+from ..plan import member_sides
 from ..program import FloatArray
 from ..quantities import Joint, Quantity, Where, is_whole, joined_names, needs
 from ..steps import Arrow, Guide, Point
@@ -313,7 +314,38 @@ class Scene:
     @cached_property
     def bodies(self) -> tuple[tuple[str, ...], ...]:
         """The points of each moving body; bars that close a triangle are one."""
-        return rigid_together([body.points for body in self.motion.plan.links if not body.fixed and len(body.points) > 1])
+        links = [body.points for body in self.motion.plan.links if not body.fixed and len(body.points) > 1]
+        return rigid_together([points for link in links for points in self._drawn_apart(link)])
+
+    def _drawn_apart(self, link: tuple[str, ...]) -> list[tuple[str, ...]]:
+        """Return the points of a body, of a member of two bodies those that stand out of each: the member itself is drawn as it is."""
+        for member, halved in self._halves:
+            if {*member.ends, *halved.points} <= set(link):
+                sides = member_sides(self.motion.plan, member.ends, link)
+                halves = (tuple(point for point in link if point in side and point not in self.inner) for side in sides)
+                return [points for points in halves if len(points) > 1]
+        return [link]
+
+    @cached_property
+    def _halves(self) -> tuple[tuple[TwoPoint, Halves], ...]:
+        """The members of two bodies, with these."""
+        plan = self.motion.plan
+        found = ((member, member.halves(plan.members)) for member in plan.of_kind(TwoPoint).values())
+        return tuple((member, halves) for member, halves in found if halves is not None)
+
+    @cached_property
+    def glands(self) -> dict[frozenset[str], str]:
+        """The points at which the first bodies of members of two end, by the members' ends."""
+        return {frozenset(member.ends): halves.points[0] for member, halves in self._halves}
+
+    @cached_property
+    def inner(self) -> frozenset[str]:
+        """The points that members of two bodies hold for themselves; they are not drawn."""
+        return frozenset(point for _, halves in self._halves for point in halves.points)
+
+    def _between(self, P: str, Q: str) -> float:
+        """Return the distance of two points of one body [m]; 0 where no pose is reached."""
+        return next((float(np.hypot(*(at[Q] - at[P]))) for at in self.some(1)), 0.0)
 
     @cached_property
     def colours(self) -> list[int]:
@@ -431,7 +463,9 @@ class Scene:
             return DrawnCylinder(member.P, member.Q, aside)
         size = min(self.size, 0.12 * short)
         bottom, least = 1.4 * size, 2.0 * size
-        mouth = float(np.clip(least + long - short + 1.5 * size, 0.68 * short, max(0.68 * short, short - 1.2 * size)))
+        outermost = max(0.68 * short, short - 1.2 * size)
+        ends_at = self._between(member.P, self.glands.get(frozenset((member.P, member.Q)), member.P))
+        mouth = min(ends_at, outermost) if ends_at else float(np.clip(least + long - short + 1.5 * size, 0.68 * short, outermost))
         return DrawnCylinder(member.P, member.Q, aside, bottom, mouth, short - least, least, mouth - 0.9 * size)
 
     @cached_property
@@ -658,7 +692,7 @@ class Scene:
     @cached_property
     def dots(self) -> tuple[str, ...]:
         """The other points."""
-        return tuple(name for name in self.places if name not in self.pins)
+        return tuple(name for name in self.places if name not in self.pins and name not in self.inner)
 
     @cached_property
     def minor(self) -> frozenset[str]:

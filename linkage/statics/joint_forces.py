@@ -112,6 +112,12 @@ class PinForces(Shown):
         """What the ropes whose length is held pull with by their names, shape (...) [N]; below zero they would have to push."""
         return self._found.tensions
 
+    @cached_property
+    def members(self) -> Mapping[str, str]:
+        """The two-point members by the names of the bodies that they are: their own, of one of two bodies those of both."""
+        pairs = {body.name: pair.member.name for pair in self._structure.pairs for body in pair.bodies}
+        return {name: name for name in self.thrusts} | pairs
+
     @property
     def axle_loads(self) -> Mapping[str, FloatArray]:
         """The reactions of the supports under the frame by their names, shape (...) [N]; none of a machine that does not stand on any."""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Cylinder, LiftCircuit, OnBarrel, OnRod, thrust
+from hydraulics import Accumulator, AccumulatorBlock, Cylinder, LiftCircuit, OilLine, OnBarrel, OnRod, thrust
 from linkage import (
     LEFT,
     RIGHT,
@@ -27,7 +27,11 @@ from linkage import (
 )
 from linkage.files import load, to_toml
 from linkage.loads import LoadCase
-from linkage.units import bar, deg, g0
+from linkage.pictures.scene import Scene
+from linkage.units import bar, deg, g0, litre
+from mechanisms.classics.stephenson_three import StephensonThreeFar
+
+BLOCK = AccumulatorBlock([Accumulator(volume=4 * litre, charge=40 * bar)])
 
 
 class Boom(Mechanism):
@@ -208,6 +212,43 @@ def test_gravity_tables_and_derivatives_go_along():
             low, high = (pin_forces(Boom(**{name: value + each}).at(S=0.13)) for each in (-step, step))
             low, high = ((each.thrusts["lift"] if request is push else each.force("lift.gland", "lift rod")[1]) for each in (low, high))
             assert slope == pytest.approx((high - low) / (2.0 * step), rel=1e-6, abs=1e-6)
+
+
+def test_groups_gas_points_measured_along_and_trunnions():
+    class Grouped(StephensonThreeFar):
+        ram = Cylinder("C", "D", bore=0.05, rod=0.03, closed=0.06, barrel_mass=3.0, rod_mass=2.0)
+        own = LinkMass(ram.barrel, mass=1.0)
+        K, V = OnBarrel(ram, -0.02, 0.03), OnLink("D", "C", DV=0.02)
+        valve, hose = Weight(K, mass=1.5), Weight(V, mass=0.5)
+
+    class OnGas(Boom):
+        line = OilLine(Boom.lift, BLOCK, charge_pressure=80 * bar, at=dict(S=0.1))
+
+    class Sketched(Boom):
+        B = Dyad("A", "O", AB=0.8 + Boom.S, OB=0.9, near=(-0.3, -0.8))
+        T = OnLink("O", B, OT=2.0, BOT=0.1)
+        N = Dyad("K", T, KN=0.5, TN=1.5, near=(-0.4, -0.4))
+
+    assert_allclose(pin_forces(Sketched().sweep(3), ["crate", "lift"]).gland("lift").moment,
+                    pin_forces(Boom().sweep(3), ["crate", "lift"]).gland("lift").moment, rtol=1e-12)  # fmt: skip
+    grouped, on_gas = pin_forces(Grouped().sweep(7)), pin_forces(OnGas().sweep(3))
+    for forces, body in ((grouped, "ram"), (on_gas, "lift")):
+        assert forces.residual < 1e-12 and forces.gap < 1e-9
+        for half in (f"{body} barrel", f"{body} rod"):
+            assert_allclose(np.sum([*forces.on_body(half).values()], axis=0), 0.0, atol=1e-9 * np.abs(forces.thrusts[body]).max())
+    assert "V" in grouped.on_body("ram rod") and "K" in grouped.on_body("ram barrel")
+    assert_allclose(on_gas.gland("lift").lateral, pin_forces(Boom().sweep(3)).gland("lift").lateral, rtol=1e-9)
+    (buckles,) = Boom.lift.buckling(Boom().sweep(3))
+    assert "1200 mm long" in str(buckles)  # from the trunnions at A to the eye, whatever lies behind them
+
+
+def test_pictures_show_both_bodies_where_they_are():
+    scene = Scene(Hung().at(S=0.2, S2=0.1))
+    assert ("A", "K") in scene.bodies and ("B", "R") in scene.bodies and ("N", "V") in scene.bodies
+    assert not [name for name in (*scene.dots, *scene.pins) if "." in name] and "K" in scene.pins
+    assert {(each.P, each.Q) for each in scene.cylinders} == {("A", "B"), ("K", "N")}
+    assert next(each.mouth for each in scene.cylinders if each.P == "A") == pytest.approx(0.75)
+    assert pin_forces(Boom().sweep(2)).members == {"lift barrel": "lift", "lift rod": "lift", "lift": "lift"}
 
 
 def refused(**members):

@@ -316,10 +316,6 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         radii, senses = tuple(each.radius_written for each in stations), tuple(each.sense for each in stations)
         return motion.value(RopePath(tuple(each.point for each in stations), radii, senses, self.falls))
 
-    def bounds(self, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[FloatArray, FloatArray]:
-        """Return what it can push with [N]: it pulls, and never pushes."""
-        return np.asarray(-np.inf), np.zeros(())
-
     def formulas(self, written: Formulas) -> None:
         if self.force is None and self.gives(written.plan.members):
             written.given(f"T_{self.name}", lambda motion: self.tension_in(motion, Acting()), "kN")

@@ -242,6 +242,8 @@ class FloatCircuit(GasLine):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        if not self.references:
+            raise DefinitionError("FloatCircuit: [] stands where a cylinder or its name is expected.")
         for name in ("charge_pressure", "seal_friction"):
             if not follows(getattr(self, name)):
                 in_pascals(getattr(self, name), name.replace("_", " ").capitalize())

@@ -149,11 +149,13 @@ class PumpLine(LiftLine):
 
     def supply(self, motion: Poses) -> Array:
         """Return the highest pressure that lifts [Pa]: the pump's, as far as the relief valve lets it; DefinitionError for none."""
+        require_poses(motion)
         pump = self._pressure_set(motion, "pressure")
         return np.minimum(pump, self._pressure_set(motion, "relief")) if self.relieves(motion.plan) else pump
 
     def held(self, motion: Poses) -> Array:
         """Return the pressure at which the relief valve opens [Pa], the pump's where none is given."""
+        require_poses(motion)
         return self._pressure_set(motion, "relief" if self.relieves(motion.plan) else "pressure")
 
     def _pressure_set(self, motion: Poses, name: str) -> Array:

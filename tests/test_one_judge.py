@@ -19,6 +19,7 @@ ALLOWED = {
     "linkage/reports/live_columns.py": "the size of a column, against which a page's column is compared",
     # numbers of samples, of poses that were asked for, and of what was given
     "linkage/loads/element.py": "a given number in a message",
+    "linkage/statics/vehicle.py": "how much a motion's supports would have to hold down, in a remark on these poses",
     "hydraulics/accumulator.py": "a given number in a message; vessels, not poses",
     "linkage/motion/stroke_search.py": "whether an angle moves at all",
     "linkage/motion/poles.py": "the points of a body that are farthest apart",
@@ -86,6 +87,7 @@ LISTED = {
     "linkage/mechanism.py": "names of load cases, which may not be a word of the framework",
     "linkage/cli/settings.py": "names of load cases, for the error of an unknown one",
     "linkage/motion/requests.py": "the order of directions",
+    "hydraulics/standing.py": "names of load cases, for those that shut a line",
 }
 """Files that go through load cases or directions without judging any."""
 

@@ -153,7 +153,7 @@ def mirrored(machine):
     members = {}
     for name, member in machine.plan.members.items():
         labels = getattr(member, "labels", {})
-        side = {LEFT: RIGHT, RIGHT: LEFT, None: None}[getattr(member, "side", None)]
+        side = {LEFT: RIGHT, RIGHT: LEFT}.get(getattr(member, "side", None))
         if isinstance(member, Ground):
             members[name] = Ground(member.x, -member.y)
         elif isinstance(member, Dyad):

@@ -27,7 +27,7 @@ USES = [
     ('Cylinder("A", "B", bore=0.08, rod=0.045, count=@)', '"a"; None; [1, 2]; True; nan; []', ("Count of cylinders =", "in SI units.")),
     (
         'Cylinder("A", "B", bore=0.08, rod=0.045, works=@)',
-        '"pull"; 3; None; []; np.ones(2)',
+        '"pull"; 3; []; np.ones(2)',
         ("is unknown in works. Known: piston, rod, both.",),
     ),
     (
@@ -205,7 +205,7 @@ USES = [
     ("CylinderSize(@)", "0.08, 0.09", ("Rod 90 mm is not smaller than bore 80 mm; exchange them or take a thinner rod.",)),
     ("CylinderSize(@)", '0.08, 0; "a", 0.045; None, 0.045; nan, 0.04', ("number in SI units.",)),
     ("CylinderSize(@)", "0.08, 0.045, 0; 0.08, 0.045, 1.5", ("Count of cylinders =", "give a whole number from 1 on.")),
-    ("CylinderSize(@)", '0.08, 0.045, 1, "pull"; 0.08, 0.045, 1, []', ("is unknown in works. Known: piston, rod, both.",)),
+    ("CylinderSize(@)", '0.08, 0.045, 1, "pull"; 0.08, 0.045, 1, []', ("is unknown in works. Known: piston, rod, both, regenerative.",)),
     ("size.thrust(@)", 'None; "a"; nan; inf; 1j; {}', ("Cylinder pressure =", "give a number in SI units.")),
     ("size.pressure_for(@)", 'None; "a"; nan; inf; 1e4, "b"', ("give a number in SI units.",)),
     ("size.oil(@)", 'None; "a"; nan', ("Travel =", "give a number in SI units.")),

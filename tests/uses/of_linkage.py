@@ -103,7 +103,7 @@ USES = [
     (
         'Cylinder("A", "B", bore=0.08)',
         "",
-        ("Cylinder(...): missing a required argument: 'rod'; it", "rod, count, works, stroke, closed, mounting, safety."),
+        ("Cylinder(...): missing a required argument: 'rod'", "rod, count, works, stroke, closed, mounting, safety, barrel_mass, rod_mass"),
     ),
     (
         'Support("G")',

@@ -363,7 +363,7 @@ def test_both_templates_are_one_machine(said):
 def test_doctor_tells_what_is_there(said, monkeypatch):
     code, out, err = said("doctor")
     assert (code, err) == (0, "")
-    for words in ("Python", "numpy", "44 machines", "of hydrolinkage", "kernels are kept in", "ffmpeg", "letters in pictures", "xlsx"):
+    for words in ("Python", "numpy", "49 machines", "of hydrolinkage", "kernels are kept in", "ffmpeg", "letters in pictures", "xlsx"):
         assert words in out
     from importlib.metadata import EntryPoint
 

@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 import linkage
-from hydraulics import Cylinder
+from hydraulics import Cylinder, LiftCircuit
 from linkage import (
     LEFT,
     RIGHT,
@@ -35,7 +35,7 @@ from linkage.plan import printed
 from linkage.quantities import in_degrees
 
 FUNCTIONS = {name: getattr(np, name) for name in ("sqrt", "cos", "sin", "tan", "arctan2")}
-NAMES = {name: getattr(linkage, name) for name in linkage.__all__} | {"Cylinder": Cylinder} | FUNCTIONS
+NAMES = {name: getattr(linkage, name) for name in linkage.__all__} | {"Cylinder": Cylinder, "LiftCircuit": LiftCircuit} | FUNCTIONS
 MACHINES = {each.name: each.load() for each in entry_points(group="hydrolinkage.machines") if ".classics." in each.value}
 
 

@@ -11,6 +11,7 @@ from linkage import (
     Force,
     LinkMass,
     Moment,
+    Rope,
     SingularError,
     SingularWarning,
     Spring,
@@ -60,11 +61,17 @@ def compared(machine):
     return own().at(**mid(machine)), Differences(own, mid(machine))
 
 
+def is_open_tank(machine, name):
+    """Return whether a number is the pressure of a tank that has none: next to none would be a mistake in its unit."""
+    return name.endswith(".pressure") and machine.plan.defaults[name] == 0.0
+
+
 class Differences:
     """Derivatives by all variables from one batch of designs: central differences, extrapolated twice (Richardson)."""
 
     def __init__(self, machine, strokes):
         names = [name for name in machine.plan.table.entries if name not in ALONE and not name.startswith("line3.")]
+        names = [name for name in names if not name.endswith(".exponent") and not is_open_tank(machine, name)]
         self.names, start = names, machine().dimensions
         self.steps = {name: 2e-4 * max(0.1, abs(start[name])) for name in self.names}
         shape = (len(self.names), 2, len(STEPS))
@@ -103,6 +110,8 @@ def test_gradient_of_thrust_is_the_difference_of_designs(machine):
 @ALL
 def test_gradient_of_pin_forces_is_the_difference_of_designs(machine):
     motion, differences = compared(machine)
+    if any(rope.against for rope in machine.plan.of_kind(Rope).values()):
+        pytest.skip("which of two ropes pulls is told pose by pose")
     joints = [each for each in pin_forces(differences.motion).joints if each.has_force]
     alone = [each for each in joints if sum((each.point, each.on) in ((o.point, o.on), (o.point, o.by)) for o in joints) == 1]
     for joint, component in ((alone[0], "x"), (alone[len(alone) // 2], "y"), (alone[-1], "size")):

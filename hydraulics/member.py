@@ -978,6 +978,10 @@ class Circuit(ForceElement, HasVerdicts):
         """The cylinders that it names without a side: that which works."""
         return self.references
 
+    def chambers_of(self, cylinder: Ram, members: Mapping[str, Member]) -> tuple[Chamber, ...]:
+        """Return the chambers of a cylinder that it names, among the members of its class."""
+        return tuple(each for each in self.chambers if name_of(each.cylinder) == cylinder.name)
+
     def kind_in(self, members: Mapping[str, Member]) -> str:
         """Return the kind of its line, among the members of its class: one of KINDS. A shut one keeps the oil that it has: it is held."""
         kind = self.kind_open(members)
@@ -1058,8 +1062,19 @@ class Circuit(ForceElement, HasVerdicts):
 
 def lines_of(cylinder: Ram, members: Mapping[str, Member]) -> list[tuple[Circuit, Chamber]]:
     """Return the chambers of a cylinder that lines name, each with its line."""
-    lines = [each for each in members.values() if isinstance(each, Circuit)]
-    return [(line, each) for line in lines for each in line.chambers if name_of(each.cylinder) == cylinder.name]
+    return [(line, each) for line in circuits_among(members) for each in line.chambers_of(cylinder, members)]
+
+
+def circuits_among(members: Mapping[str, Member]) -> list[Circuit]:
+    """Return the circuits and oil lines of a class."""
+    return [each for each in members.values() if isinstance(each, Circuit)]
+
+
+def side_left(cylinder: Ram, members: Mapping[str, Member]) -> Works:
+    """Return the side of a cylinder that no line names, where another one is named; else what it works with."""
+    named = [each.side for line in circuits_among(members) for each in Circuit.chambers_of(line, cylinder, members)]
+    left = [side for side in SIDES if side not in named]
+    return left[0] if named and left else cylinder.side
 
 
 def works_by_lines(cylinder: Ram, members: Mapping[str, Member]) -> Works | None:
@@ -1068,12 +1083,12 @@ def works_by_lines(cylinder: Ram, members: Mapping[str, Member]) -> Works | None
     Sides on held lines come first, then those on closed ones, then those whose pressure is given.
     """
     named = lines_of(cylinder, members)
-    if not named:
+    if not any(Circuit.chambers_of(line, cylinder, members) for line, _ in named):
         return None
-    bare = [each for each in members.values() if isinstance(each, Circuit) and cylinder.name in map(label, each.bare)]
-    if bare:  # what works on a line that names the cylinder alone is the side that no other line has
-        left = [side for side in SIDES if side not in [chamber.side for _, chamber in named]]
-        return left[0] if left else None
+    of_lines = [each for each, _ in named]
+    if any(cylinder.name in map(label, each.bare) and each not in of_lines for each in circuits_among(members)):
+        left = side_left(cylinder, members)  # on a circuit that names the cylinder alone that side works
+        return None if left in [chamber.side for _, chamber in named] else left
     by_kind = [(line, chamber) for kind in KINDS for line, chamber in named if line.kind_in(members) == kind]
     first = by_kind[0][0].kind_in(members)
     working = [(line, chamber) for line, chamber in by_kind if line.kind_in(members) == first]

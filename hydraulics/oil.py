@@ -72,6 +72,7 @@ from .member import (
     lines_giving,
     lines_of,
     names_behind,
+    side_left,
     the_cylinder,
 )
 from .standing import EMPTY, intensified, shut_verdicts, standing_pressure
@@ -271,6 +272,12 @@ class OilLine(PumpLine, GasLine):
     def bare(self) -> tuple[Reference, ...]:
         return tuple(each for each in self.on if isinstance(each, (str, Member)))
 
+    def chambers_of(self, cylinder: Ram, members: Mapping[str, Member]) -> tuple[Chamber, ...]:
+        """Return the chambers of a cylinder on it; where it names the cylinder alone, the side that no other line names."""
+        named = super().chambers_of(cylinder, members)
+        left = side_left(cylinder, members) if cylinder.name and cylinder.name in map(label, self.bare) else None
+        return named if left is None else (*named, Chamber(cylinder.name, cast(Side, left)))
+
     @property
     def references(self) -> tuple[Reference, ...]:
         return (*(each.cylinder for each in self.chambers), *self.bare)
@@ -309,7 +316,7 @@ class OilLine(PumpLine, GasLine):
             elif isinstance(each, (str, Member)):
                 ram = members.get(each, each) if isinstance(each, str) else members.get(each.name, each)
                 if isinstance(ram, Ram):
-                    found.append((ram, Chamber(each, cast(Side, ram.side))))
+                    found.append((ram, Chamber(each, cast(Side, side_left(ram, members)))))
         return found
 
     def members(self, members: Mapping[str, Member]) -> tuple[Ram, ...]:

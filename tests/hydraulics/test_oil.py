@@ -133,6 +133,32 @@ def test_oil_that_is_put_into_both_sides_moves_the_slave_by_its_area():
     assert min(Tilted.level.pressure(motion).min(), Tilted.other.pressure(motion).min()) == 0.0
 
 
+class LevelledByName(Levelled):
+    level = OilLine("master", "slave", filled=dict(slave=0.72))
+
+
+class GasBelow(Press):
+    """The gas stands under the piston; the pump pulls on the rod side against it."""
+
+    gas = OilLine("ram.piston_side", vessel(), charge_pressure=90 * bar)
+    pull = OilLine("ram.rod_side", "supply")
+
+
+class GasBelowByName(GasBelow):
+    gas = OilLine("ram", vessel(), charge_pressure=90 * bar)
+
+
+def test_a_cylinder_alone_stands_for_the_side_that_is_left():
+    motion, named = Levelled().sweep(5), LevelledByName().sweep(5)
+    assert np.array_equal(named["slave.length"], motion["slave.length"])
+    assert np.array_equal(LevelledByName.level.pressure(named), Levelled.level.pressure(motion))
+    piston, annulus = np.pi / 4 * 0.12**2, np.pi / 4 * (0.12**2 - 0.085**2)
+    for machine in (GasBelow, GasBelowByName):
+        motion = machine().at(S=0.0)
+        assert machine.pull.pressure(motion) == pytest.approx((90 * bar * piston - 40 * kN) / annulus, rel=1e-12)
+        assert pin_forces(machine().at(S=0.01)).thrusts["ram"] == pytest.approx(40 * kN, rel=1e-12)
+
+
 class Charged(Axle):
     circuit = FloatCircuit("left", vessel(), charge_pressure=90 * bar, seal_friction=2 * bar)
 

@@ -28,13 +28,13 @@ from linkage.plan import ArrayReading
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, quantity
 from linkage.statics import AnyMotion, motion_in_case, plan_of, stroke_followed
-from linkage.units import show
 from linkage.vectors import Scalar
 from linkage.verdict import Verdict
 
 from .accumulator import AccumulatorBlock
 from .gas import Polytropic
 from .inputs import Array, all_finite, follows, in_pascals, number_set
+from .line import pressure_range
 from .member import Circuit, Ram, Side, the_cylinder
 from .standing import shut_verdicts, standing_pressure
 
@@ -100,10 +100,7 @@ class GasLine(Circuit):
         except DefinitionError as error:
             return [Verdict("line", False, " ".join(str(error).split()))]
         unit = block.unit or "bar"
-        says = said(
-            "its pressure goes from {low} {low_where} to {high} {high_where}",
-            low=show(low.value, unit, 4), low_where=low.where, high=show(high.value, unit, 4), high_where=high.where,
-        )  # fmt: skip
+        says = pressure_range(low, high, unit)
         if not low.value > 0.0:
             text = says + said(": the line is empty there. Charge it higher, or take larger accumulators.")
             return [Verdict("line", False, text, answer=low)]

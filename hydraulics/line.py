@@ -13,11 +13,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.frozen import refuses_changes
+from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Case, Declared, ForceElement, Loads, Poses
-from linkage.motion import HasVerdicts, Motion
+from linkage.motion import Answer, HasVerdicts, Motion
 from linkage.plan import Mask
 from linkage.quantities import Reference
 from linkage.statics import AnyMotion
+from linkage.units import show
 
 from .cylinder import RamSize
 from .inputs import Array
@@ -220,3 +222,11 @@ class LiftLine(Circuit):
     @abstractmethod
     def time(self, motion: Motion) -> Array:
         """Return the time that the pump's flow takes for it, one value a design."""
+
+
+def pressure_range(low: Answer, high: Answer, unit: str) -> str:
+    """Return from where to where a line's pressure goes, in words; a unit of pressure."""
+    return said(
+        "its pressure goes from {low} {low_where} to {high} {high_where}",
+        low=show(low.value + 0.0, unit, 4), low_where=low.where, high=show(high.value + 0.0, unit, 4), high_where=high.where,
+    )  # fmt: skip

@@ -14,8 +14,8 @@ from __future__ import annotations
 
 from abc import ABC
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import partial, reduce
+from dataclasses import dataclass, replace
+from functools import reduce
 from math import pi
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
@@ -38,7 +38,6 @@ from linkage.loads import (
     Push,
     Rate,
     Rates,
-    Share,
     Tie,
     situation_of,
     takes_situation,
@@ -48,7 +47,7 @@ from linkage.loads.two_point import end_forces
 from linkage.motion import Condition, Judge, Motion, Question, least, most
 from linkage.quantities import AtPose, Distance, Member, Number, Quantity, Reference, Stroke, Variable, Where, label, name_of, quantity
 from linkage.quantities.quantity import plain
-from linkage.statics import AnyMotion, LawRequest, lock_words, motion_in_case, plan_of, same
+from linkage.statics import AnyMotion, LawRequest, each_once, lock_words, motion_in_case, plan_of, same
 from linkage.units import show
 from linkage.vectors import Scalar
 from linkage.verdict import Verdict
@@ -58,6 +57,7 @@ from .files import FilledKind, OnLineKind
 from .floating import Block, GasLine, length_at
 from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, number_set, one_number, positive
 from .lift import PumpLine
+from .line import pressure_range
 from .member import (
     PISTON,
     ROD,
@@ -68,6 +68,7 @@ from .member import (
     Side,
     by_other_lines,
     chamber_area,
+    circuits_among,
     is_named,
     lines_giving,
     lines_of,
@@ -320,10 +321,7 @@ class OilLine(PumpLine, GasLine):
         return found
 
     def members(self, members: Mapping[str, Member]) -> tuple[Ram, ...]:
-        found: list[Ram] = []
-        for ram, _ in self.filling(members):
-            found += [] if any(same(ram, each) for each in found) else [ram]
-        return tuple(found)
+        return each_once(ram for ram, _ in self.filling(members))
 
     def rams(self, motion: Poses) -> tuple[Ram, ...]:
         members = motion.plan.members
@@ -399,12 +397,11 @@ class OilLine(PumpLine, GasLine):
                 first, second = (each for each in members if each in (self.name, other.name))
                 what = f"two pressures in {shared[0]}'s {shared[1]} side: {first} and {second} both have it"
                 raise DefinitionError(f"{title}: {what}. A chamber has one line; join the two, or take it out of one.")
-            if isinstance(other, OilLine):
-                for kind, what in ((Pump, "pump"), (Tank, "tank"), (Relief, "relief valve")):
-                    both = [each for each in self.supplies(members, kind) if each in other.supplies(members, kind)]
-                    if both and kind is Pump:
-                        remedy = "give each line a pump of its own, Pump(...), or join the lines"
-                        raise DefinitionError(f"{title}: {self.name} and {other.name} have one {what}, {both[0].name}; {remedy}.")
+            pumps = other.supplies(members, Pump) if isinstance(other, OilLine) else []
+            both = next((each for each in self.supplies(members, Pump) if each in pumps), None)
+            if both is not None:
+                remedy = "give each line a pump of its own, Pump(...), or join the lines"
+                raise DefinitionError(f"{title}: {self.name} and {other.name} have one pump, {both.name}; {remedy}.")
             mine, its = self.block, getattr(other, "block", None)
             if mine is not None and mine is its:
                 remedy = "join the lines, or give each its own, AccumulatorBlock([Accumulator(...)])"
@@ -433,9 +430,6 @@ class OilLine(PumpLine, GasLine):
         gives = next((f"{ram.name}.length" for ram, _ in self.filling(members) if self._gives(ram, members)), "")
         added = None if gives or self.oil_given.is_constant else self.oil_given
         return Tie(self.name, self.shares(members), held=False, cut=self.cut if gives else "", gives=gives, added=added)
-
-    def shares(self, members: Mapping[str, Member]) -> tuple[Share, ...]:
-        return tuple(Share(ram, partial(chamber_area, chamber, ram)) for ram, chamber in self.filling(members))
 
     @property
     def oil_given(self) -> Quantity:
@@ -593,10 +587,9 @@ class OilLine(PumpLine, GasLine):
     def _volumes(self, motion: Poses) -> Iterator[Array]:
         """Yield how much larger each chamber is than where the line was filled [m3]."""
         for ram, chamber in self.filling(motion.plan.members):
-            charged: Any = length_at(motion, ram, self.charged_at(motion, ram)) if self.filled is None else self._filled_length(motion, ram)
-            yield np.asarray(ram.filled(chamber.side, motion, charged, motion.distance(ram.A, ram.B)))
+            yield np.asarray(ram.filled(chamber.side, motion, self._filled_length(motion, ram), motion.distance(ram.A, ram.B)))
 
-    def _filled_length(self, motion: Poses, ram: Ram) -> Array:
+    def _filled_length(self, motion: Poses, ram: Ram) -> Any:
         length = self.length_filled(ram, motion.plan.members)
         return length_at(motion, ram, self.charged_at(motion, ram)) if isinstance(length, AtPose) else motion.value(length)
 
@@ -678,12 +671,12 @@ class OilLine(PumpLine, GasLine):
             return PumpLine.questions(self, judge)
         if self.kind_of_line != "closed" or lock_words(judge.plan):
             return []
-        return [least(self.pressure_request), most(self.pressure_request)]
+        return self._extremes(judge)
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         if self.kind_of_line == "held":
             return PumpLine.conditions(self, judge)
-        return {"oil": least(self.pressure_request) >= self._make_up(judge)} if self.kind_of_line == "closed" else {}
+        return {"oil": least(self.pressure_request(judge.plan)) >= self._make_up(judge)} if self.kind_of_line == "closed" else {}
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the verdicts on lifting, oil, holding and lowering of a held line, on the pressure of any other."""
@@ -694,14 +687,17 @@ class OilLine(PumpLine, GasLine):
         kept = [self.kept_verdict(judge)] if self.kind_of_line == "closed" else []
         return [*kept, *shut_verdicts(self, judge)]
 
-    @property
-    def pressure_request(self) -> LawRequest:
-        """The request for its pressure, in all load cases and directions [Pa gauge]."""
-        first = next((each for each in self.references if not isinstance(each, Supply)), "")
+    def pressure_request(self, plan: Declared) -> LawRequest:
+        """Return the request for its pressure, in all load cases and in the directions of its first cylinder [Pa gauge]."""
         return LawRequest(
             formula=self.line_pressure, text=f"{self.name}.pressure", known=("line pressure", self.name), acting=Acting(),
-            measures="pressure", mover=name_of(first) if first else None,
+            measures="pressure", mover=self.members(plan.members)[0].name or None,
         )  # fmt: skip
+
+    def _extremes(self, judge: Judge) -> list[Question]:
+        """Return its least and its greatest pressure as questions."""
+        request = self.pressure_request(judge.plan)
+        return [least(request), most(request)]
 
     def _make_up(self, judge: Judge) -> float:
         return float(np.ravel(number_set(self, judge.motion, "make_up"))[0])
@@ -709,14 +705,10 @@ class OilLine(PumpLine, GasLine):
     def kept_verdict(self, judge: Judge) -> Verdict:
         """Return whether a closed line keeps its oil wherever the machine runs: it neither runs empty nor opens its relief valve."""
         try:
-            low, high = judge.answers([least(self.pressure_request), most(self.pressure_request)])
+            low, high = judge.answers(self._extremes(judge))
         except DefinitionError as error:
             return Verdict("line", False, " ".join(str(error).split()))
-        least_shown = 0.0 if abs(low.value) < EMPTY * abs(high.value) else low.value
-        says = said(
-            "its pressure goes from {low} {low_where} to {high} {high_where}",
-            low=show(least_shown, "bar", 4), low_where=low.where, high=show(high.value, "bar", 4), high_where=high.where,
-        )  # fmt: skip
+        says = pressure_range(replace(low, value=0.0) if abs(low.value) < EMPTY * abs(high.value) else low, high, "bar")
         make_up = self._make_up(judge)
         if low.value < make_up - EMPTY * max(abs(float(high.value)), 1.0):
             text = said(
@@ -730,7 +722,7 @@ class OilLine(PumpLine, GasLine):
         """Return the verdict that its relief valve opens, where it does."""
         if not self.relieves(judge.plan):
             return []
-        limit, high = float(np.ravel(self.number(judge.motion, "relief"))[0]), judge.answer(most(self.pressure_request))
+        limit, high = float(np.ravel(self.number(judge.motion, "relief"))[0]), judge.answer(most(self.pressure_request(judge.plan)))
         if not high.value > limit:
             return []
         text = said(
@@ -794,6 +786,5 @@ def own_side(line: OilLine, ram: Ram, members: Mapping[str, Member]) -> Side:
 
 def is_fed_wholly(ram: Ram, members: Mapping[str, Member]) -> bool:
     """Return whether all lines of a cylinder have a given pressure, so that its thrust is given, too."""
-    lines = [each for each in members.values() if isinstance(each, Circuit)]
-    on = [line for line in lines if any(same(ram, each) for each, _ in line.filling(members))]
+    on = [line for line in circuits_among(members) if any(same(ram, each) for each, _ in line.filling(members))]
     return all(line.kind_in(members) == "given" for line in on)

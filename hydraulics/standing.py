@@ -6,10 +6,10 @@ open, as of a cylinder with both sides shut, they are the least that balance.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
-from functools import partial, reduce
-from typing import Any, cast
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial, reduce
+from typing import Any, cast, final
 
 import numpy as np
 
@@ -24,8 +24,8 @@ from linkage.units import show
 from linkage.verdict import Verdict
 
 from .inputs import Array
-from .line import LiftLine
-from .member import Circuit, Ram, by_other_lines, chamber_area, changes_in_motion, line_thrust
+from .line import LiftLine, pressure_range
+from .member import Chamber, Circuit, Ram, by_other_lines, chamber_area, changes_in_motion, circuits_among, line_thrust
 
 EMPTY = 1e-9
 """A pressure that is lower by less than this part of the greatest is that to rounding."""
@@ -33,13 +33,13 @@ EMPTY = 1e-9
 
 def is_blocked(ram: Ram, members: Mapping[str, Member]) -> bool:
     """Return whether a shut line keeps a cylinder where it is."""
-    shut = [each for each in members.values() if isinstance(each, Circuit) and each._is_shut and each.kind_open(members) != "closed"]
+    shut = [each for each in circuits_among(members) if each._is_shut and each.kind_open(members) != "closed"]
     return any(same(ram, each) for line in shut for each, _ in line.filling(members))
 
 
 def connected(line: Circuit, members: Mapping[str, Member]) -> list[Circuit]:
     """Return the lines, held and closed ones, that share cylinders with one, through any of them; itself first."""
-    others = [each for each in members.values() if isinstance(each, Circuit) and each.kind_in(members) != "given"]
+    others = [each for each in circuits_among(members) if each.kind_in(members) != "given"]
     found = [next(each for each in others if same(each, line))]
     for each in found:
         rams = [ram for ram, _ in each.filling(members)]
@@ -110,17 +110,34 @@ def intensified(line: Circuit, motion: AnyMotion, acting: Acting) -> Array:
     if pump is None:
         remedy = "ask for its pressure(motion), or put a Pump on the line of the other side"
         raise DefinitionError(f"{motion.plan.title}: no pump is on the other side of the cylinders of {line.name}; {remedy}.")
-    rams, own, other = line.members(members), line.filling(members), pump.filling(members)
-    stroke = stroke_followed(motion.plan, rams[0]) if len(rams) > 1 else ""
-
-    def work(values: list[tuple[Ram, Any]]) -> Any:
-        """Return the sum of forces on some cylinders, each times the way of its cylinder."""
-        return reduce(np.add, [value * ram.growth(motion, {stroke: 1.0}) if stroke else value for ram, value in values])
-
-    asks = work([(ram, member_thrust(motion, ram, acting)) for ram in rams])
-    pushed = work([(ram, chamber_area(each, ram, motion)) for ram, each in other if any(same(ram, one) for one in rams)])
-    taken = work([(ram, chamber_area(each, ram, motion)) for ram, each in own])
+    works = CommonStroke(motion, line.members(members))
+    asks = works.total([(ram, member_thrust(motion, ram, acting)) for ram in works.rams])
+    pushed, taken = works.areas(pump.filling(members)), works.areas(line.filling(members))
     return np.asarray((asks - pump.supply(motion) * pushed) / taken)[()]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class CommonStroke:
+    """Cylinders that one stroke moves over a motion's poses; of several each counts by how its length follows that stroke."""
+
+    motion: AnyMotion
+    rams: tuple[Ram, ...]
+
+    @cached_property
+    def stroke(self) -> str:
+        """The stroke; "" of one cylinder alone, which counts as it is."""
+        return stroke_followed(self.motion.plan, self.rams[0]) if len(self.rams) > 1 else ""
+
+    def total(self, values: Sequence[tuple[Ram, Array]]) -> Array:
+        """Return the sum of forces or areas of cylinders."""
+        ways = [value * ram.growth(self.motion, {self.stroke: 1.0}) if self.stroke else value for ram, value in values]
+        return np.asarray(reduce(np.add, ways))[()]
+
+    def areas(self, filling: Sequence[tuple[Ram, Chamber]]) -> Array:
+        """Return the sum of the signed areas of those chambers that are of these cylinders [m2]."""
+        own = [(ram, each) for ram, each in filling if any(same(ram, one) for one in self.rams)]
+        return self.total([(ram, chamber_area(each, ram, self.motion)) for ram, each in own])
 
 
 # The verdict on a line that load cases shut.
@@ -176,10 +193,7 @@ def shut_verdicts(line: Circuit, judge: Judge, unit: str = "bar") -> list[Verdic
         pushed = None if pump is None else judge.answer(most(shut_request(line, True)))
     except DefinitionError as error:
         return [Verdict("shut", False, " ".join(str(error).split()))]
-    says = said(
-        "its pressure goes from {low} {low_where} to {high} {high_where}",
-        low=show(low.value + 0.0, unit, 4), low_where=low.where, high=show(high.value + 0.0, unit, 4), high_where=high.where,
-    ) if high.value > 0.0 or low.value < 0.0 else said("no pressure stands in it")  # fmt: skip
+    says = pressure_range(low, high, unit) if high.value > 0.0 or low.value < 0.0 else said("no pressure stands in it")
     if low.value < -EMPTY * max(abs(float(high.value)), 1e5):
         text = said("{says}: below zero it runs empty there and does not hold; shut the other side as well.", says=says)
         return [Verdict("shut", False, text, answer=low)]

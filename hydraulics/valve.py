@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import partial, reduce
+from functools import partial
 from types import MappingProxyType
 from typing import Any, ClassVar, Unpack, cast, final
 
@@ -31,14 +31,14 @@ from linkage.loads import (
 from linkage.motion import Condition, Judge, Question, at, most
 from linkage.plan import Plan
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import AnyMotion, LawRequest, case_words, member_thrust, motion_in_case, same, stroke_followed
+from linkage.statics import AnyMotion, LawRequest, case_words, member_thrust, motion_in_case, same
 from linkage.units import show
 from linkage.verdict import Verdict
 
 from .inputs import Array, follows, in_pascals, number_set, positive
 from .line import LiftLine, LineValve
-from .member import PISTON, Chamber, Circuit, Ram, carries_loads, chamber_area
-from .standing import moves_in
+from .member import PISTON, Circuit, carries_loads
+from .standing import CommonStroke, moves_in, no_direction
 
 USUAL_SETTING = 1.3
 """The setting over the greatest pressure that the load makes, at the least, as makers advise."""
@@ -181,17 +181,10 @@ class HoldingValve(LineValve):
         members = motion.plan.members
         line, pilot = self.lines(members)
         own = line.filling(members)
-        stroke = stroke_followed(motion.plan, own[0][0]) if len(own) > 1 else ""
-
-        def total(values: list[tuple[Ram, Array]]) -> Array:
-            ways = [value * ram.growth(motion, {stroke: 1.0}) if stroke else value for ram, value in values]
-            return np.asarray(reduce(np.add, ways))[()]
-
-        def areas(filling: list[tuple[Ram, Chamber]]) -> Array:
-            return total([(ram, chamber_area(each, ram, motion)) for ram, each in filling if any(same(ram, one) for one, _ in own)])
-
+        works = CommonStroke(motion, tuple(ram for ram, _ in own))
         emptied = [(ram, replace(acting, direction=EMPTIES[each.side]) if is_lowered else acting) for ram, each in own]
-        return total([(ram, member_thrust(motion, ram, given)) for ram, given in emptied]), areas(own), areas(pilot.filling(members))
+        thrust = works.total([(ram, member_thrust(motion, ram, given)) for ram, given in emptied])
+        return thrust, works.areas(own), works.areas(pilot.filling(members))
 
     # -- asked for, and judged -----------------------------------------------------------------------------
 
@@ -295,7 +288,7 @@ def valve_request(word: str, valve: str, acting: Acting) -> LawRequest:
     """Return the request for what a holding valve tells, by the name of its method."""
     return LawRequest(
         formula=partial(over_valve, word, valve), text=partial(valve_text, word, valve), known=(word, valve), acting=acting,
-        measures="pressure", mover=valve, directions=at_rest, examine=partial(valve_in, valve),
+        measures="pressure", mover=valve, directions=no_direction, examine=partial(valve_in, valve),
         cases_in=None if word == "load_pressure" else partial(lowers_in, valve),
     )  # fmt: skip
 
@@ -317,11 +310,6 @@ def valve_in(valve: str, plan: Plan) -> HoldingValve:
     if valve not in valves:
         raise unknown("HoldingValve", valve, valves, where=plan.title)
     return valves[valve]
-
-
-def at_rest(plan: Plan) -> tuple[str, ...]:
-    """Return that the direction is the valve's own."""
-    return ()
 
 
 def lowers_in(valve: str, plan: Plan, case: str) -> bool:

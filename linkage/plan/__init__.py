@@ -1,7 +1,7 @@
 """The ordered steps, their dimensions, and their program."""
 
 from .bodies import Body, merged
-from .chain import ChainBody, KinematicChain, Pair, arm_joint, arm_points, gruebler, holds_an_arm
+from .chain import ChainBody, KinematicChain, Pair, arm_joint, arm_points, gruebler, holds_an_arm, strokes_alone
 from .measure import plan_measure
 from .members import (
     as_written,

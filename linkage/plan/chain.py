@@ -7,12 +7,12 @@ all of them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
-from ..quantities import Joint, JointSide, Quantity, body_name, joined_names, needs
-from ..steps import Guide
+from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, joined_names, needs
+from ..steps import Guide, Point
 from .bodies import FRAME, Body
 from .members import Members, carrying_pairs, member_sides
 
@@ -140,13 +140,19 @@ def chain_of(plan: Members) -> KinematicChain:
 
 def driven_by(plan: Members, quantity: Quantity) -> tuple[str, ...]:
     """Return the strokes that a driven quantity follows by itself, not through points."""
+    found = strokes_alone(quantity, plan.members)
+    return tuple(name for name in plan.strokes if name in found)
+
+
+def strokes_alone(quantity: Quantity, members: Mapping[str, Member]) -> tuple[str, ...]:
+    """Return the strokes among the members of a class that a quantity follows by itself, not through points."""
     stack, found = [quantity.name] if quantity.name else [*needs(quantity)], set()
     while stack:
         name = stack.pop()
-        if name not in found and name not in plan.points:
+        if name not in found and not isinstance(members[name], Point):
             found.add(name)
-            stack += needs(plan.members[name])
-    return tuple(name for name in plan.strokes if name in found)
+            stack += needs(members[name])
+    return tuple(name for name, member in members.items() if name in found and isinstance(member, Stroke))
 
 
 def half_joints(plan: Members) -> list[tuple[str, Joint]]:

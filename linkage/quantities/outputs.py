@@ -178,8 +178,6 @@ def y(P: Reference) -> Quantity:
     return Coordinate(P, "y")
 
 
-
-
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)

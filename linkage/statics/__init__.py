@@ -2,7 +2,7 @@
 
 from .applied import applied_loads, elements_of, motion_in_case, plan_in_case
 from .force_requests import drive_force, pin_force, pin_forces_under, thrust_from_forces
-from .holding import lock_words, same, stroke_followed, tied_forces
+from .holding import each_once, lock_words, same, stroke_followed, tied_forces
 from .joint_forces import GlandForce, JointForce, PinForces, pin_forces
 from .law_requests import LawRequest, case_words
 from .poses import AnyMotion, plan_of

@@ -319,7 +319,7 @@ class System:
         shares = [share_of(each, ties, [areas(line, self.poses, 1) for line in ties]) for each in members]
         none = self.poses.zeros()
         rows = [[none if each is None else each for each in row] for row in shares]
-        pivots = tie_pivots(self.structure.plan, ties, members)
+        pivots = tie_pivots(self.structure.plan, [line.tie for line in ties if line.tie is not None], members)
         for place, form in enumerate(forms):
             if place not in [row for row, _ in pivots]:
                 own = [rows[place][column] for _, column in pivots]

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from itertools import permutations
-from typing import Any, cast, final
+from typing import Any, TypeVar, cast, final
 
 import numpy as np
 
@@ -26,6 +26,8 @@ from ..plan import Plan
 from ..program import FloatArray, Traced, elementwise, eliminated, is_traced, node_of
 from ..quantities import Member, joined_names
 from .poses import FlatPoses, plan_of
+
+Kind = TypeVar("Kind", bound=TwoPinned)
 
 POSES = 7
 """Poses over the strokes at which it is looked how lengths follow them."""
@@ -87,10 +89,7 @@ class Holders:
     @property
     def cylinders(self) -> tuple[TwoPoint, ...]:
         """The cylinders on any of the lines, each once."""
-        found: list[TwoPoint] = []
-        for line in self.all:
-            found += [each for each in line.cylinders if not any(same(each, other) for other in found)]
-        return tuple(found)
+        return each_once(cylinder for line in self.all for cylinder in line.cylinders)
 
     @property
     def taken(self) -> frozenset[str]:
@@ -145,6 +144,14 @@ def same(a: TwoPinned | Member, b: TwoPinned | Member) -> bool:
     return a is b or bool(a.name and a.name == b.name)
 
 
+def each_once(elements: Iterable[Kind]) -> tuple[Kind, ...]:
+    """Return elements in their order, each once."""
+    found: list[Kind] = []
+    for each in elements:
+        found += [] if any(same(each, other) for other in found) else [each]
+    return tuple(found)
+
+
 def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
     """Return the lines with the strokes they take."""
     ties = [tie for tie in (each.tie(plan.members) for each in elements) if tie is not None]
@@ -194,10 +201,7 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
 
 def on_tie(tie: Tie) -> tuple[TwoPoint, ...]:
     """Return the members of a tie, each once."""
-    found: list[TwoPoint] = []
-    for share in tie.shares:
-        found += [] if any(same(share.member, each) for each in found) else [share.member]
-    return tuple(found)
+    return each_once(share.member for share in tie.shares)
 
 
 def independent(motion: Motion, ties: Sequence[Tie]) -> list[Tie]:
@@ -221,10 +225,11 @@ KEPT = 1e-6
 def lock_words(plan: Plan) -> str:
     """Return why closed ties lock a machine, in words; "" where they do not."""
     ties = [tie for tie in (each.tie(plan.members) for each in plan.of_kind(ForceElement).values()) if tie is not None]
+    kept = [tie for tie in ties if not tie.held and not tie.gives]
+    motion = sampled(plan) if kept else None
     try:
-        for tie in ties:
-            if not tie.held and not tie.gives:
-                check_kept(sampled(plan), tie, ties)
+        for tie in kept:
+            check_kept(cast(Motion, motion), tie, ties)
     except DefinitionError as error:
         return str(error)
     return ""
@@ -576,15 +581,10 @@ def scalar_product(a: Sequence[FloatArray], b: Sequence[FloatArray]) -> FloatArr
 # Ties: members whose thrusts follow fewer forces.
 
 
-def tie_pivots(plan: Plan, ties: Sequence[PressureLine], members: Sequence[TwoPoint]) -> list[tuple[int, int]]:
+def tie_pivots(plan: Plan, ties: Sequence[Tie], members: Sequence[TwoPoint]) -> list[tuple[int, int]]:
     """Return members and ties, by their places, such that the thrusts of these members tell the forces of these ties and all others."""
     motion = Motion(plan, plan.defaults, {name: np.asarray(value) for name, value in plan.sketch_strokes.items()}, "nan")
-    matrix = np.zeros((len(members), len(ties)))
-    for column, line in enumerate(ties):
-        for share in line.tie.shares if line.tie is not None else ():
-            row = next(k for k, each in enumerate(members) if same(each, share.member))
-            matrix[row, column] += float(np.ravel(share.of(motion))[0])
-    return pivots_of(matrix)
+    return pivots_of(np.array([[float(np.ravel(share_in(tie, each, motion))[0]) for tie in ties] for each in members]))
 
 
 def tied_forces(
@@ -595,11 +595,8 @@ def tied_forces(
     Where ties depend on each other, so that the thrusts leave some forces open, they are the `least` that balance. DefinitionError
     where the open ones have no least, as they may grow and fall against each other.
     """
-    plan, members = plan_of(motion), list[TwoPoint]()
-    for tie in ties:
-        members += [each for each in on_tie(tie) if not any(same(each, other) for other in members)]
-    lines = [PressureLine(on_tie(tie), "", tie) for tie in ties]
-    pivots = tie_pivots(plan, lines, members)
+    plan, members = plan_of(motion), each_once(share.member for tie in ties for share in tie.shares)
+    pivots = tie_pivots(plan, ties, members)
     shares = [[share_in(tie, each, motion) for tie in ties] for each in members]
     rows = [[shares[row][column] for _, column in pivots] for row, _ in pivots]
     known = dict(zip([column for _, column in pivots], solution_of_few(rows, [thrust(members[row]) for row, _ in pivots]), strict=True))

@@ -33,7 +33,7 @@ from ..loads import (
 from ..loads.element import Formulas, Reeving, value_text
 from ..loads.rope import Station, pulls, stations_of, wraps
 from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Question, Tabled, least
-from ..plan import Plan
+from ..plan import Plan, strokes_alone
 from ..program import FloatArray
 from ..quantities import (
     InnerQuantity,
@@ -41,12 +41,10 @@ from ..quantities import (
     Number,
     Quantity,
     Reference,
-    Stroke,
     Variable,
     is_number,
     label,
     name_of,
-    needs,
     quantity,
 )
 from ..steps import Point
@@ -218,13 +216,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
 
     def winding(self, members: Mapping[str, Member]) -> tuple[str, ...]:
         """Return the strokes that its length follows by itself, not through points: those of winches."""
-        length = self.length_given
-        stack, found = [length.name] if length.name else [*needs(length)], list[str]()
-        while stack:
-            name = stack.pop()
-            found += [name] if isinstance(members[name], Stroke) and name not in found else []
-            stack += [] if isinstance(members[name], Point) else needs(members[name])
-        return tuple(found)
+        return strokes_alone(self.length_given, members)
 
     def cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
         return (self.cut,) if self.length is not None and self.gives(members) else ()

@@ -104,6 +104,8 @@ from .study import WorkingField as WorkingField
 from .study import around as around
 from .study import working_field as working_field
 from .study.optimise import optimise as optimise
+from .study.task_error import point_errors as point_errors
+from .study.task_error import task_error as task_error
 from .study.task_search import synthesise as synthesise
 from .surroundings import Outline as Outline
 from .units import MPa as MPa

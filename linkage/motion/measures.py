@@ -90,7 +90,7 @@ class Measure(Arithmetic):
         return str(self)
 
     def __bool__(self) -> NoReturn:
-        raise DefinitionError(f"{self}: a measure has no value before a machine is looked at; ask measured(machine, ...).")
+        raise DefinitionError(f"{self}: a measure has no value before a machine is looked at; ask machine.answers([...]).")
 
 
 Operand: TypeAlias = "Measure | float"

@@ -13,6 +13,7 @@ from .space import around
 from .survey import Survey, survey
 from .synthesis import Synthesis, SynthesisedMachine
 from .targets import Solutions
+from .task_error import point_errors, task_error
 from .task_search import synthesise
 from .tasks import FunctionTask, PathTask, PoseTask
 from .tolerances import Tolerance, sigma, spread

@@ -17,16 +17,19 @@ from ..language import said
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
 from ..motion.judging import transmissions
+from ..motion.kinds import measure_of
+from ..motion.measures import Measure
 from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import is_number
 from ..shown import Shown
-from ..units import deg, factor, mm, show, shown_in
+from ..units import deg, display_unit, factor, mm, show, shown_in
 from .checks import unit_of
 from .fit import Fit
 from .optimum import steps_about
 from .problem import Problem
 from .result_tables import heading_with_unit, tried_names
+from .task_error import squares_near
 from .tasks import Task
 
 RUN = 721
@@ -166,11 +169,36 @@ class Synthesis(Shown):
         for name, value in (("to", to), ("angle", angle)):
             if not is_number(value) or value <= 0.0:
                 raise DefinitionError(f"rounded({name}={cited(value)}): a step above zero is expected, such as 1 * mm.")
+        return rounded_machine(self, self.answer_at(place, "rounded"), to, angle)
+
+    def measure(self, place: int = 0) -> Measure:
+        """Return the error of an answer as a measure [SI^2]: `monte_carlo(found.machine, {"error": found.measure()}, ...)`.
+
+        It is that of this answer and of machines near it: an untimed point counts by its distance from the path there.
+        """
+        total, *others = self.point_measures(place)
+        for each in others:
+            total = total + each
+        return total
+
+    def point_measures(self, place: int = 0) -> tuple[Measure, ...]:
+        """Return the square of what an answer misses at each point as a measure [SI^2]; `each**0.5 <= 0.5 * mm` is a condition."""
+        answer = self.answer_at(place, "measure")
+        fit = self.fit_of(answer)
+        slides = fit.timing.width == fit.rows.count
+        return squares_near(answer.machine, fit.rows, fit.timing.stroke, fit.held, answer.strokes, slides=slides)
+
+    def fit_of(self, answer: SynthesisedMachine) -> Fit:
+        """Return the fit that an answer is of."""
+        return next(each for each in self.fits if each.combination == answer.combination)
+
+    def answer_at(self, place: int, asked: str) -> SynthesisedMachine:
+        """Return the answer of a place, from 0 on; StudyError where there is none, DefinitionError for a place that is not there."""
         if not self.solutions:
             raise StudyError(str(self))
         if isinstance(place, bool) or not isinstance(place, int) or not 0 <= place < len(self.solutions):
-            raise DefinitionError(f"rounded(place={cited(place)}): there are {len(self.solutions)} answers, from 0 on.")
-        return rounded_machine(self, self.solutions[place], to, angle)
+            raise DefinitionError(f"{asked}(place={cited(place)}): there are {len(self.solutions)} answers, from 0 on.")
+        return self.solutions[place]
 
     def csv(self, path: Place) -> None:
         """Write a row for each answer into a CSV file: its rank, errors, dimensions and strokes; FileError where it cannot be written."""
@@ -255,7 +283,7 @@ def machine_words(fit: Fit, machine: Mechanism, far: FloatArray, angle: float, j
 
 def miss_unit(fit: Fit) -> str:
     """Return the unit in which misses are shown."""
-    return "mm" if len(fit.requests) > 1 else {"length": "mm", "angle": "deg"}.get(fit.requests[0].measured(fit.plan), "")
+    return "mm" if len(fit.requests) > 1 else display_unit(measure_of(fit.plan, fit.rows.quantities[0]), "mm")
 
 
 def circuit_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
@@ -307,7 +335,7 @@ def ranges(points: Sequence[int]) -> str:
 def rounded_machine(found: Synthesis, answer: SynthesisedMachine, to: float, angle: float) -> RoundedMachine:
     """Return an answer on drawing dimensions; see `Synthesis.rounded`."""
     problem = found.problem
-    fit = next(each for each in found.fits if each.combination == answer.combination)
+    fit = found.fit_of(answer)
     values = problem.space.values(answer.at[: fit.n])
     near = []
     for variable, value in zip(problem.space.variables, values, strict=True):

@@ -17,6 +17,8 @@ DOCS = ROOT / "docs"
 sys.path.insert(0, str(DOCS))
 from made import drawn, examples, gallery  # noqa: E402
 
+from tests.tools.prose import LONGEST_MEAN, mean_length, sentences  # noqa: E402
+
 PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("howto/*.md"))]
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 SCRIPTS = {name: drawn.script(name) for name in drawn.MAKERS}
@@ -34,6 +36,18 @@ WIDE = 100
 def test_what_a_page_links_is_there(page):
     links = [link for link in LINK.findall(page.read_text(encoding="utf-8")) if "://" not in link]
     assert [link for link in links if not (page.parent / link).exists()] == []
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if page.stem != "design"], ids=lambda page: page.stem)
+def test_sentences_are_short(page):
+    text = page.read_text(encoding="utf-8")
+    assert mean_length(text) <= LONGEST_MEAN, [sentence for count, sentence in sentences(text) if count > 2 * LONGEST_MEAN]
+
+
+def test_sentences_are_counted_without_code_and_formulas():
+    prose = "# Title.\n\nOne `a.b. C` two $x. Y$ three. Four [five six](seven.md).\n\n* Seven, eight.\n* nine\n\n"
+    text = prose + "```\nno code. Here\n```\n\n| a. B. |"
+    assert [count for count, _ in sentences(text)] == [5, 3, 2]
 
 
 def listed(page):

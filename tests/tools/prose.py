@@ -1,0 +1,45 @@
+"""How long the sentences of a page are: prose alone, without code, formulas, tables, headings and lists of names."""
+
+import re
+import sys
+from pathlib import Path
+from statistics import mean
+
+LONGEST_MEAN = 16.0
+"""How many words a page's sentences have in the mean, at the most."""
+FENCES = re.compile(r"^(```|~~~|:::).*?^\1[ \t]*$", re.DOTALL | re.MULTILINE)
+FORMULAS = re.compile(r"\$\$.*?\$\$|\$[^$\n]*\$", re.DOTALL)
+OUTSIDE = ("|", "#", "<", "![", ">")
+ITEM = re.compile(r"^\s*(?:[-*]|\d+\.)\s+")
+END = re.compile(r"(?<=[.!?])[\"')*_]*\s+(?=[\"'(*_]*[A-Z0-9])")
+WORD = re.compile(r"[^\W_][\w'.,/-]*")
+
+
+def paragraphs(text):
+    """Yield the paragraphs and list items of a page in Markdown, each in one line; code and formulas as one word."""
+    text = FORMULAS.sub("X", FENCES.sub("\n", text))
+    own = []
+    for line in [*text.splitlines(), ""]:
+        outside = not line.strip() or line.lstrip().startswith(OUTSIDE)
+        if (outside or ITEM.match(line)) and own:
+            yield " ".join(own)
+            own = []
+        if not outside:
+            own.append(re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", re.sub(r"`[^`]*`", "X", ITEM.sub("", line))).strip())
+
+
+def sentences(text):
+    """Return the sentences of a page that end in a full stop, each with the number of its words."""
+    found = [each.strip() for paragraph in paragraphs(text) for each in END.split(paragraph)]
+    return [(len(WORD.findall(each)), each) for each in found if each.rstrip("\"')*_ ").endswith(".") and WORD.search(each)]
+
+
+def mean_length(text):
+    """Return how many words the sentences of a page have in the mean; 0 of a page without one."""
+    return mean(count for count, _ in sentences(text)) if sentences(text) else 0.0
+
+
+if __name__ == "__main__":
+    for name in sys.argv[1:]:
+        found = sentences(Path(name).read_text(encoding="utf-8"))
+        print(f"{mean_length(Path(name).read_text(encoding='utf-8')):5.1f} {len(found):4} {name}")

@@ -15,6 +15,7 @@ import numpy as np
 from ..motion.line import Index
 from ..program import FloatArray
 from .box import unit_points
+from .closed_curves import ClosedCurves, drawn_curve, laid_onto
 from .fit import Fit
 
 POPULATION = 1 << 12
@@ -96,13 +97,14 @@ class Likeness:
         return found
 
     def sizes(self, fit: Fit, unit: FloatArray) -> FloatArray:
-        """Return between which factors the lengths of designs (m, n) stay within their ranges, shape (2, m)."""
+        """Return between which factors the lengths of designs (m, n) stay within their ranges, or nearest to them, shape (2, m)."""
         values, variables = fit.space.values(unit), [fit.space.variables[place] for place in self.lengths]
         low, high = np.full(len(unit), 1e-3), np.full(len(unit), 1e3)
         with np.errstate(all="ignore"):
             for place, each in zip(self.lengths, variables, strict=True):
                 low, high = np.fmax(low, each.low / values[:, place]), np.fmin(high, each.high / values[:, place])
-        return np.array([np.minimum(low, 1.0), np.maximum(high, 1.0)])
+            middle = np.sqrt(low * high)
+        return np.array([np.where(low <= high, low, middle), np.where(low <= high, high, middle)])
 
     def laid(self, path: Any, onto: Any, sizes: FloatArray) -> tuple[Any, Any, FloatArray]:
         """Return by which factor and shift (m,) paths (m, n), complex, lie best on one (n,), and the errors (m,).
@@ -166,17 +168,41 @@ def starts_for(fit: Fit, many: int, seed: int, timed: Any, population: int, pres
         exact, _ = fit.values(fit.dimensions(unit), fit.known, len(unit))
         best = Best.of(likeness, fit, unit, exact, np.arange(fit.rows.count)[None])
         own = np.zeros((len(unit), 0))
+    elif timed is False and fit.rows.is_closed and enough and fit.timing.turn:
+        best, own = along_closed_curve(likeness, fit, unit, values)
+        base = np.zeros((len(unit), fit.rows.count))
     else:
         picks, base_of, own_of = patterns(fit, timed, values.shape[2])
         best = Best.of(likeness, fit, unit, values, picks)
         base, own = base_of[best.pattern], own_of[best.pattern]
-    laid = likeness.applied(fit.space.values(unit), best.factor, best.by)
-    if likeness.with_stroke:
-        own = own + np.angle(best.factor)[:, None] / fit.timing.reach[1]
-    at = np.concatenate([fit.space.unit(laid), np.clip(own, 0.0, 1.0)], axis=1)
+    at = laid_starts(likeness, fit, unit, best, own)
     error = fit.errors(at, base)
     places = standing_apart(unit, error, many)
     return Starts(at[places], np.array(base[places]), int(whole.sum()))
+
+
+def laid_starts(likeness: Likeness, fit: Fit, unit: FloatArray, best: Best, own: FloatArray) -> FloatArray:
+    """Return designs (m, n) laid as is best, in the box, with their points' own unknowns (m, w), together (m, n + w)."""
+    laid = likeness.applied(fit.space.values(unit), best.factor, best.by)
+    if likeness.with_stroke:
+        own = own + np.angle(best.factor)[:, None] / fit.timing.reach[1]
+    if fit.timing.turn and fit.width:  # whole turns away from the ends
+        turn = fit.timing.turn / abs(fit.timing.reach[1])
+        own = own - turn * np.round((own.mean(axis=1, keepdims=True) - 0.5) / turn)
+    return np.concatenate([fit.space.unit(laid), np.clip(own, 0.0, 1.0)], axis=1)
+
+
+def along_closed_curve(likeness: Likeness, fit: Fit, unit: FloatArray, values: FloatArray) -> tuple[Best, FloatArray]:
+    """Return how closed curves, the values (m, r, poses) of designs (m, n), lie best on a task's, and its points' own unknowns (m, w).
+
+    Point lies on point at the same part of the way.
+    """
+    onto, places = drawn_curve(fit.rows.wanted[:2].T)
+    curves = ClosedCurves.of(as_complex(values))
+    free = {"shift": likeness.shift, "turn": likeness.turn, "scale": likeness.scale}
+    laid = laid_onto(curves, onto, likeness.sizes(fit, unit), **free)
+    strokes = fit.timing.start + fit.timing.span * curves.shares(laid.along(places))
+    return Best(np.zeros(len(unit), int), laid.factor, laid.by, laid.error), fit.timing.own(strokes)
 
 
 def standing_apart(unit: FloatArray, error: FloatArray, many: int) -> Index:

@@ -21,7 +21,7 @@ from ..quantities import angle, is_number, real, x, y
 class TaskRows:
     """What a task wants: quantities, their values (r, n) [SI], the weight of each, and which of them count modulo a turn.
 
-    `is_path` says that the first two are the coordinates of one point, and no other.
+    `is_path` says that the first two are the coordinates of one point, and no other; `is_closed` that this path is a closed curve.
     """
 
     quantities: tuple[Any, ...]
@@ -29,6 +29,7 @@ class TaskRows:
     weights: FloatArray
     turns: FloatArray
     is_path: bool
+    is_closed: bool = False
 
     @property
     def count(self) -> int:
@@ -56,22 +57,32 @@ class PathTask:
     """A path that a point is to go along: `PathTask([(0.1, 0.2), (0.1, 0.3)], of="P")`, points (n, 2) [m].
 
     `at` are the strokes (n,) [SI] of timed points. Without them the points are passed in the order in which they stand, to either side,
-    within one turn, unless `in_order=False`.
+    within one turn, unless `in_order=False`. A path is a closed curve where its last point is its first one, or `closed=True`: the machine
+    then goes along all of it in one turn of its crank.
     """
 
     points: FloatArray
     of: str
     at: FloatArray | None
     in_order: bool
+    closed: bool
 
-    def __init__(self, points: Any, of: str, at: Any = None, *, in_order: bool = True) -> None:
-        found = table_of(f"PathTask(of={cited(of)})", "points", points, 2)
-        vars(self).update(points=found, of=of, at=timed_strokes("PathTask", at, len(found)), in_order=bool(in_order))
+    def __init__(self, points: Any, of: str, at: Any = None, *, in_order: bool = True, closed: bool | None = None) -> None:
+        what = f"PathTask(of={cited(of)})"
+        found = table_of(what, "points", points, 2)
+        different = len(np.unique(found, axis=0))
+        if closed is None:
+            closed = different >= 3 and bool(np.array_equal(found[0], found[-1]))
+        elif closed and different < 3:
+            raise DefinitionError(f"{what}: closed=True: a closed curve has at least three different points; give more of it.")
+        vars(self).update(
+            points=found, of=of, at=timed_strokes("PathTask", at, len(found)), in_order=bool(in_order), closed=bool(closed)
+        )  # fmt: skip
 
     def rows(self, machine: Mechanism) -> TaskRows:
         """Return what is wanted of a machine."""
         check_point(machine, self.of)
-        return TaskRows((x(self.of), y(self.of)), read_only(self.points.T), np.ones(2), np.zeros(2), True)
+        return TaskRows((x(self.of), y(self.of)), read_only(self.points.T), np.ones(2), np.zeros(2), True, self.closed)
 
 
 @final

@@ -309,10 +309,12 @@ def end_said(head: StudyHead, given: object, measures: str) -> Any:
 
 
 def case_said(head: StudyHead, given: object) -> Any:
-    """Return the name of a load case, or a list of names; DefinitionError for an unknown one."""
+    """Return the name of a load case, a list of names, or names with their hours; DefinitionError for an unknown one."""
     cases = head.plan.of_kind(LoadCase)
-    if isinstance(given, list) and given:
-        return [known_name("Load case", each, (PLAIN_CASE, *cases), where=head.plan.title) for each in given]
+    if isinstance(given, (list, dict)) and given:
+        for each in given:
+            known_name("Load case", each, (PLAIN_CASE, *cases), where=head.plan.title)
+        return given
     return known_name("Load case", given, (PLAIN_CASE, *cases), where=head.plan.title)
 
 

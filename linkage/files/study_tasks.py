@@ -29,7 +29,7 @@ from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Request, stroke_display_unit, stroke_measure
 from ..motion.kinds import measure_of
-from ..motion.measures import At, Constraint, Given, Measure
+from ..motion.measures import At, Constraint, Given, Measure, in_case
 from ..program import FloatArray
 from ..quantities import is_number
 from ..study import Target, monte_carlo, settings_for, survey, tornado, zone
@@ -38,7 +38,7 @@ from ..study.box import Box
 from ..study.checks import unit_of
 from ..study.measured import measured_title
 from ..study.monte_carlo import limits_listed
-from ..study.optimise import constraint_in_case, in_case
+from ..study.optimise import constraint_in_case
 from ..study.space import Around, coordinates
 from ..study.survey import Progress
 from ..units import display_unit, parse_span, show
@@ -299,7 +299,7 @@ class ToleranceTask(StudyTask):
         case = None
         with self.at("case"):
             case = case_said(self.head, self.given["case"]) if "case" in self.given else None
-            if isinstance(case, list):
+            if isinstance(case, (list, dict)):
                 raise DefinitionError("a study of tolerances is of one load case.")
         self.read_quantities(case)
 

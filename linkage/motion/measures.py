@@ -20,6 +20,7 @@ from typing import Any, ClassVar, NoReturn, TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, LawError, UntracedError, cited
+from ..loads import Acting, Case, LoadCase
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import Arithmetic, PoseCondition, Quantity, is_number, name_of, x, y
@@ -34,6 +35,8 @@ OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = MappingProxyType(
 )
 SYMBOLS = {"add": "+", "subtract": "-", "multiply": "*", "divide": "/", "power": "**"}
 BINDS = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 3}
+Spectrum: TypeAlias = Mapping[str, float]
+"""A duty: load cases by name, each with its hours or its share."""
 
 
 class Measure(Arithmetic):
@@ -238,27 +241,40 @@ class Worst:
     __repr__ = __str__
 
 
-def least(quantity: MeasuredQuantity) -> Measure:
-    """Return the least value of a quantity over the stroke, between the poses too: `least(capacity("lift", "G")) >= 35 * kN`."""
-    return Least(require_quantity(quantity, "least"))
+def least(quantity: MeasuredQuantity, *, case: Case | Spectrum = None) -> Measure:
+    """Return the least value of a quantity over the stroke, between the poses too: `least(capacity("lift", "G")) >= 35 * kN`.
+
+    `case` is a load case that its forces are of. Load cases with their hours, `case={"empty": 700, "full": 300}`, stand for the mean of
+    what it is in each; hours and shares are the same, as they are divided by their sum.
+    """
+    return in_duty(Least(require_quantity(quantity, "least")), case)
 
 
-def most(quantity: MeasuredQuantity) -> Measure:
-    """Return the greatest value of a quantity over the stroke, between the poses too: `most(abs(ref("tilt"))) <= 8 * deg`."""
-    return Most(require_quantity(quantity, "most"))
+def most(quantity: MeasuredQuantity, *, case: Case | Spectrum = None) -> Measure:
+    """Return the greatest value of a quantity over the stroke, between the poses too: `most(abs(ref("tilt"))) <= 8 * deg`.
+
+    `case` as in `least`.
+    """
+    return in_duty(Most(require_quantity(quantity, "most")), case)
 
 
-def integral(quantity: MeasuredQuantity, by: str | None = None) -> Measure:
-    """Return the integral of a quantity over the stroke, of several the one named: `integral(drive_force())` is a work [J]."""
-    return Integral(require_quantity(quantity, "integral"), by)
+def integral(quantity: MeasuredQuantity, by: str | None = None, *, case: Case | Spectrum = None) -> Measure:
+    """Return the integral of a quantity over the stroke, of several the one named: `integral(drive_force())` is a work [J].
+
+    `case` as in `least`: `integral(drive_force(), case={"empty": 0.7, "full": 0.3})` is the mean work of a duty.
+    """
+    return in_duty(Integral(require_quantity(quantity, "integral"), by), case)
 
 
-def at(quantity: MeasuredQuantity, **strokes: float) -> Measure:
-    """Return the value of a quantity at one pose: `at("tilt", S=0.1)`; `at("mass")` of one that depends on no stroke."""
+def at(quantity: MeasuredQuantity, *, case: Case | Spectrum = None, **strokes: float) -> Measure:
+    """Return the value of a quantity at one pose: `at("tilt", S=0.1)`; `at("mass")` of one that depends on no stroke.
+
+    `case` as in `least`.
+    """
     for name, value in strokes.items():
         if not is_number(value):
             raise DefinitionError(f"at(..., {name}={cited(value)}): one number is expected for a stroke, in SI.")
-    return At(require_quantity(quantity, "at"), dict(strokes))
+    return in_duty(At(require_quantity(quantity, "at"), dict(strokes)), case)
 
 
 def worst(quantity: MeasuredQuantity, over: str, by: Callable[..., Any] = most) -> Worst:
@@ -368,6 +384,68 @@ def conditions_of(given: Any, machine: Any) -> list[Constraint]:
             what = f"{each} says no limit" if isinstance(each, Measure) else f"{cited(each)} is no condition"
             raise DefinitionError(f"subject_to: {what}; write one such as most(...) <= 8 * deg.")
     return [found for each in listed for found in each.constraints(machine)]
+
+
+# Load cases.
+
+
+def in_case(measure: Measure, case: Case) -> Measure:
+    """Return a measure with the forces of a load case, where it names none itself."""
+    if case is None:
+        return measure
+    if isinstance(measure, CombinedMeasure):
+        left, right = in_case(measure.left, case), in_case(measure.right, case)
+        return measure if left is measure.left and right is measure.right else replace(measure, left=left, right=right)
+    if isinstance(measure, Leaf):
+        situated = quantity_in_case(measure.quantity, case)
+        return measure if situated is measure.quantity else replace(measure, quantity=situated)
+    return measure
+
+
+def quantity_in_case(quantity: Any, case: Case) -> Any:
+    """Return a quantity with the forces of a load case."""
+    if isinstance(quantity, Worst):
+        situated = quantity_in_case(quantity.quantity, case)
+        return quantity if situated is quantity.quantity else replace(quantity, quantity=situated)
+    return quantity.under(Acting(case=case), keep=True) if isinstance(quantity, Request) else quantity
+
+
+def shares_of(spectrum: Spectrum, where: str = "case") -> dict[str, float]:
+    """Return the load cases of a duty by name, each with its share; the shares sum to one. DefinitionError for what is no duty."""
+    shown = f"{where}={cited(dict(spectrum))}"
+    if not spectrum or not all(isinstance(name, str) for name in spectrum):
+        raise DefinitionError(f'{shown}: the names of load cases with their hours are expected, case={{"empty": 700, "full": 300}}.')
+    for name, hours in spectrum.items():
+        if not is_number(hours) or hours < 0.0:
+            raise DefinitionError(f"{shown}: {name}: {cited(hours)}: hours or a share are expected, a number, zero or more.")
+    total = float(sum(spectrum.values()))
+    if not 0.0 < total < np.inf:
+        raise DefinitionError(f"{shown}: all hours are zero; give one case some.")
+    return {name: float(hours) / total for name, hours in spectrum.items()}
+
+
+def in_duty(leaf: Leaf, case: object) -> Measure:
+    """Return a measure in a load case; its mean where load cases are given with their hours. DefinitionError for anything else."""
+    if case is None:
+        return leaf
+    if not isinstance(case, (str, LoadCase, Mapping)):
+        said = 'a load case, its name, or load cases with their hours are expected, case={"empty": 700, "full": 300}'
+        raise DefinitionError(f"{leaf}: case={cited(case)}: {said}.")
+    inner = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
+    if not isinstance(inner, (str, Quantity, Request)):
+        raise DefinitionError(f"{leaf}: case={cited(case)}: a function of a motion says its load case itself; leave case= out.")
+    return mean_in_cases(leaf, shares_of(case)) if isinstance(case, Mapping) else in_case(leaf, case)
+
+
+def mean_in_cases(measure: Measure, shares: Spectrum) -> Measure:
+    """Return the mean of a measure over load cases, by shares that sum to one; itself where no load case changes it."""
+    parts = [CombinedMeasure("*", Given(share), in_case(measure, name)) for name, share in shares.items()]
+    if len(parts) == 1 or all(part.right is measure for part in parts):
+        return parts[0].right
+    mean: Measure = parts[0]
+    for part in parts[1:]:
+        mean = CombinedMeasure("+", mean, part)
+    return mean
 
 
 # Quantities as requests of a plan.

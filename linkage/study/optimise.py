@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from hashlib import blake2b
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, final, overload
+from typing import TYPE_CHECKING, Any, TypeVar, final, overload
 
 import numpy as np
 
 from ..disk import check_name, in_words, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited, known_name, one_word
-from ..loads import PLAIN_CASE, Acting, Case, LoadCase
+from ..loads import PLAIN_CASE, Case, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Judge, Over, Request
 from ..motion.measures import (
@@ -26,7 +26,10 @@ from ..motion.measures import (
     Measure,
     Worst,
     conditions_of,
+    in_case,
+    mean_in_cases,
     require_quantity,
+    shares_of,
     strokes_behind,
     words_of,
 )
@@ -137,7 +140,8 @@ def optimise(
     `vary` says what may change: `"OB": (low, high)` [SI], with a third number in steps; `"M": around(60 * mm)`, of a point both
     coordinates; a list of choices; and for several names at once rows of a catalogue, `("lift.bore", "lift.rod"): [(0.1, 0.056), ...]`.
     `over={"S": (0.0, 0.2)}` looks at a part of the stroke; an end may be a quantity that follows the design. `case` names a load case or
-    several, all of which are kept and the worst of which counts.
+    several, all of which are kept and the worst of which counts; with their hours, `case={"empty": 700, "full": 300}`, the mean of the
+    objective counts, by hours or shares alike, as they are divided by their sum.
 
     Of several objectives, given as lists, the front comes back: designs of which none is better in all (extra `pareto`). With
     `robust={"OB": 0.2 * mm}` every number counts as bad as `sigmas` standard deviations make it, by tolerances as in `tolerance`.
@@ -165,27 +169,22 @@ def optimise(
     space = Space.of(machine, vary)
     constraints = conditions_of(subject_to, machine)
     over, occurring = where_searched(machine, over)
-    given = list(case) if isinstance(case, (list, tuple)) else occurring if case is None else [case]
-    cases = [None if isinstance(each, str) and each == PLAIN_CASE else each for each in given]
-    if not cases:
-        raise DefinitionError(f"{title}: case={cited(case)}: a load case or several are expected; leave it out for the own loads.")
-    for each in cases:
-        case_of(machine.plan, each)
+    cases, shares = cases_searched(machine, case, occurring)
     judge = machine.judge(over)
     held = pieces_in_cases(constraints, cases, judge)
     plan = SearchPlan(method, solver, starts or STARTS, seed)
     if len(objectives) > 1:
-        if len(cases) > 1 or robust is not None or folder is not None:
+        if (len(cases) > 1 and not shares) or robust is not None or folder is not None:
             raise DefinitionError(f"{title}: several objectives are sought in one load case, without robust= and without folder=.")
         from .pareto import front
 
-        problem = Problem(machine, [in_case(each, cases[0]) for each in objectives], held, space, 1.0, over)
+        goals = [mean_in_cases(each, shares) if shares else in_case(each, cases[0]) for each in objectives]
+        problem = Problem(machine, goals, held, space, 1.0, over)
         problem.count.limit = limit or default_limit(problem, replace(plan, is_front=True))
         with progress_told(progress, machine.plan.heading) as tell:
             return front(problem, plan.seed, solver, tell)
-    sought = [in_case(objectives[0], each) for each in cases]
-    named = [each.quantity for each in objectives[0].leaves]
-    if all(leaf.quantity is own for each in sought for leaf, own in zip(each.leaves, named, strict=True)):
+    sought = [mean_in_cases(objectives[0], shares)] if shares else [in_case(objectives[0], each) for each in cases]
+    if all(each is objectives[0] for each in sought):
         sought = [objectives[0]]  # it names its load cases itself
     problem = Problem(machine, sought, held, space, sense, over)
     if robust is not None:
@@ -216,6 +215,22 @@ def where_searched(machine: Mechanism, over: Any) -> tuple[Any, list[Any]]:
     if over.cases is not None:
         occurring = [None if name == PLAIN_CASE else name for name in over.cases]
     return dict(over.strokes), occurring
+
+
+def cases_searched(machine: Mechanism, case: Any, occurring: Sequence[Any]) -> tuple[list[Any], dict[str, float]]:
+    """Return the load cases that a search looks at, None for the plain loads, and their shares where they are given with their hours.
+
+    DefinitionError for one that is unknown, and for none.
+    """
+    shares = shares_of(case, f"{machine.plan.title}: case") if isinstance(case, Mapping) else {}
+    given = [*shares] if shares else list(case) if isinstance(case, (list, tuple)) else occurring if case is None else [case]
+    cases = [None if isinstance(each, str) and each == PLAIN_CASE else each for each in given]
+    if not cases:
+        what = f"{machine.plan.title}: case={cited(case)}"
+        raise DefinitionError(f"{what}: a load case or several are expected; leave it out for the own loads.")
+    for each in cases:
+        case_of(machine.plan, each)
+    return cases, shares
 
 
 def default_limit(problem: Problem, plan: SearchPlan) -> int:
@@ -264,23 +279,7 @@ def objective_of(machine: Mechanism, given: Any) -> Measure:
 
 # Load cases.
 
-
-def in_case(measure: Measure, case: Case) -> Measure:
-    """Return a measure with the forces of a load case, where it names none itself."""
-    if case is None:
-        return measure
-    if isinstance(measure, CombinedMeasure):
-        return replace(measure, left=in_case(measure.left, case), right=in_case(measure.right, case))
-    if isinstance(measure, Leaf):
-        return replace(measure, quantity=quantity_in_case(measure.quantity, case))
-    return measure
-
-
-def quantity_in_case(quantity: Any, case: Case) -> Any:
-    """Return a quantity with the forces of a load case."""
-    if isinstance(quantity, Worst):
-        return replace(quantity, quantity=quantity_in_case(quantity.quantity, case))
-    return quantity.under(Acting(case=case), keep=True) if isinstance(quantity, Request) else quantity
+Asked = TypeVar("Asked", Measure, Constraint)
 
 
 def constraint_in_case(constraint: Constraint, case: Case) -> Constraint:
@@ -291,6 +290,15 @@ def constraint_in_case(constraint: Constraint, case: Case) -> Constraint:
     before, after = ((*each.left.leaves, *each.right.leaves) for each in (constraint, Constraint(left, constraint.symbol, right)))
     same = all(a.quantity is b.quantity for a, b in zip(before, after, strict=True))
     return constraint if same else Constraint(left, constraint.symbol, right)
+
+
+def each_in_cases(
+    asked: Sequence[Asked], cases: Sequence[Case], machine: Mechanism, put: Callable[[Asked, Case], Asked]
+) -> tuple[Asked, ...]:
+    """Return measures or constraints as a judge is to look at them: in the load cases of a search, themselves where these are all."""
+    if {*cases} == {None, *machine.plan.of_kind(LoadCase)}:
+        return tuple(asked)
+    return tuple(dict.fromkeys(put(one, PLAIN_CASE if each is None else each) for one in asked for each in cases))
 
 
 def pieces_in_cases(constraints: Sequence[Constraint], cases: Sequence[Case], judge: Judge) -> list[Constraint]:

@@ -11,12 +11,12 @@ import numpy as np
 
 from ..errors import DefinitionError, LinkageError, cited
 from ..mechanism import Mechanism
-from ..motion.measures import Constraint, Given, Measure, conditions_of, reachable
+from ..motion.measures import Constraint, Given, Measure, conditions_of, in_case, mean_in_cases, reachable
 from ..plan import Mask
 from ..program import FloatArray, fixed_backend
 from .checks import check_one_design
 from .fit import Fit, FitSquares, Timing
-from .optimise import check_counts, pieces_in_cases, where_searched
+from .optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
 from .problem import LimitReachedError, Problem, is_still
 from .solver import MET, Local
 from .space import Space
@@ -62,6 +62,7 @@ def synthesise(
     subject_to: Any = (),
     timed: Any = None,
     rank: Measure | None = None,
+    case: Any = None,
     over: Mapping[str, Any] | None = None,
     starts: int = STARTS,
     seed: int = 0,
@@ -70,17 +71,17 @@ def synthesise(
 ) -> Synthesis:
     """Return the machines that do a task, the best first: `synthesise(bar, path=PathTask(points, of="P"), vary={"OA": (0.02, 0.06), ...})`.
 
-    The task is a `path` of a point, a `function` of the stroke, or poses of a body, its `motion`; `vary` and `subject_to` are those of
-    `optimise`. `timed=True`: the task says the stroke of every point; `timed=False`: each point's stroke is an unknown of its own; "steps":
-    the points lie at equal steps of the stroke, of a crank over one turn from an unknown first one on, to either side. By default points
-    with strokes are timed. `over` holds other strokes, or looks at a part of this one.
+    The task is a `path` of a point, a `function` of the stroke, or poses of a body, its `motion`; `vary`, `subject_to` and `case` are
+    those of `optimise`. `timed=True`: the task says the stroke of every point; `timed=False`: each point's stroke is an unknown of its
+    own; "steps": the points lie at equal steps of the stroke, of a crank over one turn from an unknown first one on, to either side. By
+    default points with strokes are timed. `over` holds other strokes, or looks at a part of this one.
 
     From some thousand designs spread over the box, those that run over the whole stroke are laid onto the task, shifted, turned and scaled
     in closed form where the dimensions allow. From the best `starts` of them all go on at once by the method of Levenberg and Marquardt
     with exact derivatives, then with all conditions where one is missed. Every answer is assembled over its whole stroke or turn and keeps
     the conditions, by the judge, and comes to its points in order. `rank`, such as `-least(transmission("B"))`, orders answers of the same
-    error, the least first. The same seed gives the same result; `limit` is how many designs are looked at before the best so far comes
-    back.
+    error, the least first; where `case` gives load cases with their hours, its mean over them. The same seed gives the same result;
+    `limit` is how many designs are looked at before the best so far comes back.
 
     Raises DefinitionError for what cannot be asked. Where no machine that runs was found, `solutions` are none and `misses` say why.
     """
@@ -93,12 +94,16 @@ def synthesise(
     rows, space = task.rows(machine), Space.of(machine, vary)
     if rank is not None and not isinstance(rank, Measure):
         raise DefinitionError(f'{title}: rank={cited(rank)}: one number of a design is expected, such as -least(transmission("B")).')
-    over, _ = where_searched(machine, over)
-    constraints = pieces_in_cases(conditions_of(subject_to, machine), [None], machine.judge(over))
+    over, occurring = where_searched(machine, over)
+    cases, shares = cases_searched(machine, case, occurring)
+    asked = conditions_of(subject_to, machine)
+    ranks = () if rank is None else (mean_in_cases(rank, shares),) if shares else each_in_cases([rank], cases, machine, in_case)
+    held = each_in_cases(asked, cases, machine, constraint_in_case)
+    constraints = pieces_in_cases(asked, cases, machine.judge(over))
     problem = Problem(machine, [Given(0.0)], constraints, space, 1.0, over)
     problem.count.limit = limit
     timing = Timing.of(problem, moving_stroke(problem), timed, rows.count)
-    search = TaskSearch(problem, task, rows, timing, timed, rank, over, starts, seed)
+    search = TaskSearch(problem, task, rows, timing, timed, ranks, held, over, starts, seed)
     with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):
         return search.run(tell)
 
@@ -136,7 +141,8 @@ class TaskSearch:
     rows: TaskRows
     timing: Timing
     timed: Any
-    rank: Measure | None
+    ranks: tuple[Measure, ...]
+    held: tuple[Constraint, ...]
     over: Any
     starts: int
     seed: int
@@ -327,23 +333,18 @@ class TaskSearch:
         if self.ordered and not in_order(fit, at, base):
             return "it comes to the points in another order"
         try:
-            answers = machine.judge(self.over).answers([reachable, *self.conditions])
+            answers = machine.judge(self.over).answers([reachable, *self.held])
         except LinkageError as error:
             return " ".join(str(error).split()).rstrip(".")
         lost = [answer for answer in answers if answer.ok is False]
         return f"{lost[0].question} is missed: {lost[0]}".rstrip(".") if lost else ""
-
-    @property
-    def conditions(self) -> tuple[Constraint, ...]:
-        """The conditions."""
-        return self.problem.constraints
 
     def answer(self, machine: Mechanism, ends: Ends, k: int) -> SynthesisedMachine:
         """Return a design with all that is said of it."""
         fit, at, base = ends.fit, ends.at[k], ends.base[k]
         strokes, reached, far = misses_of(fit, at, base)
         angle, joint = poorest_transmission(machine, self.over)
-        ranked = float("nan") if self.rank is None else float(machine.judge(self.over).answer(self.rank).value)
+        ranked = max((float(each.value) for each in machine.judge(self.over).answers([*self.ranks])), default=float("nan"))
         words = machine_words(fit, machine, far, angle, joint, ordered=in_order(fit, at, base))
         error, worst = float(np.sum(far**2)), int(np.argmax(far))
         return SynthesisedMachine(

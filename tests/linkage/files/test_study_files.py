@@ -296,6 +296,7 @@ CHANGES = [
     ("starts = 2", "starts = 0", "line 5, starts: 0: a whole number is expected, at least 1"),
     ("starts = 2", "method = 'best'", "line 5, method: it='best': say"),
     ('case = "plain"', "case = 'full'", "line 6, case: Load case 'full' is unknown in Boom. Known: plain, bumpy."),
+        ('case = "plain"', 'case = { plain = 0.7, bumpi = 0.3 }', "line 6, case: Load case 'bumpi' is unknown in Boom"),
     ("starts = 2", "over = { U = '0 to 1 m' }", "line 5, over.U: Stroke 'U' is unknown in Boom. Known: S."),
     ("starts = 2", "over = { S = '0 to 1 deg' }", "line 5, over.S: '0 deg' is an angle"),
     ("starts = 2", "set = { OB = '1 bar' }", "line 5, set.OB: '1 bar' is a pressure"),
@@ -355,6 +356,15 @@ def asked_in_python(**more):
 @pytest.fixture(scope="module")
 def best():
     return asked_in_python()
+
+
+def test_load_cases_with_their_hours_stand_in_the_file(here, said):
+    text = 'machine = "boom.toml"\nminimise = "most(drive_force())"\ncase = { plain = 3, bumpy = 1 }\nmethod = "local"\n'
+    code, out, _ = said("optimise", written(here, f'{text}[vary]\nOB = "1.0 to 1.2 m"\n'))
+    hours = {"plain": 3, "bumpy": 1}
+    wanted = optimise(BOOM, minimise=most(drive_force()), vary={"OB": (1.0, 1.2)}, case=hours, method="local")
+    assert code == 0
+    assert f"{wanted.value / kN:.6g} kN" in out
 
 
 OUTPUTS = """

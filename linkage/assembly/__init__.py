@@ -2,6 +2,7 @@
 
 from .angle_continuation import NONE_SOLVED, ambiguous_angle, with_angles
 from .assemble import assembled
+from .chain_parts import chain_parts
 from .groups import GroupSolution, solve_groups
 from .live import angles_text, constants_text, groups_text, json_of
 from .modes import Assembly, assemblies

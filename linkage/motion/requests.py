@@ -22,6 +22,7 @@ from ..plan import NEAR, ArrayReading, Mask, Plan
 from ..program import LAST, FloatArray, Kernel, Node, Notes, ancestors, disturbed, gradient
 from ..quantities import TAKEN, Arithmetic, Member, Number, Quantity, label, quantity, spelled
 from ..quantities.quantity import PoseCondition
+from ..sent import object_of, sent
 from ..steps import Arrow, Point
 from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Conditioning, PrecisionLeft, Rounding, conditioning
 from .grid import Angles, Grid, MotionLike, angles_of
@@ -37,6 +38,10 @@ class Request(Arithmetic):
     """
 
     # -- as it is written --------------------------------------------------------------------------------
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what pickle is to make the request of, functions that stand in others too."""
+        return object_of, (type(self), {name: sent(value) for name, value in vars(self).items()})
 
     def identity(self, plan: Plan) -> Hashable:
         """Return what tells it from others of the same plan as long as what it holds lives; None where what it holds may change."""

@@ -7,7 +7,7 @@ import json
 import os
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from hashlib import blake2b
@@ -44,11 +44,11 @@ class Checkpoint:
     key: bytes
 
     @classmethod
-    def of(cls, folder: str | os.PathLike[str], task: Task, designs: Designs, version: str | int) -> Checkpoint:
+    def of(cls, folder: str | os.PathLike[str], facts: Facts) -> Checkpoint:
         """Return the checkpoint of a study; DefinitionError where the folder holds another one, with what differs."""
         if not isinstance(folder, (str, os.PathLike)) or folder == "":
             raise DefinitionError(f"folder={cited(folder)}: the path of a folder is expected.")
-        place, facts = Path(folder), facts_of(task, designs, version)
+        place = Path(folder)
         note = place / NOTE
         there = read_note(note)
         if there is None:
@@ -57,6 +57,13 @@ class Checkpoint:
             check_same_study(place, there, facts)
         return cls(place, blake2b(json.dumps(facts, sort_keys=True).encode()).digest())
 
+    def stage(self, name: str, content: bytes) -> Checkpoint:
+        """Return the checkpoint of a stage of the study, in a folder of its own; `content` is what the stage begins with."""
+        place = self.folder / name
+        with in_words(place):
+            place.mkdir(exist_ok=True)
+        return type(self)(place, blake2b(content, key=self.key).digest())
+
     def check(self, start: int, stop: int, content: bytes) -> str:
         """Return the word that a file's name carries."""
         return blake2b(b"%d %d " % (start, stop) + content, key=self.key, digest_size=16).hexdigest()
@@ -64,7 +71,7 @@ class Checkpoint:
     def keep(self, batch: Batch) -> None:
         """Write a batch; FileError where it cannot be written, as on a full disk."""
         values = batch.values or {}
-        table = np.empty(batch.stop - batch.start, [(name, array.dtype) for name, array in values.items()])
+        table = np.empty(batch.stop - batch.start, [(name, array.dtype, array.shape[1:]) for name, array in values.items()])
         for name, array in values.items():
             table[name] = array
         stream = BytesIO()
@@ -121,9 +128,7 @@ def facts_of(task: Task, designs: Designs, version: str | int) -> dict[str, Any]
     """Return what makes a study the same: the machine, its dimensions, the designs, what is measured and how."""
     machine, measure = task.machine, task.measure
     facts = {
-        "machine": f"{type(machine).__module__}.{type(machine).__qualname__}",
-        "members": digest(plan_text(machine)),
-        **{f"dimension {name}": value for name, value in machine.dimensions.items() if name not in designs.columns},
+        **facts_of_machine(machine, designs.columns),
         "designs": designs.count,
         **{f"array {name}": found for name, found in designs.digests().items()},
         "measure": f"{getattr(measure, '__module__', '')}.{getattr(measure, '__qualname__', type(measure).__qualname__)}",
@@ -132,6 +137,20 @@ def facts_of(task: Task, designs: Designs, version: str | int) -> dict[str, Any]
         "piece": task.piece,
         "backend": task.backend,
     }
+    return facts_as_json(facts)
+
+
+def facts_of_machine(machine: Mechanism, varied: Container[str]) -> dict[str, Any]:
+    """Return what makes a machine the same, but for dimensions that are varied."""
+    return {
+        "machine": f"{type(machine).__module__}.{type(machine).__qualname__}",
+        "members": digest(plan_text(machine)),
+        **{f"dimension {name}": value for name, value in machine.dimensions.items() if name not in varied},
+    }
+
+
+def facts_as_json(facts: Facts) -> dict[str, Any]:
+    """Return facts as a file gives them back."""
     found: dict[str, Any] = json.loads(json.dumps(facts))
     return found
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from hashlib import blake2b
 from time import perf_counter, thread_time
-from typing import Any, TypeAlias, final
+from typing import Any, Protocol, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -139,15 +139,60 @@ Measure: TypeAlias = Callable[[Any], Mapping[str, Any]]
 """`measure(machine)`: a mechanism with some designs in arrays, measured: arrays (designs,) by name."""
 
 
+class StudyWork(Protocol):
+    """What all batches of a study have in common: what is done with some of its designs, `piece` at a time, on one back end."""
+
+    @property
+    def machine(self) -> Mechanism:
+        """The machine whose designs they are."""
+
+    @property
+    def piece(self) -> int:
+        """How many designs are looked at at a time."""
+
+    @property
+    def backend(self) -> str:
+        """The back end, which does not change."""
+
+    @property
+    def what(self) -> str:
+        """What has to be sent to a worker, in words."""
+
+    def done(self, rows: Rows, start: int, stop: int) -> list[dict[str, Array]]:
+        """Return the results of the designs from start to before stop, of each piece: arrays whose first axis is that of the designs."""
+
+
+class Dealt(Protocol):
+    """Designs that are given out in batches: how many there are, and how many numbers each has."""
+
+    @property
+    def count(self) -> int:
+        """How many designs there are."""
+
+    @property
+    def width(self) -> int:
+        """How many numbers a design has."""
+
+    def dimensions(self, start: int, stop: int) -> Rows:
+        """Return what a worker is to know of the designs from start to before stop."""
+
+
 @final
 @dataclass(frozen=True, eq=False)
 class Task:
-    """What all batches have in common. `measure` is called for `piece` designs at a time, on a back end that does not change."""
+    """The work of a survey: `measure` is called for `piece` designs at a time."""
 
     machine: Mechanism
     measure: Measure
     piece: int
     backend: str
+    what: str = "measure or the mechanism's class"
+
+    def done(self, rows: Rows, start: int, stop: int) -> list[dict[str, Array]]:
+        """Return what is measured of the designs from start to before stop, of each piece."""
+        whole = self.machine.replaced(**rows)
+        firsts = range(start, stop, self.piece)
+        return [measure_piece(self, whole, start, first, min(first + self.piece, stop)) for first in firsts]
 
 
 @final
@@ -168,15 +213,14 @@ class Batch:
         return replace(self, values=None)
 
 
-def measure_batch(task: Task, start: int, stop: int, rows: Rows, attempt: int) -> Batch:
+def measure_batch(task: StudyWork, start: int, stop: int, rows: Rows, attempt: int) -> Batch:
     """Return a batch, measured; raises StudyError where `measure` fails, DefinitionError where it returns what it should not.
 
     `attempt` sets a second try apart from the first for executors that know a call by its arguments.
     """
     clock, processor = perf_counter(), thread_time()
     with fixed_backend(task.backend):
-        whole = task.machine.replaced(**rows)
-        found = [measure_piece(task, whole, start, first, min(first + task.piece, stop)) for first in range(start, stop, task.piece)]
+        found = task.done(rows, start, stop)
     for first, each in zip(range(start, stop, task.piece), found, strict=True):
         check_same_results(task, found[0], each, f"designs {first} to {min(first + task.piece, stop) - 1}")
     values = {name: np.concatenate([each[name] for each in found]) for name in found[0]}
@@ -212,7 +256,7 @@ def result_arrays(task: Task, found: Any, size: int, where: str) -> dict[str, Ar
     return arrays
 
 
-def check_same_results(task: Task, known: Mapping[str, Array], found: Mapping[str, Array], where: str) -> None:
+def check_same_results(task: StudyWork, known: Mapping[str, Array], found: Mapping[str, Array], where: str) -> None:
     """Raise DefinitionError where results have not the names and kinds that others have."""
     here, there = (", ".join(f"{name} ({each[name].dtype})" for name in sorted(each)) for each in (found, known))
     if here != there:

@@ -81,6 +81,11 @@ class Range:
         return tuple(end for end in (self.low, self.high) if not is_number(end))
 
 
+def end_words(end: Any) -> Any:
+    """Return an end of a range as it is told: a number, or a quantity in words."""
+    return end if is_number(end) else words_of(end)
+
+
 def is_still(one: Range) -> bool:
     """Return whether a stroke is held at one value."""
     return is_number(one.low) and bool(one.low == one.high)
@@ -323,11 +328,19 @@ class Problem:
         """Return the same problem with other variables and choices."""
         return Problem(self.machine, self.objectives, self.constraints, space, self.sense, self.over, self.counts, self.count)
 
+    def anew(self) -> Problem:
+        """Return the same problem with samples and a count of its own."""
+        return Problem(self.machine, self.objectives, self.constraints, self.space, self.sense, self.over, self.counts)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what pickle is to make the problem of: what follows from it does not go."""
+        return Problem, (self.machine, self.objectives, self.constraints, self.space, self.sense, self.over, self.counts)
+
     @property
     def facts(self) -> str:
         """What makes a search the same, as text."""
         said = [self.plan.title, self.plan, self.sense, *self.objectives, *self.constraints, self.space.variables, self.space.choices]
-        ends = [(name, *(end if is_number(end) else words_of(end) for end in (one.low, one.high))) for name, one in self.ranges.items()]
+        ends = [(name, end_words(one.low), end_words(one.high)) for name, one in self.ranges.items()]
         exact = [repr(each) for one in (*self.objectives, *(held.margin for held in self.constraints)) for each in one.numbers]
         return "; ".join(map(str, [*said, *exact, ends, sorted(self.machine.dimensions.items())]))
 

@@ -14,7 +14,6 @@ import numpy as np
 
 from ..motion.line import Index
 from ..program import FloatArray
-from .box import unit_points
 from .closed_curves import ClosedCurves, drawn_curve, laid_onto
 from .fit import Fit
 
@@ -145,40 +144,37 @@ def by_owner(fit: Fit, values: FloatArray) -> dict[str, Any]:
 @final
 @dataclass(frozen=True, eq=False)
 class Starts:
-    """Where local searches start: unit coordinates with the points' own unknowns (m, n + w), and the strokes' base (m, n)."""
+    """Where local searches of a fit start: unit coordinates with the points' own unknowns (m, n + w), and the strokes' base (m, n).
 
+    `running` is how many designs of the population run over the whole stroke.
+    """
+
+    fit: Fit
     at: FloatArray
     base: FloatArray
     running: int
 
 
-def starts_for(fit: Fit, many: int, seed: int, timed: Any, population: int, present: FloatArray) -> Starts:
-    """Return the best starts that stand apart, of a population spread over the box and the machine as it is."""
-    unit = np.concatenate([present[None], unit_points(population, fit.n, "sobol", seed)])
-    values, reached = fit.swept(unit, poses_of(fit, timed))
-    whole = reached.all(axis=1)
-    enough = int(whole.sum()) >= WHOLE_ENOUGH
-    kept = whole if enough else reached.any(axis=1)
-    if not kept.any():
-        return Starts(np.zeros((0, fit.n + fit.width)), np.zeros((0, fit.rows.count)), 0)
-    likeness = Likeness.of(fit, unit[whole][:3], timed=timed is True)
-    unit, values = unit[kept], values[kept]
+def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: Any, *, runs: bool) -> tuple[FloatArray, FloatArray]:
+    """Return designs (m, n) laid onto the task by the best shift, turn and size, with their points' own unknowns, and the strokes' base.
+
+    `runs` says that all of them run over the whole stroke.
+    """
     if timed is True:
         base = np.broadcast_to(fit.known, (len(unit), fit.rows.count))
         exact, _ = fit.values(fit.dimensions(unit), fit.known, len(unit))
         best = Best.of(likeness, fit, unit, exact, np.arange(fit.rows.count)[None])
         own = np.zeros((len(unit), 0))
-    elif timed is False and fit.rows.is_closed and enough and fit.timing.turn:
+    elif timed is False and fit.rows.is_closed and runs and fit.timing.turn:
+        values, _ = fit.swept(unit, poses_of(fit, timed))
         best, own = along_closed_curve(likeness, fit, unit, values)
         base = np.zeros((len(unit), fit.rows.count))
     else:
+        values, _ = fit.swept(unit, poses_of(fit, timed))
         picks, base_of, own_of = patterns(fit, timed, values.shape[2])
         best = Best.of(likeness, fit, unit, values, picks)
         base, own = base_of[best.pattern], own_of[best.pattern]
-    at = laid_starts(likeness, fit, unit, best, own)
-    error = fit.errors(at, base)
-    places = standing_apart(unit, error, many)
-    return Starts(at[places], np.array(base[places]), int(whole.sum()))
+    return laid_starts(likeness, fit, unit, best, own), np.array(base)
 
 
 def laid_starts(likeness: Likeness, fit: Fit, unit: FloatArray, best: Best, own: FloatArray) -> FloatArray:

@@ -25,14 +25,14 @@ from ..frozen import FrozenDict, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..quantities import is_whole
 from ..shown import Shown
-from .checkpoint import Checkpoint
+from .checkpoint import Checkpoint, facts_of
 from .checks import check_one_design, check_vary
-from .designs import Array, Batch, Designs, Measure, Task, check_same_results, measure_batch
+from .designs import Array, Batch, Dealt, Designs, Measure, StudyWork, Task, check_same_results, measure_batch
 
 TRIES = 3
 PICKLING_ERRORS = (PicklingError, AttributeError, TypeError, ImportError)
 """What goes wrong where a function or a class cannot be sent to another process."""
-CANNOT_SEND = "measure or the mechanism's class cannot be sent to a worker: put both at the top of a module that workers can import"
+CANNOT_SEND = "cannot be sent to a worker: put both at the top of a module that workers can import"
 
 
 class Executor(Protocol):
@@ -71,7 +71,7 @@ class Submission:
 class SurveyRun:
     """What is done of a study, what is under way, and what is left."""
 
-    def __init__(self, task: Task, designs: Designs, executor: Executor, checkpoint: Checkpoint | None, tell: Progress) -> None:
+    def __init__(self, task: StudyWork, designs: Dealt, executor: Executor, checkpoint: Checkpoint | None, tell: Progress) -> None:
         self.task, self.designs, self.executor, self.checkpoint, self.tell = task, designs, executor, checkpoint, tell
         self.left = OpenRanges(designs.count, task.piece)
         self.sizes = BatchSizes(max(1, MOST // (task.piece * designs.width)))
@@ -121,7 +121,7 @@ class SurveyRun:
                 dimensions = self.designs.dimensions(start, stop)
                 future = self.executor.submit(measure_batch, self.task, start, stop, dimensions, submission.attempt)
             except PICKLING_ERRORS as error:
-                raise self._error(CANNOT_SEND, error) from error
+                raise self._error(f"{self.task.what} {CANNOT_SEND}", error) from error
             except Exception as error:
                 raise self._error("The executor takes no more work and has to be made anew", error) from error
             self._under_way[future] = submission
@@ -140,7 +140,7 @@ class SurveyRun:
             error.add_note(self.state)
             raise
         except PICKLING_ERRORS as error:
-            raise self._error(CANNOT_SEND, error) from error
+            raise self._error(f"{self.task.what} {CANNOT_SEND}", error) from error
         except Exception as error:
             self._lost(submission, error)
         else:
@@ -174,7 +174,7 @@ class SurveyRun:
         """Write a batch into the results."""
         values = batch.values or {}
         if not self.batches:
-            self.values = {name: np.empty(self.designs.count, array.dtype) for name, array in values.items()}
+            self.values = {name: np.empty((self.designs.count, *array.shape[1:]), array.dtype) for name, array in values.items()}
         check_same_results(self.task, self.values, values, f"designs {batch.start} to {batch.stop - 1}")
         for name, array in values.items():
             self.values[name][batch.start : batch.stop] = array
@@ -390,7 +390,7 @@ def survey(
     designs = Designs.of(machine, vary)
     task = Task(machine, measure, piece_size(machine, designs.count, piece), one_word("backend", backend, ("numpy", "numba")))
     check_options(machine, measure, executor, version, progress)
-    checkpoint = None if folder is None else Checkpoint.of(folder, task, designs, version)
+    checkpoint = None if folder is None else Checkpoint.of(folder, facts_of(task, designs, version))
     with progress_told(progress, machine.plan.heading) as tell:
         run = SurveyRun(task, designs, executor or LocalExecutor(), checkpoint, tell)
         run.go()
@@ -401,12 +401,17 @@ def check_options(machine: Mechanism, measure: Measure, executor: Executor | Non
     """Raise DefinitionError for what is no function to measure with, no executor, no version or no progress."""
     if not callable(measure):
         raise DefinitionError(f"{machine.plan.title}: measure={measure!r:.60}: a function of a mechanism is expected.")
-    if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "submit", None))):
-        what = "is a class" if isinstance(executor, type) else "has no submit"
-        raise DefinitionError(f"executor={executor!r:.60} {what}; give a pool of concurrent.futures or client.get_executor().")
+    check_executor(executor)
     if isinstance(version, bool) or not isinstance(version, (str, int)):
         raise DefinitionError(f"version={cited(version)}: a text or a whole number is expected, such as version=2.")
     check_progress(progress)
+
+
+def check_executor(executor: Any) -> None:
+    """Raise DefinitionError for what is no executor."""
+    if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "submit", None))):
+        what = "is a class" if isinstance(executor, type) else "has no submit"
+        raise DefinitionError(f"executor={executor!r:.60} {what}; give a pool of concurrent.futures or client.get_executor().")
 
 
 def piece_size(machine: Mechanism, count: int, given: int | None) -> int:

@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, final
 
 import numpy as np
 
 from ..errors import DefinitionError, LinkageError, cited
 from ..mechanism import Mechanism
-from ..motion.measures import Constraint, Given, Measure, conditions_of, in_case, mean_in_cases, reachable
+from ..motion.measures import Constraint, Given, Measure, conditions_of, in_case, mean_in_cases, reachable, words_of
 from ..plan import Mask
 from ..program import FloatArray, fixed_backend
+from .box import unit_points
+from .checkpoint import Checkpoint, digest, facts_as_json, facts_of_machine, measure_text
 from .checks import check_one_design
-from .fit import Fit, FitSquares, Timing
+from .designs import Array
+from .fit import Fit, Timing
 from .optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
-from .problem import LimitReachedError, Problem, is_still
-from .solver import MET, Local
+from .problem import Problem, end_words, is_still
+from .solver import MET
 from .space import Space
-from .starts import POPULATION, Starts, starts_for
-from .survey import Progress, check_progress, progress_told
+from .starts import POPULATION, WHOLE_ENOUGH, Likeness, Starts, standing_apart
+from .survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
 from .synthesis import (
     Miss,
     Synthesis,
@@ -33,14 +37,13 @@ from .synthesis import (
     misses_of,
     poorest_transmission,
 )
+from .task_work import STEPS, Combination, DescentWork, LayWork, LookWork, PolishWork, SearchRows, Stages
 from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, task_of, timed_as
 
 STARTS = 64
-STEPS, TURNS = 60, 5
-"""Steps of a local search between two looks at the limit, and how many times so many."""
 POLISHED, FEW = 8, 3
-"""Ends that do not keep a condition, or that stand where a machine just runs, from which is searched on with all conditions: after a few
-of them, only from those that may come to less."""
+"""Ends that do not keep a condition, or that stand where a machine just runs, from which is searched on with all conditions: a few at a
+time, then only from those that may come to less."""
 SAME, NEAR = 1e-5, 1e-2
 """Of a side of the box: ends nearer than the first are one, nearer than the second where their errors are the same."""
 ALIKE = 1e-6
@@ -67,6 +70,8 @@ def synthesise(
     starts: int = STARTS,
     seed: int = 0,
     limit: int | None = None,
+    executor: Executor | None = None,
+    folder: str | os.PathLike[str] | None = None,
     progress: Any = False,
 ) -> Synthesis:
     """Return the machines that do a task, the best first: `synthesise(bar, path=PathTask(points, of="P"), vary={"OA": (0.02, 0.06), ...})`.
@@ -81,14 +86,18 @@ def synthesise(
     with exact derivatives, then with all conditions where one is missed. Every answer is assembled over its whole stroke or turn and keeps
     the conditions, by the judge, and comes to its points in order. `rank`, such as `-least(transmission("B"))`, orders answers of the same
     error, the least first; where `case` gives load cases with their hours, its mean over them. The same seed gives the same result;
-    `limit` is how many designs are looked at before the best so far comes back.
+    `limit` is how many designs are looked at before the best so far comes back. `executor` and `folder` are those of `survey`:
+    populations and local searches go through any executor, to the same bits as in this process, and with a folder the same call goes on
+    where another one stopped. `progress=True` shows a bar.
 
-    Raises DefinitionError for what cannot be asked. Where no machine that runs was found, `solutions` are none and `misses` say why.
+    Raises DefinitionError for what cannot be asked, or a folder of another task. Where no machine that runs was found, `solutions` are
+    none and `misses` say why.
     """
     check_one_design(machine)
     title = machine.plan.title
     check_counts(title, starts, seed, limit)
     check_progress(progress)
+    check_executor(executor)
     task = task_of(title, [("path", path, PathTask), ("function", function, FunctionTask), ("motion", motion, PoseTask)])
     timed = timed_as(title, task, timed)
     rows, space = task.rows(machine), Space.of(machine, vary)
@@ -104,8 +113,34 @@ def synthesise(
     problem.count.limit = limit
     timing = Timing.of(problem, moving_stroke(problem), timed, rows.count)
     search = TaskSearch(problem, task, rows, timing, timed, ranks, held, over, starts, seed)
+    checkpoint = None if folder is None else Checkpoint.of(folder, facts_of_search(search))
     with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):
-        return search.run(tell)
+        return search.run(Stages(executor or LocalExecutor(), checkpoint, tell, search.total))
+
+
+def facts_of_search(search: TaskSearch) -> dict[str, Any]:
+    """Return what makes a search the same; DefinitionError for a function that a folder cannot tell from another one."""
+    problem, task = search.problem, search.task
+    try:
+        functions = [measure_text(each) for each in problem.functions]
+    except DefinitionError as error:
+        text = "a folder cannot tell a function without source text, such as a lambda, from another one; define it by `def` in a file"
+        raise DefinitionError(f"{problem.plan.title}: folder=: {text}.") from error
+    held = problem.constraints
+    wanted = [array if array is None else array.tolist() for array in (search.rows.wanted, search.rows.weights, task.at)]
+    return facts_as_json({
+        **facts_of_machine(problem.machine, ()),
+        "task": f"{type(task).__name__} of {words_of(task.of)}",
+        "points": search.rows.count,
+        "their values": digest(repr([wanted, [words_of(each) for each in search.rows.quantities]])),
+        "in order": task.in_order,
+        "timed": search.timed,
+        "vary": digest(repr([problem.space.variables, problem.space.choices])),
+        "subject_to": digest(repr([[str(each), [repr(number) for number in each.margin.numbers]] for each in held]) + repr(functions)),
+        "over": digest(repr([(name, *map(end_words, (one.low, one.high))) for name, one in problem.ranges.items()])),
+        "starts": search.starts,
+        "seed": search.seed,
+    })  # fmt: skip
 
 
 def moving_stroke(problem: Problem) -> str:
@@ -147,66 +182,123 @@ class TaskSearch:
     starts: int
     seed: int
 
-    def run(self, tell: Progress) -> Synthesis:
+    def run(self, stages: Stages) -> Synthesis:
         """Return all that was found."""
         problem = self.problem
-        combinations = [*problem.space.combinations()]
-        population = 1 << max(6, (POPULATION // len(combinations)).bit_length() - 1)
-        many = max(self.starts // len(combinations), min(self.starts, 4))
-        present = problem.space.unit(problem.space.present(problem.machine))
-        ends: list[Ends] = []
-        begun = running = 0
-        tell(0, len(combinations))
-        for done, combination in enumerate(combinations):
-            fit = Fit(problem, self.rows, self.timing, combination, self.task.at)
-            with suppress(LimitReachedError):
-                first = starts_for(fit, many, self.seed, self.timed, population, present)
-                begun, running = begun + len(first.at), running + first.running
-                ends += self.searched(fit, first)
-            tell(done + 1, len(combinations))
+        first = self.started(stages)
+        ends = self.searched(stages, first)
         spent = problem.count.limit if problem.count.is_spent else None
         with problem.count.without_limit():
             solutions, misses = self.judged(ends)
-        fits = tuple(dict.fromkeys(each.fit for each in ends)) or (Fit(problem, self.rows, self.timing, combinations[0], self.task.at),)
+        begun, running = (sum(counts) for counts in zip(*((len(each.at), each.running) for each in first), strict=True))
+        fits = tuple(each.fit for each in first)
         return Synthesis(
-            problem.machine, self.task, solutions, misses, population * len(combinations), running, begun, problem.count.designs, spent,
-            problem, fits,
+            problem.machine, self.task, solutions, misses, self.population * len(self.combinations), running, begun,
+            problem.count.designs, spent, problem, fits,
         )  # fmt: skip
+
+    @cached_property
+    def combinations(self) -> list[Combination]:
+        """The combinations of choices."""
+        return [*self.problem.space.combinations()]
+
+    @property
+    def population(self) -> int:
+        """How many designs of each combination are looked at first: of a limit at most half in all."""
+        limit = self.problem.count.limit
+        many = POPULATION if limit is None else min(POPULATION, limit // 2)
+        least = 6 if limit is None else 3
+        return 1 << max(least, (many // len(self.combinations)).bit_length() - 1)
+
+    @property
+    def many(self) -> int:
+        """How many searches are begun of each combination."""
+        return max(self.starts // len(self.combinations), min(self.starts, 4))
+
+    @property
+    def total(self) -> int:
+        """How many designs are looked at first and searched from, all told."""
+        return len(self.combinations) * (self.population + self.many)
+
+    @property
+    def shared(self) -> tuple[Problem, TaskRows, Timing, FloatArray | None]:
+        """What all fits have in common."""
+        return self.problem, self.rows, self.timing, self.task.at
+
+    def most(self, searches: int) -> float:
+        """Return how many designs each of some searches may look at."""
+        limit = self.problem.count.limit
+        return np.inf if limit is None else max((limit - self.problem.count.designs) // max(searches, 1), 1)
+
+    # -- starts --------------------------------------------------------------------------------------------
+
+    def started(self, stages: Stages) -> list[Starts]:
+        """Return where to start, of each combination: the best that stand apart of those that run, laid onto the task."""
+        space, chosen = self.problem.space, self.combinations
+        unit = unit_points(self.population, len(space.variables), "sobol", self.seed)
+        unit = np.concatenate([space.unit(space.present(self.problem.machine))[None], unit])
+        rows = SearchRows.joined([(each, {"unit": unit}) for each in chosen])
+        seen = stages.done("look", LookWork(*self.shared, self.timed), rows, told=self.population * len(chosen))
+        fits = [Fit(*self.shared[:3], each, self.task.at) for each in chosen]
+        likeness: dict[Combination, Likeness] = {}
+        parts = []
+        whole, somewhere = (seen[name].reshape(len(chosen), -1) for name in ("whole", "somewhere"))
+        with self.problem.count.without_limit():
+            for fit, runs, reached in zip(fits, whole, somewhere, strict=True):
+                kept = runs if is_enough(runs) else reached
+                likeness[fit.combination] = Likeness.of(fit, unit[runs][:3], timed=self.timed is True)
+                parts.append((fit.combination, {"unit": unit[kept]}))
+        rows = SearchRows.joined(parts)
+        running = frozenset(each for each, runs in zip(chosen, whole, strict=True) if is_enough(runs))
+        laid = stages.done("lay", LayWork(*self.shared, self.timed, likeness, running), rows)
+        found = []
+        for (_, own), each, fit, runs in zip(parts, found_of_parts(laid, parts), fits, whole, strict=True):
+            places = standing_apart(own["unit"], each["error"], self.many)
+            found.append(Starts(fit, each["at"][places], each["base"][places], int(runs.sum())))
+        return found
 
     # -- local searches ------------------------------------------------------------------------------------
 
-    def searched(self, fit: Fit, first: Starts) -> list[Ends]:
-        """Return what the local searches of a combination come to, then those that go on with the conditions."""
-        free = self.descended(fit, first.at, first.base, whole=False)
-        with self.problem.count.without_limit():
-            runs = fit.whole(free) if len(free) else np.zeros(0, bool)
-        ends = self.ends_of(fit, free, first.base)
-        found = [ends]
-        away = np.flatnonzero(~runs)
-        if len(away) and not self.problem.count.is_spent:  # again, through machines that run
-            again = away[fit.whole(first.at[away])]
-            at = self.descended(fit, first.at[again], first.base[again], whole=True)
-            found.append(self.ends_of(fit, at, first.base[again]))
+    def searched(self, stages: Stages, first: Sequence[Starts]) -> list[Ends]:
+        """Return what the local searches come to, then those that go on with the conditions."""
+        told = self.many * len(first)
+        free = [self.ends_of(each.fit, at, each.base) for each, at in zip(first, self.descended(stages, "free", first, told), strict=True)]
+        found = [[each] for each in free]
+        if not self.problem.count.is_spent:  # again, through machines that run
+            again = [self.that_run_first(each, ends) for each, ends in zip(first, free, strict=True)]
+            for each, begun, at in zip(found, again, self.descended(stages, "running", again), strict=True):
+                each.append(self.ends_of(begun.fit, at, begun.base))
         stepped = [place for place, each in enumerate(self.problem.space.variables) if each.step is not None]
         if stepped:
-            found = [self.on_steps(each, stepped) for each in found]
-        polished = self.polished(found, ends, first)
-        return [*found, *([polished] if polished is not None else [])]
+            return [self.on_steps(each, stepped) for own in found for each in own]
+        ways = [Polishing(self, starts, own) for starts, own in zip(first, found, strict=True)]
+        wave = 0
+        while not self.problem.count.is_spent and any([each.next() for each in ways]):
+            self.polished(stages, wave, ways)
+            wave += 1
+        return [each for own, way in zip(found, ways, strict=True) for each in [*own, *way.ends]]
 
-    def descended(self, fit: Fit, at: FloatArray, base: FloatArray, *, whole: bool) -> FloatArray:
-        """Return where local searches end, or where they stand when the limit is reached."""
-        at = np.array(at)
+    def that_run_first(self, first: Starts, ends: Ends) -> Starts:
+        """Return the starts that run over the whole stroke, of searches that come to what does not."""
         with self.problem.count.without_limit():
-            error = fit.errors(at, base)
-        going = np.arange(len(at))
-        for _ in range(TURNS):
-            if not len(going) or self.problem.count.is_spent:
-                break
-            before = error[going]
-            with self.problem.count.without_limit():
-                at[going], error[going] = fit.descend(at[going], base[going], STEPS, whole=whole)
-            going = going[error[going] < (1.0 - 1e-9) * before]
-        return at
+            away = np.flatnonzero(~first.fit.whole(ends.at)) if len(ends.at) else np.zeros(0, int)
+            away = away[first.fit.whole(first.at[away])] if len(away) else away
+        return Starts(first.fit, first.at[away], first.base[away], 0)
+
+    def descended(self, stages: Stages, name: str, first: Sequence[Starts], told: int = 0) -> list[FloatArray]:
+        """Return where local searches end, or where they stand when the limit is reached."""
+        parts = [(each.fit.combination, {"at": each.at, "base": each.base}) for each in first]
+        rows = SearchRows.joined(parts)
+        found = stages.done(name, DescentWork(*self.shared, name == "running", self.most(rows.count)), rows, told=told)
+        return [each["at"] for each in found_of_parts(found, parts)]
+
+    def polished(self, stages: Stages, wave: int, ways: Sequence[Polishing]) -> None:
+        """Search from the next designs with all conditions, of all combinations together."""
+        parts = [(each.fit.combination, each.rows) for each in ways]
+        rows = SearchRows.joined(parts)
+        found = stages.done(f"conditions {wave}", PolishWork(*self.shared, self.ordered, self.most(rows.count)), rows)
+        for each, own in zip(ways, found_of_parts(found, parts), strict=True):
+            each.enter(own["at"][own["ended"]], each.rows["base"][own["ended"]])
 
     def ends_of(self, fit: Fit, at: FloatArray, base: FloatArray) -> Ends:
         """Return ends, with their errors and with which of them run over the whole stroke and keep the conditions."""
@@ -232,33 +324,6 @@ class TaskSearch:
             at, _ = fit.descend(at, ends.base, STEPS, held=stepped)
         return self.ends_of(fit, at, ends.base)
 
-    def polished(self, found: Sequence[Ends], free: Ends, first: Starts) -> Ends | None:
-        """Return ends of searches with all conditions, of those that miss one or the order; where they do not run, from their starts.
-
-        Only of those of which the error leaves hope to better what is good already; None of none.
-        """
-        fit, fixed = free.fit, [place for place, each in enumerate(self.problem.space.variables) if each.step is not None]
-        good = [self.good_in_order(each) for each in found]
-        best = min((float(each.error[k]) for each, mask in zip(found, good, strict=True) for k in np.flatnonzero(mask)), default=np.inf)
-        ended: list[tuple[FloatArray, FloatArray]] = []
-        tried: list[FloatArray] = []
-        for k in np.argsort(free.error, kind="stable"):
-            if len(tried) == POLISHED or self.problem.count.is_spent or not free.error[k] < best or fixed:
-                break
-            if good[0][k] or any(np.abs(free.at[k] - other).max() < NEAR for other in tried):
-                continue
-            tried.append(free.at[k])
-            for start in (free.at[k], first.at[k]):
-                with suppress(LinkageError):
-                    ended.append((self.with_conditions(fit, start, first.base[k]), first.base[k]))
-                    break
-            if len(ended) >= FEW:  # then only what may be better than these
-                one = self.ends_of(fit, *(np.array(column) for column in zip(*ended, strict=True)))
-                best = min([best, *one.error[self.good_in_order(one)].tolist()])
-        if not ended:
-            return None
-        return self.ends_of(fit, *(np.array(column) for column in zip(*ended, strict=True)))
-
     def good_in_order(self, ends: Ends) -> Mask:
         """Return which ends run, keep the conditions and come to the points in order."""
         if not self.ordered:
@@ -270,13 +335,6 @@ class TaskSearch:
     def ordered(self) -> bool:
         """Whether untimed points are to be passed in order."""
         return self.timed is False and self.task.in_order
-
-    def with_conditions(self, fit: Fit, at: FloatArray, base: FloatArray) -> FloatArray:
-        """Return what a design and its points' unknowns (n + w,) come to by a search that keeps all conditions."""
-        squares = FitSquares(fit, at, base, in_order=self.ordered)
-        local = Local(self.problem, fit.combination, at[: fit.n], squares=squares)
-        end = local.run()
-        return np.concatenate([end.unit, local.own])
 
     # -- the judge -----------------------------------------------------------------------------------------
 
@@ -351,3 +409,52 @@ class TaskSearch:
             machine, error, float(np.sqrt(np.mean(far**2))), float(far[worst]), worst + 1, frozen(strokes), frozen(reached), angle, ranked,
             words, frozen(at), frozen(base), fit.combination,
         )  # fmt: skip
+
+
+@final
+class Polishing:
+    """Which ends of one combination are searched on from with all conditions: those that miss one or the order, the best first.
+
+    Only those of which the error leaves hope to better what is good already; where one does not run, from its start.
+    """
+
+    def __init__(self, search: TaskSearch, first: Starts, found: Sequence[Ends]) -> None:
+        self.search, self.fit, self.first, self.free = search, first.fit, first, found[0]
+        good = [search.good_in_order(each) for each in found]
+        self.best = min([np.inf, *(float(one) for each, mask in zip(found, good, strict=True) for one in each.error[mask])])
+        self.left = [int(k) for k in np.argsort(self.free.error, kind="stable") if not good[0][k]]
+        self.tried: list[FloatArray] = []
+        self.ends: list[Ends] = []
+        self.now: list[int] = []
+
+    def next(self) -> bool:
+        """Choose the next designs; return whether there are any."""
+        self.now = []
+        while self.left and len(self.tried) < POLISHED and len(self.now) < FEW and self.free.error[self.left[0]] < self.best:
+            k = self.left.pop(0)
+            if not any(np.abs(self.free.at[k] - other).max() < NEAR for other in self.tried):
+                self.tried.append(self.free.at[k])
+                self.now.append(k)
+        return bool(self.now)
+
+    @property
+    def rows(self) -> dict[str, FloatArray]:
+        """The next designs, each with its start and the strokes' base."""
+        return {"at": self.free.at[self.now], "first": self.first.at[self.now], "base": self.first.base[self.now]}
+
+    def enter(self, at: FloatArray, base: FloatArray) -> None:
+        """Take in what searches came to."""
+        ends = self.search.ends_of(self.fit, at, base)
+        self.ends.append(ends)
+        self.best = min([self.best, *ends.error[self.search.good_in_order(ends)].tolist()])
+
+
+def is_enough(whole: Mask) -> bool:
+    """Return whether so many designs run that no others are taken."""
+    return int(whole.sum()) >= WHOLE_ENOUGH
+
+
+def found_of_parts(found: Mapping[str, Array], parts: Sequence[tuple[Combination, Mapping[str, Array]]]) -> list[dict[str, Array]]:
+    """Return what is found of designs, by the parts that they were joined of."""
+    ends = np.cumsum([len(next(iter(columns.values()))) for _, columns in parts])
+    return [{name: column[begin:end] for name, column in found.items()} for begin, end in zip([0, *ends], ends, strict=False)]

@@ -177,6 +177,13 @@ def test_what_cannot_run_is_no_answer():
         found.machine  # noqa: B018
 
 
+def test_what_reaches_no_point_is_told():
+    vary = {"OA": (0.5, 0.6), "AB": (0.01, 0.02), "CB": (0.01, 0.02)}
+    found = synthesise(FourBar(OA=0.5, AB=0.01, CB=0.01), path=PathTask([(0.03, 0.06)], of="P"), vary=vary)
+    assert not found.solutions and not found.misses and found.running == found.starts == 0
+    assert "no machine that runs was found" in str(found)
+
+
 def test_a_table_and_a_drawing(tmp_path):
     found = synthesise(Bar(), path=PathTask(np.array(papers.EIGHTEEN) * mm, of="P"), vary=box(50 * mm), timed="steps", starts=16)
     found.csv(tmp_path / "answers.csv")

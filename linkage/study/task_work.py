@@ -1,0 +1,236 @@
+"""What workers do of a synthesis: a population looked at, laid onto the task, and local searches, piece by piece, each by itself."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from hashlib import blake2b
+from itertools import groupby
+from typing import Any, ClassVar, final
+
+import numpy as np
+
+from ..errors import LinkageError
+from ..mechanism import Mechanism
+from ..program import FloatArray
+from .checkpoint import Checkpoint
+from .designs import Array, Rows
+from .fit import Fit, FitSquares, Timing
+from .problem import Problem
+from .solver import Local
+from .starts import Likeness, laid_designs, poses_of
+from .survey import Executor, Progress, SurveyRun
+from .tasks import TaskRows
+
+STEPS, TURNS = 60, 5
+"""Steps of a local search between two looks at the limit, and how many times so many."""
+
+Combination = tuple[int, ...]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class SearchRows:
+    """Designs of a stage with their combinations of choices (m, choices), and what else is to be known of each, arrays (m, ...)."""
+
+    columns: Mapping[str, Array]
+
+    @classmethod
+    def joined(cls, parts: Sequence[tuple[Combination, Mapping[str, Array]]]) -> SearchRows:
+        """Return the designs of several combinations, one after the other; of none at least one is given."""
+        many = [len(next(iter(columns.values()))) for _, columns in parts]
+        chosen = np.repeat(np.array([combination for combination, _ in parts], int).reshape(len(parts), -1), many, axis=0)
+        names = parts[0][1]
+        return cls({"combination": chosen, **{name: np.concatenate([columns[name] for _, columns in parts]) for name in names}})
+
+    @property
+    def count(self) -> int:
+        """How many designs there are."""
+        return len(self.columns["combination"])
+
+    @property
+    def width(self) -> int:
+        """How many numbers a design has."""
+        return sum(int(np.prod(column.shape[1:])) for column in self.columns.values())
+
+    def dimensions(self, start: int, stop: int) -> Rows:
+        """Return the designs from start to before stop."""
+        return {name: column[start:stop] for name, column in self.columns.items()}
+
+    @property
+    def content(self) -> bytes:
+        """All of it, as bytes."""
+        return b"".join(name.encode() + repr(column.shape).encode() + column.tobytes() for name, column in self.columns.items())
+
+
+@dataclass(frozen=True, eq=False)
+class FitWork(ABC):
+    """Work on designs by the fit of their combination; what it says of each design does not depend on who does it."""
+
+    problem: Problem
+    rows: TaskRows
+    timing: Timing
+    known: FloatArray | None
+    backend: ClassVar[str] = "numpy"
+    what: ClassVar[str] = "a condition or the mechanism's class"
+
+    @property
+    @abstractmethod
+    def piece(self) -> int:
+        """How many designs are looked at at a time."""
+
+    @abstractmethod
+    def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
+        """Return what is found of designs of one combination, arrays (m, ...)."""
+
+    @property
+    def machine(self) -> Mechanism:
+        """The machine."""
+        return self.problem.machine
+
+    @property
+    def facts(self) -> str:
+        """What makes the work the same, beside the task and its designs, as text."""
+        return f"{type(self).__name__} {self.piece}"
+
+    @property
+    def nothing(self) -> dict[str, Array]:
+        """What is found of no design."""
+        at, base = np.zeros((0, len(self.problem.space.variables) + self.timing.width)), np.zeros((0, self.rows.count))
+        return {"at": at, "base": base, "error": np.zeros(0), "ended": np.zeros(0, bool)}
+
+    def fit(self, combination: Combination) -> Fit:
+        """Return a fit with a problem of its own: its samples and its count are of nobody else."""
+        return Fit(self.problem.anew(), self.rows, self.timing, combination, self.known)
+
+    def done(self, rows: Rows, start: int, stop: int) -> list[dict[str, Array]]:
+        """Return what is found of the designs from start to before stop, of each piece, with how many designs were `looked` at."""
+        return [self._of_piece(rows, first, min(first + self.piece, stop - start)) for first in range(0, stop - start, self.piece)]
+
+    def _of_piece(self, rows: Rows, first: int, stop: int) -> dict[str, Array]:
+        parts = []
+        for combination, begin, end in runs(rows["combination"][first:stop]):
+            fit = self.fit(combination)
+            own = {name: column[first + begin : first + end] for name, column in rows.items() if name != "combination"}
+            looked = np.zeros(end - begin)
+            parts.append(self.found(fit, own) | {"looked": looked})
+            looked[0] = fit.problem.count.designs
+        return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+
+def runs(combinations: Array) -> Iterator[tuple[Combination, int, int]]:
+    """Yield the combinations (m, choices) that follow one another, each with its first design and the one after its last."""
+    begin = 0
+    for combination, group in groupby(map(tuple, combinations.tolist())):
+        end = begin + len(list(group))
+        yield combination, begin, end
+        begin = end
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class LookWork(FitWork):
+    """Which designs are assembled over the whole stroke, and which somewhere."""
+
+    timed: Any
+    piece: ClassVar[int] = 1024
+
+    def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
+        _, reached = fit.swept(rows["unit"], poses_of(fit, self.timed))
+        return {"whole": np.asarray(reached.all(axis=1)), "somewhere": np.asarray(reached.any(axis=1))}
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class LayWork(FitWork):
+    """Designs laid onto the task, by the likeness of their combination; of which combinations all of them run."""
+
+    timed: Any
+    likeness: Mapping[Combination, Likeness]
+    running: frozenset[Combination]
+    piece: ClassVar[int] = 256
+
+    def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
+        combination = fit.combination
+        at, base = laid_designs(fit, self.likeness[combination], rows["unit"], self.timed, runs=combination in self.running)
+        return {"at": at, "base": base, "error": fit.errors(at, base)}
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class DescentWork(FitWork):
+    """Local searches, all of a piece together; `whole`: only through designs that run. `most`: designs that each may look at, if any."""
+
+    whole: bool
+    most: float
+    piece: ClassVar[int] = 64
+
+    @property
+    def facts(self) -> str:
+        return f"{super().facts} {self.whole} {self.most}"
+
+    def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
+        at, base = np.array(rows["at"]), rows["base"]
+        error, going = fit.errors(at, base), np.arange(len(at))
+        for _ in range(TURNS):
+            if not len(going) or fit.problem.count.designs >= self.most * len(at):
+                break
+            before = error[going]
+            at[going], error[going] = fit.descend(at[going], base[going], STEPS, whole=self.whole)
+            going = going[error[going] < (1.0 - 1e-9) * before]
+        return {"at": at}
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class PolishWork(FitWork):
+    """Local searches with all conditions, from where each stands, `at`, or else from `first`; which of them came to an end."""
+
+    in_order: bool
+    most: float
+    piece: ClassVar[int] = 1
+
+    @property
+    def facts(self) -> str:
+        return f"{super().facts} {self.in_order} {self.most}"
+
+    def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
+        ((at, first, base),) = zip(rows["at"], rows["first"], rows["base"], strict=True)
+        fit.problem.count.limit = None if self.most == np.inf else int(self.most)
+        for start in (at, first):
+            with suppress(LinkageError):
+                squares = FitSquares(fit, start, base, in_order=self.in_order)
+                local = Local(fit.problem, fit.combination, start[: fit.n], squares=squares)
+                end = local.run()
+                return {"at": np.concatenate([end.unit, local.own])[None], "ended": np.ones(1, bool)}
+        return {"at": at[None], "ended": np.zeros(1, bool)}
+
+
+@final
+class Stages:
+    """The stages of a search: each is given out to an executor, and kept in a folder where there is one."""
+
+    def __init__(self, executor: Executor, checkpoint: Checkpoint | None, tell: Progress, total: int) -> None:
+        self.executor, self.checkpoint, self.tell, self.total = executor, checkpoint, tell, total
+        self.before = 0
+        tell(0, total)
+
+    def done(self, name: str, work: FitWork, rows: SearchRows, *, told: int = 0) -> dict[str, Array]:
+        """Return what is found of designs, arrays (m, ...) by name; in the progress it counts as so many designs."""
+
+        def tell(done: int, count: int) -> None:
+            self.tell(self.before + told * done // count, self.total)
+
+        checkpoint = None
+        if not rows.count:
+            return work.nothing
+        if self.checkpoint is not None:
+            facts = f"{name} {work.facts} {rows.count} ".encode()
+            checkpoint = self.checkpoint.stage(name, facts + blake2b(rows.content, digest_size=32).digest())
+        run = SurveyRun(work, rows, self.executor, checkpoint, tell)
+        run.go()
+        self.before += told
+        work.problem.count.designs += int(run.values["looked"].sum())
+        return run.values

@@ -8,12 +8,12 @@ from typing import final
 
 import numpy as np
 
-from linkage.cli.command import Command, machine_arguments, motion_arguments
+from linkage.cli.command import Command, every_argument, machine_arguments, motion_arguments
 from linkage.cli.machines import find
-from linkage.cli.settings import check_argument, design, judged_code, motion_at, si_value
+from linkage.cli.settings import check_argument, design, judged_code, judged_over, motion_at, over_argument, overs_of, si_value
 from linkage.cli.table import csv_argument, write_table
 from linkage.errors import DefinitionError, known_name
-from linkage.language import said
+from linkage.language import noted, said
 from linkage.loads import Acting, ForceElement, LoadCase
 from linkage.mechanism import Mechanism
 from linkage.motion import Column, Judge, Motion, columns_of, least
@@ -26,6 +26,9 @@ from .judged import line_verdicts
 from .lift import LiftCircuit
 from .member import Ram, found_in
 from .requests import capacity_request
+
+FURTHER = noted("further load")
+"""What is lifted beside the machine's own loads: not what a machine calls its lifting capacity, in which these count."""
 
 
 @final
@@ -46,6 +49,8 @@ class CapacityCommand(Command):
         parser.add_argument("--case", metavar="CASE", help="the machine's own load in this load case")
         csv_argument(parser)
         motion_arguments(parser, 11)
+        every_argument(parser)
+        over_argument(parser)
         check_argument(parser)
 
     def run(self, options: Namespace) -> int:
@@ -55,19 +60,19 @@ class CapacityCommand(Command):
         along, share = along_of(options.along), options.share
         proper_share(share)
         case = None if options.case is None else known_name("Load case", options.case, machine.plan.of_kind(LoadCase), machine.plan.title)
-        over = motion_at(machine, options.strokes, options.count)
+        over = motion_at(machine, options.strokes, options.count, options.every, overs_of(machine, options.over))
 
         def capacity(motion: Motion) -> Array:
             """Return it along the stroke."""
             return circuit.capacity(motion, point, along=along, share=share, cylinder=ram, case=case)
 
         whole = over.moved(over.strokes)
-        columns = [*strokes_and_point(over, point), *ram.columns_in(whole, case), Column("capacity", capacity(whole), "kN", 3)]
+        columns = [*strokes_and_point(over, point), *ram.columns_in(whole, case), Column(FURTHER, capacity(whole), "kN", 3)]
         if options.csv != "-":
             way = f"along ({along[0]:g}, {along[1]:g}){at_pressure(circuit, over, share)}"
             print(f"{machine.plan.title}: {ram.name} lifts at {point} {way}, beside the machine's own loads. Pressures are gauge.\n")
         write_table(columns, over.reached.size, options.csv)
-        judge = machine.judge(over, Acting(case=case))
+        judge = machine.judge(judged_over(machine, options), Acting(case=case))
         asked = capacity_request(ram, Acting(), circuit, point, along, share)
         found = [capacity_verdict(judge, asked, point), *line_verdicts(circuit, judge), *ram.verdicts(judge)]
         if options.csv != "-":
@@ -147,12 +152,12 @@ def capacity_verdict(judge: Judge, asked: LawRequest, point: str) -> Verdict:
     found = judge.answer(least(asked))
     if np.isnan(found.value):
         text = said("the load at {point} drives, or does nothing: it is not limited by this cylinder.", point=point)
-        return Verdict("capacity", None, text, answer=found)
+        return Verdict(FURTHER, None, text, answer=found)
     if found.value <= 0.0:
         text = said("nothing more is lifted at {point} {where}: the machine alone is too heavy there.", point=point, where=found.place)
-        return Verdict("capacity", False, text, answer=found)
+        return Verdict(FURTHER, False, text, answer=found)
     text = said(
-        "{force} ({mass}) are lifted at {point} everywhere, the least {where}.",
+        "{force} ({mass}) are lifted at {point} everywhere beside the machine's own loads, the least {where}.",
         force=show(found.value, "kN", 4), mass=show(found.value / g0, "kg", 4), point=point, where=found.place,
     )  # fmt: skip
-    return Verdict("capacity", True, text)
+    return Verdict(FURTHER, True, text)

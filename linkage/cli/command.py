@@ -65,10 +65,17 @@ def run_arguments(parser: ArgumentParser, count: int, what: str) -> None:
 
 def motion_arguments(parser: ArgumentParser, count: int) -> None:
     """Declare the arguments that choose the poses."""
-    parser.add_argument("--count", metavar="N", type=pose_count, default=count, help=f"poses over each stroke (default {count})")
+    parser.add_argument("--count", metavar="N", type=pose_count, default=count, help=f"poses over the stroke (default {count})")
     parser.add_argument(
-        "--at", dest="strokes", metavar="S=0.6,650mm", action="append", default=[], help="chosen stroke values instead; repeatable"
-    )
+        "--at", dest="strokes", metavar="S=0.6,650mm", action="append", default=[],
+        help="these values of a stroke instead; repeatable. Without it the machine's path runs, else the first stroke, the others stand in "
+        "their middle",
+    )  # fmt: skip
+
+
+def every_argument(parser: ArgumentParser) -> None:
+    """Declare the argument that says how far apart the rows of a table are."""
+    parser.add_argument("--every", metavar="25mm", help="a row every so much of the stroke that runs, instead of --count rows")
 
 
 def pose_count(text: str) -> int:

@@ -6,17 +6,18 @@ import platform
 import re
 import sys
 from argparse import ArgumentParser, Namespace
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from importlib.metadata import Distribution, EntryPoint, PackageNotFoundError, distribution, version
 from importlib.util import find_spec
 from pathlib import Path
+from textwrap import wrap
 from types import MappingProxyType
 from typing import final
 
 from .. import plugins
 from ..errors import DefinitionError
 from ..program.cache import cache_folder
-from .command import Command, lined_up
+from .command import Command
 from .entry import PROGRAM, installed_version
 
 EXTRAS: Mapping[str, str] = MappingProxyType(
@@ -48,13 +49,30 @@ class DoctorCommand(Command):
         """Declare nothing."""
 
     def run(self, options: Namespace) -> int:
-        print(*lined_up(list(places())), sep="\n")
-        print("\nBack ends", *(f"  {line}" for line in lined_up(list(backends()))), sep="\n")
-        print("\nPackages", *(f"  {line}" for line in lined_up(list(packages()))), sep="\n")
-        print("\nEntry points", *(f"  {line}" for line in lined_up(list(entry_rows()))), sep="\n")
         faults = list(broken())
-        print("\nBroken", *(f"  {line}" for line in faults or ["nothing"]), sep="\n")
+        print(*in_lines(list(places())), sep="\n")
+        for title, rows in (("Back ends", backends()), ("Packages", packages()), ("Entry points", entry_rows())):
+            print(f"\n{title}", *(f"  {line}" for line in in_lines(list(rows), WIDE - 2)), sep="\n")
+        print("\nBroken", *(f"  {line}" for text in faults or ["nothing"] for line in wrap(text, WIDE - 2)), sep="\n")
         return BROKEN if faults else 0
+
+
+WIDE = 100
+"""Letters of a line."""
+
+
+def in_lines(rows: Sequence[Sequence[str]], wide: int = WIDE) -> Iterator[str]:
+    """Yield rows of text as lines of so many letters at most: names below each other, and beside each what is said of it.
+
+    What does not fit beside the name in one line stands below, part by part; a place that is too long for a line is cut.
+    """
+    size = max(len(name) for name, *_ in rows) + 2
+    for name, *parts in rows:
+        whole = "  ".join(part for part in parts if part)
+        said = [whole] if len(whole) <= wide - size else [part for part in parts if part]
+        lines = [line for part in said for line in wrap(part, wide - size, break_on_hyphens=False)] or [""]
+        yield f"{name.ljust(size)}{lines[0]}".rstrip()
+        yield from (f"{'':{size}}{line}" for line in lines[1:])
 
 
 def places() -> Iterator[tuple[str, str]]:

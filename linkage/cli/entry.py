@@ -28,6 +28,7 @@ HOMES = {
     "chart": "chart:ChartCommand",
     "limits": "forces:LimitsCommand",
     "forces": "forces:ForcesCommand",
+    "draw": "plot:DrawCommand",
     "plot": "plot:PlotCommand",
     "animate": "plot:AnimateCommand",
     "page": "page:PageCommand",

@@ -12,9 +12,10 @@ from ..errors import DefinitionError
 from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, limits_over
 from ..reports import force_columns, is_loaded
 from ..statics import PinForces
-from .command import Command, machine_arguments, motion_arguments
+from .command import Command, every_argument, machine_arguments, motion_arguments
 from .machines import find
 from .settings import (
+    POSES,
     Acting,
     acting_of,
     check_argument,
@@ -42,6 +43,7 @@ class ForcesCommand(Command):
         machine_arguments(parser)
         csv_argument(parser)
         motion_arguments(parser, 11)
+        every_argument(parser)
         force_arguments(parser)
         over_argument(parser)
         parser.add_argument("--poses", action="store_true", help="the force of every pin at every pose too")
@@ -50,8 +52,8 @@ class ForcesCommand(Command):
 
     def run(self, options: Namespace) -> int:
         machine = design(find(options.machine), options.settings)
-        acting, motion = acting_of(machine, options), motion_at(machine, options.strokes, options.count)
-        over = judged_over(machine, options, motion)
+        acting, overs = acting_of(machine, options), overs_of(machine, options.over)
+        motion, over = motion_at(machine, options.strokes, options.count, options.every, overs), judged_over(machine, options)
         if not is_loaded(motion):
             what = f"{machine.plan.title} declares no load, so that there is no force; declare one, load = Weight(G, mass=100)"
             raise DefinitionError(f'{what}, or in a file: load = {{ Weight = "G", mass = 100 }}.')
@@ -108,7 +110,7 @@ class LimitsCommand(Command):
         if not machine.strokes:
             raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")
         motion = machine.at(unreachable="nan", **poses_at(machine, options.strokes, POSES))
-        over = judged_over(machine, options, motion)
+        over = judged_over(machine, options)
         print(limits_over(motion, overs_of(machine, options.over) or [Over()]))
         print(f"mobility {machine.mobility}; Gruebler count {machine.gruebler}")
         for each in machine.four_bars:
@@ -118,6 +120,3 @@ class LimitsCommand(Command):
         verdicts = geometry_verdicts(machine.judge(over))
         print("", *verdicts, sep="\n")
         return judged_code(verdicts, options)
-
-
-POSES = 21

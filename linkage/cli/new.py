@@ -13,7 +13,7 @@ from ..errors import DefinitionError, FileError
 from .command import Command
 
 PYTHON = '''\
-"""$words: `hydrolinkage show $file`, `table`, `forces`, `limits`, `capacity`, `plot $file -o $stem.png`."""
+"""$words: `hydrolinkage show $file`, `table`, `forces`, `limits`, `capacity`, `draw $file -o $stem.png`."""
 
 from hydraulics import Cylinder, LiftCircuit
 from linkage import *
@@ -52,7 +52,7 @@ class $name(Mechanism):
 '''
 
 TOML = """\
-# $words: `hydrolinkage show $file`, `table`, `forces`, `limits`, `capacity`, `plot $file -o $stem.png`.
+# $words: `hydrolinkage show $file`, `table`, `forces`, `limits`, `capacity`, `draw $file -o $stem.png`.
 # A bare number is in SI; a text with a unit is that: "500 mm", "15 deg".
 name = "$name"
 doc = "A cylinder AB turns the lever OB; the load hangs at G, on the lever. Say here what your machine is."
@@ -103,15 +103,18 @@ class NewCommand(Command):
     help = "a commented machine to begin with, as .py or .toml, which runs at once"
 
     def add(self, parser: ArgumentParser) -> None:
-        parser.add_argument("name", metavar="NAME", help="the machine's name, such as loader")
+        parser.add_argument("name", metavar="NAME", help="the machine's name, such as loader, or its file, loader.toml")
         parser.add_argument("-o", "--output", metavar="FILE", help=".py or .toml (default: NAME.py)")
 
     def run(self, options: Namespace) -> int:
-        words = re.findall(r"[^\W_]+", options.name)
+        given = Path(options.name)
+        is_file = given.suffix.lower() in TEMPLATES
+        words = re.findall(r"[^\W_]+", given.stem if is_file else options.name)
         name = "".join(word[:1].upper() + word[1:] for word in words)
         if not name.isidentifier():
             raise DefinitionError(f"{options.name!r} gives no name of a class; take letters and digits, no digit first, such as loader.")
-        path = Path(options.output if options.output is not None else f"{'_'.join(words).lower()}.py")
+        own = given if is_file else Path(f"{'_'.join(words).lower()}.py")
+        path = own if options.output is None else Path(options.output)
         if path.suffix.lower() not in TEMPLATES:
             raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(TEMPLATES)}, which chooses the form.")
         check_place(path)

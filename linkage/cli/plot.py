@@ -1,4 +1,4 @@
-"""`hydrolinkage plot NAME`: a machine at its end positions, or curves of its results."""
+"""`hydrolinkage draw NAME`, `plot NAME`, `animate NAME`: a machine at some strokes, curves of its results, both as a film."""
 
 from __future__ import annotations
 
@@ -10,7 +10,17 @@ from ..errors import DefinitionError
 from ..mechanism import Mechanism
 from ..motion import Column
 from ..reports import results, stroke_middles
-from .command import Command, machine_arguments, motion_arguments, path_argument, picture, picture_argument, progress_bar, run_arguments
+from .command import (
+    Command,
+    machine_arguments,
+    motion_arguments,
+    path_argument,
+    picture,
+    picture_argument,
+    pose_count,
+    progress_bar,
+    run_arguments,
+)
 from .machines import find
 from .settings import (
     acting_of,
@@ -29,17 +39,52 @@ from .settings import (
 
 
 @final
-class PlotCommand(Command):
-    """Draws a picture into a file."""
+class DrawCommand(Command):
+    """Draws a machine into a file."""
 
-    name = "plot"
-    help = "a picture: the machine at its end positions, or curves of the columns named"
+    name = "draw"
+    help = "a picture of the machine at its end positions or at some strokes, with paths, forces, poles, clearances"
 
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
-        parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help="curves of these columns of `table` over a stroke")
         picture_argument(parser, "default: NAME.png")
+        parser.add_argument(
+            "--at", dest="strokes", metavar="S=0.6,650mm", action="append", default=[],
+            help="at these values of a stroke, the last one bold (default: both ends of the first stroke); repeatable",
+        )  # fmt: skip
         path_argument(parser)
+        parser.add_argument("--count", metavar="N", type=pose_count, default=101, help="poses along a path (default 101)")
+        forces = parser.add_argument_group("over the machine, at one pose")
+        forces.add_argument("--forces", action="store_true", help="the forces in all pins, and the loads")
+        forces.add_argument("--on", metavar="BODY", help="all forces on this body, drawn alone, and their polygon")
+        forces.add_argument("--poles", action="store_true", help="the instant centre of each body")
+        forces.add_argument("--clearance", action="store_true", help="where what `Planes` keep apart comes nearest")
+        force_arguments(parser)
+
+    def run(self, options: Namespace) -> int:
+        found = find(options.machine)
+        path = picture(options.output, found, options.machine)
+        machine = design(found, options.settings)
+        if (options.case or options.direction) and not (options.forces or options.on):
+            raise DefinitionError("--case and --direction are of forces; say --forces too, or --on BODY.")
+        if options.forces and options.on:
+            raise DefinitionError("--forces are those of all pins, --on those of one body; give one of them.")
+        poses(machine, options).savefig(path)
+        print(path)
+        return 0
+
+
+@final
+class PlotCommand(Command):
+    """Draws curves into a file."""
+
+    name = "plot"
+    help = "curves of the columns named over a stroke, else of what the machine is about"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser)
+        parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help="these columns of `table`")
+        picture_argument(parser, "default: NAME.png")
         motion_arguments(parser, 101)
         force_arguments(parser)
         limit_argument(parser)
@@ -50,15 +95,19 @@ class PlotCommand(Command):
         machine = design(found, options.settings)
         if not options.columns and (options.limits or options.case or options.direction):
             raise DefinitionError("--limit, --case and --direction go with curves; name their columns, such as plot NAME pressure.")
-        figure = curves(machine, options) if options.columns else poses(machine, options)
-        figure.savefig(path)
+        curves(machine, options).savefig(path)
         print(path)
         return 0
 
 
 def curves(machine: Mechanism, options: Namespace) -> Any:
-    """Return the figure of the columns named, along one stroke."""
+    """Return the figure of the columns named, else of what the machine is about, along one stroke."""
     given = dict(stroke_values(machine.plan, text) for text in options.strokes)
+    if not options.columns:
+        from ..pictures import plot
+
+        motion_along(machine, options.count, given)
+        return plot(machine, at=given, count=options.count)
     many = [name for name, values in given.items() if len(values) > 1]
     over = motion_at(machine, options.strokes, options.count) if many else motion_along(machine, options.count, given)
     columns = columns_picked(machine, over, options.columns, [], plain_value(acting_of(machine, options)))
@@ -79,7 +128,12 @@ def poses(machine: Mechanism, options: Namespace) -> Any:
         motion_along(machine, options.count)
     from ..pictures import draw
 
-    return draw(machine, at or None, traced_points(machine, options.path), options.count)
+    acting = acting_of(machine, options)
+    return draw(
+        machine, at or None, traced_points(machine, options.path), options.count, forces=options.on or options.forces,
+        case=plain_value(acting).case, direction=options.direction or "frictionless", drive=options.drive, pole=options.poles,
+        clearance=options.clearance,
+    )  # fmt: skip
 
 
 # `hydrolinkage animate NAME -o FILE`: a machine over its stroke, with the live curve of a result.

@@ -16,12 +16,13 @@ from ..loads import DIRECTIONS, PLAIN, PLAIN_CASE, Acting, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over, Request, RequestLike, columns_of, out_of_reach, stroke_measure, stroke_unit
 from ..plan import Plan, plan_measure
+from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
-from ..reports import NOTHING, At, force_columns, results, run_of
+from ..reports import NOTHING, At, Run, force_columns, results, run_along, run_of, stroke_middles
 from ..steps import Point
 from ..units import UNITS, parse, parse_span
 from ..verdict import Verdict
-from .command import say_remark
+from .command import MOST, say_remark
 
 FAILED = 1
 """The exit code of `--check` where a verdict fails."""
@@ -97,10 +98,16 @@ def with_overs(machine: Mechanism, overs: Sequence[Over] | None) -> Mechanism:
     return variant(**machine.dimensions)
 
 
-def judged_over(machine: Mechanism, options: Namespace, motion: Motion) -> list[Over | Motion] | None:
-    """Return where a judgement looks: what `--over` says, else the poses that `--at` chose, else None, all that the machine runs."""
+def judged_over(machine: Mechanism, options: Namespace) -> list[Over | Motion] | None:
+    """Return where a judgement looks: what `--over` says, else what `--at` leaves open, else None, all that the machine runs."""
     chosen = overs_of(machine, options.over)
-    return [*chosen] if chosen else [motion] if options.strokes else None
+    if chosen or not options.strokes:
+        return [*chosen] if chosen else None
+    return [machine.at(unreachable="nan", **poses_at(machine, options.strokes, getattr(options, "count", POSES)))]
+
+
+POSES = 21
+"""Poses over a stroke of which a command does not say how many."""
 
 
 def judged_code(verdicts: Sequence[str], options: Namespace) -> int:
@@ -160,19 +167,64 @@ def si_value(text: str, kind: str, what: str) -> float:
         raise DefinitionError(f"{what}: {error}") from None
 
 
-def motion_at(machine: Mechanism, texts: Sequence[str], count: int) -> Motion:
-    """Return the motion at strokes such as `S=0.6,650mm`; those not given go over their range at `count` poses.
+def motion_at(
+    machine: Mechanism, texts: Sequence[str], count: int, every: str | None = None, overs: Sequence[Over] | None = None
+) -> Motion:
+    """Return the motion that a table shows: at strokes such as `S=0.6,650mm`, else along the machine's run at `count` poses.
 
-    Several that take more than one value make a grid. Places that cannot be assembled are gaps, and one remark says so.
+    The run is the path that `overs` or the machine's own `Over` give, where that is one; else the first stroke that is not held, from
+    its start to its end, at steps of `every` where that is said. Strokes that are not given stand in their middle. Several that are
+    given more than one value make a grid. Places that cannot be assembled are gaps, and one remark says so.
     """
-    return with_gaps(machine, poses_at(machine, texts, count))
+    given = dict(stroke_values(machine.plan, text) for text in texts)
+    along = None if given else declared_path(machine, overs)
+    if along is not None:
+        if every is not None:
+            raise DefinitionError(f"--every {every}: steps are of one stroke, and the rows run along a path; give --count.")
+        return with_gaps(machine, along.divided(count))
+    runs = next((name for name in machine.strokes if name not in given), None)
+    if runs is None or any(len(values) > 1 for values in given.values()):
+        if every is not None:
+            raise DefinitionError(f"--every {every}: no stroke runs from end to end here; leave it out, or hold the others, --at S=0.6.")
+    else:
+        given[runs] = stroke_steps(machine, runs, count, every)
+    held = {name: np.array([value]) for name, value in stroke_middles(machine).items() if name not in given}
+    return with_gaps(machine, stroke_grid(machine, given | held))
+
+
+def declared_path(machine: Mechanism, overs: Sequence[Over] | None) -> Run | None:
+    """Return the run along the only path among what is looked at, through all its places; None where there is none."""
+    paths = [over for over in (machine.overs if overs is None else overs) if isinstance(over, Over) and over.shape == "path"]
+    if len(paths) != 1:
+        return None
+    places = machine.judge(paths).places
+    return run_along(places[0].motion)[0] if places[0].running else None
+
+
+def stroke_steps(machine: Mechanism, name: str, count: int, every: str | None) -> FloatArray:
+    """Return the values of a stroke from its start to its end [m or rad]: so many, or a step apart, the end among them."""
+    start, end = machine.strokes[name].start, machine.strokes[name].end
+    if every is None:
+        return np.linspace(start, end, count)
+    step = si_value(every, stroke_measure(machine.plan, name), "--every")
+    if not 0.0 < step < np.inf or abs(end - start) / step > MOST:
+        raise DefinitionError(f"--every {every}: a step of {name} is expected, more than nothing, such as --every 25mm.")
+    values = start + np.copysign(step, end - start) * np.arange(int(abs(end - start) / step + 1e-9) + 1)
+    return values if abs(values[-1] - end) < 1e-6 * step else np.append(values, end)
 
 
 def poses_at(machine: Mechanism, texts: Sequence[str], count: int) -> dict[str, Any]:
-    """Return the strokes of such a motion, arrays of one shape."""
+    """Return the strokes of all that some texts leave open, arrays of one shape: what is not given goes over its range."""
     given = dict(stroke_values(machine.plan, text) for text in texts)
-    axes = {name: given.get(name, np.linspace(stroke.start, stroke.end, count)) for name, stroke in machine.strokes.items()}
-    many = {name: axis for name, axis in axes.items() if len(axis) > 1 or name not in given}
+    return stroke_grid(machine, given | {
+        name: np.linspace(stroke.start, stroke.end, count) for name, stroke in machine.strokes.items() if name not in given
+    })  # fmt: skip
+
+
+def stroke_grid(machine: Mechanism, axes: Mapping[str, FloatArray]) -> dict[str, Any]:
+    """Return the strokes of a grid, arrays of one shape: an axis for each stroke that has more than one value."""
+    axes = {name: axes[name] for name in machine.strokes}
+    many = {name: axis for name, axis in axes.items() if len(axis) > 1}
     grids = dict(zip(many, np.meshgrid(*many.values(), indexing="ij"), strict=True)) if many else {}
     return {name: grids.get(name, axis[0]) for name, axis in axes.items()}
 
@@ -268,7 +320,7 @@ def requested(machine: Mechanism, motion: Motion, text: str, acting: Acting, kno
     """Return the columns of a request in text, two of a point's; DefinitionError for what is none."""
     plan = machine.plan
     if not any(sign in text for sign in "()+-*/"):
-        is_point = f" {text} is a point; `plot --path {text}` draws its path." if text in plan.points else ""
+        is_point = f" {text} is a point; `draw --path {text}` draws its path." if text in plan.points else ""
         raise DefinitionError(f"{unknown('Column', text, known, where=f'the table of {plan.title}')}{is_point}")
     from ..files.criterion import quantity_said
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
@@ -15,7 +16,7 @@ from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over
 from ..reports import is_loaded, rich_tables, text_table, write_csv
 from ..statics import PinForces, max_table, pin_forces, table_text
-from .command import Command, machine_arguments, motion_arguments, progress_bar
+from .command import Command, every_argument, machine_arguments, motion_arguments, progress_bar
 from .machines import find
 from .settings import (
     Acting,
@@ -28,6 +29,7 @@ from .settings import (
     judged_over,
     motion_at,
     over_argument,
+    overs_of,
     plain_value,
     ratio_columns,
 )
@@ -46,8 +48,10 @@ class TableCommand(Command):
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
         parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help=COLUMNS)
+        parser.add_argument("--columns", dest="listed", metavar="I,kz", action="append", default=[], help="the same, parted by commas")
         csv_argument(parser)
         motion_arguments(parser, 11)
+        every_argument(parser)
         ratio_arguments(parser)
         force_arguments(parser)
         over_argument(parser)
@@ -59,10 +63,11 @@ class TableCommand(Command):
         if options.csv == "-" and (options.pins or options.limits):
             raise DefinitionError("--pins and --limits do not go into CSV; leave them out, or write it into a file, --csv table.csv.")
         machine = design(find(options.machine), options.settings)
-        acting, poses = acting_of(machine, options), motion_at(machine, options.strokes, options.count)
-        over = judged_over(machine, options, poses)
+        acting, overs = acting_of(machine, options), overs_of(machine, options.over)
+        poses, over = motion_at(machine, options.strokes, options.count, options.every, overs), judged_over(machine, options)
         strokes = list(poses.strokes)
-        names = options.columns or (strokes if options.ratio else [])  # ratios alone stand beside their strokes
+        asked = [*options.columns, *(name for text in options.listed for name in parted(text))]
+        names = asked or (strokes if options.ratio else [])  # ratios alone stand beside their strokes
         columns = columns_picked(machine, poses, names, strokes, plain_value(acting))
         columns += ratio_columns(machine, poses, options.ratio, options.wrt)
         pins = worst_pins(machine, over, acting) if options.pins else ""
@@ -77,6 +82,11 @@ class TableCommand(Command):
         if options.csv != "-":
             print("", *verdicts, sep="\n")
         return judged_code(verdicts, options)
+
+
+def parted(text: str) -> list[str]:
+    """Return the names that commas part; a comma between parentheses parts nothing, as in `reserve(lift, share=0.9)`."""
+    return [name.strip() for name in re.split(r",(?![^()]*\))", text) if name.strip()]
 
 
 def ratio_arguments(parser: ArgumentParser) -> None:

@@ -14,6 +14,7 @@ from .arm_drive import BellCrankArmDrive as BellCrankArmDrive
 from .arm_drive import BellCrankArmDriveByCylinder as BellCrankArmDriveByCylinder
 from .arm_drive import DirectArmDrive as DirectArmDrive
 from .arm_drive import DirectArmDriveAbove as DirectArmDriveAbove
+from .arm_drive import DrivenArm as DrivenArm
 from .boom_drive import BoomDrive as BoomDrive
 from .cylinders import arm_moment as arm_moment
 from .cylinders import boom_moment as boom_moment
@@ -50,6 +51,17 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FIGURES = ("positions", "moments", "map", "reach")
+DRIVE_FIGURES = ("moments", "positions")
+
+
+def drive_figure(name: str, drive: BoomDrive | DrivenArm) -> Figure:
+    """Return a figure of a drive as a matplotlib figure; DefinitionError for an unknown name, a batch.
+
+    "moments" is what it gives and what is asked of it over its angle, "positions" the drive at its ends and where it has least to spare.
+    """
+    from .figures import drive_figure
+
+    return drive_figure(name, drive)
 
 
 def crane_figure(name: str, crane: Crane | None = None) -> Figure:

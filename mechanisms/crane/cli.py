@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Mapping
 from dataclasses import fields
+from functools import partial
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -14,14 +17,16 @@ from linkage.cli.command import Command, progress_bar
 from linkage.cli.machines import find
 from linkage.cli.settings import design
 from linkage.cli.table import csv_argument, write_table
-from linkage.disk import check_place
+from linkage.disk import check_place, in_words
 from linkage.errors import unknown
 from linkage.units import parse
 
-from . import FIGURES, crane_figure
+from . import DRIVE_FIGURES, FIGURES, crane_figure, drive_figure
+from .arm_drive import DrivenArm
+from .boom_drive import BoomDrive
 from .cylinders import arm_moment, boom_moment
 from .duty import Duty
-from .flow import design_crane, design_skeleton
+from .flow import arm_drive_of, boom_drive_of, design_crane, design_skeleton
 from .load_map import envelope, load_map
 from .machine import Crane
 from .moments import arm_bound, boom_bound
@@ -41,7 +46,12 @@ class DesignedCrane(Command):
     help = "a forestry crane: skeleton, masses, bound of moments, drives, load map, pin forces, pictures"
 
     def add(self, parser: ArgumentParser) -> None:
-        parser.add_argument("machine", metavar="NAME", nargs="?", help="judge this crane, such as crane, instead of designing one")
+        parser.add_argument(
+            "machine",
+            metavar="NAME",
+            nargs="?",
+            help="judge this crane, or one of its drives, such as crane, boom_drive or arm_drive, instead of designing one",
+        )
         parser.add_argument(
             "--set", dest="settings", metavar="L=8.5m", action="append", default=[],
             help="change a number of the duty, with its unit; of a crane that is named a design variable; repeatable",
@@ -53,16 +63,25 @@ class DesignedCrane(Command):
         parser.add_argument("--skeleton", action="store_true", help="the skeleton and its masses alone, without drives and load map")
         parser.add_argument("--pins", action="store_true", help="the largest force of every pin in the load cases for strength too")
         csv_argument(parser)
-        parser.add_argument("--pictures", metavar="FOLDER", help=f"write the pictures there: {', '.join(FIGURES)}")
+        parser.add_argument(
+            "--pictures", metavar="FOLDER", help=f"write the pictures there: {', '.join(FIGURES)}; of each drive {', '.join(DRIVE_FIGURES)}"
+        )
 
     def run(self, options: Namespace) -> int:
         folder = Path(options.pictures) if options.pictures else None
         if folder is not None:
+            with in_words(folder):
+                folder.mkdir(parents=True, exist_ok=True)
             check_place(folder / "map.png")
         if options.skeleton or options.cab:
             if folder is not None:
                 raise DefinitionError("--pictures shows a whole crane: leave --skeleton and --cab out.")
             print_skeleton(bare_skeleton(options))
+            return 0
+        drive = named_drive(options)
+        if drive is not None:
+            print_drive(drive, options)
+            draw_all(folder, drive_pictures(drive))
             return 0
         crane = named_crane(options) if options.machine else designed_crane(options)
         print_skeleton(crane)
@@ -70,11 +89,32 @@ class DesignedCrane(Command):
         print_map(crane, options)
         if options.pins:
             print(f"\n{strength_text(crane)}")
-        if folder is not None:
-            for name in FIGURES:
-                crane_figure(name, crane).savefig(folder / f"{name}.png")
-                print(folder / f"{name}.png")
+        draw_all(folder, crane_pictures(crane))
         return 0
+
+
+Pictures: TypeAlias = Mapping[str, Callable[[], Any]]
+"""What draws each picture, by the name of its file."""
+
+
+def crane_pictures(crane: Crane) -> Pictures:
+    """Return the pictures of a crane, those of its drives among them."""
+    drives: dict[str, BoomDrive | DrivenArm] = {"boom": boom_drive_of(crane), "arm": arm_drive_of(crane)}
+    whole: dict[str, Callable[[], Any]] = {name: partial(crane_figure, name, crane) for name in FIGURES}
+    return whole | {f"{side}_{name}": each for side, drive in drives.items() for name, each in drive_pictures(drive).items()}
+
+
+def drive_pictures(drive: BoomDrive | DrivenArm) -> Pictures:
+    """Return the pictures of a drive on its own."""
+    return {name: partial(drive_figure, name, drive) for name in DRIVE_FIGURES}
+
+
+def draw_all(folder: Path | None, pictures: Pictures) -> None:
+    """Write pictures into a folder, and say where; nothing without one."""
+    for name, drawn in pictures.items() if folder is not None else ():
+        path = Path(folder or "") / f"{name}.png"
+        drawn().savefig(path)
+        print(path)
 
 
 def duty_of_options(options: Namespace) -> Duty:
@@ -100,6 +140,25 @@ def bare_skeleton(options: Namespace) -> CraneSkeleton:
     print(f"{found}\n")
     assert isinstance(found.machine, CraneSkeleton)
     return found.machine
+
+
+def named_drive(options: Namespace) -> BoomDrive | DrivenArm | None:
+    """Return the drive that is named, on its own; None where a crane is, or nothing. DefinitionError for what goes with a crane only."""
+    machine = find(options.machine) if options.machine else None
+    if machine is None or not issubclass(machine, (BoomDrive, DrivenArm)):
+        return None
+    if options.pins:
+        raise DefinitionError(f"--pins are those of a whole crane; `forces {options.machine}` has what the pins of a drive carry.")
+    found = design(machine, options.settings)
+    assert isinstance(found, (BoomDrive, DrivenArm))
+    return found
+
+
+def print_drive(drive: BoomDrive | DrivenArm, options: Namespace) -> None:
+    """Print what a drive gives against what is asked of it over its angle, or write it as CSV, and its verdicts."""
+    motion = drive.working(2 * COUNT - 1)
+    write_table(drive.columns(motion), motion.reached.size, options.csv)
+    print("", *drive.verdicts(motion), sep="\n")
 
 
 def named_crane(options: Namespace) -> Crane:

@@ -18,6 +18,7 @@ from linkage.pictures.sheet import panels, sheet
 from linkage.study.reach import Reach
 from linkage.units import kN
 
+from .drive_figures import drive_figure as drive_figure
 from .drive_figures import one_movement
 from .drive_report import worst_movements
 from .flow import arm_drive_of, boom_drive_of

@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
+from dataclasses import fields
+from typing import Any
 
-from linkage import Motion
+from linkage import DefinitionError, Motion
 from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
 from linkage.cli.machines import find_like
-from linkage.cli.settings import check_argument, design, judged_code, motion_at
+from linkage.cli.settings import check_argument, design, judged_code, motion_at, pair, si_value
 from linkage.cli.table import csv_argument, write_table
+from linkage.errors import unknown
 from linkage.language import said
 from linkage.units import show, shown_number, unit_sign
 
 from . import FIGURES, figure
+from .design import OBJECTIVES
+from .design import design as design_for
+from .duty import Duty
 from .machine import Grapple
 
 LEGEND = """theta lever's angle, 0 at the largest stem; D stem it holds; EC cylinder's length; H = |dEC/dtheta|; M_g moment that the full
@@ -28,6 +34,11 @@ class Gripping(Command):
 
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser, default="grapple")
+        parser.add_argument(
+            "--design", choices=OBJECTIVES, nargs="?", const=OBJECTIVES[0],
+            help="design one for a duty first: even, the least greatest M_g / M_1, or arm, the greatest arm at the largest stem; --set "
+            "then changes a number of the duty, D_0=600mm",
+        )  # fmt: skip
         csv_argument(parser)
         picture_argument(parser, "the figure")
         parser.add_argument("--figure", choices=FIGURES, help="which figure (default: stems)")
@@ -35,8 +46,7 @@ class Gripping(Command):
         check_argument(parser)
 
     def run(self, options: Namespace) -> int:
-        machine = design(find_like(options.machine, Grapple, "grapple"), options.settings)
-        assert isinstance(machine, Grapple)
+        machine = named_grapple(options) if options.design is None else designed_grapple(options)
         path = figure_path(options, type(machine), self.name)
         over = motion_at(machine, options.strokes, options.count)
         columns = machine.columns(over)
@@ -48,6 +58,33 @@ class Gripping(Command):
             figure(options.figure or "stems", machine).savefig(path)
             print(path)
         return judged_code(verdicts, options)
+
+
+def named_grapple(options: Namespace) -> Grapple:
+    """Return the grapple that is named."""
+    machine = design(find_like(options.machine, Grapple, "grapple"), options.settings)
+    assert isinstance(machine, Grapple)
+    return machine
+
+
+def designed_grapple(options: Namespace) -> Grapple:
+    """Return the grapple designed for the duty that the options mean, its search told."""
+    if options.machine != "grapple":
+        raise DefinitionError(f"{options.machine} is designed already; leave --design out, or the name.")
+    names, given = tuple(each.name for each in fields(Duty) if isinstance(each.default, float)), dict[str, Any]()
+    for text in options.settings:
+        name, value = pair(text, "--set", "D_0=600mm")
+        if name not in names:
+            raise unknown("Number of the duty", name, names)
+        given[name] = si_value(value, KINDS.get(name, "length"), f"--set {name}")
+    found = design_for(Duty(**given), options.design)
+    print(f"{found}\n")
+    assert isinstance(found.machine, Grapple)
+    return found.machine
+
+
+KINDS = {"alpha": "angle", "beta": "angle", "opening": "", "dead_bores": "", "pressure": "pressure", "efficiency": ""}
+"""What the numbers of a duty measure; those not named here are lengths."""
 
 
 def layout_words(motion: Motion) -> str:

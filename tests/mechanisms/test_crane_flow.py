@@ -1,13 +1,17 @@
 """From a duty to a crane: searches, stages handed on, reach, load cases for strength, figures and the command."""
 
+import re
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import reserve
 from linkage import DefinitionError, driving_force, least, max_table, pin_forces
+from linkage.cli import main
 from linkage.units import deg, kN
 from mechanisms.crane import (
+    DRIVE_FIGURES,
     FIGURES,
     ArmDrive,
     BellCrankArmDrive,
@@ -232,7 +236,8 @@ def test_command_judges_a_crane_that_is_named(run):
 def test_command_draws_and_lists_pins(run, tmp_path):
     _, text = run(NAMED, "--pins", "--pictures", str(tmp_path))
     assert "Dragging by the arm" in text
-    assert sorted(path.stem for path in tmp_path.iterdir()) == sorted(FIGURES)
+    drives = [f"{side}_{name}" for side in ("boom", "arm") for name in DRIVE_FIGURES]
+    assert sorted(path.stem for path in tmp_path.iterdir()) == sorted([*FIGURES, *drives])
 
 
 def test_command_writes_the_map(run, tmp_path):
@@ -258,3 +263,15 @@ def test_other_cranes_have_maps_too():
     for crane in (ChainCrane(), bell_crank(), DirectCrane(), DirectCraneAbove()):
         assert np.isfinite(load_map(crane, [2.0], [5.0]).load).all()
     assert CraneSkeleton(**Duty(L=9.0).dimensions())["L"] == 9.0
+
+
+@pytest.mark.parametrize("name", ["boom_drive", "arm_drive"])
+def test_the_command_shows_a_drive_with_its_figures(tmp_path, capsys, name):
+    folder = tmp_path / "new" / name  # is made
+    assert main(["crane", name, "--pictures", str(folder)]) == 0
+    said = capsys.readouterr().out
+    assert sorted(path.stem for path in folder.iterdir()) == sorted(DRIVE_FIGURES)
+    assert re.search("^(ok|FAIL) +moment (lifting|opening)", said, re.MULTILINE)
+    assert main(["crane", name, "--pins"]) == 2
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    assert main(["crane", name, "--pictures", str(tmp_path / "file")]) == 2

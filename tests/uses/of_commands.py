@@ -4,7 +4,7 @@ USES = [
     (
         "@",
         "shw; tabel mower_lift; plots; capacty",
-        ("hydrolinkage: Command", "is unknown. Did you mean", "Known: list, show, table, follow, chart, limits, forces, plot, "),
+        ("hydrolinkage: Command", "is unknown. Did you mean", "Known: list, show, table, follow, chart, limits, forces, draw, plot, "),
     ),
     ("@", "--verbos", ("hydrolinkage: unrecognized arguments: --verbos; see hydrolinkage --help.",)),
     (
@@ -178,7 +178,7 @@ USES = [
         "nothing -o a.png",
         ("hydrolinkage: Column 'nothing' is unknown in the table of Lever. Known: S, B_x, B_y, turn.",),
     ),
-    ("plot lever.py @", "--path Q -o a.png; --at Q=3 -o a.png", ("hydrolinkage:", "'Q' is unknown in Lever. Known:")),
+    ("draw lever.py @", "--path Q -o a.png; --at Q=3 -o a.png", ("hydrolinkage:", "'Q' is unknown in Lever. Known:")),
     ("plot lever.py @", "S -o a.png", ("hydrolinkage: Lever: there is no column to draw over S; name a result, not a stroke.",)),
     (
         "animate lever.py -o @",

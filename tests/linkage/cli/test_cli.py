@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import textwrap
+from argparse import Namespace
 from base64 import b64decode
 from functools import partial
 from importlib.metadata import EntryPoint
@@ -22,6 +23,8 @@ from linkage.cli import Command, listing, main
 from linkage.cli import command as progress
 from linkage.cli import entry as commands
 from linkage.cli.command import lined_up
+from linkage.cli.machines import find
+from linkage.cli.settings import judged_over
 
 OWN = '''
     """A machine of a user."""
@@ -121,11 +124,11 @@ def test_columns_stand_anywhere_between_options(said, arguments):
 
 def test_a_plots_columns_stand_behind_options_too(said, tmp_path):
     file, drawn = str(tmp_path / "lift.svg"), []
-    for arguments in (("kz", "-o", file, "--count", "11"), ("-o", file, "--count", "11", "kz"), ("-o", file, "--count", "11")):
+    for arguments in (("kz", "-o", file, "--count", "11"), ("-o", file, "--count", "11", "kz"), ("-o", file, "--count", "11", "I")):
         assert said("plot", "mower_lift", *arguments)[0] == 0
         drawn.append(re.findall(r' d="([^"]*)"', (tmp_path / "lift.svg").read_text()))
-    before, behind, poses = drawn
-    assert before == behind != poses
+    before, behind, other = drawn
+    assert before == behind != other
 
 
 def test_csv_has_full_precision(said, tmp_path):
@@ -154,17 +157,74 @@ def test_machine_of_a_users_own(said, own, name):
     assert len(out.splitlines()) == 3
 
 
-def test_grid_of_two_strokes(said, own):
-    (own / "crane.py").write_text(
-        "from linkage import *\nclass Crane(Mechanism):\n    a, b = Stroke(0.0, 1.0), Stroke(0.0, 2.0)\n    O = Ground(0, 0)\n"
-        "    P = Crank(O, OP=1.0, angle=a)\n    Q = Crank(P, PQ=0.5, angle=b)\n"
-    )
-    _, out, _ = said("table", "crane.py", "--count", "3", "--csv", "-")
-    assert len(out.splitlines()) == 10
-    _, out, _ = said("table", "crane.py", "--count", "3", "--csv", "-", "--at", "b=90deg")
-    rows = list(csv.reader(io.StringIO(out)))[1:]
-    assert [row[1] for row in rows] == ["90.0"] * 3
-    assert said("show", "crane.py")[0] == 0
+TWO = (
+    "from linkage import *\nclass Crane(Mechanism):\n    a, b = Stroke(0.0, 1.0), Stroke(0.0, 2.0)\n    O = Ground(0, 0)\n"
+    "    P = Crank(O, OP=1.0, angle=a)\n    Q = Crank(P, PQ=0.5, angle=b)\n"
+)
+
+
+def strokes_in(out):
+    """Return the two strokes of each row of a table in CSV [deg]."""
+    return [(round(float(a), 6), round(float(b), 6)) for a, b, *_ in list(csv.reader(io.StringIO(out)))[1:]]
+
+
+@pytest.mark.parametrize(("options", "rows"), [
+    ("--count 3", [(0.0, 57.29578), (28.64789, 57.29578), (57.29578, 57.29578)]),  # the first runs, the other in its middle
+    ("--count 3 --at b=90deg", [(0.0, 90.0), (28.64789, 90.0), (57.29578, 90.0)]),
+    ("--at b=90deg --every 20deg", [(0.0, 90.0), (20.0, 90.0), (40.0, 90.0), (57.29578, 90.0)]),
+    ("--at a=30deg --count 2", [(30.0, 0.0), (30.0, 114.591559)]),
+    ("--at b=10deg,20deg", [(28.64789, 10.0), (28.64789, 20.0)]),
+    ("--at a=1deg,2deg --at b=3deg,4deg", [(1.0, 3.0), (1.0, 4.0), (2.0, 3.0), (2.0, 4.0)]),
+])  # fmt: skip
+def test_a_table_of_two_strokes_runs_along_one(said, own, options, rows):
+    (own / "crane.py").write_text(TWO)
+    code, out, _ = said("table", "crane.py", "--csv", "-", *options.split())
+    found = strokes_in(out)
+    assert code == 0 and len(found) == len(rows)
+    np.testing.assert_allclose(found, rows, atol=2e-6)
+
+
+def test_a_table_runs_along_the_machines_path(said, own):
+    path = "    way = Over.path(a=[0.2, 0.8, 0.8], b=[0.0, 0.0, 1.0])\n"
+    (own / "crane.py").write_text(TWO + path)
+    (own / "two.py").write_text(TWO + path + path.replace("way", "back"))
+    _, out, _ = said("table", "crane.py", "--csv", "-", "--count", "5")
+    expected = np.degrees([[0.2, 0.0], [0.5, 0.0], [0.8, 0.0], [0.8, 0.5], [0.8, 1.0]])
+    np.testing.assert_allclose(strokes_in(out), expected, atol=2e-6)
+    assert said("table", "two.py", "--csv", "-", "--count", "5", "--over", "back")[1] == out
+    assert strokes_in(said("table", "two.py", "--csv", "-", "--count", "2")[1])[0] == (0.0, 57.29578)  # which of both is not said
+    assert strokes_in(said("table", "crane.py", "--csv", "-", "--at", "a=0.3")[1])[0] == (17.188734, 0.0)
+    code, _, complaint = said("table", "crane.py", "--every", "1deg")
+    assert code == 2 and "the rows run along a path; give --count" in complaint
+
+
+def test_a_judgement_looks_at_all_that_is_left_open(own):
+    """The table shows one run; what is judged is the box of all that --at does not hold."""
+    (own / "crane.py").write_text(TWO)
+    machine = find("crane.py")()
+    for strokes, ends in (["a=0.5"], ([0.5, 0.5], [0.0, 2.0])), (["a=0.1,0.4"], ([0.1, 0.4], [0.0, 2.0])):
+        (motion,) = judged_over(machine, Namespace(over=[], strokes=strokes, count=5))
+        assert [[values.min(), values.max()] for values in motion.strokes.values()] == list(ends)
+    assert judged_over(machine, Namespace(over=[], strokes=[], count=5)) is None
+
+
+def test_columns_are_listed_behind_an_option(said):
+    expected = said("table", "mower_lift", "kz", "I", "--at", "S=0.55,800mm")
+    for options in (["--columns", "kz,I"], ["--columns=kz", "--columns", "I"], ["kz", "--columns", " I "]):
+        assert said("table", "mower_lift", "--at", "S=0.55,800mm", *options) == expected
+    assert "'least_of(kz,I)'" in said("table", "mower_lift", "--columns", "least_of(kz,I)")[2]  # no comma inside a call parts names
+
+
+def test_rows_are_a_step_apart(said):
+    _, out, _ = said("table", "three_point_hitch", "I", "--every", "60mm", "--csv", "-")
+    assert [float(line.split(",")[0]) for line in out.splitlines()[1:]] == pytest.approx([0.0, 0.06, 0.12, 0.18, 0.24, 0.25])
+    _, out, _ = said("table", "three_point_hitch", "I", "--every", "125mm", "--csv", "-")
+    assert [float(line.split(",")[0]) for line in out.splitlines()[1:]] == pytest.approx([0.0, 0.125, 0.25])
+    for wrong in ("0", "-5mm", "1e-12"):
+        code, _, complaint = said("table", "three_point_hitch", f"--every={wrong}")
+        assert code == 2 and "a step of S is expected" in complaint
+    code, _, complaint = said("table", "three_point_hitch", "--every", "5mm", "--at", "S=0.1")
+    assert code == 2 and "no stroke runs from end to end here" in complaint
 
 
 def test_equations_are_printed_when_asked(said):
@@ -239,10 +299,33 @@ def test_plot_writes_the_format_of_the_name(said, tmp_path, suffix):
     assert file.read_bytes().startswith(MAGIC[suffix])
 
 
-def test_plot_draws_the_machine_under_its_name(said, own):
-    assert said("plot", "lever.py") == (0, "Lever.png\n", "")
-    assert said("plot", "mower_lift", "--at", "S=0.6,0.7", "--path", "B") == (0, "mower_lift.png\n", "")
+def test_draw_draws_the_machine_under_its_name(said, own):
+    assert said("draw", "lever.py") == (0, "Lever.png\n", "")
+    assert said("draw", "mower_lift", "--at", "S=0.6,0.7", "--path", "B") == (0, "mower_lift.png\n", "")
     assert {file.name for file in own.glob("*.png")} == {"Lever.png", "mower_lift.png"}
+
+
+@pytest.mark.parametrize("options", ["--forces", "--on OB", "--poles", "--path B", "--at S=0.7"])
+def test_what_is_laid_over_a_drawing(said, own, options):
+    """Each option draws what the call draws: the same picture as `draw(...)` with its keyword."""
+    from linkage import draw
+    from mechanisms.mower_lift import MowerLift
+
+    body = next(str(each).replace(" ", "") for each in MowerLift().links if "B" in str(each))
+    keywords = {"--forces": {"forces": True}, "--on OB": {"forces": body}, "--poles": {"pole": True}, "--path B": {"path": ["B"]}}
+    given = {"at": {"S": [0.7]}} if "--at" in options else {}
+    own_path = {} if "--path" in options else {"path": ["G"]}
+    draw(MowerLift(), **{**own_path, **given, **keywords.get(options, {})}).savefig("call.svg")
+    assert said("draw", "mower_lift", *options.replace("OB", body).split(), "-o", "command.svg") == (0, "command.svg\n", "")
+    lines = [re.findall(r' d="([^"]*)"', (own / name).read_text()) for name in ("call.svg", "command.svg")]
+    assert lines[0] == lines[1]
+
+
+def test_plot_without_columns_draws_what_the_machine_is_about(said, own):
+    assert said("plot", "three_point_hitch", "-o", "own.svg", "--count", "11")[:2] == (0, "own.svg\n")
+    assert said("plot", "three_point_hitch", "capacity", "-o", "named.svg", "--count", "11")[:2] == (0, "named.svg\n")
+    own_lines, named = (re.findall(r' d="([^"]*)"', (own / name).read_text()) for name in ("own.svg", "named.svg"))
+    assert own_lines == named
 
 
 def test_animation_is_written_silently_in_a_pipe(said, own):
@@ -293,17 +376,20 @@ def test_a_curve_is_drawn_over_one_stroke_the_others_held(said, own):
         ("table mower_lift --set k_m=1.5", "above 1"),
         ("table mower_lift --set OB=2m", "cannot be assembled at 11 of 11 strokes"),
         ("plot mower_lift --set OB=2m", "cannot be assembled"),
-        ("plot mower_lift --at S=3", "cannot be assembled at S = 3"),
+        ("draw mower_lift --at S=3", "cannot be assembled at S = 3"),
         ("animate mower_lift -o x.gif --set OB=2m", "cannot be assembled"),
         ("table mower_lift --at S=0.83293", "cannot be assembled"),
         ("table mower_lift --at T=0.6", "Stroke 'T' is unknown"),
         ("table mower_lift --at S=3deg", "--at S: '3deg' is"),
         ("table mower_lift kzz", "Did you mean kz?"),
         ("plot mower_lift kzz", "Did you mean kz?"),
-        ("plot mower_lift G", "G is a point; `plot --path G` draws its path"),
+        ("plot mower_lift G", "G is a point; `draw --path G` draws its path"),
         ("plot mower_lift S", "there is no column to draw over S; name a result"),
-        ("plot mower_lift --path W", "Point 'W' is unknown"),
+        ("draw mower_lift --path W", "Point 'W' is unknown"),
         ("plot mower_lift -o lift.jpg", ".png, .svg, .pdf"),
+        ("draw mower_lift -o lift.jpg", ".png, .svg, .pdf"),
+        ("draw mower_lift --case full", "--case and --direction are of forces"),
+        ("draw mower_lift --forces --on OB", "give one of them"),
         ("plot mower_lift -o nowhere/lift.png", "folder nowhere is not there"),
         ("animate mower_lift -o lift.avi", ".gif, .mp4, .html"),
         ("animate mower_lift -o lift.gif --column kzz", "Did you mean kz?"),
@@ -362,7 +448,7 @@ def test_ratio_near_a_dead_point_is_warned_of_in_one_line(said):
 def test_nothing_asked_shows_the_help(said):
     code, out, err = said()
     assert (code, out) == (2, "")
-    assert all(name in err for name in ("list", "show", "table", "plot", "animate"))
+    assert all(name in err for name in ("list", "show", "table", "draw", "plot", "animate"))
 
 
 def test_help_and_version_are_no_mistakes(said):

@@ -174,15 +174,15 @@ def test_capacity_of_any_machine(said):
     code, out, err = said("capacity", "loader.py", "--count", "3", "--csv", "-")
     motion, pump = loader().sweep(3), loader().plan.members["pump"]
     assert (code, err) == (0, "")
-    np.testing.assert_allclose(numbers(out)["capacity, kN"], pump.capacity(motion, "G") / kN, rtol=1e-12)
+    np.testing.assert_allclose(numbers(out)["further load, kN"], pump.capacity(motion, "G") / kN, rtol=1e-12)
     options = "--at-point B --along 1,1 --share 0.9 --case transport --csv - --count 3"
     _, out, _ = said("capacity", "loader.py", *options.split())
     expected = pump.capacity(motion, "B", along=(1.0, 1.0), share=0.9, case="transport")
-    np.testing.assert_allclose(numbers(out)["capacity, kN"], expected / kN, rtol=1e-12, equal_nan=True)
+    np.testing.assert_allclose(numbers(out)["further load, kN"], expected / kN, rtol=1e-12, equal_nan=True)
     code, out, _ = said("capacity", "loader.py", "--count", "3")
-    assert "ok   capacity: " in out and "ok   lifting: " in out and "at 180 bar" in out
+    assert "ok   further load: " in out and "ok   lifting: " in out and "at 180 bar" in out
     code, out, _ = said("capacity", "loader.py", "--pressure", "20bar", "--count", "3", "--check")
-    assert code == 1 and "FAIL capacity: nothing more is lifted at G" in out and "FAIL lifting: at 20 bar" in out
+    assert code == 1 and "FAIL further load: nothing more is lifted at G" in out and "FAIL lifting: at 20 bar" in out
 
 
 @pytest.mark.parametrize(
@@ -355,6 +355,36 @@ def test_a_new_machine_runs_at_once(said, tmp_path, file):
         assert said(*command)[0] == 0
 
 
+@pytest.mark.parametrize(("name", "cls"), [("loader.toml", "Loader"), ("deep_loader.py", "DeepLoader")])
+def test_a_new_machine_takes_the_form_of_its_files_name(said, tmp_path, monkeypatch, name, cls):
+    folder = tmp_path / "new"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    assert said("new", name)[0] == 0 and [each.name for each in folder.iterdir()] == [name]
+    assert find(name).__name__ == cls and said("show", name, "--check")[0] == 0
+
+
+def test_one_name_for_one_quantity(said):
+    """What a hitch calls its capacity has its implement in it; what the command adds to the implement is another quantity."""
+    heads = [said(command, "three_point_hitch", "--count", "2")[1] for command in ("table", "capacity")]
+    assert "capacity, kN" in heads[0] and "further load" not in heads[0]
+    assert "further load, kN" in heads[1] and "capacity, kN" not in heads[1] and "capacity:" not in heads[1]
+
+
+def test_a_verdict_of_capacity_is_over_every_stroke(said, tmp_path):
+    """The table runs along the first stroke; what is judged is all strokes, unless --at or --over narrow it."""
+    text = LOADER.replace("OG=0.90", "OG=0.90 + t").replace("    A, O =", "    t = Stroke(0.0, 0.5)\n    A, O =")
+    (tmp_path / "reaching.py").write_text(text)
+    machine = find("reaching.py")()
+    pump = machine.plan.members["pump"]
+    grid = machine.sweep(S=61, t=61)
+    for options, of in (["--over", "S=0:0.25"], grid), ([], grid), (["--at", "t=0.1"], machine.sweep(S=61, t=0.1)):
+        _, out, _ = said("capacity", "reaching.py", "--count", "3", *options)
+        (found,) = re.findall(r"further load: ([\d.]+) kN", out)
+        cases = [np.min(pump.capacity(of, "G", case=case)) for case in (None, "transport")]
+        assert float(found) == pytest.approx(float(min(cases)) / kN, abs=0.01)
+
+
 def test_both_templates_are_one_machine(said):
     assert said("new", "arm", "-o", "arm.toml")[0] == said("new", "arm")[0] == 0
     assert said("table", "arm.toml", "--csv", "-")[1] == said("table", "arm.py", "--csv", "-")[1]
@@ -363,6 +393,7 @@ def test_both_templates_are_one_machine(said):
 def test_doctor_tells_what_is_there(said, monkeypatch):
     code, out, err = said("doctor")
     assert (code, err) == (0, "")
+    assert max(map(len, out.splitlines())) <= 100
     for words in ("Python", "numpy", "49 machines", "of hydrolinkage", "kernels are kept in", "ffmpeg", "letters in pictures", "xlsx"):
         assert words in out
     from importlib.metadata import EntryPoint
@@ -372,4 +403,5 @@ def test_doctor_tells_what_is_there(said, monkeypatch):
     broken = EntryPoint("bad", "no_package:Bad", "hydrolinkage.machines")
     monkeypatch.setattr(plugins, "entry_points", lambda group: {"bad": broken} if group == broken.group else {})
     code, out, _ = said("doctor")
-    assert code == 1 and "bad of the machines (no_package:Bad) cannot be loaded: ModuleNotFoundError" in out
+    assert code == 1 and max(map(len, out.splitlines())) <= 100
+    assert "bad of the machines (no_package:Bad) cannot be loaded: ModuleNotFoundError" in " ".join(out.split())

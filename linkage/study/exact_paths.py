@@ -1,0 +1,354 @@
+"""Five points of a path with given fixed pivots: all four-bars that go through them, by continuation from a general task.
+
+Source: Morgan, Wampler: Solving a planar four-bar design problem using continuation, J. Mech. Des. 112 (1990) 544-550.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations, product
+from typing import Any, TypeAlias, final
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import DefinitionError, StudyError, cited
+from ..language import said
+from ..program import FloatArray
+from .exact import ComplexArray, CouplerTask, ExactMachine, ExactSynthesis, Pivoted, exact_synthesis, is_without_links, judged
+from .tasks import table_of
+
+POINTS = 5
+GENERAL = 36
+"""Solutions of a general task, complex ones among them."""
+SEED = 1990
+ROUTES = 4
+"""Ways from the general task to the asked one that are tried until nothing is missing."""
+FINITE = 1e-7
+"""A homogeneous coordinate that is less is none: the solution is at infinity."""
+REAL, SAME = 1e-6, 1e-7
+BEGIN, LEAST_STEP, STEPS = 0.05, 1e-9, 1500
+CLOSE, NEAR = 1e-9, 1e-3
+"""Corrections of a path's place, as parts of it: the last one may be so large, and the first."""
+POLISHED = 1e-12
+
+System: TypeAlias = Callable[[ComplexArray, FloatArray], tuple[ComplexArray, ComplexArray]]
+"""Values (m, 4) and derivatives (m, 4, 6) at places (m, 6) and times (m,) from 0 to 1."""
+
+
+def five_point(pivots: Any, points: Any, *, in_order: bool = True) -> ExactSynthesis:
+    """Return all four-bars on two fixed pivots whose coupler point goes through five points: `five_point([(0, 0), (0.1, 0)], points)`.
+
+    `pivots` (2, 2) and `points` (5, 2) [m]. All real solutions are found, each with its machine: `solutions` go through the points in
+    order on one branch, driven at one of the pivots, in any order with `in_order=False`; `misses` say why they do not.
+
+    Raises DefinitionError for pivots or points that coincide or are not as many.
+    """
+    ends, targets = complex_rows("pivots", pivots, 2), complex_rows("points", points, POINTS)
+    a, b = ends
+    own = (targets - a) / (b - a)
+    every = solutions_of(own, own.conj())
+    found: list[ExactMachine] = []
+    for z in real_ones(every, own):
+        A, B = (each * (b - a) + a for each in pins(z, own))
+        one, other = Pivoted(A, a), Pivoted(B, b)
+        if not is_without_links(one, other, abs(b - a)):
+            found.append(judged(one, other, CouplerTask(targets, in_order=bool(in_order))))
+    title = said("Four-bars on two pivots through five points")
+    return exact_synthesis(title, found, len(every))
+
+
+def complex_rows(name: str, given: Any, count: int) -> ComplexArray:
+    """Return places (n, 2) as complex numbers (n,); DefinitionError for another number of them, or for two at one place."""
+    rows = table_of("five_point", name, given, 2)
+    if len(rows) != count:
+        raise DefinitionError(f"five_point: {name}={cited(given)}: {count} places (x, y) are expected, there are {len(rows)}.")
+    found = rows @ np.array([1.0, 1.0j])
+    apart = min(abs(one - other) for one, other in combinations(found, 2))
+    if not apart > 1e-9 * np.ptp(rows, axis=0).max():
+        raise DefinitionError(f"five_point: two of the {name} are at one place; give {count} that differ.")
+    return np.asarray(found)
+
+
+# -- the equations ------------------------------------------------------------------------------------------------
+#
+# In the pivots' own axes, 0 and 1, point j is p, its conjugate q, and both are numbers of their own. The pins A and B stand at x and y
+# from the coupler's point in its first position, X and Y are their conjugates, T the coupler's turning. That A keeps its distance is
+#     q x T + p X / T = q0 x + p0 X - (p q - p0 q0) = e,
+# and that B does, the same of y about 1. Two equations linear in T and 1/T, of which T (1/T) = 1 is what is left: N U = D^2, of degree
+# two in x, X and in y, Y. Both are homogeneous, with a first coordinate of their own.
+
+
+@final
+@dataclass(frozen=True)
+class DyadTerms:
+    """What one pivot gives to the equations: values (m, 4) of e, of q x and of p X, and their derivatives by the homogeneous three."""
+
+    e: ComplexArray
+    turned: ComplexArray
+    back: ComplexArray
+    slopes: tuple[ComplexArray, ComplexArray, ComplexArray]
+
+    @classmethod
+    def of(cls, z: ComplexArray, p: ComplexArray, q: ComplexArray) -> DyadTerms:
+        """Return it at places (m, 3), of points (m, 5)."""
+        constant = p[:, 1:] * q[:, 1:] - p[:, :1] * q[:, :1]
+        one, none = np.ones_like(constant), np.zeros_like(constant)
+        e = q[:, :1] * z[:, 1:2] + p[:, :1] * z[:, 2:] - constant * z[:, :1]
+        by_e = np.stack([-constant, q[:, :1] * one, p[:, :1] * one], axis=2)
+        by_turned, by_back = np.stack([none, q[:, 1:], none], axis=2), np.stack([none, none, p[:, 1:]], axis=2)
+        return cls(e, q[:, 1:] * z[:, 1:2], p[:, 1:] * z[:, 2:], (by_e, by_turned, by_back))
+
+
+def equations_at(z: ComplexArray, p: ComplexArray, q: ComplexArray) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
+    """Return the values (m, 4) of the equations at places (m, 6), their derivatives (m, 4, 6), and D (m, 4)."""
+    one, other = DyadTerms.of(z[:, :3], p, q), DyadTerms.of(z[:, 3:], p - 1.0, q - 1.0)
+    D = one.turned * other.back - one.back * other.turned
+    N = one.e * other.back - other.e * one.back
+    U = one.turned * other.e - other.turned * one.e
+    (e, turned, back), (f, turning, backing) = one.slopes, other.slopes
+    by_D = both(turned * wide(other.back) - back * wide(other.turned), wide(one.turned) * backing - wide(one.back) * turning)
+    by_N = both(e * wide(other.back) - wide(other.e) * back, wide(one.e) * backing - f * wide(one.back))
+    by_U = both(turned * wide(other.e) - wide(other.turned) * e, wide(one.turned) * f - turning * wide(one.e))
+    return N * U - D * D, by_N * wide(U) + wide(N) * by_U - 2.0 * wide(D) * by_D, D
+
+
+def wide(values: ComplexArray) -> ComplexArray:
+    """Return values with one more axis."""
+    return values[:, :, None]
+
+
+def both(one: ComplexArray, other: ComplexArray) -> ComplexArray:
+    """Return the derivatives by the first three coordinates and by the last three as one array."""
+    return np.concatenate([one, other], axis=2)
+
+
+# -- continuation -------------------------------------------------------------------------------------------------
+
+
+@final
+@dataclass(frozen=True)
+class Paths:
+    """A system that changes with time from 0 to 1, on which all solutions are followed together; `patch` (2, 6) norms their coordinates."""
+
+    system: System
+    patch: ComplexArray
+
+    def followed(self, start: ComplexArray) -> tuple[ComplexArray, npt.NDArray[np.bool_]]:
+        """Return where solutions (m, 6) come to, and which of them come to the end."""
+        z, m = start.copy(), len(start)
+        time, step, good = np.zeros(m), np.full(m, BEGIN), np.zeros(m, int)
+        going = np.arange(m)
+        for _ in range(STEPS):
+            if not len(going):
+                break
+            h = np.minimum(step[going], 1.0 - time[going])
+            new, taken = self.stepped(z[going], time[going], h)
+            on, off = going[taken], going[~taken]
+            z[on], time[on] = new[taken], time[on] + h[taken]
+            good[on] += 1
+            grown = on[good[on] >= 2]
+            step[grown], good[grown] = 2.0 * step[grown], 0
+            step[off], good[off] = 0.5 * step[off], 0
+            going = going[(time[going] < 1.0 - 1e-14) & (step[going] > LEAST_STEP)]
+        return z, time >= 1.0 - 1e-12
+
+    def stepped(self, z: ComplexArray, time: FloatArray, h: FloatArray) -> tuple[ComplexArray, npt.NDArray[np.bool_]]:
+        """Return where a step leads, by Runge and Kutta and then Newton, and which of them may be taken."""
+        with np.errstate(all="ignore"):
+            half, whole = 0.5 * h[:, None], h[:, None]
+            first = self.way(z, time)
+            second = self.way(z + half * first, time + 0.5 * h)
+            third = self.way(z + half * second, time + 0.5 * h)
+            fourth = self.way(z + whole * third, time + h)
+            new = z + whole / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
+            far = []
+            for _ in range(3):
+                values, slopes, _ = self.normed(new, time + h)
+                change = solved_each(slopes, -values)
+                new = new + change
+                far.append(abs(change).max(axis=1) / abs(new).max(axis=1))
+            return new, (far[0] < NEAR) & (far[-1] < CLOSE)
+
+    def normed(self, z: ComplexArray, time: FloatArray) -> tuple[ComplexArray, ComplexArray, FloatArray]:
+        """Return values (m, 6) with those of the patch, and derivatives (m, 6, 6), each row by its largest; and these (m, 4)."""
+        values, slopes = self.system(z, time)
+        size = abs(slopes).max(axis=2)
+        patch = np.broadcast_to(self.patch, (len(z), 2, 6))
+        values = np.concatenate([values / size, z @ self.patch.T - 1.0], axis=1)
+        return values, np.concatenate([slopes / size[:, :, None], patch], axis=1), size
+
+    def way(self, z: ComplexArray, time: FloatArray) -> ComplexArray:
+        """Return dz/dt (m, 6)."""
+        _, slopes, size = self.normed(z, time)
+        change = (self.system(z, time + 1e-6)[0] - self.system(z, time - 1e-6)[0]) / 2e-6 / size
+        return solved_each(slopes, np.concatenate([-change, np.zeros((len(z), 2))], axis=1))
+
+
+def solved_each(matrix: ComplexArray, right: ComplexArray) -> ComplexArray:
+    """Return the solutions (m, k) of linear equations; where they have none, NaN."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right[:, :, None])[:, :, 0])
+    except np.linalg.LinAlgError:
+        bad = ~(abs(np.linalg.det(matrix)) > 0.0)
+        eye = np.where(bad[:, None, None], np.eye(matrix.shape[1]), matrix)
+        return np.where(bad[:, None], np.nan, np.linalg.solve(eye, right[:, :, None])[:, :, 0])
+
+
+@lru_cache(maxsize=1)
+def general_task() -> tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray]:
+    """Return the solutions (36, 6) of a general task, complex points p and q (5,), and the patch; worked out once.
+
+    It is continued from 96 solutions of products of linear forms; those that end where T has no value are none.
+    """
+    random = np.random.default_rng(SEED)
+    p, q = gaussian(random, POINTS), gaussian(random, POINTS)
+    forms = gaussian(random, 4, 2, 3), gaussian(random, 4, 2, 3)
+    patch = np.zeros((2, 6), complex)
+    patch[0, :3], patch[1, 3:] = gaussian(random, 3), gaussian(random, 3)
+    turned = np.exp(2j * np.pi * random.random())
+
+    def system(z: ComplexArray, time: FloatArray) -> tuple[ComplexArray, ComplexArray]:
+        values, slopes, _ = equations_at(z, p[None], q[None])
+        one, other = (np.einsum("jkc,mc->mjk", form, part) for form, part in zip(forms, (z[:, :3], z[:, 3:]), strict=True))
+        begun, with_one, with_other = one.prod(2) * other.prod(2), one[:, :, ::-1], other[:, :, ::-1]
+        by_one = np.einsum("mjk,jkc->mjc", with_one, forms[0]) * wide(other.prod(2))
+        by_other = np.einsum("mjk,jkc->mjc", with_other, forms[1]) * wide(one.prod(2))
+        left: ComplexArray = np.asarray(turned * (1.0 - time), complex)[:, None]
+        right: ComplexArray = np.asarray(time, complex)[:, None]
+        slope: ComplexArray = wide(left) * both(by_one, by_other)
+        return np.asarray(left * begun + right * values), np.asarray(slope + wide(right) * slopes)
+
+    start = []
+    for zeros in combinations(range(4), 2):
+        others = [j for j in range(4) if j not in zeros]
+        for k in product((0, 1), repeat=4):
+            x = np.cross(forms[0][zeros[0], k[0]], forms[0][zeros[1], k[1]])
+            y = np.cross(forms[1][others[0], k[2]], forms[1][others[1], k[3]])
+            start.append(np.concatenate([x / (patch[0, :3] @ x), y / (patch[1, 3:] @ y)]))
+    z, ended = Paths(system, patch).followed(np.array(start))
+    kept = z[ended & (abs(equations_at(z, p[None], q[None])[2]).min(axis=1) > FINITE)]
+    found = distinct(kept[is_finite(kept)])
+    if len(found) != GENERAL:
+        raise StudyError(f"five_point: the general task has {len(found)} solutions instead of {GENERAL}.")
+    return found, p, q, patch
+
+
+def gaussian(random: np.random.Generator, *shape: int) -> ComplexArray:
+    """Return complex numbers at random."""
+    return np.asarray(random.normal(size=shape) + 1j * random.normal(size=shape))
+
+
+def is_finite(z: ComplexArray) -> npt.NDArray[np.bool_]:
+    """Return which solutions (m, 6) are not at infinity."""
+    return np.asarray(abs(z[:, [0, 3]]).min(axis=1) > FINITE * abs(z).max(axis=1))
+
+
+def distinct(z: ComplexArray) -> ComplexArray:
+    """Return solutions (m, k), each once."""
+    kept: list[int] = []
+    for place in range(len(z)):
+        if all(abs(z[place] - z[each]).max() > SAME * abs(z[place]).max() for each in kept):
+            kept.append(place)
+    return z[kept]
+
+
+def solutions_of(p: ComplexArray, q: ComplexArray) -> ComplexArray:
+    """Return all solutions (n, 4) of a task that are not at infinity: x, X, y, Y in the pivots' axes.
+
+    Where two paths come to one place, or a solution's conjugate is missing, another way is taken and what it gives is added.
+    """
+    start, first_p, first_q, patch = general_task()
+    random = np.random.default_rng(SEED)
+    found = np.zeros((0, 4), complex)
+    for route in range(ROUTES):
+        bent_p, bent_q = (0.0 * p, 0.0 * q) if not route else (gaussian(random, POINTS), gaussian(random, POINTS))
+
+        def system(z: ComplexArray, time: FloatArray, way: Any = (bent_p, bent_q)) -> tuple[ComplexArray, ComplexArray]:
+            t = time[:, None]
+            between = t * (1.0 - t)
+            values, slopes, _ = equations_at(
+                z, (1.0 - t) * first_p + t * p + between * way[0], (1.0 - t) * first_q + t * q + between * way[1]
+            )
+            return values, slopes
+
+        z, ended = Paths(system, patch).followed(start)
+        kept = z[ended & is_finite(z)]
+        new = np.stack([kept[:, 1] / kept[:, 0], kept[:, 2] / kept[:, 0], kept[:, 4] / kept[:, 3], kept[:, 5] / kept[:, 3]], axis=1)
+        found = distinct(np.concatenate([found, new]))
+        if len(distinct(new)) == len(new) and is_closed(found):
+            break
+    return found
+
+
+def is_closed(z: ComplexArray) -> bool:
+    """Return whether the conjugate of each solution is one as well."""
+    other = z[:, [1, 0, 3, 2]].conj()
+    near = abs(z[:, None] - other[None]).max(axis=2)
+    return bool((near.min(axis=1, initial=np.inf) < REAL * np.maximum(abs(z).max(axis=1, initial=0.0), 1.0)).all())
+
+
+# -- real solutions -----------------------------------------------------------------------------------------------
+
+
+def real_ones(z: ComplexArray, own: ComplexArray) -> list[tuple[complex, complex]]:
+    """Return the real ones of solutions (n, 4), x and y, made exact by Newton's method."""
+    found: list[tuple[complex, complex]] = []
+    for x, X, y, Y in z:
+        if abs(X - np.conj(x)) + abs(Y - np.conj(y)) > REAL * max(abs(x), abs(y), 1.0):
+            continue
+        exact = exact_pins(x, y, own)
+        if exact is not None:
+            found.append(exact)
+    return found
+
+
+def exact_pins(x: complex, y: complex, own: ComplexArray) -> tuple[complex, complex] | None:
+    """Return x and y with the coupler's four turnings made exact; None where these are none."""
+    turned = turnings(x, y, own)
+    if not np.isfinite(turned).all() or abs(abs(turned) - 1.0).max() > 1e-4:
+        return None
+    state = np.array([x.real, x.imag, y.real, y.imag, *np.angle(turned)])
+    for _ in range(8):
+        values, slopes = residuals(state, own)
+        try:
+            change = np.linalg.solve(slopes, -values)
+        except np.linalg.LinAlgError:
+            return None
+        state = state + change
+        if abs(change).max() < 1e-15 * max(abs(state).max(), 1.0):
+            break
+    values, _ = residuals(state, own)
+    scale = max(abs(own).max(), abs(state[:4]).max(), 1.0) ** 2
+    return (complex(*state[:2]), complex(*state[2:4])) if abs(values).max() < POLISHED * scale else None
+
+
+def turnings(x: complex, y: complex, own: ComplexArray) -> ComplexArray:
+    """Return the coupler's turning at the points after the first, (4,)."""
+    one, other = own, own - 1.0
+    e, f = (2.0 * (each[0].conj() * z).real - abs(each[1:]) ** 2 + abs(each[0]) ** 2 for each, z in ((one, x), (other, y)))
+    with np.errstate(all="ignore"):
+        D = one[1:].conj() * x * other[1:] * np.conj(y) - one[1:] * np.conj(x) * other[1:].conj() * y
+        return np.asarray((e * other[1:] * np.conj(y) - f * one[1:] * np.conj(x)) / D)
+
+
+def residuals(state: FloatArray, own: ComplexArray) -> tuple[FloatArray, FloatArray]:
+    """Return by how much both pins change their squared distances at four points (8,), half of it, and the derivatives (8, 8)."""
+    x, y, turned = complex(*state[:2]), complex(*state[2:4]), np.exp(1j * state[4:])
+    values, slopes = np.zeros(8), np.zeros((8, 8))
+    for k, (each, z) in enumerate(((own, x), (own - 1.0, y))):
+        there = each[1:] + turned * z
+        values[4 * k : 4 * k + 4] = 0.5 * (abs(there) ** 2 - abs(each[0] + z) ** 2)
+        by_z = there.conj() * turned - np.conj(each[0] + z)
+        slopes[4 * k : 4 * k + 4, 2 * k], slopes[4 * k : 4 * k + 4, 2 * k + 1] = by_z.real, -by_z.imag
+        slopes[4 * k : 4 * k + 4, 4:] = np.diag((there.conj() * 1j * turned * z).real)
+    return values, slopes
+
+
+def pins(z: tuple[complex, complex], own: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
+    """Return the places (5,) of both pins in the pivots' axes."""
+    turned = np.concatenate([[1.0], turnings(*z, own)])
+    turned = turned / abs(turned)
+    return own + turned * z[0], own + turned * z[1]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, final
 
@@ -18,6 +18,7 @@ from ..program import FloatArray, Kernel, RunOptions
 from .measured import traced_number
 from .problem import Problem, is_still
 from .sampling import all_placed
+from .solver import MET
 from .tasks import TaskRows
 
 TURN = 2.0 * np.pi
@@ -25,6 +26,8 @@ WHOLE = 96
 """Poses of a stroke at which a population is looked at, whether it is assembled over all of it."""
 PIECE = 1 << 20
 """Poses of a population that are looked at at a time."""
+SMALL = 1e-3
+"""Of a task's size: what misses are measured with at the least, where a search with conditions starts from a fit that is nearly exact."""
 ENOUGH = 1e-15
 """Of a task's size: a miss that is smaller is rounding."""
 WAY = RunOptions("numpy")
@@ -148,6 +151,14 @@ class Fit:
         """Return which designs (m, n) are assembled at all poses of the stroke that are looked at, (m,)."""
         return np.asarray(self.swept(unit)[1].all(axis=1))
 
+    def keeping(self, unit: FloatArray) -> Mask:
+        """Return which designs (m, n) are assembled over the whole stroke and keep the conditions at the poses that are looked at, (m,)."""
+        found = self.whole(unit)
+        if self.problem.constraints and found.any():
+            short = self.problem.missing_of_each(self.combination, unit[found][:, : self.n]).max(axis=0, initial=0.0)
+            found[found] = short <= MET
+        return found
+
     def swept(self, unit: FloatArray, count: int = WHOLE) -> tuple[FloatArray, Mask]:
         """Return what is wanted over the whole stroke, (m, r, count), and where it is reached; of a crank without the end of its turn."""
         strokes = self.timing.start + self.timing.span * np.linspace(0.0, 1.0, count, endpoint=not self.timing.turn)
@@ -173,19 +184,25 @@ class Fit:
         return np.concatenate([by_unit, by_own], axis=-1).reshape(len(at), r * points, -1)
 
     def descend(
-        self, at: FloatArray, base: FloatArray, steps: int, *, whole: bool = False, held: Sequence[int] = ()
+        self,
+        at: FloatArray,
+        base: FloatArray,
+        steps: int,
+        *,
+        through: Callable[[FloatArray], Mask] | None = None,
+        held: Sequence[int] = (),
     ) -> tuple[FloatArray, FloatArray]:
         """Return where the misses are least near starts (m, n + w), and the sums of their squares (m,), infinite out of reach.
 
-        `whole`: only through designs that are assembled over the whole stroke. Coordinates that are `held` stay where they are.
+        `through` says which designs (m, n + w) a search may come through, all by default. Coordinates that are `held` stay where they are.
         """
         if not len(at):
             return at, np.zeros(0)
 
         def misses(unit: FloatArray, which: Index) -> FloatArray:
             found = self.misses(unit, base[which])
-            if whole:
-                found[~self.whole(unit)] = np.nan
+            if through is not None:
+                found[~through(unit)] = np.nan
             return found
 
         def slopes(unit: FloatArray, which: Index) -> FloatArray:
@@ -221,7 +238,7 @@ class FitSquares:
             self.own = np.where(sense * (self.own - self.own[0]) > turn, self.own[0] + sense * turn, self.own)
             lines = sense * np.concatenate([np.diff(every, axis=0), every[[0]] - every[[-1]]])
             self.own_lines = lines, np.append(np.zeros(fit.width - 1), turn)
-        self.size = float(np.sqrt(fit.errors(at[None], self.base)[0])) or 1.0
+        self.size = max(float(np.sqrt(fit.errors(at[None], self.base)[0])), SMALL * fit.rows.size)
 
     def misses(self, at: FloatArray) -> FloatArray:
         """Return the scaled misses (k,)."""

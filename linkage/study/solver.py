@@ -28,6 +28,8 @@ ROUNDS = 12
 """How often poses between the samples are added at the most."""
 MET = 1e-7
 """A condition is met when nothing more than this part of its size is missing."""
+SPARE = 2e-7
+"""Of a condition's size: what least squares keep of it to spare, so that the judge, who is stricter, finds it kept between the samples."""
 TIGHT = 1e-13
 MISSING, NO_GAIN, PATIENCE = 100.0, 1e-9, 30
 """What a missed line counts beside the objective; a gain by no more is none, and after so many looks without one there is none to come."""
@@ -157,7 +159,8 @@ class Local:
     ) -> None:
         self.problem, self.combination, self.elastic = problem, tuple(combination), tuple(elastic)
         self.squares, self.own = squares, np.zeros(0) if squares is None else np.array(squares.own, float)
-        self.clear = CLEAR
+        self.clear, self.spare = CLEAR, 0.0 if squares is None else SPARE
+        self._stages: Sequence[float] = APPROACH
         self.n = len(problem.space.variables)
         self._looks: dict[bytes, tuple[Evaluated, bool]] = {}
         self._rows: dict[bytes, list[Row]] = {}
@@ -356,7 +359,7 @@ class Local:
             if not equation or not np.isfinite(values[0]):
                 values, slopes = without_gaps(values, slopes)
             slopes = bounded(slopes)
-        values = values + slopes[:, : self.n] @ way - loss
+        values = values + slopes[:, : self.n] @ way - loss - (0.0 if equation else self.spare)
         column = self._slack_column(each)
         if column is not None:
             slopes = np.array(slopes)
@@ -410,9 +413,11 @@ class Local:
         low[: self.n], high[: self.n] = 0.0, 1.0
         low[self.width - self.slack :] = 0.0
         if self.squares is not None:
-            for self.clear in APPROACH:
+            for clear in self._stages:
+                self.clear = clear
                 self._rows.clear()
                 z = self._fitted(self.squares, z, (low, high), most)
+            self._stages = APPROACH[-1:]  # with further poses, from where it stands
             return z
         if method == "trust-constr":
             return self._trusted(z, Bounds(low, high), most)

@@ -146,13 +146,14 @@ def by_owner(fit: Fit, values: FloatArray) -> dict[str, Any]:
 class Starts:
     """Where local searches of a fit start: unit coordinates with the points' own unknowns (m, n + w), and the strokes' base (m, n).
 
-    `running` is how many designs of the population run over the whole stroke.
+    `running` is how many designs of the population run over the whole stroke, `keeping` the starts that keep the conditions.
     """
 
     fit: Fit
     at: FloatArray
     base: FloatArray
-    running: int
+    running: int = 0
+    keeping: Starts | None = None
 
 
 def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: Any, *, runs: bool) -> tuple[FloatArray, FloatArray]:

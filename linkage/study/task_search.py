@@ -22,7 +22,6 @@ from .designs import Array
 from .fit import Fit, Timing
 from .optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
 from .problem import Problem, end_words, is_still
-from .solver import MET
 from .space import Space
 from .starts import POPULATION, WHOLE_ENOUGH, Likeness, Starts, standing_apart
 from .survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
@@ -37,13 +36,16 @@ from .synthesis import (
     misses_of,
     poorest_transmission,
 )
-from .task_work import STEPS, Combination, DescentWork, LayWork, LookWork, PolishWork, SearchRows, Stages
+from .task_work import STEPS, Combination, DescentWork, LayWork, LookWork, PolishWork, SearchRows, Stages, Through
 from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, task_of, timed_as
 
 STARTS = 64
 POLISHED, FEW = 8, 3
 """Ends that do not keep a condition, or that stand where a machine just runs, from which is searched on with all conditions: a few at a
 time, then only from those that may come to less."""
+CLOSE, KEEPING, HOPE = 512, 16, 1.2
+"""Designs that lie best on the task, of which those are started from that keep the conditions, and how many of these; such an end is
+searched on from where its error is at most so many times the best."""
 SAME, NEAR = 1e-5, 1e-2
 """Of a side of the box: ends nearer than the first are one, nearer than the second where their errors are the same."""
 ALIKE = 1e-6
@@ -254,8 +256,18 @@ class TaskSearch:
         found = []
         for (_, own), each, fit, runs in zip(parts, found_of_parts(laid, parts), fits, whole, strict=True):
             places = standing_apart(own["unit"], each["error"], self.many)
-            found.append(Starts(fit, each["at"][places], each["base"][places], int(runs.sum())))
+            found.append(Starts(fit, each["at"][places], each["base"][places], int(runs.sum()), self.that_keep(fit, each)))
         return found
+
+    def that_keep(self, fit: Fit, laid: Mapping[str, Array]) -> Starts:
+        """Return the best of laid designs that keep the conditions and stand apart; none where there are no conditions."""
+        close = np.argsort(laid["error"], kind="stable")[: CLOSE if self.problem.constraints else 0]
+        at, base, error = (laid[name][close] for name in ("at", "base", "error"))
+        if len(at):
+            with self.problem.count.without_limit():
+                error = np.where(fit.keeping(at), error, np.inf)
+        places = standing_apart(at[:, : fit.n], error, min(KEEPING, self.many))
+        return Starts(fit, at[places], base[places])
 
     # -- local searches ------------------------------------------------------------------------------------
 
@@ -268,10 +280,17 @@ class TaskSearch:
             again = [self.that_run_first(each, ends) for each, ends in zip(first, free, strict=True)]
             for each, begun, at in zip(found, again, self.descended(stages, "running", again), strict=True):
                 each.append(self.ends_of(begun.fit, at, begun.base))
+        keeping = [each.keeping for each in first if each.keeping is not None and len(each.keeping.at)]
+        kept = dict[Fit, Ends]()
+        if keeping and not self.problem.count.is_spent:  # and through machines that keep the conditions
+            for begun, at in zip(keeping, self.descended(stages, "keeping", keeping), strict=True):
+                kept[begun.fit] = self.ends_of(begun.fit, at, begun.base)
+            for each in found:
+                each += [kept[each[0].fit]] if each[0].fit in kept else []
         stepped = [place for place, each in enumerate(self.problem.space.variables) if each.step is not None]
         if stepped:
             return [self.on_steps(each, stepped) for own in found for each in own]
-        ways = [Polishing(self, starts, own) for starts, own in zip(first, found, strict=True)]
+        ways = [Polishing(self, starts, own, kept.get(starts.fit)) for starts, own in zip(first, found, strict=True)]
         wave = 0
         while not self.problem.count.is_spent and any([each.next() for each in ways]):
             self.polished(stages, wave, ways)
@@ -283,13 +302,13 @@ class TaskSearch:
         with self.problem.count.without_limit():
             away = np.flatnonzero(~first.fit.whole(ends.at)) if len(ends.at) else np.zeros(0, int)
             away = away[first.fit.whole(first.at[away])] if len(away) else away
-        return Starts(first.fit, first.at[away], first.base[away], 0)
+        return Starts(first.fit, first.at[away], first.base[away])
 
-    def descended(self, stages: Stages, name: str, first: Sequence[Starts], told: int = 0) -> list[FloatArray]:
+    def descended(self, stages: Stages, name: Through, first: Sequence[Starts], told: int = 0) -> list[FloatArray]:
         """Return where local searches end, or where they stand when the limit is reached."""
         parts = [(each.fit.combination, {"at": each.at, "base": each.base}) for each in first]
         rows = SearchRows.joined(parts)
-        found = stages.done(name, DescentWork(*self.shared, name == "running", self.most(rows.count)), rows, told=told)
+        found = stages.done(name, DescentWork(*self.shared, name, self.most(rows.count)), rows, told=told)
         return [each["at"] for each in found_of_parts(found, parts)]
 
     def polished(self, stages: Stages, wave: int, ways: Sequence[Polishing]) -> None:
@@ -302,15 +321,9 @@ class TaskSearch:
 
     def ends_of(self, fit: Fit, at: FloatArray, base: FloatArray) -> Ends:
         """Return ends, with their errors and with which of them run over the whole stroke and keep the conditions."""
-        good = np.zeros(len(at), bool)
         with self.problem.count.without_limit():
             error = fit.errors(at, base)
-        if len(at):
-            with self.problem.count.without_limit():
-                good = fit.whole(at) & np.isfinite(error)
-                if self.problem.constraints and good.any():
-                    short = self.problem.missing_of_each(fit.combination, at[good][:, : fit.n]).max(axis=0, initial=0.0)
-                    good[good] = short <= MET
+            good = fit.keeping(at) & np.isfinite(error) if len(at) else np.zeros(0, bool)
         return Ends(fit, at, base, error, good)
 
     def on_steps(self, ends: Ends, stepped: Sequence[int]) -> Ends:
@@ -415,14 +428,19 @@ class TaskSearch:
 class Polishing:
     """Which ends of one combination are searched on from with all conditions: those that miss one or the order, the best first.
 
-    Only those of which the error leaves hope to better what is good already; where one does not run, from its start.
+    Only those of which the error leaves hope to better what is good already; where one does not run, from its start. Then a few of those
+    that came through designs which keep the conditions.
     """
 
-    def __init__(self, search: TaskSearch, first: Starts, found: Sequence[Ends]) -> None:
-        self.search, self.fit, self.first, self.free = search, first.fit, first, found[0]
+    def __init__(self, search: TaskSearch, first: Starts, found: Sequence[Ends], kept: Ends | None) -> None:
+        self.search, self.fit, free = search, first.fit, found[0]
         good = [search.good_in_order(each) for each in found]
         self.best = min([np.inf, *(float(one) for each, mask in zip(found, good, strict=True) for one in each.error[mask])])
-        self.left = [int(k) for k in np.argsort(self.free.error, kind="stable") if not good[0][k]]
+        every = [free, *([] if kept is None else [kept])]
+        self.at, self.base, self.error = (np.concatenate([getattr(each, name) for each in every]) for name in ("at", "base", "error"))
+        self.first = np.concatenate([first.at, *(each.at for each in every[1:])])
+        self.left = [int(k) for k in np.argsort(free.error, kind="stable") if not good[0][k]]
+        self.kept = [len(free.at) + int(k) for each in every[1:] for k in np.argsort(each.error, kind="stable")[:FEW]]
         self.tried: list[FloatArray] = []
         self.ends: list[Ends] = []
         self.now: list[int] = []
@@ -430,17 +448,24 @@ class Polishing:
     def next(self) -> bool:
         """Choose the next designs; return whether there are any."""
         self.now = []
-        while self.left and len(self.tried) < POLISHED and len(self.now) < FEW and self.free.error[self.left[0]] < self.best:
-            k = self.left.pop(0)
-            if not any(np.abs(self.free.at[k] - other).max() < NEAR for other in self.tried):
-                self.tried.append(self.free.at[k])
-                self.now.append(k)
+        while self.left and len(self.tried) < POLISHED and len(self.now) < FEW and self.error[self.left[0]] < self.best:
+            self.choose(self.left.pop(0))
+        while not self.now and self.kept:
+            k = self.kept.pop(0)
+            if self.error[k] <= HOPE * self.best:
+                self.choose(k)
         return bool(self.now)
+
+    def choose(self, k: int) -> None:
+        """Take a design next, unless one beside it was searched from before."""
+        if not any(np.abs(self.at[k] - other).max() < NEAR for other in self.tried):
+            self.tried.append(self.at[k])
+            self.now.append(k)
 
     @property
     def rows(self) -> dict[str, FloatArray]:
         """The next designs, each with its start and the strokes' base."""
-        return {"at": self.free.at[self.now], "first": self.first.at[self.now], "base": self.first.base[self.now]}
+        return {"at": self.at[self.now], "first": self.first[self.now], "base": self.base[self.now]}
 
     def enter(self, at: FloatArray, base: FloatArray) -> None:
         """Take in what searches came to."""

@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from hashlib import blake2b
 from itertools import groupby
-from typing import Any, ClassVar, final
+from typing import Any, ClassVar, Literal, TypeAlias, final
 
 import numpy as np
 
@@ -28,6 +28,8 @@ STEPS, TURNS = 60, 5
 """Steps of a local search between two looks at the limit, and how many times so many."""
 
 Combination = tuple[int, ...]
+Through: TypeAlias = Literal["free", "running", "keeping"]
+"""What a local search comes through: any designs, those that run over the whole stroke, or those that keep the conditions, too."""
 
 
 @final
@@ -161,24 +163,25 @@ class LayWork(FitWork):
 @final
 @dataclass(frozen=True, eq=False)
 class DescentWork(FitWork):
-    """Local searches, all of a piece together; `whole`: only through designs that run. `most`: designs that each may look at, if any."""
+    """Local searches, all of a piece together, `through` some designs. `most`: designs that each may look at, if any."""
 
-    whole: bool
+    through: Through
     most: float
     piece: ClassVar[int] = 64
 
     @property
     def facts(self) -> str:
-        return f"{super().facts} {self.whole} {self.most}"
+        return f"{super().facts} {self.through} {self.most}"
 
     def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
         at, base = np.array(rows["at"]), rows["base"]
         error, going = fit.errors(at, base), np.arange(len(at))
+        through = {"free": None, "running": fit.whole, "keeping": fit.keeping}[self.through]
         for _ in range(TURNS):
             if not len(going) or fit.problem.count.designs >= self.most * len(at):
                 break
             before = error[going]
-            at[going], error[going] = fit.descend(at[going], base[going], STEPS, whole=self.whole)
+            at[going], error[going] = fit.descend(at[going], base[going], STEPS, through=through)
             going = going[error[going] < (1.0 - 1e-9) * before]
         return {"at": at}
 

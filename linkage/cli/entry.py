@@ -36,6 +36,7 @@ HOMES = {
     "export": "export:ExportCommand",
     "save": "show:SaveCommand",
     "optimise": "optimise:OptimiseCommand",
+    "synthesise": "synthesise:SynthesiseCommand",
     "study": "study:StudyCommand",
     "new": "new:NewCommand",
     "doctor": "doctor:DoctorCommand",

@@ -106,7 +106,7 @@ def read_search(
         if key in data:
             with faults.at(key):
                 arguments[key] = read(data[key])
-    rounding = rounding_said(head)
+    rounding = rounding_said(head, data.get("round"))
     outputs = outputs_said(head, SEARCH_OUTPUTS)
     for name in outputs:
         if several and name != "designs":
@@ -130,32 +130,31 @@ def objectives_listed(head: StudyHead, over: Mapping[str, Any] | None) -> dict[s
     return found
 
 
-def conditions_listed(head: StudyHead, given: object, over: Mapping[str, Any] | None) -> list[Any]:
-    """Return the conditions of a list of texts; mistakes are noted, each with its number."""
+def conditions_listed(head: StudyHead, given: object, over: Mapping[str, Any] | None, *key: str) -> list[Any]:
+    """Return the conditions of a list of texts; mistakes are noted behind a key, each with its number."""
     found: list[Any] = []
     if isinstance(given, str):
         given = [given]
     if not isinstance(given, list):
-        head.faults.add(("subject_to",), f'{shortened(given)}: a list of conditions is expected, such as ["most(tilt) <= 8 deg"].')
+        head.faults.add((*key, "subject_to"), f'{shortened(given)}: a list of conditions is expected, such as ["most(tilt) <= 8 deg"].')
         return found
     for number, text in enumerate(given, 1):
-        with head.faults.at("subject_to", str(number)):
+        with head.faults.at(*key, "subject_to", str(number)):
             found.append(condition_said(text, head.machine, over))
     return found
 
 
-def rounding_said(head: StudyHead) -> dict[str, float] | None:
-    """Return the steps that a design is rounded to; None where the file says none. Mistakes are noted."""
-    given = head.data.get("round")
+def rounding_said(head: StudyHead, given: object, *key: str) -> dict[str, float] | None:
+    """Return the steps that a design is rounded to; None where the file says none. Mistakes are noted behind a key."""
     found: dict[str, float] = {}
-    with head.faults.at("round"):
+    with head.faults.at(*key, "round"):
         table = given if isinstance(given, Mapping) else {} if given is None else {"to": given}
-        for key, value in table.items():
-            if key not in ROUND_KEYS:
-                raise DefinitionError(f'{key} is no step; write round = {{ to = "1 mm", angle = "0.1 deg" }}.')
-            found[key] = amount_said(value, ROUND_KEYS[key])
-            if found[key] <= 0.0:
+        for step, value in table.items():
+            if step not in ROUND_KEYS:
+                raise DefinitionError(f'{step} is no step; write round = {{ to = "1 mm", angle = "0.1 deg" }}.')
+            found[step] = amount_said(value, ROUND_KEYS[step])
+            if found[step] <= 0.0:
                 raise DefinitionError(f"{shortened(value)}: a step above zero is expected.")
-            if key == "to" and found[key] > COARSEST * size_of_machine(head.machine):
+            if step == "to" and found[step] > COARSEST * size_of_machine(head.machine):
                 raise DefinitionError(f'{shortened(value)} is as coarse as the machine; write it with its unit, "1 mm".')
     return None if given is None else found

@@ -147,22 +147,22 @@ def value_said(given: object, plan: Plan, name: str) -> Any:
 RANGE_KEYS = ("from", "to", "step", "around", "choices")
 
 
-def vary_said(head: StudyHead, given: object) -> dict[Any, Any]:
-    """Return what varies as `optimise` takes it; mistakes are noted, each under its name."""
+def vary_said(head: StudyHead, given: object, *key: str) -> dict[Any, Any]:
+    """Return what varies as `optimise` takes it; mistakes are noted, each under its name behind a key."""
     found: dict[Any, Any] = {}
-    with head.faults.at("vary"):
+    with head.faults.at(*key, "vary"):
         entries = list(flattened(given, head.plan, "vary", RANGE_KEYS))
         if not entries:
-            raise DefinitionError(f'nothing varies; write [vary] OB = "270 to 330 mm": {RANGE_WORDS}.')
+            raise DefinitionError(f'nothing varies; write [{".".join((*key, "vary"))}] OB = "270 to 330 mm": {RANGE_WORDS}.')
         for name, value in entries:
-            with head.faults.at("vary", name):
+            with head.faults.at(*key, "vary", name):
                 names = tuple(part.strip() for part in name.split(","))
                 for part in names:
                     known_dimension(head.machine, part) if part not in head.plan.points else None
-                key = names if len(names) > 1 else names[0]
+                varied = names if len(names) > 1 else names[0]
                 said = rows_said(value, head.plan, names) if len(names) > 1 else range_said(value, head.plan, names[0])
-                Space.of(head.machine, {key: said})
-                found[key] = said
+                Space.of(head.machine, {varied: said})
+                found[varied] = said
     return found
 
 

@@ -12,18 +12,19 @@ from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism, design_of_motion, require_mechanism
 from ..motion import Column, Motion, RequestLike, live_text
 from ..reports import NOTHING, At
-from ..study import WorkingField
+from ..study import Synthesis, WorkingField
 from .browser_data import PageRequests, page_data
 from .browser_file import page_part, page_text
 from .chart_page import chart_page
 from .strokes import frame_count
+from .task_page import task_page
 
 COUNT = 101
 """Poses of the curve."""
 
 
 def page(
-    machine: Mechanism | Motion | WorkingField,
+    machine: Mechanism | Motion | WorkingField | Synthesis,
     path: str | Path,
     *,
     vary: Sequence[str] | Mapping[str, Sequence[float] | None] | None = None,
@@ -57,10 +58,13 @@ def page(
     mouse, a finger or the arrow keys, and all that the cell says: the load, what limits it, what each limiter leaves, the strokes, or why
     it is out of reach. Only `language` goes with it.
 
+    Of what a synthesis found it is the page of the best machine, with the task on the sheet or on the curve and what is missed of it,
+    worked out anew as dimensions change. The other answers of its class can be chosen, and the sliders are what was searched.
+
     Raises DefinitionError for a batch of designs, an unknown name, or a file that does not end in .html, FileError for a path that cannot
     be written.
     """
-    if not isinstance(machine, (Motion, WorkingField)):
+    if not isinstance(machine, (Motion, WorkingField, Synthesis)):
         require_mechanism(machine)
     if not isinstance(path, (str, os.PathLike)) or Path(path).suffix.lower() != ".html":
         raise DefinitionError(f"{cited(path)} is no name of a page; give one that ends in .html.")
@@ -72,7 +76,11 @@ def page(
         text = chart_page(machine, language)
     else:
         given: dict[str, Any] = {"vary": vary, "columns": columns, "column": column, "trace": trace, "limit": limit}
-        text = page_html(machine, place=target, count=count, language=language, at=at, **given)
+        if isinstance(machine, Synthesis):
+            check_place(target)
+            text = task_page(machine, count=count, language=language, at=at, **given)
+        else:
+            text = page_html(machine, place=target, count=count, language=language, at=at, **given)
     with replacing_text(target) as stream:
         stream.write(text)
     return target

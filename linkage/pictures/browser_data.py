@@ -92,8 +92,9 @@ class PageRequests:
         limit: Any = None,
         at: At = NOTHING,
         along: Motion | None = None,
+        over: Mapping[str, Any] | None = None,
     ) -> None:
-        self.machine, self.plan, self.along = machine, machine.plan, along
+        self.machine, self.plan, self.along, self.over = machine, machine.plan, along, over
         self.run, self.first = (run_of(machine, at), 0) if along is None else run_along(along)
         self.ends = self.run.ways[self.run.stroke]
         values: dict[str, Any] = {**self.run.held, self.run.stroke: np.linspace(self.ends[0], self.ends[-1], count)}
@@ -112,7 +113,8 @@ class PageRequests:
             self.columns = chosen_columns(machine, self.motion, columns)
         self.column = self._column(column)
         self.limits = self._limits(limit)
-        self.questions = LiveQuestions(machine, {name: limit[:3] for name, limit in self.limits.items()}, self.columns, along)
+        judged = along if over is None else over
+        self.questions = LiveQuestions(machine, {name: limit[:3] for name, limit in self.limits.items()}, self.columns, judged)
         self.by_name: dict[str, RequestLike] = {}
         self._ask()
 
@@ -290,7 +292,7 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "paths": [list(plan.points).index(name) for name in requests.trace],
         "grips": grip_data(plan, names),
         "steps": {name: opening(plan, name) for name in plan.points},
-        "verdicts": verdict_data(machine, requests.along),
+        "verdicts": verdict_data(machine, requests.along, requests.over),
         "judge": requests.questions.data(live),
         "domain": "; ".join(place.over.words(place.motion) for place in requests.questions.judge.places),
     }
@@ -538,8 +540,8 @@ def label_offsets(scene: Scene) -> list[list[float]]:
     return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
 
 
-def verdict_data(machine: Mechanism, along: Motion | None) -> list[list[Any]]:
-    """Return the machine's verdicts over all that it runs, or along a motion, as they stand for the design that is delivered.
+def verdict_data(machine: Mechanism, along: Motion | None, over: Mapping[str, Any] | None = None) -> list[list[Any]]:
+    """Return the machine's verdicts over all that it runs, along a motion or over a part, as they stand for the design that is delivered.
 
     Each is 1 where it is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence, then
     what differs in Russian.
@@ -548,7 +550,7 @@ def verdict_data(machine: Mechanism, along: Motion | None) -> list[list[Any]]:
     for name in ("en", "ru"):
         with language(name), unwarned():
             try:
-                said[name] = [verdict_parts(each) for each in machine.verdicts(along)]
+                said[name] = [verdict_parts(each) for each in machine.verdicts(along, over=over)]
             except LinkageError as error:
                 said[name] = [(2, "", str(error))]
     pairs = zip(said["en"], said["ru"], strict=True) if len(said["en"]) == len(said["ru"]) else [(each, each) for each in said["en"]]

@@ -47,7 +47,7 @@ def where_true(request: Request, which: str) -> NodeRequest:
 class LiveQuestions:
     """The questions of a page, and the rows that they ask the program for, by names of their own."""
 
-    def __init__(self, machine: Mechanism, limits: Mapping[str, Any], columns: Mapping[str, Any], over: Motion | None) -> None:
+    def __init__(self, machine: Mechanism, limits: Mapping[str, Any], columns: Mapping[str, Any], over: Any) -> None:
         self.machine, self.judge = machine, machine.judge(over)
         self.by_name: dict[str, RequestLike] = {}
         self.only = [self.rows_of_conditions(place.over.only) for place in self.judge.places]

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from ..assembly import Assembly
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike
 from ..reports import NOTHING
-from ..study import Optimum, WorkingField
+from ..study import Optimum, Synthesis, WorkingField
 from .chain import draw_chain
 from .curves import plot_machine, plot_motion
 from .designs import draw_designs
@@ -23,6 +23,7 @@ from .mode_page import draw_modes
 from .optimum import draw_optimum, plot_optimum
 from .overlays import Overlays
 from .poses import draw_machine
+from .synthesis import draw_synthesis
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
 def draw(machine: Motion, *, ax: Axes, pose: int | tuple[int, ...] = ..., faint: bool = ...) -> Drawing: ...
 @overload
 def draw(machine: Optimum, *, count: int = ...) -> Figure: ...
+@overload
+def draw(machine: Synthesis, *, count: int = ..., answers: int = ...) -> Figure: ...
 @overload
 def draw(machine: Sequence[Assembly]) -> Figure: ...
 @overload
@@ -63,7 +66,7 @@ def draw(
 @overload
 def draw(machine: nx.MultiGraph) -> Figure: ...
 def draw(
-    machine: Mechanism | Motion | Optimum | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism],
+    machine: Mechanism | Motion | Optimum | Synthesis | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism],
     at: Any = None,
     path: Sequence[str] = (),
     count: int = 101,
@@ -79,6 +82,7 @@ def draw(
     velocities: Mapping[str, Any] | None = None,
     pole: bool | str | tuple[str, str] = False,
     clearance: bool | tuple[str, str] = False,
+    answers: int | None = None,
 ) -> Figure | Drawing:
     """Return a figure of a mechanism at chosen strokes, the last one bold and the others faint; or a motion at one of its poses.
 
@@ -106,11 +110,22 @@ def draw(
 
     Of the result of a search, the machine before, faint, and after, bold, at both ends of its stroke, with how far each pin moved.
 
+    Of what a synthesis found, its best machines side by side, three unless `answers` says how many: each beside its task, the points
+    numbered, with the path of the point over the whole stroke, the machine at the first of them, and what is missed, drawn so many times
+    as long that it can be seen; of a function the wanted values and the curve, of poses the body at each.
+
     Of `machine.graph`, the kinematic chain: its bodies, and the pins and slides between them.
     """
     laid = (faint, forces, pole, clearance)
     is_laid = ax is not None or velocities is not None or any(each is not None and each is not False for each in laid)
     is_laid = is_laid or not (isinstance(pose, int) and pose == 0)
+    if isinstance(machine, Synthesis):
+        if at is not None or path or is_laid:
+            title = machine.start.plan.title
+            raise DefinitionError(f"{title}: what a synthesis found is drawn beside its task; it takes answers= and count= alone.")
+        return draw_synthesis(machine, 3 if answers is None else answers, count)
+    if answers is not None:
+        raise DefinitionError(f"draw(answers={cited(answers)}): answers are those of a synthesis; leave it out.")
     if isinstance(machine, Sequence):
         modes = [each for each in machine if isinstance(each, Assembly)]
         designs = [each for each in machine if not isinstance(each, Assembly)]

@@ -162,7 +162,7 @@ function build() {
     return () => { if (seen !== edition) { seen = edition; set(line, { d: broken([...now.along.keys()].map((i) => (now.reason[i] ? null : px(...spot(now, point, i))))) }); } };
   });
   const first = () => [ghostly(draw(sheet, "path", { class: "line", w: 2, dash: "2 5", stroke: css("muted") }))];
-  parts = drawn({ first, under: paths, over: () => [...data.arrows.map(arrow), ...named(), ...data.grips.map(grip)] });
+  parts = drawn({ first, under: paths, over: () => [...data.arrows.map(arrow), ...(data.task ? wanted() : []), ...named(), ...data.grips.map(grip)] });
   keys = draw(sheet, "g", {});
 }
 /* The delivered design at the same stroke, as a faint outline, where the design has changed. */
@@ -215,7 +215,7 @@ function plotted() {
   const stroke = strokes[runs], given = one && data.limits[one.name], limit = given ? [given[0] / one.factor, limitText(given), given[2]] : null;
   const values = inUnit(one, now), others = two ? inUnit(two, now) : null, was = isChanged() || isMoved() ? inUnit(one, base) : null;
   const same = two && two.unit === one.unit, T = 10, B = 40;
-  const [low, high] = range([values, isMoved() ? null : was, same ? others : null], limit), [low2, high2] = same ? [low, high] : range([others]);
+  const [low, high] = range([values, isMoved() ? null : was, same ? others : null, data.task ? wantedValues(one) : null], limit), [low2, high2] = same ? [low, high] : range([others]);
   const left = ticks(low, high, H < 180 ? 4 : 6), right = two && !same ? ticks(low2, high2, H < 180 ? 4 : 6) : [];
   const L = 14 + 7.2 * max(...left.map((each) => each[1].length), 2), R = right.length ? 14 + 7.2 * max(...right.map((each) => each[1].length)) : 12;
   const along = Array.from(now.along, (value) => value / stroke.factor), least = min(...along), most = max(...along);
@@ -257,6 +257,7 @@ function plotted() {
     rule(L, at, W - R, at, "accent", { dash: "7 4", w: 1.5 });
     write(late ? W - R - 5 : L + 5, at + (limit[2] === "below" ? 15 : -6), limit[1], { class: "note halo", anchor: late ? "end" : "start" });
   }
+  if (data.task) wantedOnCurve(x, y, one);
   const reason = one && one.row === undefined && one.why ? one.why : "";
   if (!values && one) write(L + 8, T + 18, say("as delivered only: this column is not followed in the page"), { class: "note halo" });
   byId("column").title = reason;
@@ -341,6 +342,7 @@ function verdicts(n = STILL) {
   let tight = null;
   for (const { point, row } of data.joints) { const ext = extremes(now.values[row]); if (ext && (!tight || ext.low.value < tight.value)) tight = { ...ext.low, point }; }
   if (tight) add(null, say("transmission"), say("least angle {angle}, of {joint} at {where}", { joint: tight.point, angle: `${fixed((tight.value * 180) / PI, 1)}\u00b0`, where: strokeText(tight.at) }));
+  if (data.task) add(null, say("task"), missWords());
   const questions = data.judge.questions, named = ({ rule, ru }) => (language === "ru" && ru) || rule;
   for (const [q, question] of questions.entries()) {
     const each = answers.found[q];
@@ -547,6 +549,7 @@ function choosers() {
   byId("runs").style.display = strokes.length < 2 ? "none" : "";
   byId("forces").style.display = data.arrows.length ? "" : "none";
   byId("forces").setAttribute("aria-pressed", String(showsForces));
+  if (data.task) answersSaid();
 }
 on(byId("column"), "change", (event) => { column = Number(event.target.value); soon("curve"); remember(); });
 on(byId("second"), "change", (event) => { second = Number(event.target.value); soon("curve"); remember(); });

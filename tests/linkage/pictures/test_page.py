@@ -245,7 +245,7 @@ def test_a_second_page_of_a_machine_traces_nothing_again(tmp_path, monkeypatch):
 
 
 def test_what_a_page_says_is_what_is_translated():
-    script = "".join(map(page_part, ("mechanism.js", "page.js", "chart.js")))
+    script = "".join(map(page_part, ("mechanism.js", "page.js", "task.js", "chart.js")))
     text = "".join(map(page_part, ("machine.html", "chart.html")))
     said = re.findall(r'say\("((?:[^"\\]|\\.)*)"', script) + re.findall(r'"(\{name\} = [^"]*)"', script)
     said += re.findall(r'data-(?:say|tip|name)="([^"]+)"', text)

@@ -1,0 +1,382 @@
+"""What a synthesis found: the best machines side by side, each beside its task, with what it misses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import ceil
+from typing import Any, final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+
+from ..errors import DefinitionError, StudyError, cited
+from ..language import said, said_of, translated
+from ..motion import Column, Motion, stroke_display_unit
+from ..motion.kinds import measure_of
+from ..motion.measures import words_of
+from ..program import FloatArray
+from ..quantities import is_whole
+from ..study import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
+from ..study.synthesis import CLOSEST_CHANGE_POINT, miss_unit
+from ..units import display_unit, factor, show, shown_in
+from . import style
+from .curves import axis_range, locator, typeset
+from .drawing import BodyPart, Drawing
+from .labels import offsets
+from .layout import cloud
+from .poses import trace
+from .scene import Bounds, Scene
+from .sheet import Picture, points_a_metre, quiet, sheet
+from .strokes import stroke_words
+from .style import FAINT, STRONG
+
+MOST_ANSWERS = 12
+ACROSS = 3
+"""The answers in one picture, and those in one row."""
+WIDE = {1: 8.6, 2: 12.0, 3: 15.0}
+"""The width of a picture with so many answers in a row [inch]."""
+LEFT, RIGHT, BETWEEN, TOP, HEAD, FOOT = 0.7, 0.15, 0.62, 0.62, 0.5, 0.55
+"""Room left and right, between two answers, above all, above each and below each [inch]."""
+SHEET, CURVE = (2.6, 6.2), 2.1
+"""The range of a sheet's height, and the height of a curve [inch]."""
+UNLIKE = 1.6
+"""Machines whose sizes differ by more are drawn to scales of their own."""
+SEEN = 0.07
+"""Of a sheet's larger side: the largest miss that is drawn is about so long."""
+STRETCHES = tuple(step * 10**power for power in range(7) for step in (1, 2, 5))
+NOTHING_MISSED = 1e-9
+"""Of a sheet: a miss that is smaller is none."""
+MOST_NUMBERED = 12
+"""Points that are all numbered; of more it is every fifth."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class ShownAnswer:
+    """An answer as it is drawn: its place, the machine over its whole stroke, and at the points of its task."""
+
+    found: Synthesis
+    answer: SynthesisedMachine
+    place: int
+    count: int
+
+    @cached_property
+    def swept(self) -> Motion:
+        """The machine over its whole stroke."""
+        timing = self.found.fit_of(self.answer).timing
+        return self.motion(timing.start + timing.span * np.linspace(0.0, 1.0, self.count))
+
+    @cached_property
+    def reached(self) -> Motion:
+        """The machine where it comes to the points of its task."""
+        return self.motion(self.answer.strokes)
+
+    def motion(self, strokes: FloatArray) -> Motion:
+        """Return the machine at strokes (n,) [SI]."""
+        fit = self.found.fit_of(self.answer)
+        return self.answer.machine.at(unreachable="nan", **{**fit.held, fit.timing.stroke: strokes})
+
+    @property
+    def stroke(self) -> str:
+        """The stroke that moves."""
+        return str(self.found.fit_of(self.answer).timing.stroke)
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The machine at its points, with room for its whole stroke."""
+        return Scene(self.reached, self.swept)
+
+    def box(self) -> Bounds:
+        """Return the box around the machine and its task [m]."""
+        left, right, bottom, top = Scene(self.swept).box()
+        if not len(self.wanted):
+            return left, right, bottom, top
+        pad = 2.0 * self.scene.size
+        (x0, y0), (x1, y1) = self.wanted.min(axis=0) - pad, self.wanted.max(axis=0) + pad
+        return min(left, float(x0)), max(right, float(x1)), min(bottom, float(y0)), max(top, float(y1))
+
+    @cached_property
+    def wanted(self) -> FloatArray:
+        """The places that the task wants, shape (n, 2) [m]; none of a function."""
+        task = self.found.task
+        if isinstance(task, PathTask):
+            return task.points
+        return np.stack([task.x, task.y], axis=1) if isinstance(task, PoseTask) else np.empty((0, 2))
+
+    @property
+    def point(self) -> str:
+        """The point that is to come to these places."""
+        return str(self.found.task.of).split()[0]
+
+    @cached_property
+    def met(self) -> FloatArray:
+        """Where that point comes to, shape (n, 2) [m]."""
+        return np.asarray(self.reached[self.point].T)
+
+
+def draw_synthesis(found: Synthesis, answers: int = 3, count: int = 101) -> Figure:
+    """Return the best answers of a synthesis side by side, each with its task and what it misses; see `draw`.
+
+    Raises StudyError where there is none, with the nearest miss.
+    """
+    if not is_whole(answers) or not 1 <= answers <= MOST_ANSWERS:
+        raise DefinitionError(f"answers={cited(answers)}: a whole number from 1 to {MOST_ANSWERS} is expected.")
+    if not is_whole(count) or count < 2:
+        raise DefinitionError(f"count={cited(count)}: a whole number of poses is expected, at least 2.")
+    if not found.solutions:
+        raise StudyError(str(found))
+    shown = [ShownAnswer(found, each, place, count) for place, each in enumerate(found.solutions[:answers], 1)]
+    has_curve = isinstance(found.task, FunctionTask)
+    figure, sheets, curves = pages([each.box() for each in shown], has_curve=has_curve)
+    stretch = stretched(shown, [float(np.ptp(ax.get_xlim())) for ax in sheets])
+    for place, (each, ax) in enumerate(zip(shown, sheets, strict=True)):
+        DRAWERS[type(found.task)](ax, each, stretch)
+        write_answer(curves[place] if has_curve else ax, each, alone=len({one.answer.machine.plan.title for one in shown}) == 1)
+        if has_curve:
+            draw_wanted_curve(curves[place], each)
+    write_head(figure, found, stretch)
+    return figure
+
+
+# The paper: sheets side by side, of a function a curve above each.
+
+
+def pages(boxes: Sequence[Bounds], *, has_curve: bool) -> tuple[Figure, list[Axes], list[Axes]]:
+    """Return a figure with a sheet for each box [m], in rows, and a curve above each where there are curves."""
+    across = min(len(boxes), ACROSS)
+    down = ceil(len(boxes) / across)
+    width = WIDE[across]
+    wide = (width - LEFT - RIGHT - (across - 1) * BETWEEN) / across
+    boxes = alike(boxes)
+    shape = max((top - bottom) / (right - left) for left, right, bottom, top in boxes)
+    high = float(np.clip(wide * shape, *SHEET))
+    above = CURVE + FOOT + 0.08 if has_curve else 0.0
+    row = HEAD + above + high + FOOT
+    height = TOP + down * row
+    figure = Picture(figsize=(width, height), dpi=style.DPI, facecolor=style.PAPER)
+    FigureCanvasAgg(figure)
+    sheets, curves = [], []
+    for place, box in enumerate(boxes):
+        x = LEFT + (place % across) * (wide + BETWEEN)
+        y = height - TOP - (place // across) * row - HEAD
+        if has_curve:
+            curves.append(figure.add_axes((x / width, (y - CURVE) / height, wide / width, CURVE / height)))
+        ax = figure.add_axes((x / width, (y - above - high) / height, wide / width, high / height))
+        sheet(ax, box)
+        sheets.append(ax)
+    return figure, sheets, curves
+
+
+def alike(boxes: Sequence[Bounds]) -> list[Bounds]:
+    """Return boxes [m] as one around all of them, to one scale, unless their sizes differ too much for that."""
+    sides = [max(right - left, top - bottom) for left, right, bottom, top in boxes]
+    left, right, bottom, top = np.array(boxes).T
+    joined = float(left.min()), float(right.max()), float(bottom.min()), float(top.max())
+    whole = max(joined[1] - joined[0], joined[3] - joined[2])
+    return [joined] * len(boxes) if whole <= UNLIKE * min(sides) else list(boxes)
+
+
+def stretched(shown: Sequence[ShownAnswer], sides: Sequence[float]) -> float:
+    """Return how many times as long misses are drawn, so that the largest can be seen on its sheet; 0 where nothing is missed."""
+    shares = [
+        float(np.linalg.norm(each.met - each.wanted, axis=1).max()) / side
+        for each, side in zip(shown, sides, strict=True)
+        if len(each.wanted)
+    ]
+    most = max(shares, default=0.0)
+    if most < NOTHING_MISSED:
+        return 0.0
+    return float(max((step for step in STRETCHES if step * most <= SEEN), default=1.0))
+
+
+def write_head(figure: Figure, found: Synthesis, stretch: float) -> None:
+    """Write the title, the task in words, and what lines mean."""
+    width, height = (float(each) for each in figure.get_size_inches())
+    title = figure.text(
+        LEFT / width, 1.0 - 0.22 / height, found.start.plan.heading, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center"
+    )
+    canvas: Any = FigureCanvasAgg(figure)  # matplotlib declares no types for its methods
+    end = title.get_window_extent(canvas.get_renderer()).x1 / figure.bbox.width
+    words = task_words(found)
+    figure.text(end + 0.18 / width, 1.0 - 0.22 / height, words, fontsize=style.TEXT, color=style.MUTED, va="center")
+    keys, texts = legend_of(found, stretch)
+    figure.legend(
+        keys, texts, loc="upper left", bbox_to_anchor=(LEFT / width, 1.0 - 0.34 / height), ncols=len(texts), frameon=False,
+        borderaxespad=0.0, borderpad=0.1, fontsize=style.TEXT, labelcolor=style.INK, handlelength=1.6, columnspacing=1.8,
+        handletextpad=0.6,
+    )  # fmt: skip
+
+
+def task_words(found: Synthesis) -> str:
+    """Return a task in words."""
+    task, n = found.task, found.fits[0].rows.count
+    if isinstance(task, PathTask):
+        return said_of(n, "path of {point} through {n} point", "path of {point} through {n} points", point=task.of, n=n)
+    if isinstance(task, PoseTask):
+        return said_of(n, "{n} pose of the body of {points}", "{n} poses of the body of {points}", points=task.of, n=n)
+    return said_of(n, "{quantity} at {n} stroke", "{quantity} at {n} strokes", quantity=words_of(task.of), n=n)
+
+
+def legend_of(found: Synthesis, stretch: float) -> tuple[list[Line2D], list[str]]:
+    """Return what lines mean."""
+    wanted = Line2D([], [], color=style.CURVE, marker="o", markersize=5, markerfacecolor=style.PAPER, linestyle="none", markeredgewidth=1.6)
+    missed = Line2D([], [], color=style.INK, linewidth=1.4)
+    if isinstance(found.task, FunctionTask):
+        curve = Line2D([], [], color=style.CURVE, linewidth=style.BOLD)
+        return [wanted, curve, missed], [said("wanted"), said("reached"), said("missed")]
+    path = Line2D([], [], color=style.ACCENT, linewidth=1.6, linestyle=(0, (0.1, 1.9)), dash_capstyle="round")
+    if isinstance(found.task, PoseTask):
+        wanted = Line2D([], [], color=style.CURVE, linewidth=2.0, marker="o", markersize=5, markerfacecolor=style.PAPER)
+    point = found.task.of.split()[0]
+    keys, texts = [wanted, path], [said("wanted"), said_of(1, "path of {points}", "paths of {points}", points=point)]
+    if stretch:
+        keys.append(missed)
+        texts.append(said("missed") if stretch == 1.0 else said("missed, {times} times as long", times=f"{stretch:.0f}"))
+    return keys, texts
+
+
+def write_answer(ax: Axes, shown: ShownAnswer, *, alone: bool) -> None:
+    """Write above an answer its place, what it misses, and its least transmission angle; its class unless all are of one."""
+    answer, unit = shown.answer, miss_unit(shown.found.fit_of(shown.answer))
+    figure = ax.figure.figure
+    assert figure is not None
+    place, height = ax.get_position(original=True), float(figure.get_figheight())
+    name = "" if alone else f"{answer.machine.plan.title}: "
+    first = f"{shown.place}.  {name}" + said(
+        "rms {rms}, at most {most} at point {worst}", rms=show(answer.rms, unit, 4), most=show(answer.most, unit, 4), worst=answer.worst
+    )
+    angle = 0.0 if answer.transmission < CLOSEST_CHANGE_POINT else answer.transmission
+    second = said("least transmission angle {angle}", angle=show(angle, "deg", 3)) if np.isfinite(angle) else ""
+    figure.text(place.x0, place.y1 + 0.31 / height, first, fontsize=style.TEXT, fontweight="bold", color=style.INK, va="center")
+    figure.text(place.x0, place.y1 + 0.12 / height, second, fontsize=style.SMALL, color=style.MUTED, va="center")
+
+
+# An answer beside its task.
+
+
+def draw_path_task(ax: Axes, shown: ShownAnswer, stretch: float) -> None:
+    """Draw the machine at the task's first point, the path of its point, the wanted points and the misses."""
+    trace(ax, shown.swept[shown.point].reshape(2, -1))
+    path = shown.swept[shown.point].reshape(2, -1).T
+    numbers = draw_wanted(ax, shown, stretch)
+    draw_machine_at(ax, shown, [numbers, path[np.isfinite(path).all(axis=1)]])
+
+
+def draw_machine_at(ax: Axes, shown: ShownAnswer, keep_clear: Sequence[FloatArray]) -> None:
+    """Draw the machine at the first point of its task, its names clear of some points (n, 2) [m]."""
+    scene = shown.scene
+    drawing = Drawing(ax, scene, STRONG)
+    drawing.ground()
+    if 0 in scene.reached:
+        drawing.label([scene.at(0)], keep_clear, all_points=False)
+    drawing.update(0)
+
+
+def draw_wanted(ax: Axes, shown: ShownAnswer, stretch: float) -> FloatArray:
+    """Mark the wanted places with their numbers, and what is missed at each, so many times as long as it is.
+
+    Returns points (m, 2) [m] that these cover.
+    """
+    wanted, off = shown.wanted, shown.met - shown.wanted
+    side = float(np.ptp(ax.get_xlim()))
+    for place, miss in zip(wanted, off, strict=True):
+        if stretch and float(np.hypot(*miss)) * stretch > 0.002 * side:
+            end = place + stretch * miss
+            ax.plot(*np.stack([place, end], axis=1), color=style.INK, linewidth=1.4, zorder=12.2, solid_capstyle="butt")
+    wide = 5.0 if len(wanted) <= MOST_NUMBERED else 3.4
+    ax.plot(*wanted.T, "o", color=style.CURVE, markerfacecolor=style.PAPER, markersize=wide, markeredgewidth=1.6, zorder=12.5)
+    ends = wanted + stretch * off
+    return np.concatenate([wanted, ends, number_points(ax, shown, ends)])
+
+
+def number_points(ax: Axes, shown: ShownAnswer, ends: FloatArray) -> FloatArray:
+    """Write the numbers of the wanted places, where they cover neither the machine, its path nor the misses' ends (n, 2) [m].
+
+    Of many points every fifth has one. Returns points (m, 2) [m] that the numbers cover.
+    """
+    wanted, scale = shown.wanted, points_a_metre(ax)
+    numbers = [n for n in range(1, len(wanted) + 1) if len(wanted) <= MOST_NUMBERED or n == 1 or n % 5 == 0]
+    at = {str(n): wanted[n - 1] for n in numbers}
+    path = shown.swept[shown.point].reshape(2, -1).T
+    taken = np.concatenate([cloud(shown.scene, shown.scene.at(0))[::2], path[np.isfinite(path).all(axis=1)], wanted, ends])
+    covered = []
+    for number, spot in offsets([*at], [at], [taken], scale, 5.0, style.SMALL).items():
+        ax.annotate(
+            number, tuple(at[number].tolist()), xytext=tuple(spot.tolist()), textcoords="offset points", ha="center", va="center_baseline",
+            fontsize=style.SMALL, color=style.CURVE, fontweight="bold", zorder=12.6, annotation_clip=False,
+            path_effects=[withStroke(linewidth=2.2, foreground=style.PAPER)],
+        )  # fmt: skip
+        covered += [at[number] + (spot + 0.3 * style.SMALL * np.array(corner)) / scale for corner in CORNERS]
+    return np.array(covered)
+
+
+CORNERS = ((-1, -1), (-1, 1), (0, 0), (1, -1), (1, 1))
+
+
+def draw_pose_task(ax: Axes, shown: ShownAnswer, stretch: float) -> None:
+    """Draw the machine at the first pose, its body faint at the others, and the wanted poses as lines along the body."""
+    task, scene = shown.found.task, shown.scene
+    assert isinstance(task, PoseTask)
+    first, second = task.of.split()
+    trace(ax, shown.swept[first].reshape(2, -1))
+    bodies = [(plate, style.PALETTE[place]) for plate, place in zip(scene.plates, scene.colours, strict=True)]
+    for pose in scene.reached[1:]:
+        for plate, colour in bodies:
+            if {first, second} <= set(plate.points):
+                BodyPart(ax, plate, scene.size, colour, FAINT).update(scene.at(pose))
+    long = float(np.nanmax(np.hypot(*(shown.reached[second] - shown.reached[first]))))
+    ends = shown.wanted + long * np.stack([np.cos(task.angle), np.sin(task.angle)], axis=1)
+    for start, end in zip(shown.wanted, ends, strict=True):
+        ax.plot(*np.stack([start, end], axis=1), color=style.CURVE, linewidth=2.0, zorder=12.0, solid_capstyle="round")
+    draw_machine_at(ax, shown, [draw_wanted(ax, shown, stretch), ends])
+
+
+def draw_function_task(ax: Axes, shown: ShownAnswer, _: float) -> None:
+    """Draw the machine at the first of the task's strokes."""
+    draw_machine_at(ax, shown, [])
+    words = stroke_words(shown.answer.machine.plan, shown.stroke, float(shown.answer.strokes[0]))
+    ax.set_title(words, fontsize=style.SMALL, color=style.MUTED, loc="right", pad=3)
+
+
+def draw_wanted_curve(ax: Axes, shown: ShownAnswer) -> None:
+    """Draw what a machine gives over its stroke, the wanted values, and what is missed at each."""
+    task, plan = shown.found.task, shown.answer.machine.plan
+    assert isinstance(task, FunctionTask)
+    unit = shown_in(stroke_display_unit(plan, shown.stroke, "mm"))
+    measure = measure_of(plan, task.of)
+    name, by = typeset(words_of(task.of)), factor(unit)
+    along, values = np.asarray(shown.swept.strokes[shown.stroke]), np.asarray(shown.swept[task.of])
+    wanted, reached = np.array(task.values), shown.answer.reached[0]
+    if measure == "angle":  # all on one turn
+        order = np.argsort(along)
+        near = np.interp(shown.answer.strokes, along[order], values[order])
+        wanted, reached = (each + 2.0 * np.pi * np.round((near - each) / (2.0 * np.pi)) for each in (wanted, reached))
+    column = Column(name, np.concatenate([values, wanted]), display_unit(measure, "mm"))
+    drawn, scale = column.drawn, factor(column.shown_unit)
+    quiet(ax)
+    ax.plot(along / by, drawn[: len(along)], color=style.CURVE, linewidth=style.BOLD, zorder=5.0)
+    for at, one, other in zip(shown.answer.strokes / by, wanted / scale, reached / scale, strict=True):
+        ax.plot([at, at], [one, other], color=style.INK, linewidth=1.4, zorder=5.5, solid_capstyle="butt")
+    ax.plot(
+        shown.answer.strokes / by, wanted / scale, "o", color=style.CURVE, markerfacecolor=style.PAPER, markersize=5, markeredgewidth=1.6,
+        zorder=6.0, clip_on=False,
+    )  # fmt: skip
+    ax.set_ylim(*axis_range(column))
+    ax.set_xlim(float((along / by).min()), float((along / by).max()))
+    ax.set_xlabel(f"{shown.stroke}, {translated(unit)}", fontsize=style.TEXT, color=style.MUTED)
+    ax.set_ylabel(column.heading, fontsize=style.TEXT, color=style.MUTED)
+    ax.xaxis.set_major_locator(locator(unit == "deg" and float(np.ptp(along / by)) >= 90.0))
+    ax.yaxis.set_major_locator(locator())
+
+
+DRAWERS: dict[type, Callable[[Axes, ShownAnswer, float], None]] = {
+    PathTask: draw_path_task,
+    PoseTask: draw_pose_task,
+    FunctionTask: draw_function_task,
+}

@@ -1,0 +1,101 @@
+"""The live page of what a synthesis found: its machine, the task on the sheet and on the curve, and the answers to choose from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..errors import DefinitionError, StudyError
+from ..motion import live_text
+from ..motion.kinds import measure_of
+from ..motion.measures import words_of
+from ..plan import Plan
+from ..quantities import Quantity
+from ..reports import results
+from ..study import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
+from ..study.synthesis import miss_unit
+from .browser_data import PageRequests, page_data, unit_data
+from .browser_file import page_part, page_text
+from .strokes import frame_count
+
+PARTS = ("machine.html", "page.css", "mechanism.js", "task.js", "page.js")
+
+
+def task_page(found: Synthesis, *, count: int, language: str, at: Mapping[str, Any], **given: Any) -> str:
+    """Return the HTML of the page of a synthesis: the best machine, with the others of its class to choose; `given` as `page` takes it.
+
+    Without `vary` the sliders are those dimensions that were searched, over their ranges. Raises StudyError where nothing was found.
+    """
+    if not found.solutions:
+        raise StudyError(str(found))
+    if at:
+        raise DefinitionError(f"{found.start.plan.title}: the page of a synthesis runs over the stroke of its task; leave out at=.")
+    best, task = found.best, found.task
+    fit = found.fit_of(best)
+    run = {**fit.held, fit.timing.stroke: (fit.timing.start, fit.timing.start + fit.timing.span)}
+    given = {name: value for name, value in given.items() if value is not None}
+    given = {"vary": ranges_searched(found, best)} | given
+    is_function = isinstance(task, FunctionTask)
+    given = (columns_with(found, run) if is_function else {"trace": [task.of.split()[0]]}) | given
+    requests = PageRequests(best.machine, frame_count(count), at=run, over=found.problem.over, **given)
+    live = live_text(best.machine.plan, requests.by_name, name="engine")
+    data = page_data(requests, live)
+    data["task"] = task_data(found, data)
+    data["strokes"][data["task"]["stroke"]]["at"] = float(best.strokes[0])
+    if not is_function:
+        data["scene"]["box"] = box_around(data["scene"]["box"], data["task"]["points"])
+    most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
+    return page_text(best.machine.plan.heading, data, PARTS, language=language, most=most, text=text)
+
+
+def ranges_searched(found: Synthesis, best: SynthesisedMachine) -> dict[str, tuple[float, float] | None]:
+    """Return the dimensions that were searched, with their ranges [SI]; those of rows without."""
+    space = found.problem.space
+    owners = best.machine.plan.table.spellings
+    named: dict[str, tuple[float, float] | None] = {each.name: (each.low, each.high) for each in space.variables if each.span > 0.0}
+    return named | {name: None for names in space.names for name in names if name in owners}
+
+
+def columns_with(found: Synthesis, run: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the columns of a page on which the task's quantity stands, that one shown first."""
+    task, machine = found.task, found.machine
+    motion = machine.at(unreachable="nan", **{name: np.array(ends) for name, ends in run.items()})
+    names = [column.name for column in results(machine, motion)]
+    asked = str(task.of.name) if isinstance(task.of, Quantity) and task.of.name else task.of
+    if asked in names:
+        return {"column": asked}
+    return {"columns": [asked, *names], "column": words_of(asked)}
+
+
+def task_data(found: Synthesis, data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the task and the answers as the page's script reads them [SI]: of each design the values of the page's dimensions."""
+    task, best = found.task, found.best
+    fit, plan = found.fit_of(best), best.machine.plan
+    names, strokes = [each[0] for each in data["dims"]], [each["name"] for each in data["strokes"]]
+    timed = fit.timing.width < fit.rows.count
+    shown = [each for each in found.solutions if each.machine.plan is plan]
+    answers = [
+        {"design": [float(each.machine.dimensions[name]) for name in names], "at": each.strokes.tolist(), "rms": each.rms} for each in shown
+    ]
+    kept = {"stroke": strokes.index(fit.timing.stroke), "timed": timed, "unit": unit_data(miss_unit(fit)), "answers": answers}
+    return kept | wanted_data(task, plan, fit.rows.weights[-1], data)
+
+
+def wanted_data(task: Any, plan: Plan, weight: float, data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what is wanted [SI]: points and of which, angles with the length that weighs them, or values and in which column."""
+    points = list(plan.points)
+    if isinstance(task, PathTask):
+        return {"points": task.points.tolist(), "point": points.index(task.of)}
+    if isinstance(task, PoseTask):
+        first, second = (points.index(name) for name in task.of.split())
+        places = np.stack([task.x, task.y], axis=1).tolist()
+        return {"points": places, "angles": task.angle.tolist(), "point": first, "second": second, "long": float(weight)}
+    return {"values": task.values.tolist(), "column": data["column"], "turns": measure_of(plan, task.of) == "angle"}
+
+
+def box_around(box: list[float], points: list[list[float]]) -> list[float]:
+    """Return a box [m] with some points in it: left, right, bottom, top."""
+    (x0, y0), (x1, y1) = np.min(points, axis=0), np.max(points, axis=0)
+    return [min(box[0], float(x0)), max(box[1], float(x1)), min(box[2], float(y0)), max(box[3], float(y1))]

@@ -5,6 +5,6 @@ from .assemble import assembled
 from .chain_parts import chain_parts
 from .groups import GroupSolution, solve_groups
 from .live import angles_text, constants_text, groups_text, json_of
-from .modes import Assembly, assemblies
+from .modes import Assembly, assemblies, members_on_sides
 from .newton import Newton
 from .sketch import places_at

@@ -171,6 +171,36 @@ def rounded_to(value: float, digits: int = 4) -> float:
     return float(f"{value:.{digits}g}")
 
 
+# Members as they are written on other sides.
+
+
+def members_on_sides(plan: Plan, declared: Mapping[str, Member], sides: Mapping[str, Side]) -> dict[str, Member]:
+    """Return the members that a subclass declares anew to have some steps on other sides; steps of parts are for the parts to say.
+
+    Beside these steps they are the points whose side a place in the sketch says, and that move in it with them.
+    """
+    chosen = with_own_groups(plan, {})
+    for name, side in sides.items():
+        step = plan.members[name]
+        assert isinstance(step, Step)
+        chosen[name] = sided_as(step, side)
+    own = {name: written_as(declared[name], chosen[name], None) for name in sides if name in declared}
+    moved = [name for name in plan.points if is_sketched(declared.get(name)) and plan.reaches(name) & set(sides)]
+    try:
+        places: Mapping[str, Place] = places_at(Plan(chosen, plan.title), plan.sketch_strokes)[0] if moved else {}
+    except AssemblyError:
+        places = {}
+    return own | {name: written_as(declared[name], chosen[name], places.get(name)) for name in moved}
+
+
+def written_as(raw: Member, chosen: Member, place: Place | None) -> Member:
+    """Return what is written for a point: a pin of links at its new rough place, where there is one, else its step on its side."""
+    if isinstance(raw, Pin) and raw.near is not None and place is not None:
+        return Pin(near=(rounded_to(place[0], 6), rounded_to(place[1], 6)))
+    assert isinstance(chosen, Step)
+    return chosen.renewed(side=chosen.side, near=None, drawn_at=None)
+
+
 # Groups: their pins' solutions at the sketch, found from many places.
 
 

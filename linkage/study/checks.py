@@ -10,10 +10,13 @@ import numpy as np
 from ..errors import AssemblyError, DefinitionError, cited
 from ..mechanism import Mechanism
 from ..plan import Plan
+from .sides import is_side
 
 
 def unit_of(plan: Plan, name: str) -> str:
-    """Return the unit a dimension is shown in: its own, mm for lengths, deg for angles, "" where nothing says."""
+    """Return the unit a dimension is shown in: its own, mm for lengths, deg for angles, "" where nothing says, as of a side."""
+    if is_side(name):
+        return ""
     found = plan.table.entries[plan.table.spellings[name][0]]
     return found.unit or {"length": "mm", "coordinate": "mm", "angle": "deg"}.get(found.kind, "")
 

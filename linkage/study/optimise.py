@@ -167,6 +167,10 @@ def optimise(
     check_progress(progress)
     objectives, sense = objectives_of(machine, minimise, maximise)
     space = Space.of(machine, vary)
+    sides = space.sides([0] * len(space.choices))
+    if sides:
+        text = f"the side of {next(iter(sides))} is varied by synthesise alone; for optimise write a class for each side"
+        raise DefinitionError(f"{title}: {text}, class Other({type(machine).__name__}).")
     constraints = conditions_of(subject_to, machine)
     over, occurring = where_searched(machine, over)
     cases, shares = cases_searched(machine, case, occurring)

@@ -43,6 +43,7 @@ from ..quantities import Quantity, is_number
 from ..vectors import Numbers
 from .measured import eager, motion_of, nothing_limits
 from .sampling import Samples, Sampling, divisors_of, rows_of_motion, with_values
+from .sides import on_sides
 from .space import Space
 
 SAMPLES = {0: 1, 1: 49, 2: 17, 3: 9, 4: 5}
@@ -312,6 +313,7 @@ class Problem:
         self.owners = tuple(dict.fromkeys(each.owner for each in space.variables))
         self._samplings: dict[int, Sampling] = {}
         self._sizes: list[float] | None = None
+        self._branches: dict[str, Problem] = {}
         self.refusal = ""
         """Why the latest design that was refused was so."""
 
@@ -331,6 +333,18 @@ class Problem:
     def anew(self) -> Problem:
         """Return the same problem with samples and a count of its own."""
         return Problem(self.machine, self.objectives, self.constraints, self.space, self.sense, self.over, self.counts)
+
+    def on_branch(self, combination: Sequence[int]) -> Problem:
+        """Return the problem of the machine whose steps are on the sides of a combination: itself where none is chosen."""
+        sides = self.space.sides(combination)
+        machine = on_sides(self.machine, sides) if sides else self.machine
+        if machine is self.machine:
+            return self
+        known = self._branches.get(machine.plan.key)
+        if known is None:
+            given = self.objectives, self.constraints, self.space, self.sense, self.over, self.counts, self.count
+            known = self._branches[machine.plan.key] = Problem(machine, *given)
+        return known
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return what pickle is to make the problem of: what follows from it does not go."""
@@ -679,8 +693,8 @@ class Problem:
     # -- machines ----------------------------------------------------------------------------------------
 
     def machine_of(self, unit: FloatArray, combination: Sequence[int]) -> Mechanism:
-        """Return the machine of unit coordinates (n,)."""
-        return self.machine.replaced(
+        """Return the machine of unit coordinates (n,), on the sides of a combination."""
+        return self.on_branch(combination).machine.replaced(
             **self.space.chosen(combination), **{name: float(each) for name, each in self.space.dimensions_at(unit).items()}
         )
 

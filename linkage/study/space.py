@@ -17,8 +17,10 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number, label
 from ..units import show
+from ..vectors import Side
 from .checks import unit_of
 from .designs import check_once
+from .sides import ENDING, is_side, side_given, sided_step
 
 MOST_COMBINATIONS = 100_000
 FAR = 20.0
@@ -98,13 +100,15 @@ class Space:
         choices, names = [], []
         for name, given in vary.items():
             parts = name if isinstance(name, tuple) else (name,)
-            for part in parts:
-                known_dimension(machine, part)
-            if isinstance(given, Around) or (isinstance(given, tuple) and len(parts) == 1 and len(given) in (2, 3)):
+            sided = [sided_step(machine, part) for part in parts]
+            for part, step in zip(parts, sided, strict=True):
+                if not step:
+                    known_dimension(machine, part)
+            if not any(sided) and (isinstance(given, Around) or (isinstance(given, tuple) and len(parts) == 1 and len(given) in (2, 3))):
                 variables += ranged(machine, parts, given)
             else:
                 owners = tuple(owner for part in parts for owner in owners_of(machine.plan, part))
-                choices.append((owners, rows_of(title, parts, given, len(owners))))
+                choices.append((owners, rows_of(title, parts, given, owners)))
                 names.append(tuple(coordinates(machine.plan, parts)))
         check_once(machine, {part: None for name in vary for part in (name if isinstance(name, tuple) else (name,))})
         found = cls(tuple(variables), tuple(choices), tuple(names))
@@ -112,7 +116,7 @@ class Space:
             raise DefinitionError(f"{title}: {found.count} combinations of choices are too many; {MOST_COMBINATIONS} are the most.")
         for owners, rows in found.choices:
             for row in rows:
-                machine.replaced(**{owner: sign * value for (owner, sign), value in zip(owners, row, strict=True)})
+                machine.replaced(**{owner: sign * value for (owner, sign), value in zip(owners, row, strict=True) if not is_side(owner)})
         for each in variables:
             for end in (each.low, each.high):
                 machine.replaced(**{each.name: end})
@@ -131,13 +135,22 @@ class Space:
         """Return the dimensions [SI] of a combination, by their owners."""
         found: dict[str, float] = {}
         for (owners, rows), row in zip(self.choices, combination, strict=True):
-            found |= {owner: sign * value for (owner, sign), value in zip(owners, rows[row], strict=True)}
+            found |= {owner: sign * value for (owner, sign), value in zip(owners, rows[row], strict=True) if not is_side(owner)}
         return found
+
+    def sides(self, combination: Sequence[int]) -> dict[str, Side]:
+        """Return the sides of steps in a combination, by the steps' names."""
+        return {
+            owner.removesuffix(ENDING): Side(int(value))
+            for (owners, rows), row in zip(self.choices, combination, strict=True)
+            for (owner, _), value in zip(owners, rows[row], strict=True)
+            if is_side(owner)
+        }
 
     def words(self, combination: Sequence[int], plan: Plan) -> str:
         """Return a combination in words."""
         return ", ".join(
-            f"{name} = {show(value, unit_of(plan, name))}"
+            f"{name} = {Side(int(value)) if is_side(name) else show(value, unit_of(plan, name))}"
             for names, (_, rows), row in zip(self.names, self.choices, combination, strict=True)
             for name, value in zip(names, rows[row], strict=True)
         )
@@ -181,11 +194,13 @@ def known_dimension(machine: Mechanism, name: Any) -> None:
 
 def coordinates(plan: Plan, names: Sequence[str]) -> list[str]:
     """Return names, those of points by their two coordinates."""
-    return [part for name in names for part in ([name] if name in plan.table.spellings else [f"{name}.x", f"{name}.y"])]
+    return [part for name in names for part in ([name] if name in plan.table.spellings or is_side(name) else [f"{name}.x", f"{name}.y"])]
 
 
 def owners_of(plan: Plan, name: str) -> list[tuple[str, float]]:
-    """Return the design variables that a name sets, with signs: two of a point."""
+    """Return the design variables that a name sets, with signs: two of a point, of a step's side its name."""
+    if is_side(name):
+        return [(name, 1.0)]
     return [(owner, float(sign)) for owner, sign in (plan.table.spellings[each] for each in coordinates(plan, [name]))]
 
 
@@ -222,14 +237,19 @@ def size_of_machine(machine: Mechanism) -> float:
     return max((abs(float(machine.dimensions[name])) for name in lengths), default=1.0) or 1.0
 
 
-def rows_of(title: str, names: Sequence[str], given: Any, width: int) -> tuple[tuple[float, ...], ...]:
-    """Return the rows of choices; DefinitionError for what is none."""
+def rows_of(
+    title: str, names: Sequence[str], given: Any, owners: Sequence[tuple[str, float]]
+) -> tuple[tuple[float, ...], ...]:
+    """Return the rows of choices, a side as its number; DefinitionError for what is none."""
+    width = len(owners)
     said = "write a range (low, high), a list of choices such as [0.28, 0.30], or for several names at once a list of rows"
     if not isinstance(given, (list, tuple, range, np.ndarray)) or len(given) == 0:
         raise DefinitionError(f"{title}: {', '.join(names)}={cited(given)}: {said}.")
     rows = []
     for each in given:
         row = tuple(each) if isinstance(each, (list, tuple, np.ndarray)) else (each,)
+        if len(row) == width:
+            row = tuple(side_given(owner, value) if is_side(owner) else value for (owner, _), value in zip(owners, row, strict=True))
         if len(row) != width or not all(is_number(value) for value in row):
             many = f"{width} numbers are" if width > 1 else "a number is"
             raise DefinitionError(f"{title}: {', '.join(names)}: {cited(each)} is no choice; {many} expected.")

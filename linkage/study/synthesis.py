@@ -24,11 +24,13 @@ from ..program import FloatArray
 from ..quantities import is_number
 from ..shown import Shown
 from ..units import deg, display_unit, factor, mm, show, shown_in
+from ..vectors import Side
 from .checks import unit_of
 from .fit import Fit
 from .optimum import steps_about
 from .problem import Problem
 from .result_tables import heading_with_unit, tried_names
+from .sides import ENDING, is_side
 from .task_error import squares_near
 from .tasks import Task
 
@@ -222,10 +224,19 @@ class Synthesis(Shown):
         by = factor(shown_in(stroke_display_unit(plan, self.fits[0].timing.stroke, "mm")))
         rows = []
         for rank, each in enumerate(self.solutions, 1):
-            values = [each.machine[name] / factor(shown_in(unit_of(plan, name))) for name in tried_names(space)]
+            sides = space.sides(each.combination)
+            values = [
+                sides[name.removesuffix(ENDING)] if is_side(name) else each.machine[name] / factor(shown_in(unit_of(plan, name)))
+                for name in tried_names(space)
+            ]
             numbers = [each.error, each.rms, each.most, each.worst, each.transmission / deg, *values, *(each.strokes / by)]
-            rows.append([str(rank), *("" if number != number else repr(float(number)) for number in numbers)])
+            rows.append([str(rank), *map(answer_cell, numbers)])
         return rows
+
+
+def answer_cell(value: Any) -> str:
+    """Return what stands in a cell: a number to its last digit, nothing for none, a side by its word."""
+    return str(value) if isinstance(value, Side) else "" if value != value else repr(float(value))
 
 
 # What is said of a machine.
@@ -273,6 +284,7 @@ def machine_words(fit: Fit, machine: Mechanism, far: FloatArray, angle: float, j
         if ordered
         else said("all {count} points on one circuit and one branch, in an order of their own", count=len(far))
     )
+    parts += [f"{name}{ENDING} = {side}" for name, side in fit.space.sides(fit.combination).items()]
     parts += [str(each) for each in machine.four_bars]
     if np.isfinite(angle):
         parts.append(said("least transmission angle {angle}, of {joint}", angle=show(angle, "deg", 3), joint=joint))
@@ -346,7 +358,7 @@ def rounded_machine(found: Synthesis, answer: SynthesisedMachine, to: float, ang
         at = np.concatenate([problem.space.unit(rows), np.tile(answer.at[fit.n :], (len(rows), 1))], axis=1)
         base = np.tile(answer.base, (len(rows), 1))
         at, error = fit.descend(at, base, 20, held=range(fit.n))
-        short = problem.missing_of_each(fit.combination, at[:, : fit.n]).max(axis=0, initial=0.0)
+        short = fit.problem.missing_of_each(fit.combination, at[:, : fit.n]).max(axis=0, initial=0.0)
         error = np.where(fit.whole(at) & (short <= 1e-7), error, np.inf)
         place = int(np.argmin(error))
         if not np.isfinite(error[place]):

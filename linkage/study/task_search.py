@@ -206,7 +206,9 @@ class TaskSearch:
 
     @property
     def population(self) -> int:
-        """How many designs of each combination are looked at first: of a limit at most half in all."""
+        """How many designs of each combination are looked at first, beside that of today: of a limit at most half in all."""
+        if not self.problem.space.variables:
+            return 0
         limit = self.problem.count.limit
         many = POPULATION if limit is None else min(POPULATION, limit // 2)
         least = 6 if limit is None else 3
@@ -237,11 +239,12 @@ class TaskSearch:
     def started(self, stages: Stages) -> list[Starts]:
         """Return where to start, of each combination: the best that stand apart of those that run, laid onto the task."""
         space, chosen = self.problem.space, self.combinations
-        unit = unit_points(self.population, len(space.variables), "sobol", self.seed)
-        unit = np.concatenate([space.unit(space.present(self.problem.machine))[None], unit])
+        unit = space.unit(space.present(self.problem.machine))[None]
+        if self.population:
+            unit = np.concatenate([unit, unit_points(self.population, len(space.variables), "sobol", self.seed)])
         rows = SearchRows.joined([(each, {"unit": unit}) for each in chosen])
         seen = stages.done("look", LookWork(*self.shared, self.timed), rows, told=self.population * len(chosen))
-        fits = [Fit(*self.shared[:3], each, self.task.at) for each in chosen]
+        fits = [Fit(self.problem.on_branch(each), self.rows, self.timing, each, self.task.at) for each in chosen]
         likeness: dict[Combination, Likeness] = {}
         parts = []
         whole, somewhere = (seen[name].reshape(len(chosen), -1) for name in ("whole", "somewhere"))
@@ -292,7 +295,7 @@ class TaskSearch:
             return [self.on_steps(each, stepped) for own in found for each in own]
         ways = [Polishing(self, starts, own, kept.get(starts.fit)) for starts, own in zip(first, found, strict=True)]
         wave = 0
-        while not self.problem.count.is_spent and any([each.next() for each in ways]):
+        while not self.problem.count.is_spent and min(each.best for each in ways) > self.floor and any([each.next() for each in ways]):
             self.polished(stages, wave, ways)
             wave += 1
         return [each for own, way in zip(found, ways, strict=True) for each in [*own, *way.ends]]

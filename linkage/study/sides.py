@@ -1,0 +1,115 @@
+"""The same machine on another branch: some of its steps on the other side, as a class of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ..assembly import members_on_sides
+from ..errors import DefinitionError, cited
+from ..mechanism import Mechanism, declared
+from ..plan import Part, Plan
+from ..quantities import Member
+from ..steps import Point, Step
+from ..vectors import Side
+
+ENDING = ".side"
+BASE = "_class_before_sides"
+
+
+def is_side(name: str) -> bool:
+    """Return whether a name is that of a step's side."""
+    return name.endswith(ENDING)
+
+
+def sided_step(machine: Mechanism, name: Any) -> str:
+    """Return the step whose side a name such as `B.side` stands for; "" for other names, DefinitionError for what has no side."""
+    plan = machine.plan
+    if not isinstance(name, str) or not is_side(name):
+        return ""
+    step = name.removesuffix(ENDING)
+    having = [each for each, member in plan.members.items() if isinstance(member, Step) and member.modes()]
+    member = plan.members.get(step)
+    if isinstance(member, Point) and member.companions:
+        text = f"{step} is found together with {' '.join(member.companions)}, whose mode is that of their places in the sketch"
+        raise DefinitionError(f"{plan.title}: vary={{{name!r}: ...}}: {text}, near=(x, y); write a class for each mode.")
+    if step not in having:
+        known = ", ".join(f"{each}{ENDING}" for each in having) or "none"
+        raise DefinitionError(f"{plan.title}: vary={{{name!r}: ...}}: {step} has no side to choose; its sides are {known}.")
+    behind = [name for name, group in plan.groups.items() if step in plan.reaches(*group.pins)]
+    if behind:
+        text = f"the pins {' '.join(plan.groups[behind[0]].pins)} stand on {step} and are followed from the sketch"
+        raise DefinitionError(f"{plan.title}: vary={{{name!r}: ...}}: {text}; write a class for each side.")
+    return step
+
+
+def side_given(name: str, given: Any) -> Side:
+    """Return a side; DefinitionError for anything but LEFT and RIGHT."""
+    side = Side.said(given)
+    if side is None:
+        raise DefinitionError(f"{name}: {cited(given)} is no side; write a list of them, [LEFT, RIGHT].")
+    return side
+
+
+def on_sides(machine: Mechanism, sides: Mapping[str, Side]) -> Mechanism:
+    """Return a design with some steps on these sides; itself where they are."""
+    members = machine.plan.members
+    other = {name: side for name, side in sides.items() if sided_now(members[name]) is not side}
+    return class_on_sides(type(machine), other)(**machine.dimensions) if other else machine
+
+
+def sided_now(member: Member) -> Side | None:
+    """Return the side of a step; None of what has none."""
+    return member.side if isinstance(member, Step) else None
+
+
+def class_on_sides(kind: type[Mechanism], sides: Mapping[str, Side]) -> type[Mechanism]:
+    """Return a class like another one but for the sides of some steps, each kind once."""
+    base, before = vars(kind).get(BASE, (kind, {}))
+    wanted = {name: side for name, side in {**before, **sides}.items() if sided_now(base.plan.members[name]) is not side}
+    if not wanted:
+        return base  # type: ignore[no-any-return]
+    found: type[Mechanism] = base.plan.made(("sides", *sorted(wanted.items())), lambda _: made_on_sides(base, wanted))
+    return found
+
+
+def made_on_sides(kind: type[Mechanism], sides: Mapping[str, Side]) -> type[Mechanism]:
+    """Return a subclass with some steps on these sides, of its parts too."""
+    plan, written = kind.plan, declared(kind)
+    own = members_on_sides(plan, written, sides)
+    parts: dict[str, dict[str, Side]] = {}
+    for name, side in sides.items():
+        if name not in written:
+            part = next(each for each in written if name.startswith(f"{each}.") and isinstance(written[each], Part))
+            parts.setdefault(part, {})[name.removeprefix(f"{part}.")] = side
+    for name, inner in parts.items():
+        own[name] = part_on_sides(written[name], plan, inner)
+    text = {"__module__": kind.__module__, "__qualname__": kind.__qualname__, "__doc__": kind.__doc__}
+    maker: Any = type(kind)
+    made: type[Mechanism] = maker(kind.__name__, (kind,), {**text, **own, BASE: (kind, dict(sides)), "__reduce__": sent_on_sides})
+    lost = [name for name, side in sides.items() if sided_now(made.plan.members[name]) is not side]
+    if lost:
+        raise DefinitionError(f"{plan.title}: {lost[0]} cannot be put on the side {sides[lost[0]]} from here; write a class for it.")
+    return made
+
+
+def part_on_sides(part: Any, plan: Plan, sides: Mapping[str, Side]) -> Member:
+    """Return a part of a class on other sides, which are those in the whole: of a mirrored part each is the other one in itself."""
+    own: dict[str, Side] = {}
+    for name, side in sides.items():
+        inside, outside = (sided_now(members[each]) for members, each in ((part.plan.members, name), (plan.members, f"{part.name}.{name}")))
+        own[name] = side if inside is outside else Side(-side)
+    other = class_on_sides(part.machine, own)
+    found: Member = part.renewed(machine=other, plan=other.plan)
+    return found
+
+
+def sent_on_sides(machine: Mechanism) -> tuple[Any, ...]:
+    """Return what pickle is to make a design of such a class of: that of the class as it is written, on these sides."""
+    kind, sides = vars(type(machine))[BASE]
+    return on_sides_again, (kind, {name: int(side) for name, side in sides.items()}, machine.dimensions)
+
+
+def on_sides_again(kind: type[Mechanism], sides: Mapping[str, int], dimensions: Mapping[str, Any]) -> Mechanism:
+    """Return the design that was sent."""
+    return class_on_sides(kind, {name: Side(side) for name, side in sides.items()})(**dimensions)

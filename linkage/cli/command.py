@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import sys
 from abc import ABC, abstractmethod
-from argparse import ArgumentParser, ArgumentTypeError, Namespace, _ActionsContainer
+from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace, _ActionsContainer
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, final
+from urllib.parse import parse_qsl
 
 from ..disk import check_place
 from ..errors import DefinitionError
@@ -47,6 +48,25 @@ def machine_arguments(parser: ArgumentParser, default: str | None = None) -> Non
         "--set", dest="settings", metavar="OB=180mm", action="append", default=[],
         help="change a design variable, with its unit (without: SI); a point: M=0.22,0.95 or M.x=220mm; repeatable",
     )  # fmt: skip
+    link_argument(parser)
+
+
+def link_argument(parser: ArgumentParser) -> None:
+    """Declare the argument that takes a design from a live page."""
+    parser.add_argument("--from", dest="settings", metavar="LINK", action=FromLink, help="the design of a live page, by its link's text")
+
+
+@final
+class FromLink(Action):
+    """Takes the dimensions of a live page's link, as if `--set` had said them."""
+
+    def __call__(self, parser: ArgumentParser, namespace: Namespace, values: Any, option: str | None = None) -> None:
+        said = parse_qsl(str(values).rpartition("#")[2], keep_blank_values=True)
+        found = [f"{name[2:]}={value}" for name, value in said if name.startswith("d.")]
+        if not any(name.startswith(("d.", "s.")) for name, _ in said):
+            remedy = "its button Copy link gives one, such as page.html#s.S=0.1&d.OB=0.315"
+            parser.error(f"--from {values}: this is no link of a live page; {remedy}")
+        namespace.settings = [*namespace.settings, *found]
 
 
 def path_argument(parser: ArgumentParser) -> None:

@@ -24,7 +24,7 @@ from ..study.result_tables import heading_with_unit, tried_names
 from ..study.space import Space
 from ..study.survey import Progress as ProgressLike
 from ..units import factor, shown_in
-from .command import Command, progress_bar
+from .command import Command, link_argument, progress_bar
 from .listing import OWN, registered
 from .machines import find, machine, split
 from .settings import parsed_setting
@@ -40,6 +40,7 @@ def study_arguments(parser: ArgumentParser) -> None:
         "--set", dest="settings", metavar="OB=180mm", action="append", default=[],
         help="change a design variable, above the file's own `set`; repeatable",
     )  # fmt: skip
+    link_argument(parser)
     parser.add_argument(
         "--trust", metavar="PACKAGE", action="append", default=[],
         help="a package, or a .py file, that the study file may name as its machine and that is run for it; repeatable",

@@ -100,5 +100,5 @@ def page_html(
         check_place(place)
     live = live_text(machine.plan, requests.by_name, name="engine")
     most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
-    parts = ("machine.html", "page.css", "mechanism.js", "page.js")
+    parts = ("machine.html", "page.css", "mechanism.js", "page.js", "hands.js", "leave.js", "start.js")
     return page_text(machine.plan.heading, page_data(requests, live), parts, language=language, most=most, text=text)

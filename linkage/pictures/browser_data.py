@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from functools import cached_property, partial
+from itertools import permutations
 from typing import Any, cast, final
 
 import numpy as np
@@ -20,7 +21,7 @@ from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
 from ..reports import NOTHING, At, column_requests, run_along, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, ground_loads, pin_force, pin_forces, traced_loads
-from ..units import UNITS, deg, display_unit, factor, shown_in
+from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
 from ..verdict import Verdict
 from .browser_judge import LiveQuestions
 from .curves import check_poses, limit_of, typeset
@@ -38,6 +39,8 @@ SHOWN = 6
 STEPS = ("length", "angle")
 ALONG = "along the path"
 """What the place on a path is called among the strokes; no stroke can be called so."""
+SYSTEM_NAMES = {"si": "SI", "bar-mm": "bar, mm", "kgf": "kgf", "us": "US"}
+"""What the systems of units are called on a page."""
 ROUND = 1e-9
 """A path whose strokes end so near to where they began, of what they pass, goes round."""
 
@@ -291,8 +294,15 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "arrows": arrow_data(requests, live),
         "paths": [list(plan.points).index(name) for name in requests.trace],
         "grips": grip_data(plan, names),
+        "moving": moving_data(plan),
+        "meets": meeting_data(plan, names),
+        "class": type(machine).__name__,
+        "defaults": {name: plan.defaults[name] for name, value, *_ in dims if value != plan.defaults[name]},
+        "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
+        **unit_tables(),
         "steps": {name: opening(plan, name) for name in plan.points},
         "verdicts": verdict_data(machine, requests.along, requests.over),
+        "verdictsIn": verdicts_in_systems(machine, requests.along, requests.over),
         "judge": requests.questions.data(live),
         "domain": "; ".join(place.over.words(place.motion) for place in requests.questions.judge.places),
     }
@@ -415,6 +425,40 @@ def grip_data(plan: Plan, names: Sequence[str]) -> list[dict[str, int]]:
     pairs = {name: (f"{name}.x", f"{name}.y") for name in points}
     free = {name: pair for name, pair in pairs.items() if set(pair) <= set(names)}
     return [{"point": points.index(name), "x": names.index(x), "y": names.index(y)} for name, (x, y) in free.items()]
+
+
+def moving_data(plan: Plan) -> list[int]:
+    """Return the places of the points that move and can be dragged."""
+    return [place for place, name in enumerate(plan.points) if name in plan.moving]
+
+
+def meeting_data(plan: Plan, names: Sequence[str]) -> dict[int, list[int]]:
+    """Return, for every point that moves, which of the dimensions are lengths and angles of it, by their places."""
+    points, entries = list(plan.points), plan.table.entries
+    own = {name: place for place, name in enumerate(names) if entries[name].kind in STEPS}
+    lengths = {joined_names(*pair): pair for pair in permutations(points, 2)}
+    found: dict[int, list[int]] = defaultdict(list)
+    for name, place in own.items():
+        ends = lengths.get(name, ()) if entries[name].kind == "length" else corners(name, points, lengths)
+        for each in ends:
+            if each in plan.moving:
+                found[points.index(each)].append(place)
+    return dict(found)
+
+
+def corners(name: str, points: Sequence[str], lengths: Mapping[str, tuple[str, str]]) -> tuple[str, ...]:
+    """Return the three points that the name of an angle joins; none where it is no such name."""
+    found = ((*pair, last) for word, pair in lengths.items() if name.startswith(word) for last in points if last not in pair)
+    return next((each for each in found if joined_names(*each) == name), ())
+
+
+def unit_tables() -> dict[str, Any]:
+    """Return the units with their factors and what they measure, and the systems: the unit of each measure."""
+    return {
+        "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items()},
+        "systems": {name: {measure: typeset(unit) for measure, unit in units.items()} for name, units in SYSTEMS.items()},
+        "systemNames": SYSTEM_NAMES,
+    }
 
 
 def arrow_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]]:
@@ -558,6 +602,19 @@ def verdict_data(machine: Mechanism, along: Motion | None, over: Mapping[str, An
         [*english, *(() if russian == english else (russian[1],) if russian[2] == english[2] else russian[1:])]
         for english, russian in pairs
     ]
+
+
+def verdicts_in_systems(
+    machine: Mechanism, along: Motion | None, over: Mapping[str, Any] | None = None
+) -> dict[str, list[list[str] | int]]:
+    """Return what the verdicts say in each system of units, in English and where it differs in Russian; 0 where it is as delivered."""
+    plain, found = verdict_data(machine, along, over), {}
+    for name in SYSTEMS:
+        with unit_system(name):
+            told = verdict_data(machine, along, over)
+        pairs = zip(told, plain, strict=True) if len(told) == len(plain) else ((each, each) for each in plain)
+        found[name] = [0 if each[2:] == other[2:] else [each[2], *each[4:]] for each, other in pairs]
+    return found
 
 
 def verdict_parts(said: str) -> tuple[int, str, str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from base64 import b64encode
 from collections.abc import Sequence
 from hashlib import sha256
@@ -27,7 +28,8 @@ def page_text(title: str, data: dict[str, Any], parts: Sequence[str], *, languag
     known_name("Language", language, LANGUAGES, where="page(language=...)")
     given = data | {"language": language, "words": {name: words_in(name) for name in LANGUAGES[1:]}}
     body, css, own = ("\n".join(page_part(each) for each in parts if each.endswith(end)) for end in (".html", ".css", ".js"))
-    program, loader = f'"use strict";{text}\n(async () => {{\n{own}}})();\n', page_part("loader.js")
+    program, loader = f'"use strict";{text}\n(async () => {{\n{bare(own)}}})();\n', page_part("loader.js")
+    css, body = bare(css), "\n".join(line.strip() for line in body.splitlines())
     styles = f":root {{ {colours(most)} }}\n{css}"
     filled_in = {
         "LANGUAGE": language,
@@ -59,6 +61,11 @@ def page_part(name: str) -> str:
 def source_hash(text: str) -> str:
     """Return what a content security policy names an inline script or style by."""
     return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"
+
+
+def bare(text: str) -> str:
+    """Return a program or a style sheet without the comments that fill lines of their own, and without what its lines are moved in by."""
+    return "\n".join(line.lstrip() for line in re.sub(r"(?m)^[ ]*/\*(?:[^*]|\*(?!/))*\*/[ ]*\n", "", text).splitlines() if line.strip())
 
 
 def packed(text: str) -> str:

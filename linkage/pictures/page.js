@@ -1,4 +1,8 @@
 const { strokes, units } = data;
+/* The paths that a machine declares run as strokes of their own, unless the page is of a path. */
+if (!strokes.some((each) => each.path)) for (const { shape, name, places: ways } of data.judge.overs) {
+  if (shape === "path" && name && ways[0].length > 1) strokes.push({ name, start: 1, end: ways[0].length, at: 1, unit: "", factor: 1, turn: 0, path: { ...ways } });
+}
 /* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
 const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], row: row < 0 ? undefined : row, ru, values, why }));
 const dims = data.dims.map(([name, value, ends, unit, positive, where]) => ({ name, value, low: ends[0] ?? value - ends, high: ends[1] ?? value + ends, unit, factor: units[unit], positive, where }));
@@ -32,7 +36,7 @@ function followed(at, run = runs) {
   return found;
 }
 const single = (design, at) => engine.sweep(vector(design), followed(at).slice(0, own.length).map((value) => [value]));
-const titled = (each) => (each.path ? say("place") : each.name);
+const titled = (each) => (each.name === "along the path" ? say("place") : each.name);
 const isChanged = () => dims.some((each, i) => present[i] !== each.value);
 const isDriven = (k) => k === runs || k in (strokes[runs].path || {});
 const isMoved = () => runs !== data.run || own.some((each, k) => !isDriven(k) && stands[k] !== each.at);
@@ -79,49 +83,70 @@ const live = (each) => each && (each.row !== undefined || !(isChanged() || isMov
 /* ---- what is drawn of the present state beside the mechanism ---- */
 
 let gripped = null;
-/* A ground pin that can be dragged: its two coordinates are dimensions. */
+/* A pin that can be dragged: of one on the ground both coordinates are dimensions, a moving joint takes the mechanism along. */
 function grip({ point, x, y }) {
   const element = draw(sheet, "circle", { r: max(22, 2 * unit0), class: "grip" }), name = scene.names[point];
-  draw(element, "title", {}).textContent = say("Drag {name}", { name });
+  draw(element, "title", {}).textContent = x === undefined ? say("Drag {name}; with Shift the lengths that meet there follow", { name }) : say("Drag {name}", { name });
   element.dataset.pin = name;
   on(element, "pointerdown", (event) => {
-    event.preventDefault();
-    const box = sheet.getBoundingClientRect(), start = [event.clientX - box.left, event.clientY - box.top];
-    gripped = { id: event.pointerId, x, y, name, from: [present[x], present[y]], start };
+    if (measuring || pinched.size) return;
+    event.preventDefault(); event.stopPropagation();
+    const from = x === undefined ? spot(pose, point, 0) : [present[x], present[y]];
+    gripped = { id: event.pointerId, point, x, y, name, from, start: place(event), shift: event.shiftKey };
+    if (x === undefined) play(false);
     sheet.setPointerCapture(event.pointerId);
   });
   return (at) => set(element, { cx: at[point][0], cy: at[point][1] });
 }
+/* Return where an event is on the sheet [px]. */
+function place(event) {
+  const box = sheet.getBoundingClientRect();
+  return [event.clientX - box.left, event.clientY - box.top];
+}
 on(sheet, "pointermove", (event) => {
   if (!gripped || event.pointerId !== gripped.id) return;
-  const box = sheet.getBoundingClientRect(), snap = (value) => round(value * 1e3) / 1e3;
-  gripped.to = [gripped.from[0] + (event.clientX - box.left - gripped.start[0]) / zoom, gripped.from[1] - (event.clientY - box.top - gripped.start[1]) / zoom].map(snap);
+  const [x, y] = place(event);
+  gripped.to = [gripped.from[0] + (x - gripped.start[0]) / zoom, gripped.from[1] - (y - gripped.start[1]) / zoom].map(snapped);
+  gripped.shift = event.shiftKey;
   soon("drag");
 });
 function dragged() {
-  const design = [...present];
-  [design[gripped.x], design[gripped.y]] = gripped.to;
+  const { to, x, y, point, name, shift } = gripped;
   gripped.to = null;
-  if (moved(design, stands, gripped.name)) warn("");
-  byId("message").textContent ||= "";
+  if (x === undefined) return shift ? reshaped(point, to) : led(point, to);
+  const design = [...present];
+  [design[x], design[y]] = to;
+  return moved(design, stands, name);
 }
 for (const end of ["pointerup", "pointercancel"]) on(sheet, end, (event) => {
   if (!gripped || event.pointerId !== gripped.id) return;
   if (gripped.to) dragged();
-  const { x, y } = gripped;
+  const before = String(chosen);
+  for (const i of [gripped.x, gripped.y, ...(gripped.changes || [])]) if (i !== undefined && !chosen.includes(i)) chosen.push(i);
   gripped = null;
-  for (const i of [x, y]) if (!chosen.includes(i)) { chosen.push(i); }
-  listSizes(); soon("fit"); remember();
+  if (String(chosen) !== before) listSizes();
+  clock = phaseNow();
+  soon("fit"); remember();
 });
 /* An arrow: a force at a point, in the scale in which the greatest is a sixth of the sheet. */
 function arrow({ point, x, y, load }) {
-  const line = draw(sheet, "path", { w: 2.2, join: "round", fill: css(load ? "accent" : "other"), stroke: css(load ? "accent" : "other") });
+  const colour = css(load ? "accent" : "other"), line = draw(sheet, "path", { w: 2.2, join: "round", fill: colour, stroke: colour });
+  const number = draw(sheet, "text", { class: "halo force", fill: colour });
   return (at) => {
     const k = pull.scale, f = [pose.values[x][0] * k, -pose.values[y][0] * k], long = hypot(...f), head = min(9, 0.5 * long);
-    if (!showsForces || !(long > 1)) { set(line, { d: "" }); return; }
+    if (!showsForces || !(long > 1)) { set(line, { d: "" }); number.textContent = ""; return; }
     const d = [f[0] / long, f[1] / long], tip = [at[point][0] + f[0], at[point][1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
     set(line, { d: broken([at[point], neck, [neck[0] - w * d[1], neck[1] + w * d[0]], tip, [neck[0] + w * d[1], neck[1] - w * d[0]], neck]) });
+    numbered(number, shown(hypot(pose.values[x][0], pose.values[y][0]), data.force, 3), tip, d);
   };
+}
+/* Write a number beyond the tip of an arrow, unless it would cover one that stands there. */
+let takenUp = [];
+function numbered(text, said, tip, d) {
+  const wide = 7 * said.length, x = min(max(tip[0] + 8 * d[0] + (d[0] < -0.3 ? -wide : d[0] > 0.3 ? 0 : -0.5 * wide), 2), sheetWide - wide - 2), y = min(max(tip[1] + 12 * d[1] + 4, 12), sheetTall - 4);
+  const free = takenUp.every(([a, b, w]) => x + wide < a || a + w < x || abs(y - b) > 13);
+  text.textContent = free ? said : "";
+  if (free) { takenUp.push([x, y, wide]); set(text, { x, y }); }
 }
 const pull = { scale: 0, most: 0 };
 function pullScale() {
@@ -161,8 +186,8 @@ function build() {
     let seen;
     return () => { if (seen !== edition) { seen = edition; set(line, { d: broken([...now.along.keys()].map((i) => (now.reason[i] ? null : px(...spot(now, point, i))))) }); } };
   });
-  const first = () => [ghostly(draw(sheet, "path", { class: "line", w: 2, dash: "2 5", stroke: css("muted") }))];
-  parts = drawn({ first, under: paths, over: () => [...data.arrows.map(arrow), ...(data.task ? wanted() : []), ...named(), ...data.grips.map(grip)] });
+  const first = () => [...gridded(), ghostly(draw(sheet, "path", { class: "line", w: 2, dash: "2 5", stroke: css("muted") }))];
+  parts = drawn({ first, under: paths, over: () => [...data.arrows.map(arrow), ...(data.task ? wanted() : []), ...named(), ...[...data.moving.map((point) => ({ point })), ...data.grips].map(grip), ...measured()] });
   keys = draw(sheet, "g", {});
 }
 /* The delivered design at the same stroke, as a faint outline, where the design has changed. */
@@ -255,13 +280,14 @@ function plotted() {
   if (limit) {
     const at = y(limit[0]), late = values && abs(values[values.length - 1] - limit[0]) >= abs(values[0] - limit[0]);
     rule(L, at, W - R, at, "accent", { dash: "7 4", w: 1.5 });
-    write(late ? W - R - 5 : L + 5, at + (limit[2] === "below" ? 15 : -6), limit[1], { class: "note halo", anchor: late ? "end" : "start" });
+    write(late ? W - R - 5 : L + 5, at + (limit[2] === "below" && at + 20 < H - B ? 15 : at < T + 18 ? 15 : -6), limit[1], { class: "note halo", anchor: late ? "end" : "start" });
   }
   if (data.task) wantedOnCurve(x, y, one);
   const reason = one && one.row === undefined && one.why ? one.why : "";
   if (!values && one) write(L + 8, T + 18, say("as delivered only: this column is not followed in the page"), { class: "note halo" });
   byId("column").title = reason;
   if (compares) write(W - R, H - 6, say("dashed: as delivered"), { anchor: "end" });
+  reader();
   chart.second = draw(plot, "circle", { r: 4.5, w: 2, fill: css("other"), stroke: css("paper") });
   chart.marker = draw(plot, "circle", { r: 6, w: 2, fill: css("curve"), stroke: css("paper") });
 }
@@ -453,7 +479,7 @@ function strokeSliders() {
   const rows = strokes.map((each, k) => {
     const row = make("label"), slider = make("input"), out = make("output"), label = make("span");
     row.className = "stroke"; label.textContent = each.name;
-    if (each.path) label.dataset.say = "place";
+    if (each.name === "along the path") label.dataset.say = "place";
     Object.assign(slider, { type: "range", min: 0, max: 1000, step: "any" });
     slider.setAttribute("aria-label", each.name);
     slider.dataset.stroke = each.name;
@@ -555,23 +581,22 @@ on(byId("column"), "change", (event) => { column = Number(event.target.value); s
 on(byId("second"), "change", (event) => { second = Number(event.target.value); soon("curve"); remember(); });
 on(byId("run"), "change", (event) => { runsOn(Number(event.target.value)); clock = phaseNow(); soon("design"); remember(); });
 on(byId("forces"), "click", () => { showsForces = !showsForces; choosers(); soon("fit"); remember(); });
-on(byId("reset"), "click", () => { present = [...original]; stands = firstStand(); runs = data.run; begin(); chosen = [...data.shown]; column = data.column; second = -1; play(false); warn(""); listSizes(); choosers(); soon("fit"); remember(); });
-on(byId("copy"), "click", async () => {
-  const link = `${location.href.split("#")[0]}#${told()}`;
-  try { await navigator.clipboard.writeText(link); } catch {
-    const area = make("textarea"); area.value = link; document.body.append(area); area.select(); document.execCommand("copy"); area.remove();
-  }
-  byId("copy").firstChild.textContent = say("Copied");
-  setTimeout(() => { byId("copy").firstChild.textContent = say("Copy link"); }, 1500);
-});
+on(byId("reset"), "click", () => { present = [...original]; stands = firstStand(); runs = data.run; begin(); chosen = [...data.shown]; column = data.column; second = -1; play(false); warn(""); listSizes(); choosers(); whole(); soon("fit"); remember(); });
+on(byId("copy"), "click", () => copied(`${location.href.split("#")[0]}#${told()}`, byId("copy").firstChild));
 on(byId("language"), "click", () => { language = language === "ru" ? "en" : "ru"; speak(); remember(); });
 on(byId("look"), "click", () => { look(root.dataset.look === "dark" ? "light" : "dark"); chosenLook = true; remember(); });
 function speak() {
   labelled();
+  for (const name of ["undo", "redo", "nearer", "farther", "whole", "grid", "measure"]) byId(name).setAttribute("aria-label", byId(name).title);
+  systems();
   byId("play").setAttribute("aria-label", playing ? say("Pause") : say("Play"));
   toldBefore = "";
-  list(byId("told"), data.verdicts.map(([ok, rule, text, ruled, ru]) => (language === "ru" ? { ok: [false, true][ok], rule: ruled || rule, text: ru || text } : { ok: [false, true][ok], rule, text })));
-  listSizes(); choosers(); soon("fit");
+  const inUnits = data.verdictsIn[system];
+  list(byId("told"), data.verdicts.map(([ok, rule, text, ruled, ru], i) => {
+    const [english, russian] = (inUnits && inUnits[i]) || [text, ru || text];
+    return language === "ru" ? { ok: [false, true][ok], rule: ruled || rule, text: russian || english } : { ok: [false, true][ok], rule, text: english };
+  }));
+  listSizes(); choosers(); compared(); soon("fit");
 }
 
 /* ---- a link that restores the state ---- */
@@ -579,7 +604,8 @@ function speak() {
 function told() {
   const said = new URLSearchParams();
   followed(stands).forEach((value, k) => said.set(`s.${strokes[k].name}`, String(value)));
-  dims.forEach((each, i) => { if (present[i] !== each.value) said.set(`d.${each.name}`, String(present[i])); });
+  dims.forEach((each, i) => { if (present[i] !== each.value || each.name in data.defaults) said.set(`d.${each.name}`, String(present[i])); });
+  for (const name in data.beside) said.set(`d.${name}`, String(data.beside[name]));
   if (runs !== data.run) said.set("run", strokes[runs].name);
   if (column !== data.column) said.set("column", columns[column].name);
   if (second >= 0) said.set("with", columns[second].name);
@@ -587,17 +613,19 @@ function told() {
   if (showsForces) said.set("forces", "1");
   if (language !== data.language) said.set("language", language);
   if (chosenLook) said.set("look", root.dataset.look);
+  if (system) said.set("units", system);
+  for (const { letter, design } of kept) said.set(`k.${letter}`, dims.map((each, i) => (design[i] !== each.value ? `${each.name}:${design[i]}` : "")).filter(Boolean).join(" "));
   return said.toString();
 }
 let writing;
 function remember() {
   clearTimeout(writing);
-  writing = setTimeout(() => { if (!playing) try { history.replaceState(null, "", `#${told()}`); } catch { /* a page in a frame has no address of its own */ } }, 250);
+  writing = setTimeout(() => { noted(); if (!playing) try { history.replaceState(null, "", `#${told()}`); } catch { /* a page in a frame has no address of its own */ } }, 250);
 }
-function recall() {
-  const said = new URLSearchParams(location.hash.slice(1)), index = (list, name) => list.findIndex((each) => each.name === name);
+function recall(text = location.hash.slice(1)) {
+  const said = new URLSearchParams(text), index = (list, name) => list.findIndex((each) => each.name === name);
   const number = (text, fallback) => (text !== null && text.trim() && isNumber(Number(text)) ? Number(text) : fallback);
-  if (![...said.keys()].length || location.hash === "#verdicts") return false;
+  if (![...said.keys()].some((each) => /^[sd]\./.test(each))) return false;
   const at = strokes.map((each) => min(max(number(said.get(`s.${each.name}`), each.at), min(each.start, each.end)), max(each.start, each.end)));
   const design = dims.map((each) => { const value = number(said.get(`d.${each.name}`), each.value); return each.positive && !(value > 0) ? each.value : value; });
   runs = index(strokes, said.get("run")) < 0 ? data.run : index(strokes, said.get("run"));
@@ -607,17 +635,23 @@ function recall() {
   if (said.has("show")) chosen = said.get("show").split(" ").map((each) => byName.get(each)).filter((i) => i !== undefined);
   if (["en", "ru"].includes(said.get("language"))) language = said.get("language");
   if (["light", "dark"].includes(said.get("look"))) { look(said.get("look")); chosenLook = true; }
+  if (said.has("units")) inSystem(said.get("units"));
+  kept = [...said.keys()].filter((each) => /^k\.[A-H]$/.test(each)).map((each) => {
+    const other = new Map(said.get(each).split(" ").map((pair) => pair.split(":")));
+    return { letter: each.slice(2), design: dims.map(({ name, value, positive }) => { const found = number(other.get(name) ?? null, value); return positive && !(found > 0) ? value : found; }) };
+  });
   present = [...original]; stands = firstStand();
   begin();
   moved(design, at, say("The link"));
   return true;
 }
-on(window, "hashchange", () => { if (location.hash !== "#verdicts" && recall()) { play(false); speak(); soon("design"); } });
+on(window, "hashchange", () => { if (recall()) { play(false); speak(); soon("design"); } });
 
 /* ---- one frame at a time ---- */
 
 const PERIOD = 5; /* seconds for there and back, or once round */
 let playing = false, clock = 0, last = null, waiting = false, todo = new Set(), judgedAt = 0, later;
+let comparing;
 const timing = { frames: 0, total: 0, most: 0 };
 /* The stretch of the running stroke that is played: the reached part that the present pose lies in. */
 function stretch() {
@@ -653,9 +687,11 @@ function render(work) {
   if (anew || sized || !now) now = sweep(present, stands, runs);
   if (isMoved() && (anew || sized)) base = sweep(original, stands, runs); else if (anew || sized || !base) base = first;
   pose = single(present, stands);
-  if (anew || sized) { edition++; const was = [zoom, left0, top0].join(); if (!gripped) fit(!sized, room()); pullScale(); pressureScale(); if (sized || !parts.length || was !== [zoom, left0, top0].join()) build(); legend(); }
+  if (anew || sized) { edition++; const was = [zoom, left0, top0].join(); if (!gripped) { fit(!sized, room()); closer(); } pullScale(); pressureScale(); if (sized || !parts.length || was !== [zoom, left0, top0].join()) build(); legend(); }
   if (anew || sized || work.has("curve")) plotted();
+  if (kept.length && (anew || work.has("curve"))) { clearTimeout(comparing); comparing = setTimeout(compared, 200); }
   const at = scene.names.map((_, p) => px(...spot(pose, p, 0)));
+  takenUp = [];
   for (const part of parts) part(at);
   mark(chart.one, chart.values, chart.y, chart.marker, "value");
   mark(chart.two, chart.others, chart.y2, chart.second, "other");
@@ -693,28 +729,3 @@ function begin() {
   const found = sweep(present, stands, runs);
   if (found.reached.length) stands[runs] = found.along[found.reached[0]];
 }
-
-look(night.matches ? "dark" : "light");
-begin();
-let first = (base = now = sweep(present, stands, runs));
-strokeSliders();
-const restored = recall();
-speak();
-frame(0);
-new ResizeObserver(() => soon("fit")).observe(sheet);
-new ResizeObserver(() => soon("curve")).observe(plot);
-play(!restored && !window.matchMedia("(prefers-reduced-motion: reduce)").matches);
-
-/* For tests and for pages around this one: read and set what is shown. */
-window.hydrolinkage = {
-  engine, data, timing,
-  state: () => ({ design: Object.fromEntries(dims.map((each, i) => [each.name, present[i]])), at: Object.fromEntries(followed(stands).map((value, k) => [strokes[k].name, value])), playing, language, column, second, forces: showsForces }),
-  set: ({ design = {}, at = {} }) => {
-    const ok = moved(dims.map((each, i) => design[each.name] ?? present[i]), strokes.map((each, k) => at[each.name] ?? stands[k]), "set");
-    render(new Set(["design"]));
-    return ok;
-  },
-  points: () => Object.fromEntries(scene.names.map((each, p) => [each, spot(pose, p, 0)])),
-  sweep: () => ({ along: [...now.along], values: now.values.map((each) => [...each]), reason: [...now.reason] }),
-  play, verdicts,
-};

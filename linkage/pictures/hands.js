@@ -1,0 +1,222 @@
+/* ---- by hand: what is seen of the sheet, joints that are led, lengths that follow, what was done, measured and read ---- */
+
+/* How much closer than the whole the sheet is seen, and what it is moved by [px]. */
+const seen = { k: 1, x: 0, y: 0 };
+function closer() {
+  zoom *= seen.k; left0 = seen.k * left0 + seen.x; top0 = seen.k * top0 + seen.y;
+  unit0 *= seen.k > 1 ? seen.k ** 0.5 : seen.k;
+}
+function whole() { Object.assign(seen, { k: 1, x: 0, y: 0 }); }
+/* See the sheet closer by a factor, about a place that stays [px]. */
+function nearer(by, [x, y] = [0.5 * sheetWide, 0.5 * sheetTall]) {
+  const k = min(max(seen.k * by, 0.2), 60), f = k / seen.k;
+  Object.assign(seen, { k, x: x + f * (seen.x - x), y: y + f * (seen.y - y) });
+  soon("fit");
+}
+on(sheet, "wheel", (event) => {
+  if (!event.ctrlKey && !event.metaKey) return;
+  event.preventDefault();
+  nearer(Math.exp(-0.002 * event.deltaY * (event.deltaMode ? 30 : 1)), place(event));
+});
+/* One finger or the mouse moves the sheet where nothing is gripped; two fingers move it and see it closer. */
+const pinched = new Map();
+on(sheet, "pointerdown", (event) => {
+  if (gripped) return;
+  if (measuring) { measure(place(event)); return; }
+  if (event.pointerType === "touch" && !pinched.size && !event.isPrimary) return;
+  pinched.set(event.pointerId, place(event));
+  if (event.pointerType !== "touch" || pinched.size > 1) sheet.setPointerCapture(event.pointerId);
+});
+on(sheet, "pointermove", (event) => {
+  if (!pinched.has(event.pointerId)) return;
+  const was = [...pinched.values()], far = () => { const [a, b] = [...pinched.values()]; return b ? apart(a, b) : 0; }, middle = (list) => [0, 1].map((k) => list.reduce((sum, each) => sum + each[k], 0) / list.length);
+  const wide = far(), from = middle(was);
+  pinched.set(event.pointerId, place(event));
+  if (event.pointerType === "touch" && pinched.size < 2) return;
+  const to = middle([...pinched.values()]);
+  seen.x += to[0] - from[0]; seen.y += to[1] - from[1];
+  if (wide > 0) nearer(far() / wide, to);
+  soon("fit");
+});
+for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) on(sheet, end, (event) => pinched.delete(event.pointerId));
+on(sheet, "dblclick", () => { whole(); soon("fit"); });
+on(byId("nearer"), "click", () => nearer(1.4));
+on(byId("farther"), "click", () => nearer(1 / 1.4));
+on(byId("whole"), "click", () => { whole(); soon("fit"); });
+
+/* A grid of round lengths, on which pins then stand when they are dragged; without it on whole millimetres. */
+let showsGrid = false;
+const meshes = () => { const rough = 45 / zoom / data.length.factor, power = 10 ** floor(log10(rough)); return [1, 2, 5, 10].map((k) => k * power).find((k) => k >= rough) * data.length.factor; };
+function snapped(value) { const step = showsGrid ? meshes() / 5 : 1e-3; return tidy(round(value / step) * step, 9); }
+const tidy = (value, digits) => Number(value.toFixed(digits));
+function gridded() {
+  if (!showsGrid) return [];
+  const step = meshes(), lines = [], [low, high] = [[(0 - left0) / zoom, (top0 - sheetTall) / zoom], [(sheetWide - left0) / zoom, top0 / zoom]];
+  for (let i = ceil(low[0] / step); i * step <= high[0]; i++) lines.push([px(i * step, 0)[0], 0], [px(i * step, 0)[0], sheetTall], null);
+  for (let i = ceil(low[1] / step); i * step <= high[1]; i++) lines.push([0, px(0, i * step)[1]], [sheetWide, px(0, i * step)[1]], null);
+  draw(sheet, "path", { class: "mesh", d: broken(lines) });
+  draw(sheet, "text", { x: sheetWide - 12, y: 18, class: "halo", anchor: "end" }).textContent = say("grid {step}", { step: shown(step, data.length, 3) });
+  return [];
+}
+on(byId("grid"), "click", () => { showsGrid = !showsGrid; byId("grid").setAttribute("aria-pressed", String(showsGrid)); soon("fit"); });
+
+/* ---- joints that are led, and lengths that follow ---- */
+
+/* Return the numbers with which some residuals are least, by damped steps with differences; each number stays in its range. */
+function solved(first, ranges, residuals) {
+  let at = [...first], misses = residuals(at), damping = 1e-6;
+  const size = (list) => (list ? list.reduce((sum, each) => sum + each * each, 0) : Infinity), least = (list) => list.reduce((a, b) => max(a, abs(b)), 0);
+  for (let turn = 0; misses && turn < 40; turn++) {
+    const wide = ranges.map(([low, high]) => high - low), slopes = at.map((value, k) => {
+      const h = 1e-6 * wide[k] * (value + 1e-6 * wide[k] > ranges[k][1] ? -1 : 1), found = residuals(at.map((each, j) => (j === k ? each + h : each)));
+      return found ? found.map((each, i) => ((each - misses[i]) / h) * wide[k]) : misses.map(() => 0);
+    });
+    const normal = slopes.map((a, j) => slopes.map((b, k) => a.reduce((sum, each, i) => sum + each * b[i], 0) + (j === k ? damping : 0) * (1 + a.reduce((sum, each) => sum + each * each, 0))));
+    const step = eliminated(normal, slopes.map((a) => -a.reduce((sum, each, i) => sum + each * misses[i], 0)));
+    const next = at.map((value, k) => min(max(value + step[k] * wide[k], ranges[k][0]), ranges[k][1])), found = residuals(next);
+    if (size(found) < size(misses)) { const done = least(next.map((each, k) => (each - at[k]) / wide[k])) < 1e-10; at = next; misses = found; damping = max(damping / 10, 1e-12); if (done) break; } else if (damping > 1e6) break; else damping *= 10;
+  }
+  return { at, misses };
+}
+function eliminated(rows, right) {
+  const table = rows.map((row, i) => [...row, right[i]]), n = right.length;
+  for (let k = 0; k < n; k++) {
+    const pivot = table.slice(k).reduce((best, row, i) => (abs(row[k]) > abs(table[best][k]) ? k + i : best), k);
+    [table[k], table[pivot]] = [table[pivot], table[k]];
+    for (let i = k + 1; i < n; i++) { const factor = table[i][k] / (table[k][k] || 1e-300); for (let j = k; j <= n; j++) table[i][j] -= factor * table[k][j]; }
+  }
+  const found = new Array(n).fill(0);
+  for (let k = n - 1; k >= 0; k--) found[k] = (table[k][n] - table[k].reduce((sum, each, j) => (j > k && j < n ? sum + each * found[j] : sum), 0)) / (table[k][k] || 1e-300);
+  return found;
+}
+/* Lead a joint to a place, or as near as the strokes bring it; what ends it is said. */
+function led(point, to) {
+  const runsAlong = strokes[runs].path ? [runs] : own.map((_, k) => k), ends = runsAlong.map((k) => [strokes[k].start, strokes[k].end].sort((a, b) => a - b));
+  const standing = (values) => { const at = [...stands]; runsAlong.forEach((k, j) => { at[k] = values[j]; }); return at; };
+  const off = (values) => { const found = single(present, standing(values)); return found.reason[0] === 0 ? spot(found, point, 0).map((each, axis) => each - to[axis]) : null; };
+  const { at, misses } = solved(runsAlong.map((k) => stands[k]), ends, off);
+  if (!misses) return false;
+  const held = runsAlong.filter((k, j) => isMet(at[j], ends[j])), away = hypot(...misses);
+  stands = standing(at);
+  const beyond = away > 2e-3 && held.length ? probed(point, to, standing(at), held) : null;
+  warn(beyond || "");
+  return !beyond;
+}
+const isMet = (value, [low, high]) => min(abs(value - low), abs(value - high)) <= 1e-9 * (high - low || 1);
+/* Return what ends a way: a stroke at its end, or a step that cannot be placed a little beyond. */
+function probed(point, to, at, held) {
+  const named = held.map((k) => `${titled(strokes[k])} = ${shown(at[k], strokes[k], 4)}`).join(", ");
+  return say("{name} ends here: {strokes} is the end of the stroke, {gap} short", { name: scene.names[point], strokes: named, gap: shown(apart(to, spot(single(present, at), point, 0)), data.length, 3) });
+}
+/* Change the dimensions that meet at a joint so that it stands at a place, all other joints where they are. */
+function reshaped(point, to) {
+  const found = data.meets[point] || [], name = scene.names[point];
+  if (!found.length) { warn(say("no length of its own meets at {name}", { name })); return false; }
+  const others = scene.names.map((_, p) => p).filter((p) => p !== point), before = others.map((p) => spot(pose, p, 0)), design = (values) => { const all = [...present]; found.forEach((i, j) => { all[i] = values[j]; }); return all; };
+  const off = (values) => {
+    const at = single(design(values), stands);
+    if (at.reason[0] !== 0) return null;
+    return [...spot(at, point, 0).map((each, axis) => 10 * (each - to[axis])), ...others.flatMap((p, k) => spot(at, p, 0).map((each, axis) => each - before[k][axis]))];
+  };
+  const reach = scene.box[1] - scene.box[0] + scene.box[3] - scene.box[2];
+  const { at, misses } = solved(found.map((i) => present[i]), found.map((i) => (dims[i].positive ? [1e-6, max(present[i], reach)] : [present[i] - PI, present[i] + PI])), off);
+  if (!misses) return false;
+  gripped.changes = found;
+  const whole = design(at.map((value) => tidy(value, 5))), left = misses.slice(2).reduce((a, b) => max(a, abs(b)), 0);
+  const ok = moved(whole, stands, name);
+  if (ok && left > 1e-3) warn(say("other joints give way by {gap}: {name} has too few lengths of its own", { name, gap: shown(left, data.length, 3) }));
+  return ok;
+}
+
+/* ---- what was done: back and forth ---- */
+
+let done = [], undone = [];
+const state = () => JSON.stringify([present, stands, runs, chosen]);
+function noted() {
+  if (!playing && done[done.length - 1] !== state()) { done.push(state()); undone = []; if (done.length > 400) done.shift(); }
+  keysOf();
+}
+function keysOf() { byId("undo").disabled = done.length < 2; byId("redo").disabled = !undone.length; }
+function restored_to(text) {
+  let stood;
+  [present, stood, runs, chosen] = JSON.parse(text);
+  stands = stood;
+  play(false); warn(""); listSizes(); choosers(); soon("design");
+  keysOf();
+}
+function undo() {
+  if (done[done.length - 1] !== state()) noted();
+  if (done.length > 1) { undone.push(done.pop()); restored_to(done[done.length - 1]); }
+}
+function redo() { if (undone.length) { done.push(undone.pop()); restored_to(done[done.length - 1]); } }
+on(byId("undo"), "click", undo);
+on(byId("redo"), "click", redo);
+on(document, "keydown", (event) => {
+  if (event.key === "Escape" && measuring) { marks = []; soon("fit"); }
+  if (!(event.ctrlKey || event.metaKey) || event.altKey || /^(INPUT|TEXTAREA)$/.test(event.target.tagName) && event.target.type !== "range") return;
+  const key = event.key.toLowerCase();
+  if (key === "z" || key === "y") { event.preventDefault(); if (key === "y" || event.shiftKey) redo(); else undo(); }
+});
+
+/* ---- distances and angles: two places, or three with the angle at the second ---- */
+
+let measuring = false, marks = [];
+on(byId("measure"), "click", () => { measuring = !measuring; marks = []; byId("measure").setAttribute("aria-pressed", String(measuring)); sheet.classList.toggle("measuring", measuring); soon("fit"); });
+function measure(at) {
+  const near = scene.names.map((_, p) => [apart(px(...spot(pose, p, 0)), at), p]).sort((a, b) => a[0] - b[0])[0];
+  if (marks.length > 2) marks = [];
+  marks.push(near && near[0] < 16 ? { point: near[1] } : { x: (at[0] - left0) / zoom, y: (top0 - at[1]) / zoom });
+  soon("fit");
+}
+const marked = ({ point, x, y }) => (point === undefined ? [x, y] : spot(pose, point, 0));
+function measured() {
+  if (!marks.length) return [];
+  const line = draw(sheet, "path", { class: "line", w: 1.6, dash: "5 3", stroke: css("accent") }), text = draw(sheet, "text", { class: "halo note measure", anchor: "middle" });
+  const dots = marks.map(() => draw(sheet, "circle", { r: 4, fill: "none", w: 1.6, stroke: css("accent") }));
+  return [() => {
+    const real = marks.map(marked), at = real.map((each) => px(...each));
+    dots.forEach((dot, k) => set(dot, { cx: at[k][0], cy: at[k][1] }));
+    set(line, { d: broken(at) });
+    if (real.length < 2) { text.textContent = ""; return; }
+    const said = measureText(real), middle = real.length > 2 ? at[1] : [0.5 * (at[0][0] + at[1][0]), 0.5 * (at[0][1] + at[1][1])];
+    text.textContent = said;
+    set(text, { x: min(max(middle[0], 60), sheetWide - 60), y: min(max(middle[1] - 10, 14), sheetTall - 6) });
+  }];
+}
+function measureText(real) {
+  if (real.length === 2) return shown(apart(...real), data.length, 5);
+  const [a, b, c] = real, turn = atan2(c[1] - b[1], c[0] - b[0]) - atan2(a[1] - b[1], a[0] - b[0]), half = abs(((turn + 3 * PI) % (2 * PI)) - PI);
+  return `${fixed((half * 180) / PI, 2)}\u00b0`;
+}
+
+/* ---- the curve read at the mouse; a press moves the stroke there ---- */
+
+let glass = null, pressed = false;
+function reader() {
+  glass = { line: draw(plot, "line", { class: "rule", dash: "2 3", visibility: "hidden" }), text: draw(plot, "text", { class: "halo read", visibility: "hidden" }) };
+}
+function under(event) {
+  const box = plot.getBoundingClientRect(), { along, x } = chart, at = event.clientX - box.left, a = x(along[0]), b = x(along[along.length - 1]);
+  return { share: min(max((at - a) / (b - a || 1), 0), 1), at: min(max(at, min(a, b)), max(a, b)) };
+}
+on(plot, "pointermove", (event) => {
+  if (!chart || !glass || !chart.values) return;
+  const { share, at } = under(event), where = share * (COUNT - 1), i = min(floor(where), COUNT - 2), t = where - i, { values, along, one } = chart;
+  const value = t === 0 ? values[i] : values[i] + (values[i + 1] - values[i]) * t, stroke = strokes[runs], box = plot.getBoundingClientRect();
+  set(glass.line, { x1: at, x2: at, y1: 10, y2: box.height - 40, visibility: "visible" });
+  const place = short(along[i] + (along[i + 1] - along[i]) * t, 4) + unitText(stroke.unit), size = isNumber(value) ? fixed(value, places(max(...finite(values).map(abs), 0), 4)) + unitText(one.unit) : "\u2013";
+  glass.text.textContent = `${titled(stroke)} = ${place}: ${size}`;
+  set(glass.text, { x: at + (share > 0.5 ? -8 : 8), y: 22, anchor: share > 0.5 ? "end" : "start", visibility: "visible" });
+  if (pressed) strokeTo(share);
+});
+on(plot, "pointerleave", () => { if (glass) for (const each of Object.values(glass)) set(each, { visibility: "hidden" }); });
+function strokeTo(share) {
+  const { start, end } = strokes[runs], at = [...stands];
+  play(false);
+  at[runs] = start + (end - start) * share;
+  moved(present, at, titled(strokes[runs]));
+  clock = phaseNow();
+  soon("pose"); remember();
+}
+on(plot, "pointerdown", (event) => { if (chart) { pressed = true; plot.setPointerCapture(event.pointerId); strokeTo(under(event).share); } });
+for (const end of ["pointerup", "pointercancel"]) on(plot, end, () => { pressed = false; });

@@ -277,19 +277,19 @@ class LiftingCylinder:
         words = [said("piston side") if side == PISTON else said("rod side") for side in order]
         words[1:] = [f"{words[-1]}{'' if self.ram.side == 'both' else said(' where the load drives')}"] if words[1:] else []
         parts = [
-            said("up to {pressure} stand in the {side}, {where}", pressure=self.show(each.value), side=side, where=each.place)
+            said("the {side} holds up to {pressure}, {where}", pressure=self.show(each.value), side=side, where=each.place)
             for each, side in zip(found, words, strict=True)
             if each.value > 0.0
         ]
         stands = ", ".join(parts) or said("no pressure stands on either side")
         given, pump = self.show(limit), not circuit.relieves(self.judge.plan)
-        valve = said("the pump, for no relief= is given, {limit}", limit=given) if pump else said("the relief valve, {limit}", limit=given)
+        valve = said("the relief valve's {limit}", limit=given)
+        valve = said("the pump's {limit}, since no relief valve is declared", limit=given) if pump else valve
         worst = max(found, key=lambda each: each.value)
         if all(each.ok for each in found):
-            return Verdict(
-                "holding", True, said("with the pump off {stands}, held against {valve}.", stands=stands, valve=valve), answer=worst
-            )
-        text = said("with the pump off {stands}; that is above {valve}: take a larger bore.", stands=stands, valve=valve)
+            text = said("with the pump off, {stands}: not above {valve}.", stands=stands, valve=valve)
+            return Verdict("holding", True, text, answer=worst)
+        text = said("with the pump off, {stands}: above {valve}; take a larger bore.", stands=stands, valve=valve)
         return Verdict("holding", False, text, answer=worst)
 
     def going_back(self, resistance: float = 0.0) -> Verdict:

@@ -10,7 +10,7 @@ from io import StringIO
 from textwrap import dedent
 
 from ..formulas.numbered import Equations
-from ..language import said
+from ..language import said, translated
 from ..loads import ForceElement, LoadCase
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
@@ -42,9 +42,19 @@ def inputs_section(machine: Mechanism, listing: Equations, held: Mapping[str, fl
 
 def own_words(machine: Mechanism) -> Iterator[Paragraph]:
     """Yield the paragraphs of the machine's own words, after the first line, which is the subtitle."""
-    text = inspect.cleandoc(type(machine).__doc__ or "")
-    for paragraph in text.split("\n\n")[1:]:
-        yield Paragraph(" ".join(paragraph.split()))
+    yield from (Paragraph(translated(each)) for each in own_paragraphs(type(machine))[1:])
+
+
+def own_paragraphs(machine: type[Mechanism]) -> list[str]:
+    """Return the paragraphs of a class's own words, each in one line; the first is the subtitle."""
+    return [" ".join(each.split()) for each in inspect.cleandoc(machine.__doc__ or "").split("\n\n")]
+
+
+def own_texts(machine: type[Mechanism]) -> list[str]:
+    """Return all that a class says in its own words, which a catalogue may have in another language: name, prose, notes."""
+    classes = [each for each in machine.__mro__ if issubclass(each, Mechanism) and each is not Mechanism]
+    found = [machine.plan.heading, *(text for each in classes for text in (*own_paragraphs(each), *comments_in(each).values()))]
+    return [*dict.fromkeys(text for text in found if any(letter.isalpha() for letter in text))]
 
 
 def stroke_table(machine: Mechanism, listing: Equations, held: Mapping[str, float], notes: Mapping[str, str]) -> TableBlock:
@@ -121,7 +131,7 @@ def notes_of(machine: type[Mechanism]) -> dict[str, str]:
     for cls in reversed(machine.__mro__):
         if issubclass(cls, Mechanism) and cls is not Mechanism:
             found |= comments_in(cls)
-    return {name: text for name, text in found.items() if name in machine.plan.members}
+    return {name: translated(text) for name, text in found.items() if name in machine.plan.members}
 
 
 def comments_in(cls: type) -> dict[str, str]:

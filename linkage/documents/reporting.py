@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,7 +11,7 @@ import numpy as np
 
 from ..disk import check_name, check_place
 from ..errors import DefinitionError, LinkageError, cited, unknown, unwarned
-from ..language import current_language, heading_of, said, said_of
+from ..language import current_language, heading_of, said, said_of, translated
 from ..language import language as spoken
 from ..loads import PLAIN_CASE, Acting, situation_of
 from ..mechanism import Mechanism
@@ -28,7 +27,7 @@ from .checks import checks_section
 from .content import Cell, Document, Mark, Paragraph, Section, TableBlock
 from .fingerprint import DIGITS, fingerprint, own_version
 from .html import write_html
-from .inputs import definition_section, inputs_section
+from .inputs import definition_section, inputs_section, own_paragraphs
 from .markdown import write_markdown
 from .outcome import curve_columns, drawing_section, forces_section, limits_section, members_sections, results_section
 from .pdf import write_pdf
@@ -143,7 +142,7 @@ def composed(
         definition_section(machine),
     )
     whole = tuple(each for each in sections if each is not None)
-    words = inspect.cleandoc(type(machine).__doc__ or "").partition("\n")[0]
+    words = translated(own_paragraphs(type(machine))[0])
     return Document(machine.plan.heading, words, facts(subject, title_block, mark), mark, whole, current_language())
 
 

@@ -297,6 +297,7 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "moving": moving_data(plan),
         "meets": meeting_data(plan, names),
         "class": type(machine).__name__,
+        "title": plan.heading, "titleRu": russian_heading(plan),
         "defaults": {name: plan.defaults[name] for name, value, *_ in dims if value != plan.defaults[name]},
         "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
         **unit_tables(),
@@ -427,6 +428,12 @@ def grip_data(plan: Plan, names: Sequence[str]) -> list[dict[str, int]]:
     return [{"point": points.index(name), "x": names.index(x), "y": names.index(y)} for name, (x, y) in free.items()]
 
 
+def russian_heading(plan: Plan) -> str:
+    """Return a machine's name as words in Russian, as it is where no catalogue has it."""
+    with language("ru"):
+        return plan.heading
+
+
 def moving_data(plan: Plan) -> list[int]:
     """Return the places of the points that move and can be dragged."""
     return [place for place, name in enumerate(plan.points) if name in plan.moving]
@@ -439,14 +446,14 @@ def meeting_data(plan: Plan, names: Sequence[str]) -> dict[int, list[int]]:
     lengths = {joined_names(*pair): pair for pair in permutations(points, 2)}
     found: dict[int, list[int]] = defaultdict(list)
     for name, place in own.items():
-        ends = lengths.get(name, ()) if entries[name].kind == "length" else corners(name, points, lengths)
+        ends = lengths.get(name, ()) if entries[name].kind == "length" else angle_points(name, points, lengths)
         for each in ends:
             if each in plan.moving:
                 found[points.index(each)].append(place)
     return dict(found)
 
 
-def corners(name: str, points: Sequence[str], lengths: Mapping[str, tuple[str, str]]) -> tuple[str, ...]:
+def angle_points(name: str, points: Sequence[str], lengths: Mapping[str, tuple[str, str]]) -> tuple[str, ...]:
     """Return the three points that the name of an angle joins; none where it is no such name."""
     found = ((*pair, last) for word, pair in lengths.items() if name.startswith(word) for last in points if last not in pair)
     return next((each for each in found if joined_names(*each) == name), ())

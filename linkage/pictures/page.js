@@ -587,6 +587,7 @@ on(byId("language"), "click", () => { language = language === "ru" ? "en" : "ru"
 on(byId("look"), "click", () => { look(root.dataset.look === "dark" ? "light" : "dark"); chosenLook = true; remember(); });
 function speak() {
   labelled();
+  document.querySelector("h1").textContent = document.title = language === "ru" ? data.titleRu : data.title;
   for (const name of ["undo", "redo", "nearer", "farther", "whole", "grid", "measure"]) byId(name).setAttribute("aria-label", byId(name).title);
   systems();
   byId("play").setAttribute("aria-label", playing ? say("Pause") : say("Play"));

@@ -12,6 +12,7 @@ from typing import Any, TypeVar, final
 
 from ..errors import DefinitionError, about, unknown
 from ..frozen import FrozenDict
+from ..language import translated
 from ..quantities import (
     Distance,
     Function,
@@ -336,8 +337,8 @@ class Members:
 
     @property
     def heading(self) -> str:
-        """The title as words, for pictures: `MowerLift` is `Mower lift`."""
-        return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", self.title).capitalize()
+        """The title as words, for pictures, in the language that is spoken: `MowerLift` is `Mower lift`."""
+        return translated(re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", self.title).capitalize())
 
     def named(self) -> Mapping[str, Member]:
         """Return what has a value, points, vectors and quantities, by name."""

@@ -10,6 +10,7 @@ from typing import Unpack, final
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, known_name, unknown
+from ..language import said
 from ..loads import Acting, ActingKeywords, Loads, situation_of, takes_situation
 from ..motion import Motion, require_motion, stroke_unit
 from ..motion.limits import where_words
@@ -387,7 +388,7 @@ def self_locking_words(found: PoseForces) -> list[str]:
 def at_rest_words(applied: AppliedLoads) -> list[str]:
     """Return the words for what gives nothing: no loads at all, dampers without rates."""
     if not applied.loads and not applied.thrusts:
-        return ["no load acts, so that all forces are zero; declare one in the class, such as load = Weight(G, mass=1200)."]
+        return [said("no load acts, so that all forces are zero; declare one in the class, such as load = Weight(G, mass=1200).")]
     if not applied.at_rest:
         return []
     return [f"{', '.join(applied.at_rest)}: at rest a damper gives nothing; give the speeds, rates=dict(S=0.05)."]

@@ -10,14 +10,20 @@ import ast
 import struct
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from string import Formatter
 
+from linkage.cli.listing import registered
+from linkage.cli.machines import find
+from linkage.documents.inputs import own_texts
+
 ROOT = Path(__file__).parents[2]
 BELOW = {"linkage": (), "hydraulics": ("linkage",), "mechanisms": ("linkage", "hydraulics")}
 LANGUAGES = ("ru",)
+OF_PAPERS = ("mower_lift", "three_point_hitch", "header_balancer", "crane", "boom_drive", "arm_drive", "grapple")
+"""The machines whose own words, names, prose and notes, belong into a catalogue; those of others may."""
 
 # -- what the source says ----------------------------------------------------------------------------------
 
@@ -67,7 +73,14 @@ def source_messages(package: str) -> dict[Message, str]:
         path = file.relative_to(ROOT).as_posix()
         for each in messages(path, file.read_text(encoding="utf-8")):
             found.setdefault(each, each.where)
+    if package == "mechanisms":
+        found |= {each: each.where for each in own_messages(OF_PAPERS) if each not in found}
     return found
+
+
+def own_messages(names: Iterable[str]) -> Iterator[Message]:
+    """Yield what shipped machines say in their own words."""
+    yield from (Message(text, where=name) for name in names for text in own_texts(find(name)))
 
 
 # -- catalogues --------------------------------------------------------------------------------------------
@@ -159,7 +172,8 @@ def catalogue_faults(package: str, language: str) -> Iterator[str]:
     known = {each.message for other in BELOW[package] for each in entries(catalogue_path(other, language).read_text(encoding="utf-8"))}
     yield from (f"{path}: {fault}" for entry in found[1:] for fault in entry_faults(entry))
     yield from (f"{path}: {each.text!r} ({said[each]}) is missing" for each in said if each not in known and each not in listed)
-    yield from (f"{path}: {each.text!r} is said nowhere" for each in listed if each not in said)
+    spoken = {*said, *(own_messages(registered()) if package == "mechanisms" else ())}
+    yield from (f"{path}: {each.text!r} is said nowhere" for each in listed if each not in spoken)
     yield from (f"{path}: {each.text!r} stands twice" for each, times in listed.items() if times > 1)
     yield from (f"{path}: {each.text!r} stands in a catalogue below" for each in listed if each in known)
     if path.with_suffix(".mo").read_bytes() != compiled(found):

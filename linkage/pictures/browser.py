@@ -14,7 +14,7 @@ from ..motion import Column, Motion, RequestLike, live_text
 from ..reports import NOTHING, At
 from ..study import Synthesis, WorkingField
 from .browser_data import PageRequests, page_data
-from .browser_file import page_part, page_text
+from .browser_file import MACHINE, START, page_part, page_text
 from .chart_page import chart_page
 from .strokes import frame_count
 from .task_page import task_page
@@ -100,5 +100,4 @@ def page_html(
         check_place(place)
     live = live_text(machine.plan, requests.by_name, name="engine")
     most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
-    parts = ("machine.html", "page.css", "mechanism.js", "page.js", "hands.js", "leave.js", "start.js")
-    return page_text(machine.plan.heading, page_data(requests, live), parts, language=language, most=most, text=text)
+    return page_text(machine.plan.heading, page_data(requests, live), (*MACHINE, START), language=language, most=most, text=text)

@@ -18,6 +18,9 @@ from .browser_words import words_in
 
 COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
 LANGUAGES = ("en", "ru")
+MACHINE = ("machine.html", "page.css", "mechanism.js", "page.js", "hands.js", "leave.js")
+"""The parts of a page with a machine that moves and changes; what a kind of page adds comes after them, and START last."""
+START = "start.js"
 
 
 def page_text(title: str, data: dict[str, Any], parts: Sequence[str], *, language: str, most: int = 0, text: str = "") -> str:

@@ -17,10 +17,10 @@ from ..reports import results
 from ..study import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
 from ..study.synthesis import miss_unit
 from .browser_data import PageRequests, page_data, unit_data
-from .browser_file import page_part, page_text
+from .browser_file import MACHINE, START, page_part, page_text
 from .strokes import frame_count
 
-PARTS = ("machine.html", "page.css", "mechanism.js", "task.js", "page.js")
+PARTS = (*MACHINE, "task.js", START)
 
 
 def task_page(found: Synthesis, *, count: int, language: str, at: Mapping[str, Any], **given: Any) -> str:

@@ -104,8 +104,10 @@ from .study import WorkingField as WorkingField
 from .study import around as around
 from .study import working_field as working_field
 from .study.chains import chains as chains
+from .study.exact_cognates import cognates as cognates
 from .study.exact_functions import freudenstein as freudenstein
 from .study.exact_paths import five_point as five_point
+from .study.exact_poses import burmester as burmester
 from .study.optimise import optimise as optimise
 from .study.task_error import point_errors as point_errors
 from .study.task_error import task_error as task_error

@@ -14,6 +14,9 @@ from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike
 from ..reports import NOTHING
 from ..study import Optimum, Synthesis, WorkingField
+from ..study import Optimum, WorkingField
+from ..study.exact_poses import Burmester
+from .burmester import draw_burmester
 from .chain import draw_chain
 from .curves import plot_machine, plot_motion
 from .designs import draw_designs
@@ -64,9 +67,12 @@ def draw(
     clearance: bool | tuple[str, str] = ...,
 ) -> Figure: ...
 @overload
+def draw(machine: Burmester) -> Figure: ...
+@overload
 def draw(machine: nx.MultiGraph) -> Figure: ...
 def draw(
     machine: Mechanism | Motion | Optimum | Synthesis | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism],
+    machine: Mechanism | Motion | Optimum | Burmester | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism],
     at: Any = None,
     path: Sequence[str] = (),
     count: int = 101,
@@ -115,6 +121,8 @@ def draw(
     as long that it can be seen; of a function the wanted values and the curve, of poses the body at each.
 
     Of `machine.graph`, the kinematic chain: its bodies, and the pins and slides between them.
+    Of `machine.graph`, the kinematic chain: its bodies, and the pins and slides between them. Of `burmester(...)`, the curves of circle and
+    centre points, the poses, and the links.
     """
     laid = (faint, forces, pole, clearance)
     is_laid = ax is not None or velocities is not None or any(each is not None and each is not False for each in laid)
@@ -140,6 +148,10 @@ def draw(
         return draw_chain(machine)
     if isinstance(machine, Mechanism) and not is_laid and any(map(np.ndim, machine.dimensions.values())):
         return draw_designs([machine], at, path, count)
+    if isinstance(machine, Burmester):
+        if at is not None or path or is_laid:
+            raise DefinitionError("draw(burmester(...)): its poses are those that were given; it is drawn by itself.")
+        return draw_burmester(machine)
     if isinstance(machine, Optimum):
         if at is not None or path or is_laid:
             title = machine.problem.plan.title

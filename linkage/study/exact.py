@@ -37,6 +37,8 @@ ComplexArray: TypeAlias = npt.NDArray[np.complex128]
 TURN = 2.0 * pi
 NARROW = 1e-9
 """A stroke that is narrower [rad] is none."""
+CHANGE_POINT = 1e-9
+"""A cosine that is as near to one [1]: the links come into one line there."""
 LEAST_LINK = 1e-9
 """Of a task's size: a link that is shorter is none."""
 
@@ -64,15 +66,16 @@ class DrivenPiece:
 
 
 def angles_of_reach(low: float, high: float, reference: float) -> list[DrivenPiece]:
-    """Return where low <= cos(angle - reference) <= high, none where nothing is."""
+    """Return where low <= cos(angle - reference) <= high, none where nothing is; a change point ends a piece."""
     if low > 1.0 or high < -1.0 or low > high:
         return []
-    if low <= -1.0 and high >= 1.0:
+    below, above = low < -1.0 - CHANGE_POINT, high > 1.0 + CHANGE_POINT
+    if below and above:
         return [DrivenPiece(0.0, TURN, True)]
-    inner, outer = acos(min(high, 1.0)), acos(max(low, -1.0))
-    if high >= 1.0:
+    inner, outer = acos(max(min(high, 1.0), -1.0)), acos(max(min(low, 1.0), -1.0))
+    if above:
         return [DrivenPiece(reference - outer, reference + outer)]
-    if low <= -1.0:
+    if below:
         return [DrivenPiece(reference + inner, reference + TURN - inner)]
     return [DrivenPiece(reference + inner, reference + outer), DrivenPiece(reference - outer, reference - inner)]
 

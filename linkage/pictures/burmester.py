@@ -1,0 +1,116 @@
+"""The picture of Burmester's theory: the curves of circle and centre points, the poses, the region of the pivots, and the links."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon
+
+from ..language import said
+from ..program import FloatArray
+from ..study.exact_poses import Burmester, GuidingLink
+from . import style
+from .paper import empty_page, legend_row, write_title
+from .scene import Bounds
+
+ROOM = 1.6
+"""Of the extent of poses and region: how much of the plane is shown, where the curves go on."""
+ARM = 0.09
+"""Of the picture's side: the arms of a pose."""
+
+
+def draw_burmester(found: Burmester) -> Figure:
+    """Return a figure of the two curves and the links in the first pose, those of the best machine bold with its coupler."""
+    box = shown_box(found)
+    figure, ax = empty_page(box)
+    side = max(box[1] - box[0], box[3] - box[2])
+    keys: list[Line2D] = []
+    texts: list[str] = []
+    if found.region is not None:
+        ax.add_patch(Polygon(found.region, closed=True, facecolor=style.GRID, edgecolor=style.RULE, zorder=0.5))
+        keys.append(Line2D([], [], color=style.GRID, linewidth=8.0))
+        texts.append(said("region of the fixed pivots"))
+    points, centres = said("circle points"), said("centre points")
+    curves = ((found.circle_curve, style.CURVE, points, "o"), (found.centre_curve, style.ACCENT, centres, "^"))
+    for branches, colour, text, marker in curves:
+        for branch in branches:
+            ax.plot(*broken_line(branch, 4.0 * side), color=colour, linewidth=1.6, zorder=3.0)
+        keys.append(Line2D([], [], color=colour, linewidth=1.6 if branches else 0.0, marker=marker, markeredgecolor=style.INK))
+        texts.append(text)
+    chosen = best_pins(found)
+    if len(chosen):
+        ax.fill(*np.concatenate([chosen, found.poses[:1, :2]]).T, facecolor=style.BODIES[0], edgecolor=style.INK, alpha=0.35, zorder=1.5)
+    for link in found.links:
+        draw_link(ax, link, side, bold=any(np.allclose(link.point, pin) for pin in chosen))
+    draw_corners(ax, found.poses, ARM * side)
+    ax.set(xlim=box[:2], ylim=box[2:])
+    legend_row(ax, keys, texts)
+    running, count = len(found.solutions), len(found.synthesis.all)
+    beside = said("{running} of {count} machines run", running=running, count=count)
+    write_title(figure, said("Burmester: {count} poses", count=len(found.poses)), beside)
+    return figure
+
+
+def shown_box(found: Burmester) -> Bounds:
+    """Return the box that is shown [m]: about poses, region, and the best machine's pins."""
+    parts = [found.poses[:, :2], *([found.region] if found.region is not None else [])]
+    pins = best_pins(found)
+    places = [link.places for link in found.links if any(np.allclose(link.point, pin) for pin in pins) or len(found.poses) == 5]
+    centres = [link.centre[None] for link in found.links if len(found.poses) == 5 and not link.slides]
+    cloud = np.concatenate([*parts, *places, *centres, *([pins] if len(pins) else [])])
+    cloud = cloud[np.isfinite(cloud).all(axis=1)]
+    near = np.abs(cloud - np.median(cloud, axis=0)).max(axis=1) <= 12.0 * max(float(np.ptp(parts[0], axis=0).max()), 1e-9)
+    low, high = cloud[near].min(axis=0), cloud[near].max(axis=0)
+    middle, half = 0.5 * (low + high), 0.5 * ROOM * np.maximum(high - low, 0.4 * float((high - low).max()) or 1.0)
+    return float(middle[0] - half[0]), float(middle[0] + half[0]), float(middle[1] - half[1]), float(middle[1] + half[1])
+
+
+def best_pins(found: Burmester) -> FloatArray:
+    """Return the circle points of the first solution in the first pose (2, 2) [m], none where there is none."""
+    if not found.solutions:
+        return np.zeros((0, 2))
+    best = found.solutions[0]
+    motion = best.machine.at(phi=best.strokes[:1])
+    return np.stack([motion["A"][:, 0], motion["B"][:, 0]])
+
+
+def broken_line(branch: FloatArray, far: float) -> tuple[FloatArray, FloatArray]:
+    """Return a closed branch (2, m) for drawing [m], broken where it goes through infinity."""
+    closed = np.concatenate([branch, branch[:, :1]], axis=1)
+    steps = np.hypot(*np.diff(closed, axis=1))
+    x, y = np.array(closed[0]), np.array(closed[1])
+    broken = np.append(~(steps < far), False)
+    x[broken] = np.nan
+    return x, y
+
+
+def draw_link(ax: Axes, link: GuidingLink, side: float, *, bold: bool) -> None:
+    """Draw a link in the first pose: its circle point and, of one that turns, its centre point; of a slider its line."""
+    colour = style.INK if bold else style.MUTED
+    width, size, level = (2.4, 7.0, 6.0) if bold else (0.7, 3.5, 4.0)
+    x, y = link.point
+    if link.slides:
+        way = 0.5 * side * np.array([np.cos(link.direction), np.sin(link.direction)])
+        ax.plot([x - way[0], x + way[0]], [y - way[1], y + way[1]], color=colour, linewidth=width, linestyle=(0, (6, 3)), zorder=level)
+    else:
+        ax.plot([x, link.centre[0]], [y, link.centre[1]], color=colour, linewidth=width, zorder=level, alpha=1.0 if bold else 0.55)
+        ax.plot(*link.centre, "^", color=style.ACCENT, markersize=size + 1.0, markeredgecolor=style.INK, zorder=level + 1.0)
+    ax.plot(x, y, "o", color=style.CURVE, markersize=size, markeredgecolor=style.INK, zorder=level + 1.0)
+
+
+def draw_corners(ax: Axes, poses: FloatArray, arm: float) -> None:
+    """Draw each pose as a corner whose long arm is the body's own x axis, with its number, and a line from one to the next."""
+    for one, other in pairwise(poses):
+        ax.plot([one[0], other[0]], [one[1], other[1]], color=style.RULE, linewidth=0.9, linestyle=":", zorder=2.0)
+    for number, (x, y, angle) in enumerate(poses, 1):
+        along, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
+        corner = np.array([[x, y] + arm * along, [x, y], [x, y] + 0.5 * arm * across])
+        ax.plot(*corner.T, color=style.INK, linewidth=2.2, solid_joinstyle="round", zorder=7.0)
+        beside = np.array([x, y]) - 0.28 * arm * (along + across)
+        look: dict[str, Any] = {"fontsize": style.LABEL, "color": style.INK, "ha": "center", "va": "center"}
+        ax.text(float(beside[0]), float(beside[1]), str(number), zorder=8.0, **look)

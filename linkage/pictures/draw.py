@@ -14,7 +14,6 @@ from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike
 from ..reports import NOTHING
 from ..study import Optimum, Synthesis, WorkingField
-from ..study import Optimum, WorkingField
 from ..study.exact_poses import Burmester
 from .burmester import draw_burmester
 from .chain import draw_chain
@@ -71,8 +70,7 @@ def draw(machine: Burmester) -> Figure: ...
 @overload
 def draw(machine: nx.MultiGraph) -> Figure: ...
 def draw(
-    machine: Mechanism | Motion | Optimum | Synthesis | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism],
-    machine: Mechanism | Motion | Optimum | Burmester | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism],
+    machine: Mechanism | Motion | Optimum | Synthesis | Burmester | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism],
     at: Any = None,
     path: Sequence[str] = (),
     count: int = 101,
@@ -120,7 +118,6 @@ def draw(
     numbered, with the path of the point over the whole stroke, the machine at the first of them, and what is missed, drawn so many times
     as long that it can be seen; of a function the wanted values and the curve, of poses the body at each.
 
-    Of `machine.graph`, the kinematic chain: its bodies, and the pins and slides between them.
     Of `machine.graph`, the kinematic chain: its bodies, and the pins and slides between them. Of `burmester(...)`, the curves of circle and
     centre points, the poses, and the links.
     """

@@ -41,9 +41,11 @@ from .motion import at as at
 from .motion import clearance as clearance
 from .motion import condition as condition
 from .motion import gap as gap
+from .motion import inside as inside
 from .motion import integral as integral
 from .motion import least as least
 from .motion import most as most
+from .motion import outside as outside
 from .motion import ratio as ratio
 from .motion import reachable as reachable
 from .motion import transmission as transmission

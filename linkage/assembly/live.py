@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ..plan import Plan
-from ..program import Graph, Inputs, Level, Node, arrow_function, inside, number, short_names
+from ..program import Graph, Inputs, Level, Node, arrow_function, function_body, number, short_names
 from ..steps import Group
 from . import angle_continuation
 from .angle_continuation import piece_length
@@ -23,7 +23,7 @@ def traced_rule(count: int, rule: Rule) -> str:
     given = {graph.input(f"{place}", Level.POSE): next(names) for place in range(count)}
     found = rule(*given, choose=graph.pick)
     results = found if isinstance(found, tuple) else (found,)
-    return f"({','.join(given.values())})=>{inside(given, [graph.node(each) for each in results])}"
+    return f"({','.join(given.values())})=>{function_body(given, [graph.node(each) for each in results])}"
 
 
 def place_ahead(*given: Any, choose: Any) -> tuple[Any, ...]:
@@ -58,8 +58,8 @@ def group_text(plan: Plan, group: Group, inputs: Inputs) -> str:
     known = {graph.input(f"@k{place}", Level.POSE): f"k[{place}]" for place in range(len(programs.known))}
     pins = {graph.input(name, Level.POSE): f"u[{place}]" for place, name in enumerate(group.inputs[:-1])}
     steps, clear = programs.nodes[: count + 2], [*programs.nodes[count + 2 :], programs.nodes[count + 1]]
-    functions = (f"u=>{inside(known | pins, each, 'ku')}" for each in (steps, clear, programs.raw.plan.outputs))
-    return f"(d,p)=>{{const k=(()=>{inside(given, programs.known, 'dp')})();return[{','.join(functions)}]}}"
+    functions = (f"u=>{function_body(known | pins, each, 'ku')}" for each in (steps, clear, programs.raw.plan.outputs))
+    return f"(d,p)=>{{const k=(()=>{function_body(given, programs.known, 'dp')})();return[{','.join(functions)}]}}"
 
 
 def groups_text(plan: Plan, inputs: Inputs, dimensions: Sequence[str]) -> str:

@@ -131,7 +131,7 @@ def key_lines(text: str) -> Mapping[Key, int]:
     """Return the line, counted from 1, of every table and key that stands at the start of one."""
     found: dict[Key, int] = {}
     table: Key = ()
-    for number, line in outside(text):
+    for number, line in lines_outside(text):
         match = _PATH.match(line)
         if match is None:
             continue
@@ -142,7 +142,7 @@ def key_lines(text: str) -> Mapping[Key, int]:
     return found
 
 
-def outside(text: str) -> Iterator[tuple[int, str]]:
+def lines_outside(text: str) -> Iterator[tuple[int, str]]:
     """Yield the lines, with their numbers, that do not start inside a text of several lines."""
     inside = ""
     for number, line in enumerate(text.splitlines(), 1):

@@ -19,6 +19,7 @@ from .poles import whole_body
 from .pose_requests import condition, transmission
 from .positions import Positions, positions_for
 from .reach import limits_over
+from .regions import inside, outside
 from .requests import MotionFunction, NodeRequest, Request, RequestLike, SmoothPiece, Value, ratio
 from .search import Extremum, Span, below_zero, greatest, lowest, reached
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values

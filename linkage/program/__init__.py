@@ -7,7 +7,7 @@ from .elimination import SparseSystem, eliminated, expanded, is_zero
 from .foreign import Language, ProgramText
 from .interpret import LAST, Iterated, disturbed, interpret, scatter
 from .intervals import Enclosure, enclosures
-from .javascript import Inputs, arrow_function, inside, number, short_names
+from .javascript import Inputs, arrow_function, function_body, number, short_names
 from .kernel import BACKEND, QUICKEST, Backend, Kernel, Result, RunOptions, fixed_backend
 from .languages import LANGUAGES
 from .linear import solve_arrays

@@ -198,7 +198,7 @@ def named_inputs(writer: Expressions, given: Sequence[Node], inputs: Inputs) -> 
     return f"const {','.join(found)};" if found else ""
 
 
-def inside(given: Mapping[Node, str], results: Sequence[Node], outer: Collection[str] = (), maths: Mapping[str, str] = MATHS) -> str:
+def function_body(given: Mapping[Node, str], results: Sequence[Node], outer: Collection[str] = (), maths: Mapping[str, str] = MATHS) -> str:
     """Return `{...;return[...]}`, a function's inside: results from nodes that are called so; `outer` are names that mean others there."""
     results = lowered(results)
     nodes = [node for node in ancestors(results, given) if node not in given and node.op != "constant"]
@@ -221,7 +221,7 @@ class JavaScript:
         plan = schedule(expanded(outputs))
         inputs = (("d", plan.design_inputs), ("p", plan.pose_inputs))
         given = {node: f"{letter}[{k}]" for letter, part in inputs for k, node in enumerate(part)}
-        text = inside(given, plan.outputs, ("d", "p"), ALONE)
+        text = function_body(given, plan.outputs, ("d", "p"), ALONE)
         own = "".join(f"    const {each} = {rule};\n" for each, rule in OWN.items() if f"{each}(" in text)
         lines = re.sub(r",(?=\w+=[^=])", ",\n        ", text[1:-1]).replace(";return", ";\n    return ")
         return f"/* {inputs_text(plan, design)} */\nfunction {name}(d, p) {{\n{own}    {lines};\n}}\n"

@@ -85,6 +85,7 @@ def optimise(
     maximise: Measure | Quantity | str | None = ...,
     vary: Mapping[Any, Any],
     subject_to: Any = ...,
+    regions: Mapping[str, Any] | None = ...,
     case: Any = ...,
     over: Mapping[str, Any] | None = ...,
     robust: Mapping[str, Any] | None = ...,
@@ -105,6 +106,7 @@ def optimise(
     maximise: Sequence[Measure | Quantity] = ...,
     vary: Mapping[Any, Any],
     subject_to: Any = ...,
+    regions: Mapping[str, Any] | None = ...,
     case: Any = ...,
     over: Mapping[str, Any] | None = ...,
     solver: str = ...,
@@ -119,6 +121,7 @@ def optimise(
     maximise: Any = None,
     vary: Mapping[Any, Any],
     subject_to: Any = (),
+    regions: Mapping[str, Any] | None = None,
     case: Any = None,
     over: Mapping[str, Any] | None = None,
     robust: Mapping[str, Any] | None = None,
@@ -139,6 +142,8 @@ def optimise(
 
     `vary` says what may change: `"OB": (low, high)` [SI], with a third number in steps; `"M": around(60 * mm)`, of a point both
     coordinates; a list of choices; and for several names at once rows of a catalogue, `("lift.bore", "lift.rod"): [(0.1, 0.056), ...]`.
+    `regions={"M": [(0.1, 0.9), (0.4, 0.9), (0.4, 1.2)]}` keeps a point in a polygon [m], `around(radius=60 * mm)` in a circle; a list of
+    shapes allows any of them, `outside(...)` none, and an outline of the frame goes by its name, `["plate", outside("wheel")]`.
     `over={"S": (0.0, 0.2)}` looks at a part of the stroke; an end may be a quantity that follows the design. `case` names a load case or
     several, all of which are kept and the worst of which counts; with their hours, `case={"empty": 700, "full": 300}`, the mean of the
     objective counts, by hours or shares alike, as they are divided by their sum.
@@ -166,12 +171,12 @@ def optimise(
     check_counts(title, starts, seed, limit)
     check_progress(progress)
     objectives, sense = objectives_of(machine, minimise, maximise)
-    space = Space.of(machine, vary)
+    space = Space.of(machine, vary, regions)
     sides = space.sides([0] * len(space.choices))
     if sides:
         text = f"the side of {next(iter(sides))} is varied by synthesise alone; for optimise write a class for each side"
         raise DefinitionError(f"{title}: {text}, class Other({type(machine).__name__}).")
-    constraints = conditions_of(subject_to, machine)
+    constraints = [*conditions_of(subject_to, machine), *space.conditions]
     over, occurring = where_searched(machine, over)
     cases, shares = cases_searched(machine, case, occurring)
     judge = machine.judge(over)
@@ -622,6 +627,8 @@ class DesignSearch:
             unit = present[None]
         elif np.allclose(space.values(present), self.present, rtol=0.0, atol=1e-9 * np.array([each.span for each in space.variables])):
             unit = np.concatenate([present[None], unit])
+        if self.plan.method != "local":
+            unit = space.drawn(unit, self.problem.plan.title, self.plan.seed)
         self.looked.append(self.looked_at(combination, unit))
         return self.looked[-1]
 

@@ -13,6 +13,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism
+from ..motion.measures import Constraint
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number, label
@@ -20,7 +21,9 @@ from ..units import show
 from ..vectors import Side
 from .checks import unit_of
 from .designs import check_once
+from .regions import PointRegion, drawn_inside, point_regions, put_inside
 from .sides import ENDING, is_side, side_given, sided_step
+from .varied import Varied
 
 MOST_COMBINATIONS = 100_000
 FAR = 20.0
@@ -30,80 +33,55 @@ FAR = 20.0
 @final
 @dataclass(frozen=True)
 class Around:
-    """So far up and down from a dimension's present value."""
+    """So far up and down from a dimension's present value; of a point `round`, so far in any direction."""
 
     by: float
     step: float | None = None
+    is_round: bool = False
 
 
-def around(by: float, step: float | None = None) -> Around:
-    """Return the range of so much up and down about the present value, of a point in both directions: `vary={"M": around(60 * mm)}`."""
+def around(by: float | None = None, step: float | None = None, *, radius: float | None = None) -> Around:
+    """Return the range of so much up and down about the present value, of a point in both directions: `vary={"M": around(60 * mm)}`.
+
+    `radius` in the place of it is a circle about where a point stands now: `around(radius=60 * mm)`.
+    """
+    if (by is None) == (radius is None) or (radius is not None and step is not None):
+        raise DefinitionError("around: say how far, around(60 * mm), with or without a step, or a circle, around(radius=60 * mm).")
+    by, is_round = (by, False) if radius is None else (radius, True)
     for value, what in ((by, "a distance or an angle"), (step, "a step")):
         if value is not None and (not is_number(value) or value <= 0.0):
             raise DefinitionError(f"around({cited(by)}{'' if step is None else f', {cited(step)}'}): {what} above zero is expected.")
-    return Around(float(by), step)
-
-
-@final
-@dataclass(frozen=True)
-class Varied:
-    """A dimension that varies between two values [SI], in steps where `step` is given; `sign` that of its spelling."""
-
-    name: str
-    owner: str
-    sign: float
-    low: float
-    high: float
-    step: float | None
-    unit: str
-
-    @property
-    def span(self) -> float:
-        """High less low."""
-        return self.high - self.low
-
-    @property
-    def steps(self) -> int:
-        """How many steps the range has; one of a range without."""
-        return 1 if self.step is None else int(np.floor(self.span / self.step + 1e-9)) + 1
-
-    def stepped(self, value: float) -> tuple[float, ...]:
-        """Return the one or two steps about a value."""
-        if self.step is None:
-            return (value,)
-        place = (value - self.low) / self.step
-        last = self.steps - 1
-        near = {int(np.clip(part, 0, last)) for part in (np.floor(place + 1e-9), np.ceil(place - 1e-9))}
-        return tuple(self.low + self.step * each for each in sorted(near))
-
-    def show(self, value: float) -> str:
-        """Return a value with its unit."""
-        return show(value, self.unit)
+    assert by is not None
+    return Around(float(by), step, is_round)
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Space:
-    """The variables, and the choices: for each, the dimensions it sets and their rows."""
+    """The variables, and the choices: for each, the dimensions it sets and their rows; and the regions in which points may stand."""
 
     variables: tuple[Varied, ...]
     choices: tuple[tuple[tuple[tuple[str, float], ...], tuple[tuple[float, ...], ...]], ...]
     names: tuple[tuple[str, ...], ...]
+    regions: tuple[PointRegion, ...] = ()
 
     @classmethod
-    def of(cls, machine: Mechanism, vary: Any) -> Space:
-        """Return what `vary` says; DefinitionError for an unknown dimension, an empty range, or anything else."""
+    def of(cls, machine: Mechanism, vary: Any, regions: Any = None) -> Space:
+        """Return what `vary` and `regions` say; DefinitionError for an unknown dimension, an empty range, or anything else."""
         title = machine.plan.title
         if not isinstance(vary, Mapping) or not vary:
             raise DefinitionError(f'{title}: vary={cited(vary)}: a dictionary is expected, such as vary={{"OB": (0.27, 0.33)}}.')
         variables: list[Varied] = []
         choices, names = [], []
+        circles: dict[str, float] = {}
         for name, given in vary.items():
             parts = name if isinstance(name, tuple) else (name,)
             sided = [sided_step(machine, part) for part in parts]
             for part, step in zip(parts, sided, strict=True):
                 if not step:
                     known_dimension(machine, part)
+            if isinstance(given, Around) and given.is_round:
+                circles |= dict.fromkeys(points_encircled(machine.plan, parts), given.by)
             if not any(sided) and (isinstance(given, Around) or (isinstance(given, tuple) and len(parts) == 1 and len(given) in (2, 3))):
                 variables += ranged(machine, parts, given)
             else:
@@ -111,7 +89,7 @@ class Space:
                 choices.append((owners, rows_of(title, parts, given, owners)))
                 names.append(tuple(coordinates(machine.plan, parts)))
         check_once(machine, {part: None for name in vary for part in (name if isinstance(name, tuple) else (name,))})
-        found = cls(tuple(variables), tuple(choices), tuple(names))
+        found = cls(tuple(variables), tuple(choices), tuple(names), point_regions(machine, regions, circles, variables))
         if found.count > MOST_COMBINATIONS:
             raise DefinitionError(f"{title}: {found.count} combinations of choices are too many; {MOST_COMBINATIONS} are the most.")
         for owners, rows in found.choices:
@@ -121,6 +99,19 @@ class Space:
             for end in (each.low, each.high):
                 machine.replaced(**{each.name: end})
         return found
+
+    @property
+    def conditions(self) -> list[Constraint]:
+        """What the regions are as conditions."""
+        return [each.condition for each in self.regions]
+
+    def drawn(self, unit: FloatArray, title: str, seed: int) -> FloatArray:
+        """Return unit coordinates (m, n) of designs whose points stand in their regions: those outside are drawn anew."""
+        return self.unit(drawn_inside(title, self.regions, self.variables, self.values(unit), seed)) if self.regions else unit
+
+    def within(self, values: FloatArray) -> FloatArray:
+        """Return unit coordinates of values (m, n), within 0 and 1, points at the nearest places of their regions."""
+        return self.unit(put_inside(self.regions, values) if self.regions else values)
 
     @property
     def count(self) -> int:
@@ -195,6 +186,15 @@ def known_dimension(machine: Mechanism, name: Any) -> None:
 def coordinates(plan: Plan, names: Sequence[str]) -> list[str]:
     """Return names, those of points by their two coordinates."""
     return [part for name in names for part in ([name] if name in plan.table.spellings or is_side(name) else [f"{name}.x", f"{name}.y"])]
+
+
+def points_encircled(plan: Plan, names: Sequence[str]) -> list[str]:
+    """Return the names of points; DefinitionError for what is none, about which there is no circle."""
+    for name in names:
+        if f"{name}.x" not in plan.table.spellings:
+            what = f"{name}=around(radius=...): {name} is no fixed point that varies"
+            raise DefinitionError(f"{plan.title}: {what}; write around(60 * mm) of a dimension.")
+    return [*names]
 
 
 def owners_of(plan: Plan, name: str) -> list[tuple[str, float]]:

@@ -186,7 +186,7 @@ def laid_starts(likeness: Likeness, fit: Fit, unit: FloatArray, best: Best, own:
     if fit.timing.turn and fit.width:  # whole turns away from the ends
         turn = fit.timing.turn / abs(fit.timing.reach[1])
         own = own - turn * np.round((own.mean(axis=1, keepdims=True) - 0.5) / turn)
-    return np.concatenate([fit.space.unit(laid), np.clip(own, 0.0, 1.0)], axis=1)
+    return np.concatenate([fit.space.within(laid), np.clip(own, 0.0, 1.0)], axis=1)
 
 
 def along_closed_curve(likeness: Likeness, fit: Fit, unit: FloatArray, values: FloatArray) -> tuple[Best, FloatArray]:

@@ -65,6 +65,7 @@ def synthesise(
     motion: PoseTask | None = None,
     vary: Mapping[Any, Any],
     subject_to: Any = (),
+    regions: Mapping[str, Any] | None = None,
     timed: Any = None,
     rank: Measure | None = None,
     case: Any = None,
@@ -78,10 +79,10 @@ def synthesise(
 ) -> Synthesis:
     """Return the machines that do a task, the best first: `synthesise(bar, path=PathTask(points, of="P"), vary={"OA": (0.02, 0.06), ...})`.
 
-    The task is a `path` of a point, a `function` of the stroke, or poses of a body, its `motion`; `vary`, `subject_to` and `case` are
-    those of `optimise`. `timed=True`: the task says the stroke of every point; `timed=False`: each point's stroke is an unknown of its
-    own; "steps": the points lie at equal steps of the stroke, of a crank over one turn from an unknown first one on, to either side. By
-    default points with strokes are timed. `over` holds other strokes, or looks at a part of this one.
+    The task is a `path` of a point, a `function` of the stroke, or poses of a body, its `motion`; `vary`, `subject_to`, `regions` and
+    `case` are those of `optimise`. `timed=True`: the task says the stroke of every point; `timed=False`: each point's stroke is an unknown
+    of its own; "steps": the points lie at equal steps of the stroke, of a crank over one turn from an unknown first one on, to either side.
+    By default points with strokes are timed. `over` holds other strokes, or looks at a part of this one.
 
     From some thousand designs spread over the box, those that run over the whole stroke are laid onto the task, shifted, turned and scaled
     in closed form where the dimensions allow. From the best `starts` of them all go on at once by the method of Levenberg and Marquardt
@@ -102,12 +103,12 @@ def synthesise(
     check_executor(executor)
     task = task_of(title, [("path", path, PathTask), ("function", function, FunctionTask), ("motion", motion, PoseTask)])
     timed = timed_as(title, task, timed)
-    rows, space = task.rows(machine), Space.of(machine, vary)
+    rows, space = task.rows(machine), Space.of(machine, vary, regions)
     if rank is not None and not isinstance(rank, Measure):
         raise DefinitionError(f'{title}: rank={cited(rank)}: one number of a design is expected, such as -least(transmission("B")).')
     over, occurring = where_searched(machine, over)
     cases, shares = cases_searched(machine, case, occurring)
-    asked = conditions_of(subject_to, machine)
+    asked = [*conditions_of(subject_to, machine), *space.conditions]
     ranks = () if rank is None else (mean_in_cases(rank, shares),) if shares else each_in_cases([rank], cases, machine, in_case)
     held = each_in_cases(asked, cases, machine, constraint_in_case)
     constraints = pieces_in_cases(asked, cases, machine.judge(over))
@@ -242,6 +243,7 @@ class TaskSearch:
         unit = space.unit(space.present(self.problem.machine))[None]
         if self.population:
             unit = np.concatenate([unit, unit_points(self.population, len(space.variables), "sobol", self.seed)])
+        unit = space.drawn(unit, self.problem.plan.title, self.seed)
         rows = SearchRows.joined([(each, {"unit": unit}) for each in chosen])
         seen = stages.done("look", LookWork(*self.shared, self.timed), rows, told=self.population * len(chosen))
         fits = [Fit(self.problem.on_branch(each), self.rows, self.timing, each, self.task.at) for each in chosen]

@@ -38,7 +38,7 @@ from .reports.table import cells, flat
 from .shown import Shown, ShownList
 from .statics import PinForces, max_table
 from .statics.table import max_headings
-from .study import Front, Optimum, Survey
+from .study import Front, Optimum, Survey, Synthesis
 from .units import show
 from .verdict import Verdict
 
@@ -56,8 +56,11 @@ class LivePage(Shown):
     height: int = 660
 
 
-def live(machine: Mechanism, height: int = 660, **options: Any) -> LivePage:
-    """Return a machine's live page for a notebook, in a frame that has no access to it; `options` are those of `linkage.page`."""
+def live(machine: Mechanism | Synthesis, height: int = 660, **options: Any) -> LivePage:
+    """Return the live page of a machine, or of what a synthesis found, for a notebook, in a frame that has no access to it.
+
+    `options` are those of `linkage.page`.
+    """
     return LivePage(page_html(machine, **({"at": NOTHING} | options)), height)
 
 
@@ -230,6 +233,11 @@ def _(found: Survey) -> str:
 @html_of.register
 def _(best: Optimum) -> str:
     return html_text_block(str(best)) + inline_svg(draw(best))
+
+
+@html_of.register
+def _(found: Synthesis) -> str:
+    return html_text_block(str(found)) + (inline_svg(draw(found)) if found.solutions else "")
 
 
 @html_of.register

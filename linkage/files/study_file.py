@@ -23,6 +23,7 @@ from ..motion import Over, stroke_measure
 from ..plan import Plan, plan_measure
 from ..quantities import is_number, is_whole
 from ..study.problem import ranges_of
+from ..study.sides import is_side
 from ..study.space import Space, around, known_dimension
 from ..study.tolerances import Tolerance, tolerances_of
 from ..units import parse, parse_span
@@ -158,7 +159,7 @@ def vary_said(head: StudyHead, given: object, *key: str) -> dict[Any, Any]:
             with head.faults.at(*key, "vary", name):
                 names = tuple(part.strip() for part in name.split(","))
                 for part in names:
-                    known_dimension(head.machine, part) if part not in head.plan.points else None
+                    known_dimension(head.machine, part) if part not in head.plan.points and not is_side(part) else None
                 varied = names if len(names) > 1 else names[0]
                 said = rows_said(value, head.plan, names) if len(names) > 1 else range_said(value, head.plan, names[0])
                 Space.of(head.machine, {varied: said})
@@ -170,7 +171,7 @@ def range_said(given: object, plan: Plan, name: str) -> Any:
     """Return what a dimension ranges over as `optimise` takes it: a tuple, `around(...)`, or a list of choices."""
     measures = measure_of_name(plan, name)
     if isinstance(given, (list, tuple)):
-        return [value_said(each, plan, name) for each in given]
+        return [each if is_side(name) else value_said(each, plan, name) for each in given]
     if isinstance(given, Mapping):
         return range_of_table(given, plan, name, measures)
     text = given if isinstance(given, str) else ""
@@ -207,7 +208,8 @@ def rows_said(given: object, plan: Plan, names: Sequence[str]) -> list[Any]:
     for row in given:
         if not isinstance(row, list) or len(row) != len(names):
             raise DefinitionError(f"{shortened(row)} is no row of {', '.join(names)}; it has a value for each of them.")
-        rows.append([amount_said(value, measure_of_name(plan, name)) for name, value in zip(names, row, strict=True)])
+        pairs = zip(names, row, strict=True)
+        rows.append([value if is_side(name) else amount_said(value, measure_of_name(plan, name)) for name, value in pairs])
     return rows
 
 

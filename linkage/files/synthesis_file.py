@@ -37,7 +37,7 @@ from .study_file import PICTURE_SUFFIXES, FindMachine, StudyHead, amount_said, c
 
 SECTION = "synthesis"
 TASK_KEYS: Mapping[str, tuple[str, ...]] = {
-    "path": ("of", "points", "unit", "in_order"),
+    "path": ("of", "points", "unit", "in_order", "closed"),
     "function": ("of", "points", "unit"),
     "motion": ("of", "points", "unit", "in_order", "length"),
 }
@@ -186,11 +186,12 @@ def task_columns(head: StudyHead, name: str, of: Any, over: Mapping[str, Any] | 
 def task_of_values(name: str, given: Mapping[str, Any], of: Any, values: Mapping[str, Any]) -> Task:
     """Return a task of its values [SI]."""
     at = values.get("at")
+    for key in ("in_order", "closed"):
+        if not isinstance(given.get(key, True), bool):
+            raise DefinitionError(f"{key} = {shortened(given[key])}: true or false is expected.")
     order = given.get("in_order", True)
-    if not isinstance(order, bool):
-        raise DefinitionError(f"in_order = {shortened(order)}: true or false is expected.")
     if name == "path":
-        return PathTask([*zip(values["x"], values["y"], strict=True)], of, at, in_order=order)
+        return PathTask([*zip(values["x"], values["y"], strict=True)], of, at, in_order=order, closed=given.get("closed"))
     if name == "motion":
         length = amount_said(given["length"], "length") if "length" in given else None
         return PoseTask(values["x"], values["y"], values["angle"], of, at, length=length, in_order=order)

@@ -76,28 +76,32 @@ def page(
         text = chart_page(machine, language)
     else:
         given: dict[str, Any] = {"vary": vary, "columns": columns, "column": column, "trace": trace, "limit": limit}
-        if isinstance(machine, Synthesis):
-            check_place(target)
-            text = task_page(machine, count=count, language=language, at=at, **given)
-        else:
-            text = page_html(machine, place=target, count=count, language=language, at=at, **given)
+        text = page_html(machine, place=target, count=count, language=language, at=at, **given)
     with replacing_text(target) as stream:
         stream.write(text)
     return target
 
 
 def page_html(
-    machine: Mechanism | Motion, *, count: int = COUNT, language: str = "en", place: Path | None = None, at: At = NOTHING, **given: Any
+    machine: Mechanism | Motion | Synthesis,
+    *,
+    count: int = COUNT,
+    language: str = "en",
+    place: Path | None = None,
+    at: At = NOTHING,
+    **given: Any,
 ) -> str:
     """Return the HTML of a live page; `given` are the other arguments of `page`."""
+    if place is not None:
+        check_place(place)
+    if isinstance(machine, Synthesis):
+        return task_page(machine, count=count, language=language, at=at, **given)
     if isinstance(machine, Motion):
         if at:
             raise DefinitionError(f"{machine.plan.title}: page(motion): a motion has its poses; at= goes with a machine.")
         machine, given = design_of_motion(machine), given | {"along": machine}
     require_mechanism(machine)
     requests = PageRequests(machine, frame_count(count), at=at, **given)
-    if place is not None:
-        check_place(place)
     live = live_text(machine.plan, requests.by_name, name="engine")
     most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
     return page_text(machine.plan.heading, page_data(requests, live), (*MACHINE, START), language=language, most=most, text=text)

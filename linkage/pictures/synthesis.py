@@ -24,6 +24,7 @@ from ..program import FloatArray
 from ..quantities import is_whole
 from ..study import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
 from ..study.synthesis import CLOSEST_CHANGE_POINT, miss_unit
+from ..study.task_search import EXACT
 from ..units import display_unit, factor, show, shown_in
 from . import style
 from .curves import axis_range, locator, typeset
@@ -248,9 +249,10 @@ def write_answer(ax: Axes, shown: ShownAnswer, *, alone: bool) -> None:
     assert figure is not None
     place, height = ax.get_position(original=True), float(figure.get_figheight())
     name = "" if alone else f"{answer.machine.plan.title}: "
-    first = f"{shown.place}.  {name}" + said(
-        "rms {rms}, at most {most} at point {worst}", rms=show(answer.rms, unit, 4), most=show(answer.most, unit, 4), worst=answer.worst
-    )
+    rms, most = show(answer.rms, unit, 4), show(answer.most, unit, 4)
+    misses = said("rms {rms}, at most {most} at point {worst}", rms=rms, most=most, worst=answer.worst)
+    is_exact = answer.most <= EXACT * shown.found.fit_of(answer).rows.size
+    first = f"{shown.place}.  {name}{said('exact') if is_exact else misses}"
     angle = 0.0 if answer.transmission < CLOSEST_CHANGE_POINT else answer.transmission
     second = said("least transmission angle {angle}", angle=show(angle, "deg", 3)) if np.isfinite(angle) else ""
     figure.text(place.x0, place.y1 + 0.31 / height, first, fontsize=style.TEXT, fontweight="bold", color=style.INK, va="center")

@@ -49,8 +49,19 @@ def test_points_in_the_file(tmp_path):
     found = read(tmp_path, f'path = {{ of = "P", points = {rows}, unit = ["mm", "deg"], in_order = false }}\ntimed = true').arguments
     assert_allclose(found["path"].points, POINTS * mm, rtol=1e-15)
     assert_allclose(found["path"].at, [12 * deg, 45 * deg, 2.0])
-    assert found["timed"] is True and not found["path"].in_order
+    assert found["timed"] is True and not found["path"].in_order and not found["path"].closed
+    assert read(tmp_path, 'path = { of = "P", points = [[1, 2], [2, 3], [2, 1]], closed = true }').arguments["path"].closed
     assert found["vary"]["OA"] == (0.02, 0.06) and found["starts"] == 4
+
+
+def test_a_side_is_a_choice(tmp_path):
+    text = HEAD.replace(" }\n", ', B = { side = ["LEFT", "RIGHT"] } }\n') + 'path = { of = "P", points = [[1, 2]] }'
+    (tmp_path / "task.toml").write_text(text, encoding="utf-8")
+    vary = read_synthesis(tmp_path / "task.toml", finder([])).arguments["vary"]
+    assert vary["B.side"] == ["LEFT", "RIGHT"] and vary["OA"] == (0.02, 0.06)
+    (tmp_path / "task.toml").write_text(text.replace("RIGHT", "UP"), encoding="utf-8")
+    with pytest.raises(FileError, match=r"B\.side: 'UP' is no side"):
+        read_synthesis(tmp_path / "task.toml", finder([]))
 
 
 def test_a_function_and_poses(tmp_path):
@@ -92,6 +103,7 @@ seed = 3
         ('path = { of = "P", points = [[1, "2 deg"]] }', "'2 deg' is an angle where a value of kind length is wanted"),
         ('path = { of = "P", points = [[1, 2]], unit = "furlong" }', "synthesis.path.unit: Unit 'furlong' is unknown"),
         ('path = { of = "P", points = "none.csv" }', "none.csv cannot be read: No such file"),
+        ('path = { of = "P", points = [[1, 2]], closed = "yes" }', "closed = 'yes': true or false is expected"),
         ('path = { of = "P", points = [[1, 2]], color = 3 }', "Key 'color' is unknown"),
         ('path = { of = "P", points = [[1, 2]] }\ntimed = "later"', "synthesis.timed: 'later': true, false or \"steps\""),
         ('path = { of = "P", points = [[1, 2]] }\nsubject_to = ["most(psi) > 2"]', "synthesis.subject_to.1"),

@@ -92,6 +92,13 @@ def test_answers_stand_side_by_side_with_what_they_miss():
     assert one == pytest.approx(two)  # to one scale
 
 
+def test_an_exact_answer_is_called_that_and_misses_nothing():
+    task = PathTask(FourBar().at(phi=STROKES)["P"].T, of="P", at=STROKES)
+    figure = draw(synthesise(FourBar(), path=task, vary={"OA": (0.03, 0.05), "CB": (0.07, 0.09)}, starts=4), answers=1)
+    assert "1.  exact" in written(figure)
+    assert not lines(figure.axes[0], style.INK) and len(figure.legends[0].get_texts()) == 2
+
+
 def test_russian():
     with language("ru"):
         figure = draw(found_for("path"))

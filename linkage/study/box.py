@@ -19,8 +19,6 @@ from ..units import show, shown_number, unit_sign
 from .checks import check_mechanism, unit_of
 from .designs import check_once
 
-MOST = 8
-
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -44,8 +42,6 @@ class Box:
                 raise unknown("Dimension", name, machine.plan.table.names(), where=machine.plan.title)
         ranges = {name: range_of(name, value) for name, value in vary.items() if isinstance(value, tuple)}
         lists = {name: choices_of(name, value) for name, value in vary.items() if not isinstance(value, tuple)}
-        if len(ranges) > MOST:
-            raise DefinitionError(f"{len(ranges)} ranges are too many for one box; hold some, {MOST} are the most.")
         box = cls(ranges, [dict(zip(lists, each, strict=True)) for each in product(*lists.values())])
         for settings in (*box.choices, *({name: end} for name, pair in ranges.items() for end in pair)):
             machine.replaced(**settings)

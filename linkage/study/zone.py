@@ -24,6 +24,8 @@ from .checks import check_one_design, check_vary
 from .measured import QuantityLike, StudyPoses, function_value, quantity_values
 
 POSES = 51
+MOST_RANGES = 8
+"""Ranges of a zone: its grid has 3 points a side of so many, 6,561."""
 
 
 @final
@@ -67,6 +69,9 @@ def zone(
     check_one_design(machine)
     check_vary(machine, "zone", over)
     box = Box.of(machine, vary)
+    if len(box.ranges) > MOST_RANGES:
+        what = f"{len(box.ranges)} ranges are too many for a zone"
+        raise DefinitionError(f"{machine.plan.title}: {what}; hold some, {MOST_RANGES} are the most.")
     given = strokes or {name: np.linspace(each.start, each.end, POSES) for name, each in machine.strokes.items()}
     poses = at_values(given, machine.plan)
     shape = next(iter(poses.values())).shape

@@ -10,6 +10,7 @@ from linkage.quantities import ref
 from linkage.study import Target, settings_for
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.random_mechanisms import random_mechanism
+from tests.linkage.study.synthesis_tasks import Bar
 
 HITCH = {"MK": (0.5, 1.3), "CD": (0.4, 0.8), "M": [(0.22, 1.05), (0.22, 0.95)]}
 
@@ -171,6 +172,23 @@ def test_the_setting_of_a_random_machine_is_found(seed):
 def moves(machine, name, last, end):
     """Return whether a point follows a dimension."""
     return np.abs(machine.at(S=[0.0, end]).gradient(last, wrt=[name])).max() > 1e-9
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_nine_ranges_are_found_together(seed):
+    """All dimensions and both pivots of a bar, by 18 points that a known one comes to."""
+    random = np.random.default_rng(seed)
+    pivots = {f"{point}.{axis}": random.uniform(-8 * mm, 8 * mm) for point in "OC" for axis in "xy"}
+    known = Bar(**pivots | {"C.x": 0.03, "OA": 0.012, "AB": 0.036, "CB": 0.028, "AP": 0.022, "BAP": 0.5})
+    at = np.linspace(0.0, 2 * np.pi, 18, endpoint=False)
+    places = known.at(phi=at)["P"]
+    targets = [Target(of("P"), float(v), phi=float(a)) for of, row in zip((x, y), places, strict=True) for v, a in zip(row, at, strict=True)]
+    vary = {"OA": (5 * mm, 20 * mm), "AB": (20 * mm, 60 * mm), "CB": (20 * mm, 60 * mm), "AP": (5 * mm, 40 * mm), "BAP": (0.2, 1.0)}
+    vary |= {name: (-20 * mm, 20 * mm) for name in ("O.x", "O.y", "C.y")} | {"C.x": (15 * mm, 45 * mm)}
+    found = settings_for(Bar(), vary, targets, points=1024)
+    assert found.met and len(found.settings) == 1
+    for name, value in found.settings[0].items():
+        assert_allclose(value, known[name], rtol=0, atol=1e-9)
 
 
 def test_a_family_is_told():

@@ -18,11 +18,12 @@ Look: TypeAlias = Callable[[FloatArray, Index], FloatArray]
 
 
 def descended(
-    misses: Look, slopes: Look, unit: FloatArray, steps: int, *, enough: float = 0.0, begin: float = 1e-3
+    misses: Look, slopes: Look, unit: FloatArray, steps: int, *, enough: float = 0.0, begin: float = 1e-3, settled: float = -1.0
 ) -> tuple[FloatArray, FloatArray]:
     """Return where the misses are least near each start, unit coordinates (m, k), and the misses there (m, targets).
 
-    A start ends where its steps do, or where all its misses are at most `enough`. `begin` is the damping of the first step.
+    A start ends where its steps do, where all its misses are at most `enough`, or where a step changes the sum of their squares by no more
+    than the part `settled` of it. `begin` is the damping of the first step.
     Source: Nocedal, Wright, Numerical Optimization, 2nd ed., 10.3; a coordinate that a step would take out of the box is held.
     """
     unit = unit.copy()
@@ -33,11 +34,12 @@ def descended(
             break
         new = damped_steps(unit[going], off[going], slopes(unit[going], going), damping[going])
         found = misses(new, going)
-        better = np.sum(found**2, axis=1) < np.sum(off[going] ** 2, axis=1)
+        new_size, size = np.sum(found**2, axis=1), np.sum(off[going] ** 2, axis=1)
+        better, still = new_size < size, np.abs(new_size - size) <= settled * size
         moved = np.abs(new - unit[going]).max(axis=1)
         unit[going[better]], off[going[better]] = new[better], found[better]
         damping[going] = np.where(better, np.maximum(damping[going] * 0.1, LEAST), damping[going] * 5.0)
-        going = going[(moved > 1e-14) & (damping[going] < 1e12) & (np.abs(off[going]).max(axis=1) > enough)]
+        going = going[~still & (moved > 1e-14) & (damping[going] < 1e12) & (np.abs(off[going]).max(axis=1) > enough)]
     return unit, off
 
 

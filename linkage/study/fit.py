@@ -30,6 +30,8 @@ SMALL = 1e-3
 """Of a task's size: what misses are measured with at the least, where a search with conditions starts from a fit that is nearly exact."""
 ENOUGH = 1e-15
 """Of a task's size: a miss that is smaller is rounding."""
+SETTLED = 1e-12
+"""Of the sum of the squares of misses: a step that changes no more is at an end."""
 WAY = RunOptions("numpy")
 
 
@@ -174,14 +176,19 @@ class Fit:
 
     def slopes(self, at: FloatArray, base: FloatArray) -> FloatArray:
         """Return the derivatives of the misses, (m, r * n, n + w)."""
+        return self.graded(at, base)[1]
+
+    def graded(self, at: FloatArray, base: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the misses (m, r * n) and their derivatives (m, r * n, n + w)."""
         strokes = self.timing.strokes(base, at[:, self.n :])
         found = self._run(self.program.graded, self.dimensions(at), strokes, len(at))
         r, points, p = len(self.requests), strokes.shape[1], len(self.owners) + 1
+        off = self.rows.off(np.moveaxis(found[1 : 1 + r], 0, 1)).reshape(len(at), r * points)
         shares = np.nan_to_num(found[1 + r :], posinf=0.0, neginf=0.0).reshape(r, p, len(at), points)
         shares *= self.rows.weights[:, None, None, None]
         by_unit = np.einsum("vo,romn->mrnv", self.problem._by_owner, shares[:, :-1])
         by_own = self.timing.reach[1] * np.moveaxis(shares[:, -1], 0, 1)[..., None] * self.timing.moves
-        return np.concatenate([by_unit, by_own], axis=-1).reshape(len(at), r * points, -1)
+        return off, np.concatenate([by_unit, by_own], axis=-1).reshape(len(at), r * points, -1)
 
     def descend(
         self,
@@ -199,18 +206,29 @@ class Fit:
         if not len(at):
             return at, np.zeros(0)
 
+        rows = len(self.requests) * self.rows.count
+        steep, new_steep, new_at = np.zeros((len(at), rows, at.shape[1])), np.zeros((len(at), rows, at.shape[1])), np.full(at.shape, np.nan)
+        least = np.full(len(at), np.inf)
+
         def misses(unit: FloatArray, which: Index) -> FloatArray:
-            found = self.misses(unit, base[which])
-            if through is not None:
-                found[~through(unit)] = np.nan
+            found, new_steep[which] = self.graded(unit, base[which])
+            new_at[which] = unit
+            error = squared(found)
+            if through is not None:  # only what would be a step forward is looked at over the whole stroke
+                ahead = np.flatnonzero(error < least[which])
+                found[ahead[~through(unit[ahead])] if len(ahead) else ahead] = np.nan
+                error = squared(found)
+            least[which] = np.minimum(least[which], error)
             return found
 
         def slopes(unit: FloatArray, which: Index) -> FloatArray:
-            found = self.slopes(unit, base[which])
+            taken = (new_at[which] == unit).all(axis=1)
+            steep[which[taken]] = new_steep[which[taken]]
+            found = steep[which]
             found[:, :, [*held]] = 0.0
             return found
 
-        found, off = descended(misses, slopes, at, steps, enough=ENOUGH * self.rows.size)
+        found, off = descended(misses, slopes, at, steps, enough=ENOUGH * self.rows.size, settled=SETTLED)
         return found, squared(off)
 
     def errors(self, at: FloatArray, base: FloatArray) -> FloatArray:

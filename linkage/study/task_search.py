@@ -52,6 +52,8 @@ ALIKE = 1e-6
 """Errors that differ by less than this part are the same."""
 EXACT = 1e-9
 """Of a task's size: a fit that misses by no more is exact."""
+ENOUGH_GOOD = 6
+"""Ends that are answers: with so many no others are looked for that are worse than the best of them."""
 ANSWERS = 24
 """Answers that are judged at the most."""
 MISSES = 8
@@ -303,9 +305,15 @@ class TaskSearch:
         return [each for own, way in zip(found, ways, strict=True) for each in [*own, *way.ends]]
 
     def that_run_first(self, first: Starts, ends: Ends) -> Starts:
-        """Return the starts that run over the whole stroke, of searches that come to what does not."""
+        """Return the starts that run over the whole stroke, of searches that come to what does not.
+
+        Where there are enough ends that do, only of those that came to less than the best of them.
+        """
+        good = self.good_in_order(ends)
         with self.problem.count.without_limit():
             away = np.flatnonzero(~first.fit.whole(ends.at)) if len(ends.at) else np.zeros(0, int)
+            if int(good.sum()) >= ENOUGH_GOOD:
+                away = away[ends.error[away] < ends.error[good].min()]
             away = away[first.fit.whole(first.at[away])] if len(away) else away
         return Starts(first.fit, first.at[away], first.base[away])
 

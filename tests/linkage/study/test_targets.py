@@ -182,7 +182,7 @@ def test_nine_ranges_are_found_together(seed):
     known = Bar(**pivots | {"C.x": 0.03, "OA": 0.012, "AB": 0.036, "CB": 0.028, "AP": 0.022, "BAP": 0.5})
     at = np.linspace(0.0, 2 * np.pi, 18, endpoint=False)
     places = known.at(phi=at)["P"]
-    targets = [Target(of("P"), float(v), phi=float(a)) for of, row in zip((x, y), places, strict=True) for v, a in zip(row, at, strict=True)]
+    targets = [Target(of("P"), places[row, k], phi=at[k]) for row, of in enumerate((x, y)) for k in range(len(at))]
     vary = {"OA": (5 * mm, 20 * mm), "AB": (20 * mm, 60 * mm), "CB": (20 * mm, 60 * mm), "AP": (5 * mm, 40 * mm), "BAP": (0.2, 1.0)}
     vary |= {name: (-20 * mm, 20 * mm) for name in ("O.x", "O.y", "C.y")} | {"C.x": (15 * mm, 45 * mm)}
     found = settings_for(Bar(), vary, targets, points=1024)

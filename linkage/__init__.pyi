@@ -106,6 +106,7 @@ from .study import WorkingField as WorkingField
 from .study import around as around
 from .study import working_field as working_field
 from .study.chains import chains as chains
+from .study.curve_catalogue import curve_catalogue as curve_catalogue
 from .study.exact_cognates import cognates as cognates
 from .study.exact_functions import freudenstein as freudenstein
 from .study.exact_paths import five_point as five_point

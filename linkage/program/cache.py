@@ -23,17 +23,21 @@ from ..errors import FileError
 FOLDER = "HYDROLINKAGE_CACHE"
 
 
-def cache_folder() -> Path:
-    """Return the user's folder for compiled programs; HYDROLINKAGE_CACHE names another. RuntimeError where the user has no home."""
+def cache_folder(kind: str = "kernels") -> Path:
+    """Return the user's folder for compiled programs, or for what else is kept; HYDROLINKAGE_CACHE names another.
+
+    RuntimeError where the user has no home.
+    """
     if os.environ.get(FOLDER):
-        return Path(os.environ[FOLDER]).absolute()
+        named = Path(os.environ[FOLDER]).absolute()
+        return named if kind == "kernels" else named / kind
     if sys.platform == "win32":
         base = os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local"
     elif sys.platform == "darwin":
         base = Path.home() / "Library" / "Caches"
     else:
         base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(base) / "hydrolinkage" / "kernels"
+    return Path(base) / "hydrolinkage" / kind
 
 
 def is_own(folder: Path) -> bool:

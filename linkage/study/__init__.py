@@ -2,6 +2,7 @@
 
 from ..motion import Target
 from .box import Box
+from .curve_catalogue import CurveCatalogue, CurveMatch
 from .infeasible import InfeasibleError
 from .load_rule import ISO_10567, ISO_14397_1, OECD_2, LoadRule
 from .monte_carlo import Band, MonteCarlo, monte_carlo

@@ -98,7 +98,7 @@ class Likeness:
     def sizes(self, fit: Fit, unit: FloatArray) -> FloatArray:
         """Return between which factors the lengths of designs (m, n) stay within their ranges, or nearest to them, shape (2, m)."""
         values, variables = fit.space.values(unit), [fit.space.variables[place] for place in self.lengths]
-        low, high = np.full(len(unit), 1e-3), np.full(len(unit), 1e3)
+        low, high = np.full(len(unit), 1e-9), np.full(len(unit), 1e9)
         with np.errstate(all="ignore"):
             for place, each in zip(self.lengths, variables, strict=True):
                 low, high = np.fmax(low, each.low / values[:, place]), np.fmin(high, each.high / values[:, place])

@@ -18,6 +18,7 @@ from ..program import FloatArray, fixed_backend
 from .box import unit_points
 from .checkpoint import Checkpoint, digest, facts_as_json, facts_of_machine, measure_text
 from .checks import check_one_design
+from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
 from .designs import Array
 from .fit import Fit, Timing
 from .optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
@@ -72,7 +73,7 @@ def synthesise(
     rank: Measure | None = None,
     case: Any = None,
     over: Mapping[str, Any] | None = None,
-    starts: int = STARTS,
+    starts: int | str | CurveCatalogue = STARTS,
     seed: int = 0,
     limit: int | None = None,
     executor: Executor | None = None,
@@ -93,14 +94,16 @@ def synthesise(
     error, the least first; where `case` gives load cases with their hours, its mean over them. The same seed gives the same result;
     `limit` is how many designs are looked at before the best so far comes back. `executor` and `folder` are those of `survey`:
     populations and local searches go through any executor, to the same bits as in this process, and with a folder the same call goes on
-    where another one stopped. `progress=True` shows a bar.
+    where another one stopped. `progress=True` shows a bar. `starts="catalogue"`, for a closed path that is not timed: from the nearest
+    curves of `curve_catalogue(machine, of)`, or of one that is given, in place of a population; one that is not there is made first.
 
     Raises DefinitionError for what cannot be asked, or a folder of another task. Where no machine that runs was found, `solutions` are
     none and `misses` say why.
     """
     check_one_design(machine)
     title = machine.plan.title
-    check_counts(title, starts, seed, limit)
+    catalogued = starts == "catalogue" or isinstance(starts, CurveCatalogue)
+    check_counts(title, STARTS if catalogued else starts, seed, limit)
     check_progress(progress)
     check_executor(executor)
     task = task_of(title, [("path", path, PathTask), ("function", function, FunctionTask), ("motion", motion, PoseTask)])
@@ -117,7 +120,9 @@ def synthesise(
     problem = Problem(machine, [Given(0.0)], constraints, space, 1.0, over)
     problem.count.limit = limit
     timing = Timing.of(problem, moving_stroke(problem), timed, rows.count)
-    search = TaskSearch(problem, task, rows, timing, timed, ranks, held, over, starts, seed)
+    catalogue = catalogue_for(problem, task, timing, timed, starts, executor, progress) if catalogued else None
+    many = starts if isinstance(starts, int) else STARTS
+    search = TaskSearch(problem, task, rows, timing, timed, ranks, held, over, many, seed, catalogue)
     checkpoint = None if folder is None else Checkpoint.of(folder, facts_of_search(search))
     with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):
         return search.run(Stages(executor or LocalExecutor(), checkpoint, tell, search.total))
@@ -143,9 +148,26 @@ def facts_of_search(search: TaskSearch) -> dict[str, Any]:
         "vary": digest(repr([problem.space.variables, problem.space.choices])),
         "subject_to": digest(repr([[str(each), [repr(number) for number in each.margin.numbers]] for each in held]) + repr(functions)),
         "over": digest(repr([(name, *map(end_words, (one.low, one.high))) for name, one in problem.ranges.items()])),
-        "starts": search.starts,
+        "starts": search.starts if search.catalogue is None else search.catalogue.digest,
         "seed": search.seed,
     })  # fmt: skip
+
+
+def catalogue_for(
+    problem: Problem, task: Task, timing: Timing, timed: Any, starts: Any, executor: Executor | None, progress: Any
+) -> CurveCatalogue:
+    """Return the catalogue from which a search begins; DefinitionError for what is no closed path, or a catalogue of another class."""
+    machine, title = problem.machine, problem.plan.title
+    if not (isinstance(task, PathTask) and task.closed and timed is False and timing.turn):
+        closed = 'path=PathTask(points, of="P", closed=True), timed=False, over the whole turn of a crank'
+        raise DefinitionError(f"{title}: starts={cited(starts)}: a catalogue holds closed curves; say {closed}, or a number of starts.")
+    if isinstance(starts, CurveCatalogue):
+        if type(starts.kind.machine) is not type(machine) or starts.kind.of != task.of:
+            raise DefinitionError(f"{title}: starts={cited(starts)}: this is a catalogue of {starts.kind.title}, not of {task.of}.")
+        return starts
+    varied = {each.owner for each in problem.space.variables} | {owner for owners, _ in problem.space.choices for owner, _ in owners}
+    hold = [name for name, entry in machine.plan.table.entries.items() if entry.kind == "angle" and name not in varied]
+    return curve_catalogue(machine, task.of, hold=hold, executor=executor, progress=progress)
 
 
 def moving_stroke(problem: Problem) -> str:
@@ -186,6 +208,7 @@ class TaskSearch:
     over: Any
     starts: int
     seed: int
+    catalogue: CurveCatalogue | None
 
     def run(self, stages: Stages) -> Synthesis:
         """Return all that was found."""
@@ -213,6 +236,8 @@ class TaskSearch:
         if not self.problem.space.variables:
             return 0
         limit = self.problem.count.limit
+        if self.catalogue is not None:
+            return min(NEIGHBOURS, len(self.catalogue), NEIGHBOURS if limit is None else max(limit // 2 // len(self.combinations), 1))
         many = POPULATION if limit is None else min(POPULATION, limit // 2)
         least = 6 if limit is None else 3
         return 1 << max(least, (many // len(self.combinations)).bit_length() - 1)
@@ -243,7 +268,10 @@ class TaskSearch:
         """Return where to start, of each combination: the best that stand apart of those that run, laid onto the task."""
         space, chosen = self.problem.space, self.combinations
         unit = space.unit(space.present(self.problem.machine))[None]
-        if self.population:
+        if self.population and self.catalogue is not None:
+            fit = Fit(self.problem.on_branch(chosen[0]), self.rows, self.timing, chosen[0], self.task.at)
+            unit = self.catalogue.population(fit, self.population)
+        elif self.population:
             unit = np.concatenate([unit, unit_points(self.population, len(space.variables), "sobol", self.seed)])
         unit = space.drawn(unit, self.problem.plan.title, self.seed)
         rows = SearchRows.joined([(each, {"unit": unit}) for each in chosen])

@@ -417,7 +417,10 @@ class LiftCircuit(PumpLine):
     back_pressure: Parameter = 0.0
     relief: Parameter | None = None
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
-        {"pressure": "bar", "flow": "", "mechanical_efficiency": "", "hydraulic_efficiency": "", "back_pressure": "bar", "relief": "bar"}
+        {
+            "pressure": "bar", "flow": "l/min", "mechanical_efficiency": "", "hydraulic_efficiency": "", "back_pressure": "bar",
+            "relief": "bar",
+        }
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "back_pressure", "relief"})
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})

@@ -111,7 +111,7 @@ class Pump(Supply):
     mechanical_efficiency: Parameter = 1.0
     hydraulic_efficiency: Parameter = 1.0
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
-        {"pressure": "bar", "flow": "", "mechanical_efficiency": "", "hydraulic_efficiency": ""}
+        {"pressure": "bar", "flow": "l/min", "mechanical_efficiency": "", "hydraulic_efficiency": ""}
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow"})
 

@@ -13,6 +13,10 @@ from .machines import find
 from .settings import design, over_argument, overs_of, pair, stroke_values
 
 KINDS = (".html", ".pdf", ".md")
+TITLE = {
+    "number": "R-104", "revision": "A", "date": "2026-05-01", "client": "NAME", "prepared": "NAME", "checked": "NAME", "approved": "NAME",
+}  # fmt: skip
+"""The fields of the title block, each with an example."""
 
 
 @final
@@ -31,8 +35,11 @@ class ReportCommand(Command):
         over_argument(parser)
         parser.add_argument("--case", metavar="CASE", help="this load case alone, plain: the machine's own loads (default: all)")
         parser.add_argument("--start", metavar="N", type=int, default=1, help="the first equation's number (default 1)")
-        parser.add_argument(
-            "--row", dest="rows", metavar="NAME=TEXT", action="append", default=[], help="a row of the title block; repeatable"
+        block = parser.add_argument_group("title block", "what is left out is an empty line to write on")
+        for name, example in TITLE.items():
+            block.add_argument(f"--{name}", metavar=example, default="")
+        block.add_argument(
+            "--row", dest="rows", metavar="NAME=TEXT", action="append", default=[], help="a row below the title block; repeatable"
         )
 
     def run(self, options: Namespace) -> int:
@@ -45,9 +52,10 @@ class ReportCommand(Command):
         check_place(path)
         machine = design(cls, options.settings)
         at = dict(stroke_values(machine.plan, text) for text in options.strokes)
-        rows = dict(pair(text, "--row", '"Checked by=N. N."') for text in options.rows)
+        rows = dict(pair(text, "--row", '"Order=4711"') for text in options.rows)
         print(report(
             machine, path, case=options.case, over=overs_of(machine, options.over), at=at, count=options.count,
             columns=options.columns or None, trace=options.path, title_block=rows, start=options.start,
+            **{name: getattr(options, name) for name in TITLE},
         ))  # fmt: skip
         return 0

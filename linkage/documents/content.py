@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias, final
 
+from .title import TitleBlock
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
@@ -40,10 +42,10 @@ class Paragraph:
 
 @final
 @dataclass(frozen=True)
-class TermBlock:
-    """A table of two columns without headings: names and what they are."""
+class ListBlock:
+    """Short texts below each other, each with a mark in front."""
 
-    rows: tuple[tuple[str, str], ...]
+    texts: tuple[str, ...]
 
 
 @final
@@ -78,7 +80,7 @@ class Illustration:
     paint: Callable[[Axes], None]
 
 
-Block: TypeAlias = Paragraph | TermBlock | TableBlock | Equality | Illustration
+Block: TypeAlias = Paragraph | ListBlock | TableBlock | Equality | Illustration
 
 
 @final
@@ -93,10 +95,11 @@ class Section:
 @final
 @dataclass(frozen=True)
 class Document:
-    """A whole document: its title, what it says of itself, and its sections."""
+    """A whole document: its title, its title block, what it says of itself, and its sections."""
 
     title: str
     subtitle: str
+    block: TitleBlock
     facts: tuple[tuple[str, str], ...]
     verdict: Mark
     sections: tuple[Section, ...]
@@ -105,7 +108,7 @@ class Document:
     @property
     def footer(self) -> str:
         """What stands at the foot of every page, beside its number."""
-        return f"{self.title} · {self.subtitle}"
+        return " · ".join(each for each in (self.block.short, self.title, self.subtitle) if each)
 
 
 def numbered_captions(sections: Sequence[Section], table: Callable[[int, str], str], figure: Callable[[int, str], str]) -> dict[int, str]:

@@ -11,8 +11,9 @@ from pathlib import Path
 
 from ..disk import replacing_text
 from ..formulas.mathml import mathml
-from ..formulas.typeset import boxes, breakable
+from ..formulas.typeset import boxes
 from ..language import said
+from .breaking import line_pieces
 from .content import (
     Block,
     Cell,
@@ -20,14 +21,15 @@ from .content import (
     Equality,
     Formula,
     Illustration,
+    ListBlock,
     Mark,
     Paragraph,
     Section,
     TableBlock,
-    TermBlock,
     numbered_captions,
 )
 from .pictures import picture_svg
+from .title import TitleBlock
 
 
 def write_html(document: Document, path: Path) -> None:
@@ -79,6 +81,7 @@ def head(document: Document) -> Iterator[str]:
     """Yield the title, the title block and the contents."""
     yield f"<h1>{escape(document.title)}</h1>"
     yield f'<p class="sub">{escape(said("Calculation report"))}. {escape(document.subtitle)}</p>'
+    yield from title_block(document.block)
     mark = document.verdict
     rows = (
         f"<dt>{escape(name)}</dt><dd{coloured(mark) if value == mark.word else ''}>{escape(value)}</dd>" for name, value in document.facts
@@ -86,6 +89,15 @@ def head(document: Document) -> Iterator[str]:
     yield f'<dl class="block">{"".join(rows)}</dl>'
     entries = (f'<li><a href="#s{number}">{escape(each.title)}</a></li>' for number, each in enumerate(document.sections, 1))
     yield f"<nav><ol>{''.join(entries)}</ol></nav>"
+
+
+def title_block(block: TitleBlock) -> Iterator[str]:
+    """Yield the title block: its fields, and a line for each who signs."""
+    fields = "".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in block.entries)
+    yield f'<dl class="plate">{fields}</dl>'
+    heads = "".join(f"<th>{escape(text)}</th>" for text in block.columns)
+    rows = "".join(f"<tr><th>{escape(what)}</th><td>{escape(name)}</td><td></td><td></td></tr>" for what, name in block.signatures)
+    yield f'<table class="sign"><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table>'
 
 
 def coloured(mark: Mark) -> str:
@@ -118,8 +130,8 @@ def block_html(block: Block, captions: dict[int, str]) -> str:
     """Return a block."""
     if isinstance(block, Paragraph):
         return f"<p>{escape(block.text)}</p>"
-    if isinstance(block, TermBlock):
-        return f'<dl class="block">{"".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in block.rows)}</dl>'
+    if isinstance(block, ListBlock):
+        return f"<ul>{''.join(f'<li>{escape(text)}</li>' for text in block.texts)}</ul>"
     if isinstance(block, TableBlock):
         return table_html(block, captions.get(id(block), ""))
     return equality(block) if isinstance(block, Equality) else figure_html(block, captions)
@@ -151,7 +163,7 @@ def equality(block: Equality) -> str:
     """Return an equation with its number: pieces between which a line may break."""
     parts: list[str] = []
     for place, step in enumerate(block.steps):
-        for first, piece in enumerate(breakable(boxes(step))):
+        for first, piece in enumerate(line_pieces(step)):
             sign = '<mo form="infix">=</mo>' if place and not first else ""
             set_in = mathml(piece).replace("<mo>", '<mo form="infix" lspace="0.22em" rspace="0.22em">', 1) if first else mathml(piece)
             parts.append(f'<math xmlns="http://www.w3.org/1998/Math/MathML" displaystyle="true">{sign}{set_in}</math>')

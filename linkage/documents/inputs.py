@@ -2,33 +2,37 @@
 
 from __future__ import annotations
 
-import ast
 import inspect
-import tokenize
+import re
 from collections.abc import Iterator, Mapping
-from io import StringIO
-from textwrap import dedent
+from functools import partial
+
+from matplotlib.axes import Axes
 
 from ..formulas.numbered import Equations
 from ..language import said, translated
 from ..loads import ForceElement, LoadCase
 from ..mechanism import Mechanism
-from ..motion import stroke_display_unit
+from ..motion import Motion, stroke_display_unit
+from ..pictures.dimensioned import dimensioned
+from ..pictures.scene import Scene
 from ..plan import plan_measure, written_out
 from ..quantities import Dimension, Stroke
-from ..units import display_unit, shown_in, shown_number, unit_sign
-from .content import Block, Cell, Formula, Paragraph, Section, TableBlock
+from ..units import display_unit, show, shown_in, shown_number, unit_sign
+from .content import Block, Cell, Formula, Illustration, Paragraph, Section, TableBlock
+from .pictures import ROOM, WIDE, height_of, in_one_unit
+from .run import ReportSubject
 
 
-def inputs_section(machine: Mechanism, listing: Equations, held: Mapping[str, float]) -> Section:
-    """Return the section of what is given."""
-    notes = notes_of(type(machine))
-    blocks: list[Block] = [*own_words(machine), stroke_table(machine, listing, held, notes)]
+def inputs_section(subject: ReportSubject, listing: Equations) -> Section:
+    """Return the section of what is given, with the drawing of its dimensions."""
+    machine, notes = subject.machine, subject.notes
+    blocks: list[Block] = [*own_words(machine), stroke_table(machine, listing, subject.run.held, notes)]
     if machine.dimensions:
         blocks.append(dimension_table(machine, listing, notes))
     elements = machine.plan.of_kind(ForceElement)
     if elements:
-        rows = member_rows(machine, tuple(elements), notes)
+        rows = tuple((name, with_units(elements[name], text), note) for name, text, note in member_rows(machine, tuple(elements), notes))
         heads = (said("name"), said("declared as"), said("source, note"))
         blocks.append(TableBlock(said("Loads, force elements and hydraulics"), heads, rows, "lmm"))
     else:
@@ -37,7 +41,23 @@ def inputs_section(machine: Mechanism, listing: Equations, held: Mapping[str, fl
     if cases:
         heads = (said("name"), said("declared as"), said("source, note"))
         blocks.append(TableBlock(said("Load cases"), heads, member_rows(machine, tuple(cases), notes), "lmm"))
-    return Section(said("Inputs"), tuple(blocks))
+    return Section(said("Inputs"), (*blocks, dimension_drawing(subject)))
+
+
+def dimension_drawing(subject: ReportSubject) -> Illustration:
+    """Return the drawing with dimensions."""
+    pose = subject.machine.at(unreachable="nan", **{name: [value] for name, value in subject.pose.items()})
+    caption = said(
+        "Dimensions in {unit} at {pose}; what has no room stands in the table of dimensions.",
+        unit=length_unit(), pose=subject.words(subject.pose),
+    )  # fmt: skip
+    return Illustration("dimensions", caption, (WIDE, height_of(Scene(pose), 0.16)), ROOM, partial(dimensions, motion=pose))
+
+
+def dimensions(ax: Axes, motion: Motion) -> None:
+    """Draw a mechanism with its dimensions."""
+    dimensioned(ax, motion)
+    in_one_unit(ax)
 
 
 def own_words(machine: Mechanism) -> Iterator[Paragraph]:
@@ -85,7 +105,20 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
     return TableBlock(said("Dimensions"), heads, tuple(rows), "llrllm")
 
 
-def member_rows(machine: Mechanism, names: tuple[str, ...], notes: Mapping[str, str]) -> tuple[tuple[Cell, ...], ...]:
+PARAMETER = re.compile(r"(?<![\w.])(\w+)=(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?)(?![\w.])")
+
+
+def with_units(element: ForceElement, text: str) -> str:
+    """Return how an element is declared, its numbers in the units that they are shown in: `pressure=180 bar`."""
+
+    def shown(found: re.Match[str]) -> str:
+        unit = element.numbers.get(found[1], "")
+        return f"{found[1]}={show(float(found[2]), unit)}" if unit else f"{found[1]}={float(found[2]):.7g}"
+
+    return PARAMETER.sub(shown, text)
+
+
+def member_rows(machine: Mechanism, names: tuple[str, ...], notes: Mapping[str, str]) -> tuple[tuple[str, str, str], ...]:
     """Return members as they are declared."""
     texts = written_out(machine.plan, {name: float(value) for name, value in machine.dimensions.items()})
     return tuple((name, texts[name], notes.get(name, "")) for name in names)
@@ -93,7 +126,7 @@ def member_rows(machine: Mechanism, names: tuple[str, ...], notes: Mapping[str, 
 
 def definition_section(machine: Mechanism) -> Section:
     """Return the section that has the whole definition, member by member, and the rigid bodies."""
-    left_out = (Dimension, Stroke)
+    left_out = (Dimension, Stroke, ForceElement, LoadCase)  # these stand among the inputs
     names = tuple(name for name, member in machine.plan.members.items() if not isinstance(member, left_out))
     heads = (said("name"), said("declared as"))
     rows = tuple(row[:2] for row in member_rows(machine, names, {}))
@@ -120,37 +153,3 @@ def definition_section(machine: Mechanism) -> Section:
 def length_unit() -> str:
     """Return the unit that lengths are shown in, as it is written."""
     return unit_sign("mm") if shown_in("mm") else "mm"
-
-
-# Where a number comes from: the comment beside it in the class's source.
-
-
-def notes_of(machine: type[Mechanism]) -> dict[str, str]:
-    """Return the comments that stand beside the members in the source of a class and its bases, by name."""
-    found: dict[str, str] = {}
-    for cls in reversed(machine.__mro__):
-        if issubclass(cls, Mechanism) and cls is not Mechanism:
-            found |= comments_in(cls)
-    return {name: translated(text) for name, text in found.items() if name in machine.plan.members}
-
-
-def comments_in(cls: type) -> dict[str, str]:
-    """Return the comments behind the assignments in a class's body, by the names assigned; none where it has no source."""
-    try:
-        source = dedent(inspect.getsource(cls))
-        body = ast.parse(source).body[0]
-        tokens = list(tokenize.generate_tokens(StringIO(source).readline))
-    except (OSError, TypeError, SyntaxError, tokenize.TokenError, IndexError):
-        return {}
-    comments = {token.start[0]: token.string.lstrip("#: ").strip() for token in tokens if token.type == tokenize.COMMENT}
-    found: dict[str, str] = {}
-    for line in getattr(body, "body", []):
-        if (
-            isinstance(line, ast.Assign)
-            and (text := comments.get(line.end_lineno or line.lineno))
-            and not text.startswith(("fmt:", "type:", "noqa"))
-        ):
-            for target in line.targets:
-                names = target.elts if isinstance(target, ast.Tuple) else [target]
-                found |= {name.id: text for name in names if isinstance(name, ast.Name)}
-    return found

@@ -12,9 +12,10 @@ from secrets import token_hex
 from ..disk import check_place, in_words, replacing_text
 from ..errors import FileError
 from ..language import said
-from .content import Block, Cell, Document, Equality, Formula, Illustration, Mark, Paragraph, Section, TableBlock, TermBlock
+from .content import Block, Cell, Document, Equality, Formula, Illustration, ListBlock, Mark, Paragraph, Section, TableBlock
 from .html import captions_of, footer
 from .pictures import picture_svg
+from .title import TitleBlock
 
 SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|$~])")
 MARKER = "hydrolinkage"
@@ -65,6 +66,8 @@ def markdown(document: Document, names: dict[int, str]) -> str:
         "",
         f"{escaped_markdown(said('Calculation report'))}. {escaped_markdown(document.subtitle)}",
         "",
+        *title_lines(document.block),
+        "",
         "| | |",
         "| --- | --- |",
     ]
@@ -72,6 +75,16 @@ def markdown(document: Document, names: dict[int, str]) -> str:
     for number, section in enumerate(document.sections, 1):
         lines += section_text(number, section, captions, names)
     return "\n".join([*lines, "", "---", "", escaped_markdown(footer(document)), ""])
+
+
+def title_lines(block: TitleBlock) -> Iterator[str]:
+    """Yield the lines of the title block: its fields, and a row for each who signs."""
+    names, values = zip(*block.entries, strict=True)
+    for heads, rows in ((names, [values]), (block.columns, [(what, name, "", "") for what, name in block.signatures])):
+        yield f"| {' | '.join(map(escaped_markdown, heads))} |"
+        yield f"|{' --- |' * len(heads)}"
+        yield from (f"| {' | '.join(map(escaped_markdown, row))} |" for row in rows)
+        yield ""
 
 
 def section_text(number: int, section: Section, captions: dict[int, str], names: dict[int, str]) -> Iterator[str]:
@@ -86,8 +99,8 @@ def block_text(block: Block, captions: dict[int, str], names: dict[int, str]) ->
     """Yield the lines of a block."""
     if isinstance(block, Paragraph):
         yield escaped_markdown(block.text)
-    elif isinstance(block, TermBlock):
-        yield from ("| | |", "| --- | --- |", *(f"| {escaped_markdown(name)} | {escaped_markdown(value)} |" for name, value in block.rows))
+    elif isinstance(block, ListBlock):
+        yield from (f"- {escaped_markdown(text)}" for text in block.texts)
     elif isinstance(block, TableBlock):
         yield from table_markdown(block, captions.get(id(block), ""))
     elif isinstance(block, Equality):

@@ -5,37 +5,30 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from math import cos, sin
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import LinkageError, unknown, unwarned
-from ..language import noted, said, translated
-from ..loads import PLAIN, PLAIN_CASE, Acting
-from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, most, speakers, stroke_display_unit
+from ..language import heading_of, noted, said, translated
+from ..loads import PLAIN_CASE, Acting
+from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, most, speakers
 from ..motion.limits import StrokeLimits
 from ..motion.measures import Least, Most
 from ..pictures import mechanism
 from ..pictures.curves import limit_of, panel
-from ..pictures.dimensioned import dimensioned
 from ..pictures.scene import Scene
 from ..pictures.style import ACCENT, INK, SMALL, THIN, TITLE
-from ..plan import Plan
 from ..program import FloatArray
 from ..reports import results
 from ..reports.table import cells as text_cells
 from ..reports.table import column_blocks, flat
-from ..statics import PinLoad, drive_force, judged_table, thrust_from_forces
-from ..units import factor, show, shown_number, unit_sign
-from .calculation import has_loads
+from ..units import UNITS, factor, show, unit_sign
 from .content import Block, Cell, Illustration, Paragraph, Section, TableBlock
-from .inputs import length_unit
+from .pictures import ROOM, WIDE, height_of, in_one_unit
 from .run import ReportSubject
 
-WIDE = 6.6
-"""The width of a picture across the page [inch]."""
 HALF = 3.25
 """The width of a curve [inch]; two stand beside each other."""
 LETTERS = 100
@@ -48,37 +41,16 @@ DIRECTIONS = (noted("frictionless"), noted("extending"), noted("retracting"), no
 # -- drawings ----------------------------------------------------------------------------------------------
 
 
-def drawing_section(subject: ReportSubject, path: Sequence[str]) -> Section:
-    """Return the section of the drawings: with dimensions, and at both ends of the stroke with the paths of points."""
-    pose = subject.machine.at(unreachable="nan", **{name: [value] for name, value in subject.pose.items()})
-    first = Illustration(
-        "dimensions",
-        said(
-            "Dimensions in {unit} at {pose}; what has no room stands in the table of dimensions.",
-            unit=length_unit(), pose=subject.words(subject.pose),
-        ),
-        (WIDE, height_of(Scene(pose), 0.16)), ROOM, lambda ax: dimensioned(ax, pose),
-    )  # fmt: skip
+def sketch_section(subject: ReportSubject, path: Sequence[str]) -> Section:
+    """Return the section of the sketch: the machine with its pins by name, at both ends of the stroke, with the paths of points."""
     reached = np.flatnonzero(subject.curve.reached)
     ends = [subject.moving_words(subject.strokes_at(subject.curve, int(place))) for place in (reached[0], reached[-1])]
     paths = said(" Broken line: path of {points}.", points=", ".join(path)) if path else ""
-    second = Illustration(
-        "positions",
-        said("Positions at {start} (faint) and at {end}.", start=ends[0], end=ends[1]) + paths,
+    sketch = Illustration(
+        "sketch", said("The machine with its pins, at {start} (faint) and at {end}.", start=ends[0], end=ends[1]) + paths,
         (WIDE, height_of(Scene(subject.curve))), ROOM, partial(positions, motion=subject.curve, path=path),
     )  # fmt: skip
-    return Section(said("Drawing"), (first, second))
-
-
-ROOM = (0.55, 0.08, 0.5, 0.08)
-
-
-def height_of(scene: Scene, air: float = 0.0) -> float:
-    """Return the height of a drawing across the page [inch]."""
-    left, right, bottom, top = scene.box()
-    pad = air * max(right - left, top - bottom)
-    wide = WIDE - ROOM[0] - ROOM[1]
-    return float(np.clip(wide * (top - bottom + pad) / (right - left + pad), 2.2, 4.5)) + ROOM[2] + ROOM[3]
+    return Section(said("Sketch"), (sketch,))
 
 
 def positions(ax: Axes, motion: Motion, path: Sequence[str]) -> None:
@@ -88,6 +60,7 @@ def positions(ax: Axes, motion: Motion, path: Sequence[str]) -> None:
     mechanism(ax, motion, int(reached[-1]))
     for name in path:
         ax.plot(*motion[name], color=ACCENT, linewidth=1.6 * THIN, linestyle=(0, (5, 2)), zorder=9.0)
+    in_one_unit(ax)
 
 
 # -- tables and curves -------------------------------------------------------------------------------------
@@ -123,6 +96,10 @@ def results_section(subject: ReportSubject, names: Sequence[str] | None, first: 
     whole = curve_columns(subject)
     coordinates = {f"{point}_{axis}" for point in subject.machine.plan.points for axis in "xy"}
     drawn = [name for name in whole if name != first and (name in names if names is not None else name not in coordinates)]
+    same = one_curve([first, *drawn], whole, limits)
+    drawn = [name for name in drawn if name in same]
+    first = next(name for name in same if first in (name, *same[name]))
+    drawn = [name for name in same if name != first]
     beyond = wider_answers(subject, {name: whole[name] for name in [first, *drawn]}, limits)
     along, over = ", ".join(subject.run.ways), subject.words(dict(subject.run.held))
     for name in [first, *drawn]:
@@ -130,12 +107,38 @@ def results_section(subject: ReportSubject, names: Sequence[str] | None, first: 
         caption = said("{column} along {stroke}; {held} held.", column=whole[name].heading, stroke=along, held=over) if over else said(
             "{column} along {stroke}.", column=whole[name].heading, stroke=along
         )  # fmt: skip
+        caption += said(" {names} is the same curve.", names=", ".join(map(heading_of, same[name]))) if same[name] else ""
         caption += said(" Shaded: what its limit excludes.") if bound is not None else ""
         caption += beyond_words(further, whole[name]) if further else ""
         size = (WIDE, 2.6) if name == first else (HALF, 2.15)
         paint = partial(draw_column, motion=subject.curve, column=whole[name], bound=bound, beyond=further)
         blocks.append(Illustration(f"curve_{safe(name)}", caption, size, (0.62, 0.12, 0.46, 0.32 if bound is None else 0.48), paint))
     return Section(said("Results"), tuple(blocks))
+
+
+def one_curve(names: Sequence[str], columns: Mapping[str, Column], limits: Mapping[str, Sequence[Any]]) -> dict[str, list[str]]:
+    """Return the columns that are drawn, each with the others that are the same curve; of these the one with a limit, else the first."""
+    groups: list[list[str]] = []
+    for name in dict.fromkeys(names):
+        group = next((each for each in groups if same_curve(columns[each[0]], columns[name])), None)
+        if group is None:
+            groups.append([name])
+        else:
+            group.append(name)
+    led = [sorted(group, key=lambda name: name not in limits) for group in groups]
+    return {group[0]: group[1:] for group in led}
+
+
+def same_curve(one: Column, other: Column) -> bool:
+    """Return whether two columns measure the same and have the same values."""
+    kinds = {UNITS[each.unit][1] if each.unit else "" for each in (one, other)}
+    first, second = (np.asarray(each.values, float) for each in (one, other))
+    size = float(np.max(np.abs(first[np.isfinite(first)]), initial=0.0))
+    return len(kinds) == 1 and size > 0.0 and bool(np.allclose(first, second, rtol=CLOSE, atol=CLOSE * size, equal_nan=True))
+
+
+CLOSE = 1e-9
+"""Of the greatest value: columns that differ by no more are one curve."""
 
 
 def curve_columns(subject: ReportSubject) -> dict[str, Column]:
@@ -307,76 +310,6 @@ def amount_text(answer: Answer, column: Column) -> str:
         return "∞" if value > 0.0 else "−∞"
     (cell,) = text_cells(column, Column(column.name, np.array([value]), column.unit, column.digits).shown)
     return "–" if np.isnan(value) else cell
-
-
-# -- forces of joints --------------------------------------------------------------------------------------
-
-
-def forces_section(subject: ReportSubject) -> Section | None:
-    """Return the section of driving forces and of the largest force of every joint, over cases and directions; None without loads."""
-    title = said("Forces in drives and pins")
-    if not has_loads(subject.machine):
-        return None
-    try:
-        found = subject.forces
-        with unwarned():
-            rows, ranges = judged_table(subject.judge), tuple(drive_rows(subject))
-    except LinkageError as error:
-        return Section(title, (Paragraph(said("The joint forces are not calculated: {why}", why=str(error))),))
-    looks = Paragraph(
-        said(
-            "The largest force of each joint over {domain}, between the poses of the tables too, over load cases and directions of "
-            "motion. Fx and Fy act on the body, in its own axes: x from the first of the named points to the second, y to its left; on "
-            "the frame in the axes of the drawing.",
-            domain=subject.domain,
-        )
-    )
-    unit = unit_sign("kN")
-    heads = (
-        said("pin"), said("joint"), said("on body"), said("from body"), said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit),
-        said("F, {unit}", unit=unit), said("x axis"), said("strokes"), said("load case"), said("motion"),
-    )  # fmt: skip
-    table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(map(pin_row, rows)), "llllrrrlmml")
-    drives = (
-        said("drive or member"), said("unit"), said("least"), said("situation and place"), said("greatest"), said("situation and place")
-    )  # fmt: skip
-    forces = TableBlock(said("Driving forces and thrusts, over all that the machine runs"), drives, ranges, "llrmrm")
-    remarks = [Paragraph(each) for each in dict.fromkeys(remark for one in found for remark in one.remarks)]
-    return Section(title, (forces, looks, table, *remarks))
-
-
-def pin_row(row: PinLoad) -> tuple[str, ...]:
-    """Return a joint's largest force as cells."""
-    parts = [shown_number(row.force * way(row.angle), "kN", "z.3f") if np.isfinite(row.force) else "∞" for way in (cos, sin)]
-    size = shown_number(row.force, "kN", ".3f") if np.isfinite(row.force) else "∞"
-    case = translated(row.case)
-    return (row.point, translated(row.kind), frame(row.on), frame(row.by), *parts, size, row.axis, row.place, case, row.movement)
-
-
-def frame(name: str) -> str:
-    """Return a body's name, the frame's in the language that is spoken."""
-    return said("frame") if name.startswith("frame") else name
-
-
-def drive_rows(subject: ReportSubject) -> Iterator[tuple[str, ...]]:
-    """Yield the least and the greatest force of every drive and thrust of every member, in which situation and where."""
-    one, plan = subject.forces[0], subject.machine.plan
-    asked: list[tuple[str, Request, str]] = [(name, drive_force(name), drive_unit(plan, name)) for name in one.drives]
-    known = {name: column.request for name, column in subject.member_columns if column.name == "thrust"}  # these have a program
-    for name in one.thrusts:
-        own = known.get(name)
-        request = own if isinstance(own, Request) else thrust_from_forces(name, PLAIN)
-        asked.append((said("thrust of {name}", name=name), request, "kN"))
-    answers = subject.judge.answers([each(request) for _, request, _ in asked for each in (least, most)])
-    for (name, _, unit), low, high in zip(asked, answers[::2], answers[1::2], strict=True):
-        column = Column(name, np.zeros(1), unit, 3)
-        if not np.isnan(low.value):
-            yield name, unit_sign(unit), amount_text(low, column), low.place, amount_text(high, column), high.place
-
-
-def drive_unit(plan: Plan, stroke: str) -> str:
-    """Return the unit of a drive's generalised force."""
-    return "kNm" if stroke_display_unit(plan, stroke) == "deg" else "kN"
 
 
 # -- limits ------------------------------------------------------------------------------------------------

@@ -18,18 +18,20 @@ from matplotlib.path import Path as Outline
 from matplotlib.transforms import IdentityTransform
 
 from ..disk import replacing
-from ..formulas.typeset import BoxRow, boxes, breakable
+from ..formulas.typeset import Box, BoxRow, boxes
 from ..language import said
-from .content import Block, Cell, Document, Equality, Formula, Illustration, Mark, Paragraph, Section, TableBlock
+from .breaking import LONGEST, MATH, line_pieces
+from .content import Block, Cell, Document, Equality, Formula, Illustration, ListBlock, Mark, Paragraph, Section, TableBlock
 from .html import captions_of
 from .pictures import painted
 from .setting import GlyphRun, Ink, InkLine, SetFormula, face, filled_lines, set_formula, width
+from .title import TitleBlock
 
 WIDE, HIGH = 595.276, 841.89
 LEFT, RIGHT, TOP, BOTTOM = 57.0, 42.0, 48.0, 52.0
 """A4 and its margins: the left one has room for holes."""
 ROOM = WIDE - LEFT - RIGHT
-TEXT, SMALL, CELL, MATH = 8.8, 7.4, 7.2, 8.8
+TEXT, SMALL, CELL = 8.8, 7.4, 7.2
 INK, MUTED, RULE, HEAD, GOOD, BAD = "#1c2733", "#5d6975", "#b9c2ca", "#eef2f5", "#1d6b35", "#b3261e"
 INCH = 72.0
 SETTINGS: Any = {"pdf.fonttype": 42, "pdf.compression": 6, "font.family": ["DejaVu Sans"], "pdf.use14corefonts": False}
@@ -147,11 +149,16 @@ class Flow:
             else:
                 self.put(InkLine(tuple((x + px, line - py) for px, py in ink.points), ink.width, colour, ink.fill))
 
-    def words(self, text: str, size: float = TEXT, name: str = "regular", colour: str = INK, after: float = 4.0) -> None:
-        """Draw a paragraph."""
-        for line in filled_lines(text, ROOM, size, name):
+    def words(
+        self, text: str, size: float = TEXT, name: str = "regular", colour: str = INK, after: float = 4.0, mark: str = ""
+    ) -> None:
+        """Draw a paragraph, its lines behind a mark where there is one."""
+        inset = 11.0 if mark else 0.0
+        for place, line in enumerate(filled_lines(text, ROOM - inset, size, name)):
             y = self.take(1.38 * size)
-            self.put(GlyphRun(LEFT, y + size, line, size, name, colour))
+            if mark and not place:
+                self.put(GlyphRun(LEFT, y + size, mark, size, name, colour))
+            self.put(GlyphRun(LEFT + inset, y + size, line, size, name, colour))
         self.y += after
 
     # -- blocks ----------------------------------------------------------------------------------------
@@ -160,8 +167,35 @@ class Flow:
         """Draw the title and the title block."""
         self.words(document.title, 17.0, "bold", after=0.0)
         self.words(f"{said('Calculation report')}. {document.subtitle}", TEXT, colour=MUTED, after=7.0)
+        self.title_block(document.block)
         rows = tuple((name, document.verdict if value == document.verdict.word else value) for name, value in document.facts)
         self.draw_table(TableBlock("", ("", ""), rows, "lm"), "", headed=False)
+
+    def title_block(self, block: TitleBlock) -> None:
+        """Draw the title block across the page: a box for each field, and a line for each who signs."""
+        top = self.y
+        shares = (0.25, 0.15, 0.2, 0.4)
+        edges = [LEFT + ROOM * sum(shares[:place]) for place in range(len(shares) + 1)]
+        for (name, value), left, right in zip(block.entries, edges, edges[1:], strict=False):
+            self.put(GlyphRun(left + 4.0, top + 8.5, name, SMALL, "regular", MUTED))
+            for line, text in enumerate(filled_lines(value, right - left - 8.0, TEXT, "bold")[:2]):
+                self.put(GlyphRun(left + 4.0, top + 20.0 + 10.5 * line, text, TEXT, "bold", INK))
+            self.put(InkLine(((right, top), (right, top + 34.0)), 0.4, RULE))
+        y, names = top + 34.0, (0.14, 0.36, 0.18, 0.32)
+        starts = [LEFT + ROOM * sum(names[:place]) for place in range(len(names) + 1)]
+        for x, text in zip(starts, block.columns, strict=False):
+            self.put(GlyphRun(x + 4.0, y + 9.0, text, SMALL, "regular", MUTED))
+        y += 12.0
+        for what, name in block.signatures:
+            self.put(InkLine(((LEFT, y), (LEFT + ROOM, y)), 0.4, RULE))
+            self.put(GlyphRun(starts[0] + 4.0, y + 12.5, what, SMALL, "regular", MUTED))
+            self.put(GlyphRun(starts[1] + 4.0, y + 12.5, filled_lines(name, ROOM * names[1] - 8.0, TEXT)[0], TEXT, "regular", INK))
+            y += 18.0
+        for x in starts[1:-1]:
+            self.put(InkLine(((x, top + 34.0), (x, y)), 0.4, RULE))
+        self.put(InkLine(((LEFT, top + 34.0), (LEFT + ROOM, top + 34.0)), 0.9, INK))
+        self.put(InkLine(((LEFT, top), (LEFT + ROOM, top), (LEFT + ROOM, y), (LEFT, y), (LEFT, top)), 1.1, INK))
+        self.y = y + 8.0
 
     def section(self, number: int, section: Section) -> None:
         """Draw a section; small pictures stand in pairs."""
@@ -191,6 +225,10 @@ class Flow:
         """Draw a block."""
         if isinstance(block, Paragraph):
             self.words(block.text)
+        elif isinstance(block, ListBlock):
+            for text in block.texts:
+                self.words(text, mark="–", after=1.5)
+            self.y += 3.0
         elif isinstance(block, TableBlock):
             self.draw_table(block, self.captions.get(id(block), ""))
         elif isinstance(block, Equality):
@@ -212,13 +250,13 @@ class Flow:
 
     def equality(self, block: Equality) -> None:
         """Draw an equation with its number, broken where it is too long."""
-        indent, room = 30.0, ROOM - 30.0
+        indent, room = INDENT, ROOM - INDENT
         lines: list[list[SetFormula]] = [[]]
         used = 0.0
         for each in equality_pieces(block):
             if lines[-1] and used + each.width > room:
                 lines.append([])
-                used = 14.0
+                used = FURTHER
             lines[-1].append(each)
             used += each.width + 2.0
         for number, parts in enumerate(lines):
@@ -226,7 +264,7 @@ class Flow:
             y = self.take(up + down + 3.6)
             if not number and block.number:
                 self.put(GlyphRun(LEFT, y + up, f"({block.number})", TEXT, "regular", MUTED))
-            x = LEFT + indent + (14.0 if number else 0.0)
+            x = LEFT + indent + (FURTHER if number else 0.0)
             for each in parts:
                 self.set(each, x, y + up)
                 x += each.width + 2.0
@@ -285,12 +323,22 @@ class Flow:
         self.put(InkLine(((LEFT, y + high), (x, y + high)), 0.35, RULE))
 
 
+INDENT, FURTHER = 30.0, 14.0
+"""How far in an equation begins, and how much further its next lines."""
+
+
+def fitting(piece: Box) -> SetFormula:
+    """Return a piece, set; smaller where it is wider than a line and cannot be broken."""
+    found = set_formula(piece, MATH)
+    return found if found.width <= LONGEST else set_formula(piece, MATH * LONGEST / found.width)
+
+
 def equality_pieces(block: Equality) -> Iterator[SetFormula]:
     """Yield the pieces of an equation, set; all but the first of a step's that follow another begin with its sign of equality."""
     equals = set_formula(boxes("= "), MATH)
     for place, step in enumerate(block.steps):
-        for first, piece in enumerate(breakable(boxes(step))):
-            each = set_formula(BoxRow((BoxRow(()), piece)) if first else piece, MATH)  # so that a sign in front has room on both sides
+        for first, piece in enumerate(line_pieces(step)):
+            each = fitting(BoxRow((BoxRow(()), piece)) if first else piece)  # so that a sign in front has room on both sides
             if not place or first:
                 yield each
             else:

@@ -5,17 +5,47 @@ from __future__ import annotations
 from io import BytesIO
 from typing import Any
 
+import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from ..language import translated
+from ..pictures.scene import Scene
+from ..pictures.sheet import length_text
+from ..units import factor, shown_in
 from .content import Illustration
 
 REPRODUCIBLE: Any = {"svg.hashsalt": "hydrolinkage", "svg.fonttype": "none", "font.family": ["DejaVu Sans"]}
 """Identifiers that do not change from run to run; letters stay letters."""
 FONT = "'DejaVu Sans', Verdana, sans-serif"
 """Where the first font is missing, one with the same widths."""
+
+
+WIDE = 6.6
+"""The width of a picture across the page [inch]."""
+ROOM = (0.72, 0.22, 0.5, 0.1)
+"""The room beside the axes of a drawing [inch: left, right, bottom, top]."""
+HIGHEST = 4.0
+"""The height of a drawing's axes at the most [inch]."""
+
+
+def height_of(scene: Scene, air: float = 0.0, most: float = HIGHEST) -> float:
+    """Return the height of a drawing across the page [inch]."""
+    left, right, bottom, top = scene.box()
+    pad = air * max(right - left, top - bottom)
+    wide = WIDE - ROOM[0] - ROOM[1]
+    return float(np.clip(wide * (top - bottom + pad) / (right - left + pad), 2.2, most)) + ROOM[2] + ROOM[3]
+
+
+def in_one_unit(ax: Axes) -> None:
+    """Show the lengths along a drawing's axes in the unit of all lengths of the document, where that is one."""
+    unit = shown_in("mm") if shown_in("m") != "m" else "m"
+    for axis, name in ((ax.xaxis, "x"), (ax.yaxis, "y")):
+        if unit != "m":
+            axis.set_major_formatter(length_text(factor(unit)))
+            axis.set_label_text(f"{name}, {translated(unit)}")
 
 
 def picture_svg(picture: Illustration) -> str:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,19 +21,23 @@ from ..motion import Answer, Constraint, Leaf, least, most, places_text, stroke_
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
 from ..pictures.strokes import column_among
+from ..quantities import Dimension
 from ..reports import NOTHING, At, is_column
 from ..units import current_system, show, shown_number, unit_system
 from ..verdict import Verdict
+from .assumptions import assumptions_section, standards_section
 from .calculation import calculated, calculation_section, has_loads
 from .checks import checks_section
-from .content import Cell, Document, Mark, Paragraph, Section, TableBlock
+from .content import Block, Cell, Document, ListBlock, Mark, Paragraph, Section, TableBlock
 from .fingerprint import DIGITS, fingerprint, own_version
+from .forces import forces_section
 from .html import write_html
 from .inputs import definition_section, inputs_section, own_paragraphs
 from .markdown import write_markdown
-from .outcome import curve_columns, drawing_section, forces_section, limits_section, members_sections, results_section
+from .outcome import curve_columns, limits_section, members_sections, results_section, sketch_section
 from .pdf import write_pdf
 from .run import ReportSubject
+from .title import TitleBlock
 
 WRITERS: Mapping[str, Callable[[Document, Path], None]] = {".html": write_html, ".pdf": write_pdf, ".md": write_markdown}
 
@@ -52,31 +58,42 @@ def report(
     limits: Mapping[str, Sequence[Any]] | None = None,
     title_block: Mapping[str, str] = NOTHING,
     start: int = 1,
+    number: str = "",
+    revision: str = "",
+    date: str = "",
+    client: str = "",
+    prepared: str = "",
+    checked: str = "",
+    approved: str = "",
 ) -> Path:
     """Return the path of the calculation report it wrote: .html, in one file; .pdf, A4; or .md with its pictures in FILE_files.
 
-    It has the inputs with units and sources, drawings with dimensions, the numbered equations with numbers filled in, from `start` on,
-    tables and curves, the largest pin forces, limits of motion, checks with their measured figures, verdicts, the version and a hash of
-    the inputs. The same inputs give the same bytes. Tables and curves run along one stroke; what is judged, the verdicts, the largest
-    forces and the worst places, is over all that the machine runs, its `overs` or what is given as `over`.
+    It has a title block, a sketch, verdicts, tables and curves, the inputs with units and sources, assumptions, the standards that are
+    cited, the numbered equations with numbers filled in, from `start` on, pin forces in every load case and at the relief valve's
+    pressure, limits of motion, checks with their measured figures, the version and a hash of the inputs. The same inputs give the same
+    bytes. Tables and curves run along one stroke; what is judged is over all that the machine runs, its `overs` or those of `over`.
 
-    `language` ("en", "ru") and `units` ("si", "bar-mm", "kgf", "us") are those that hold already unless named. `case` names one load
-    case; without it all are looked at, or `acting` says loads, case and direction in one. `at` holds strokes or says between which
-    values one runs [m or rad], as for `animate`; `count` is the number of rows of the tables, `columns` the results shown, `trace` the
-    points whose paths are drawn, `limits` as `plot` takes them. `title_block` adds rows to the title block, `{"Checked by": "N. N.",
-    "Date": "2026-05-01"}`. What stood at the path is replaced whole. Raises DefinitionError for a batch of designs, another kind of file
-    or an unknown name, AssemblyError where no pose is in reach.
+    `number`, `revision`, `date`, `client` and who `prepared`, `checked` and `approved` it stand in the title block; what is left out is an
+    empty line to write on. `title_block` adds rows to those below it, `{"Order": "4711"}`. `language` ("en", "ru") is the one that holds
+    already unless named. `units` are "si", "bar-mm", "kgf" or "us": those that hold already, else the system of the machine's own numbers,
+    so that each kind of number has one unit. `case` names one load case; without it all are looked at, or `acting` says loads, case and
+    direction in one. `at` holds strokes or says between which values one runs [m or rad], as for `animate`; `count` is the number of rows
+    of the tables, `columns` the results shown, `trace` the points whose paths are drawn, `limits` as `plot` takes them. What stood at the
+    path is replaced whole. Raises DefinitionError for a batch of designs, another kind of file or an unknown name, AssemblyError where no
+    pose is in reach.
     """
     check_name(path)
     place = Path(path)
     if place.suffix.lower() not in WRITERS:
         raise DefinitionError(f"{cited(str(path))}: a report's name ends in one of {', '.join(WRITERS)}, which chooses the format.")
     check_place(place)
+    block = TitleBlock(number, revision, date, client, prepared, checked, approved)
+    shown = units if units is not None or current_system() else own_system(machine)
     document = report_document(
-        machine, language=language, units=units, case=case, at=at, over=over, acting=acting, count=count, columns=columns, trace=trace,
-        limits=limits, title_block=title_block, start=start,
+        machine, language=language, units=shown, case=case, at=at, over=over, acting=acting, count=count, columns=columns, trace=trace,
+        limits=limits, title_block=title_block, start=start, block=block,
     )  # fmt: skip
-    with speaking(language, units):
+    with speaking(language, shown):
         WRITERS[place.suffix.lower()](document, place)
     return place
 
@@ -96,13 +113,14 @@ def report_document(
     limits: Mapping[str, Sequence[Any]] | None = None,
     title_block: Mapping[str, str] = NOTHING,
     start: int = 1,
+    block: TitleBlock | None = None,
 ) -> Document:
-    """Return what a report says, before it is written as a file."""
+    """Return what a report says, before it is written as a file; each number in its own unit where no system of units is named."""
     subject = ReportSubject.at(machine, at, count, over, situation_of("report", acting, case=case))
     if not isinstance(title_block, Mapping) or not all(isinstance(each, str) for pair in title_block.items() for each in pair):
         raise DefinitionError(f'title_block={cited(title_block)}: rows of text are expected, title_block={{"Checked by": "N. N."}}.')
     with speaking(language, units):
-        return composed(subject, columns, trace, limits, title_block, start)
+        return composed(subject, columns, trace, limits, title_block, start, block or TitleBlock())
 
 
 @contextmanager
@@ -119,6 +137,7 @@ def composed(
     limits: Mapping[str, Sequence[Any]] | None,
     title_block: Mapping[str, str],
     start: int,
+    block: TitleBlock,
 ) -> Document:
     """Return the document, in the language and the units that hold."""
     machine, featured = subject.machine, subject.machine.featured()
@@ -128,22 +147,69 @@ def composed(
     bounds = checked_limits(own if limits is None else limits, names, machine.plan.title)
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
     found = calculated(machine, subject.pose, start)
-    verdicts, mark = verdict_section(subject, bounds)
+    verdicts, mark, judged = verdict_section(subject, bounds)
     sections = (
-        inputs_section(machine, found.listing, subject.run.held),
-        drawing_section(subject, path),
-        calculation_section(found, subject.words(subject.pose)),
+        sketch_section(subject, path),
+        of_source(verdicts),
         results_section(subject, columns, first, bounds),
         *members_sections(subject),
+        of_source(inputs_section(subject, found.listing)),
+        assumptions_section(subject),
+        standards_section(subject, judged),
+        calculation_section(found, subject.words(subject.pose)),
         forces_section(subject),
         limits_section(subject),
         checks_section(subject, found.values),
-        verdicts,
         definition_section(machine),
     )
     whole = tuple(each for each in sections if each is not None)
-    words = translated(own_paragraphs(type(machine))[0])
-    return Document(machine.plan.heading, words, facts(subject, title_block, mark), mark, whole, current_language())
+    words = cited_numbers(translated(own_paragraphs(type(machine))[0]))
+    return Document(machine.plan.heading, words, block, facts(subject, title_block, mark), mark, whole, current_language())
+
+
+def own_system(machine: Any) -> str | None:
+    """Return the system of units that a machine's own numbers are nearest to; None for what is no machine."""
+    if not isinstance(machine, Mechanism):
+        return None
+    given = {entry.unit for entry in machine.plan.table.entries.values()} | {each.unit for each in machine.plan.of_kind(Dimension).values()}
+    for name, signs in OWN_UNITS.items():
+        if given & signs:
+            return name
+    return "bar-mm"
+
+
+OWN_UNITS = {
+    "kgf": {"kgf", "kgf/cm2", "kgf_cm2", "kgf m", "kgf/mm"}, "us": {"in", "inch", "ft", "lb", "lbf", "psi", "lbf ft", "lbf/in", "gal"},
+    "si": {"MPa"},
+}  # fmt: skip
+"""The units by which a system is told."""
+
+
+# The numbers of a source's equations are not the report's: where a machine's own words cite one, they say whose it is.
+
+NUMBER = re.compile(r"(?<![\w)\]])\((\d{1,3}(?:\.\d{1,3})?[a-z]?)\)")
+
+
+def cited_numbers(text: str) -> str:
+    """Return a text in which the number of an equation in parentheses is said to be the source's."""
+    return NUMBER.sub(lambda found: said("[source, eq. {number}]", number=found[1]), text)
+
+
+def of_source(section: Section) -> Section:
+    """Return a section whose texts say whose the numbers of equations in them are."""
+    return replace(section, blocks=tuple(map(block_of_source, section.blocks)))
+
+
+def block_of_source(block: Block) -> Block:
+    """Return a block whose texts say whose the numbers of equations in them are."""
+    if isinstance(block, Paragraph):
+        return Paragraph(cited_numbers(block.text))
+    if isinstance(block, ListBlock):
+        return ListBlock(tuple(map(cited_numbers, block.texts)))
+    if isinstance(block, TableBlock):
+        rows = tuple(tuple(cited_numbers(cell) if isinstance(cell, str) else cell for cell in row) for row in block.rows)
+        return replace(block, rows=rows)
+    return block
 
 
 def facts(subject: ReportSubject, title_block: Mapping[str, str], mark: Mark) -> tuple[tuple[str, str], ...]:
@@ -188,8 +254,8 @@ def checked_limits(limits: Mapping[str, Sequence[Any]], columns: Sequence[str], 
 # What the machine itself judges.
 
 
-def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> tuple[Section, Mark]:
-    """Return the section of a machine's verdicts over all that it runs, with its worst places, and how many rules are kept."""
+def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> tuple[Section, Mark, Sequence[str]]:
+    """Return the section of a machine's verdicts over all that it runs, with its worst places, how many rules are kept, and all of them."""
     title = said("Verdicts")
     try:
         with unwarned():
@@ -197,16 +263,17 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[Any]])
             limited = limit_answers(subject, limits)
     except LinkageError as error:
         why = Paragraph(said("The machine cannot be judged over all that it runs: {why}", why=str(error)))
-        return Section(title, (why,)), Mark(False, said("not judged"))
+        return Section(title, (why,)), Mark(False, said("not judged")), ()
     if not found:
-        return Section(title, (Paragraph(said("This machine declares no rules of its own.")),)), Mark(None, said("no rules declared"))
+        none = Paragraph(said("This machine declares no rules of its own."))
+        return Section(title, (none,)), Mark(None, said("no rules declared")), ()
     judged = [each for each in found if isinstance(each, Verdict)]
     domain = Paragraph(said("Judged over {domain}, in all load cases and directions of motion that occur there.", domain=subject.domain))
     heads = (said("rule"), said("result"), said("what was found"))
     table = TableBlock(said("Rules, over all that the machine runs"), heads, tuple(map(verdict_row, found)), "llm")
     places = [(each.heading, each.ok, each.answer) for each in judged if isinstance(each.answer, Answer)]
     worst = worst_places([*places, *((name, each.ok, each) for name, each in limited)])
-    return Section(title, (domain, table, *([worst] if worst is not None else []))), rules_mark(judged)
+    return Section(title, (domain, table, *([worst] if worst is not None else []))), rules_mark(judged), found
 
 
 def rules_mark(judged: Sequence[Verdict]) -> Mark:

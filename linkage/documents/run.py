@@ -20,6 +20,7 @@ from ..reports import At, Run, column_requests, is_column, results, run_of
 from ..reports.results import asked_by_name
 from ..statics import PinForces, drive_force, pin_forces, pin_forces_under
 from ..units import show
+from .sources import notes_of
 
 CURVE = 121
 """Poses of a curve."""
@@ -57,6 +58,11 @@ class ReportSubject:
         if not found.curve.reached.any():
             raise AssemblyError(f"{title}: no pose of this run can be assembled, so that there is nothing to report; see machine.at(...).")
         return found
+
+    @cached_property
+    def notes(self) -> Mapping[str, str]:
+        """The comments that stand beside the members in the machine's source, by name."""
+        return notes_of(type(self.machine))
 
     @cached_property
     def table(self) -> Motion:

@@ -1,0 +1,113 @@
+"""What a calculation takes for granted, what it did not look at, and the standards that its rules cite."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from ..errors import LinkageError, unwarned
+from ..language import said
+from ..loads import ForceElement, LinkMass, Support, TwoPoint, Weight
+from ..motion import Planes
+from ..units import g0
+from ..verdict import Verdict
+from .calculation import has_loads
+from .content import Block, ListBlock, Paragraph, Section, TableBlock
+from .run import ReportSubject
+
+
+def assumptions_section(subject: ReportSubject) -> Section:
+    """Return the section of what holds for all numbers of a report, and of what none of them says."""
+    return Section(
+        said("Assumptions"),
+        (
+            ListBlock(tuple(assumed(subject))),
+            Paragraph(said("Not looked at:")),
+            ListBlock(tuple(left_open(subject))),
+        ),
+    )
+
+
+def assumed(subject: ReportSubject) -> Iterator[str]:
+    """Yield what is taken for granted."""
+    elements = subject.machine.plan.of_kind(ForceElement)
+    yield said("The bodies are rigid. Pins, guides and slots have no play.")
+    yield said("The machine is planar: all parts move and all forces act in one plane. Both sides of the machine count together in it.")
+    yield said("The motion is quasi-static: there are no inertia forces, each pose is in equilibrium.")
+    if not elements:
+        return
+    counted = [f"{number} × {name}" for name, each in elements.items() if (number := getattr(each, "count", 1)) != 1]
+    if counted:
+        yield said("Cylinders side by side count together: {names}.", names=", ".join(counted))
+    yield friction_words(subject)
+    weights = [name for name, each in elements.items() if isinstance(each, (Weight, LinkMass))]
+    if weights:
+        yield said(
+            "Gravity is {g} m/s², downwards. Only these have weight: {names}; the other members are without mass.",
+            g=f"{g0:.6g}", names=", ".join(weights),
+        )  # fmt: skip
+    if any(isinstance(each, TwoPoint) and "bore" in each.numbers for each in elements.values()):
+        yield said("Pressures are gauge pressures. Oil does not yield, and pressure is the same everywhere on a line.")
+
+
+def friction_words(subject: ReportSubject) -> str:
+    """Return which friction counts, in words."""
+    elements, losses = subject.machine.plan.of_kind(ForceElement), []
+    with unwarned():
+        rubbing = [name for name, each in elements.items() if each.frictions(subject.table)]
+        for name, each in elements.items():
+            try:
+                if any(float(each.number(subject.table, key).flat[0]) != 1.0 for key in each.numbers if key.endswith("efficiency")):
+                    losses.append(name)
+            except LinkageError:
+                continue
+    words = said("There is no friction in pins, guides and slots.")
+    if rubbing:
+        words = said("Friction counts where it is declared ({names}), in both directions of motion; elsewhere there is none.",
+                     names=", ".join(rubbing))  # fmt: skip
+    return f"{words} {said('Losses of {names} count by their efficiencies.', names=', '.join(losses))}" if losses else words
+
+
+def left_open(subject: ReportSubject) -> Iterator[str]:
+    """Yield what a report does not say."""
+    plan = subject.machine.plan
+    yield said("strength and stiffness of members, pins, bushes and welds; fatigue; wear")
+    yield said("accelerations, shocks and vibrations, unless a load case stands for them")
+    yield said("loads across the plane of the machine, and how both sides share a load")
+    yield said("play and tolerances of dimensions")
+    if not has_loads(subject.machine):
+        yield said("forces: no load is declared")
+    if not plan.of_kind(Planes):
+        yield said("whether members run into each other")
+    if not plan.of_kind(Support):
+        yield said("whether the machine tips over")
+
+
+# The standards that are cited, each by the rules and texts that cite it.
+
+RUSSIAN = "\u0413\u041e\u0421\u0422"
+STANDARD = re.compile(rf"\b(?:ISO(?:/TS|/TR)?|EN|DIN|GOST|{RUSSIAN}|ASABE|SAE|JIS) ?[A-Z]?\d[\d.-]*\d|\bOECD Code \d+")
+GRAVITY = "ISO 80000-4"
+
+
+def standards_section(subject: ReportSubject, verdicts: Iterable[str]) -> Section:
+    """Return the section of the standards that rules and inputs of a report cite, with what each is used for."""
+    uses: dict[str, list[str]] = {}
+
+    def cite(text: str, use: str) -> None:
+        for name in STANDARD.findall(text):
+            uses.setdefault(name, []).append(use)
+
+    for each in verdicts:
+        if isinstance(each, Verdict):
+            cite(each.sentence, said("rule: {rule}", rule=each.heading))
+    for name, note in subject.notes.items():
+        cite(note, said("source of {name}", name=name))
+    cite(subject.machine.__doc__ or "", said("description of the machine"))
+    if has_loads(subject.machine):
+        uses.setdefault(GRAVITY, []).append(said("standard acceleration of gravity"))
+    blocks: tuple[Block, ...] = (Paragraph(said("No rule and no input of this report cites a standard.")),)
+    if uses:
+        rows = tuple((name, "; ".join(dict.fromkeys(uses[name]))) for name in sorted(uses))
+        blocks = (TableBlock(said("Standards"), (said("standard"), said("used for")), rows, "lm"),)
+    return Section(said("Standards used"), blocks)

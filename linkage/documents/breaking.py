@@ -1,0 +1,117 @@
+"""Where a long formula breaks: in front of its signs of operation, behind its commas, and inside what is longer than a line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from ..formulas.typeset import Box, BoxRow, Fenced, Fraction, Rooted, Script, Sign, boxes, breakable
+from .setting import set_formula
+
+MATH = 8.8
+"""The size that equations are set in [points]."""
+LONGEST = 430.0
+"""The widest piece of an equation [points]: a line of an A4 page, without the equation's number and the sign of equality."""
+DEEPEST = 12
+"""How often a formula is opened, part in part; what is too wide even then is set smaller."""
+
+
+def line_pieces(step: str) -> list[Box]:
+    """Return a side of an equation in LaTeX in pieces between which a line may break, none wider than a line."""
+    return [piece for each in breakable(boxes(step)) for piece in formula_pieces(each, LONGEST, MATH)]
+
+
+def formula_pieces(box: Box, room: float, size: float, depth: int = 0) -> list[Box]:
+    """Return a formula in pieces that are no wider than a room [points] where it can be broken, set in a size; a short one whole.
+
+    What is longer than a line is opened: parentheses stay at the ends of their pieces, and a fraction becomes a quotient in one line.
+    """
+    if depth > DEEPEST or set_formula(box, size).width <= room:
+        return [box]
+    cut = cuts(box)
+    if len(cut) == 1:
+        cut = opened(cut[0])
+    if len(cut) == 1:
+        return cut
+    return filled_pieces([piece for each in cut for piece in formula_pieces(each, room, size, depth + 1)], room, size)
+
+
+def cuts(box: Box) -> list[Box]:
+    """Return a row cut in front of its outermost signs of operation, else behind its commas; anything else whole."""
+    if not isinstance(box, BoxRow):
+        return [box]
+    box = row_of(box)
+    found = breakable(box)
+    if len(found) > 1:
+        return found
+    parts: list[list[Box]] = [[]]
+    for part in box.parts:
+        parts[-1].append(part)
+        if isinstance(part, Sign) and part.text == ",":
+            parts.append([])
+    return [BoxRow(tuple(each)) for each in parts if each]
+
+
+def opened(box: Box) -> list[Box]:
+    """Return what a box is made of, so that a line may break in it; one that cannot be opened whole."""
+    if isinstance(box, Fraction):
+        return [in_parentheses(box.over), BoxRow((Sign("operator", "/"), in_parentheses(box.under)))]
+    if isinstance(box, Fenced):
+        inner = cuts(box.body)
+        inner = opened(inner[0]) if len(inner) == 1 else inner
+        return put_around(Sign("operator", box.left), inner, Sign("operator", box.right)) if len(inner) > 1 else [box]
+    if isinstance(box, Script) and isinstance(box.base, Fenced):
+        inner = opened(box.base)
+        return [*inner[:-1], scripted(inner[-1], box)] if len(inner) > 1 else [box]
+    if isinstance(box, Rooted):
+        half = Fraction(Sign("number", "1"), Sign("number", "2"))
+        return opened(Script(Fenced("(", box.base, ")"), None, half))
+    return opened_row(box) if isinstance(box, BoxRow) else [box]
+
+
+def opened_row(row: BoxRow) -> list[Box]:
+    """Return a row without signs of operation, its longest part opened."""
+    row = row_of(row)
+    sizes = [set_formula(each, 1.0).width for each in row.parts]
+    for place in sorted(range(len(sizes)), key=lambda k: -sizes[k]):
+        inner = opened(row.parts[place])
+        if len(inner) > 1:
+            return put_around(BoxRow(row.parts[:place]), inner, BoxRow(row.parts[place + 1 :]))
+    return [row]
+
+
+def put_around(first: Box, inner: Sequence[Box], last: Box) -> list[Box]:
+    """Return pieces with something in front of the first and something behind the last."""
+    found = list(inner)
+    found[0] = row_of(first, found[0])
+    found[-1] = row_of(found[-1], last)
+    return found
+
+
+def row_of(*parts: Box) -> BoxRow:
+    """Return boxes in one row, rows among them part by part."""
+    return BoxRow(tuple(inner for each in parts for inner in (row_of(*each.parts).parts if isinstance(each, BoxRow) else (each,))))
+
+
+def scripted(piece: Box, of: Script) -> Box:
+    """Return a piece whose last sign, a closing parenthesis, has the index and the exponent of a box."""
+    if isinstance(piece, BoxRow) and piece.parts:
+        return BoxRow((*piece.parts[:-1], replace(of, base=piece.parts[-1])))
+    return replace(of, base=piece)
+
+
+def in_parentheses(box: Box) -> Box:
+    """Return a box in parentheses; one sign as it is."""
+    return box if not isinstance(box, BoxRow) or len(box.parts) < 2 else Fenced("(", box, ")")
+
+
+def filled_pieces(parts: Sequence[Box], room: float, size: float) -> list[Box]:
+    """Return pieces, as many as fit into a room together as one."""
+    found: list[Box] = []
+    for part in parts:
+        longer = row_of(found[-1], part) if found else part
+        if found and set_formula(longer, size).width <= room:
+            found[-1] = longer
+        else:
+            found.append(part)
+    return found

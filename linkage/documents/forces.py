@@ -1,0 +1,248 @@
+"""What drives, members and pins carry: over all that the machine runs, in each load case, and blocked at the relief valve's pressure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from math import cos, sin
+from typing import final
+
+import numpy as np
+
+from ..errors import LinkageError, unwarned
+from ..language import noted, said, translated
+from ..loads import PLAIN, Acting, Force, TwoPoint
+from ..motion import Column, Motion, Request, least, most, places_text, stroke_display_unit
+from ..plan import Plan
+from ..statics import PinLoad, drive_force, judged_table, pin_forces, thrust_from_forces
+from ..units import shown_number, unit_sign
+from .calculation import has_loads
+from .content import Block, Paragraph, Section, TableBlock
+from .outcome import amount_text
+from .run import ReportSubject
+
+KINDS = (noted("pin"), noted("guide"), noted("slot"), noted("driven point"), noted("crank's drive"), noted("slider"), noted("telescope"))
+DIRECTIONS = (noted("frictionless"), noted("extending"), noted("retracting"), noted("own loads"))
+"""The words of joints, of directions and of the plain load case, as results have them."""
+
+
+def forces_section(subject: ReportSubject) -> Section | None:
+    """Return the section of driving forces and of the largest force of every joint, over cases and directions; None without loads."""
+    title = said("Forces in drives and pins")
+    if not has_loads(subject.machine):
+        return None
+    try:
+        found = subject.forces
+        with unwarned():
+            rows, ranges = judged_table(subject.judge), tuple(drive_rows(subject))
+    except LinkageError as error:
+        return Section(title, (Paragraph(said("The joint forces are not calculated: {why}", why=str(error))),))
+    looks = Paragraph(
+        said(
+            "The largest force of each joint over {domain}, between the poses of the tables too, over load cases and directions of "
+            "motion. Fx and Fy act on the body, in its own axes: x from the first of the named points to the second, y to its left; on "
+            "the frame in the axes of the drawing.",
+            domain=subject.domain,
+        )
+    )
+    unit = unit_sign("kN")
+    heads = (
+        said("pin"), said("joint"), said("on body"), said("from body"), said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit),
+        said("F, {unit}", unit=unit), said("x axis"), said("strokes"), said("load case"), said("motion"),
+    )  # fmt: skip
+    table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(map(pin_row, rows)), "llllrrrlmml")
+    drives = (
+        said("drive or member"), said("unit"), said("least"), said("situation and place"), said("greatest"), said("situation and place")
+    )  # fmt: skip
+    forces = TableBlock(said("Driving forces and thrusts, over all that the machine runs"), drives, ranges, "llrmrm")
+    remarks = [Paragraph(each) for each in dict.fromkeys(remark for one in found for remark in one.remarks)]
+    return Section(title, (forces, looks, table, *case_tables(subject), *blocked_blocks(subject), *remarks))
+
+
+def pin_row(row: PinLoad) -> tuple[str, ...]:
+    """Return a joint's largest force as cells."""
+    parts = [shown_number(row.force * way(row.angle), "kN", "z.3f") if np.isfinite(row.force) else "∞" for way in (cos, sin)]
+    case = translated(row.case)
+    return (*joint_cells(row), *parts, force_cell(row.force), row.axis, row.place, case, row.movement)
+
+
+def joint_cells(row: PinLoad) -> tuple[str, ...]:
+    """Return which joint a row is of, as cells."""
+    return row.point, translated(row.kind), frame(row.on), frame(row.by)
+
+
+def force_cell(force: float) -> str:
+    """Return the size of a force as a cell."""
+    return shown_number(force, "kN", ".3f") if np.isfinite(force) else "∞"
+
+
+def frame(name: str) -> str:
+    """Return a body's name, the frame's in the language that is spoken."""
+    return said("frame") if name.startswith("frame") else name
+
+
+def drive_rows(subject: ReportSubject) -> Iterator[tuple[str, ...]]:
+    """Yield the least and the greatest force of every drive and thrust of every member, in which situation and where."""
+    one, plan = subject.forces[0], subject.machine.plan
+    asked: list[tuple[str, Request, str]] = [(name, drive_force(name), drive_unit(plan, name)) for name in one.drives]
+    known = {name: column.request for name, column in subject.member_columns if column.name == "thrust"}  # these have a program
+    for name in one.thrusts:
+        own = known.get(name)
+        request = own if isinstance(own, Request) else thrust_from_forces(name, PLAIN)
+        asked.append((said("thrust of {name}", name=name), request, "kN"))
+    answers = subject.judge.answers([each(request) for _, request, _ in asked for each in (least, most)])
+    for (name, _, unit), low, high in zip(asked, answers[::2], answers[1::2], strict=True):
+        column = Column(name, np.zeros(1), unit, 3)
+        if not np.isnan(low.value):
+            yield name, unit_sign(unit), amount_text(low, column), low.place, amount_text(high, column), high.place
+
+
+def drive_unit(plan: Plan, stroke: str) -> str:
+    """Return the unit of a drive's generalised force."""
+    return "kNm" if stroke_display_unit(plan, stroke) == "deg" else "kN"
+
+
+# The pins in each load case by itself, where there are several.
+
+
+def case_tables(subject: ReportSubject) -> Iterator[Block]:
+    """Yield a table of the largest pin forces of each load case; nothing where there is one only, which the table above has."""
+    cases = subject.judge.cases
+    for case in cases if len(cases) > 1 else ():
+        judge = subject.machine.judge(subject.over, replace(subject.judge.acting, case=case)).lost_allowed()
+        try:
+            with unwarned():
+                rows = judged_table(judge)
+        except LinkageError as error:
+            yield Paragraph(said("Load case {case}: {why}", case=subject.case_words(case), why=str(error)))
+            continue
+        cells = tuple((*joint_cells(row), force_cell(row.force), row.place, row.movement) for row in rows)
+        heads = (
+            said("pin"), said("joint"), said("on body"), said("from body"), said("F, {unit}", unit=unit_sign("kN")), said("strokes"),
+            said("motion"),
+        )  # fmt: skip
+        yield TableBlock(said("Largest pin forces, load case {case}", case=subject.case_words(case)), heads, cells, "llllrml")
+
+
+# Blocked: a point held fast against a stop, a cylinder pushes or pulls with what its relief valve lets through.
+
+
+@final
+@dataclass(frozen=True)
+class Blocked:
+    """The largest force of a joint while the machine is blocked: which cylinder presses, whether it pushes, and the strokes there."""
+
+    cells: tuple[str, ...]
+    force: float
+    cylinder: str
+    pushes: bool
+    strokes: Mapping[str, float]
+
+
+STILL = 1e-4
+"""Of the greatest thrust that a stop answers to: where it answers to less, the point stands still and stops nothing."""
+
+
+NEAR = 1e-9
+"""Of the greatest force: of the places that have it to this share the first one counts."""
+
+
+def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
+    """Yield what pins carry where the machine runs against a stop and a cylinder has the relief valve's pressure; nothing without one."""
+    held = blocked_cylinders(subject)
+    if not held:
+        return
+    point = stopped_point(subject)
+    try:
+        with unwarned():
+            rows = worst_blocked(subject, point, held)
+    except LinkageError as error:
+        yield Paragraph(said("Pin forces at the relief pressure are not calculated: {why}", why=str(error)))
+        return
+    if not rows:
+        return
+    pressures = ", ".join(f"{name} {' … '.join(shown_number(end, 'kN', '.1f') for end in ends)}" for name, ends in held.items())
+    yield Paragraph(
+        said(
+            "At the relief pressure: {point} stands against a stop, in whichever way it would go, and one cylinder after the other presses "
+            "with all that its relief valve holds; the others hold. The machine's own loads act too. Least and greatest thrusts, {unit}: "
+            "{thrusts}. Looked at are {count} poses of all that the machine runs.",
+            point=point, unit=unit_sign("kN"), thrusts=pressures, count=sum(int(place.reached.sum()) for place in judged_poses(subject)),
+        )
+    )  # fmt: skip
+    units = {name: stroke_display_unit(subject.machine.plan, name, "m") for name in subject.machine.strokes}
+    plain_units = {name: "rad" if unit == "deg" else unit for name, unit in units.items()}
+    cells = tuple(
+        (*row.cells, force_cell(row.force), said("{member} pushes", member=row.cylinder) if row.pushes
+         else said("{member} pulls", member=row.cylinder), places_text(row.strokes, plain_units))
+        for row in rows
+    )  # fmt: skip
+    heads = (
+        said("pin"), said("joint"), said("on body"), said("from body"), said("F, {unit}", unit=unit_sign("kN")), said("member"),
+        said("strokes"),
+    )  # fmt: skip
+    yield TableBlock(said("Largest pin forces at the relief pressure, against a stop"), heads, cells, "llllrlm")
+
+
+def judged_poses(subject: ReportSubject) -> list[Motion]:
+    """Return some poses of each place that is judged."""
+    return [place.sampled for place in subject.judge.places]
+
+
+def blocked_cylinders(subject: ReportSubject) -> dict[str, tuple[float, float]]:
+    """Return the members whose thrust a relief valve bounds, with the least and the greatest thrust [N]."""
+    found = {}
+    for name, element in subject.machine.plan.of_kind(TwoPoint).items():
+        try:
+            low, high = (np.ravel(np.asarray(each, float)) for each in element.bounds(subject.curve, False))
+        except LinkageError:
+            continue
+        ends = float(np.nanmin(low)), float(np.nanmax(high))
+        if np.isfinite(ends).all() and ends[0] < ends[1]:
+            found[name] = ends
+    return found
+
+
+def stopped_point(subject: ReportSubject) -> str:
+    """Return the point that runs against a stop: the one that the machine is about, else the last that moves."""
+    moving = subject.machine.plan.moving
+    return next((name for name in subject.machine.featured().path if name in moving), moving[-1])
+
+
+def worst_blocked(subject: ReportSubject, point: str, held: Mapping[str, tuple[float, float]]) -> list[Blocked]:
+    """Return the largest force of each joint over some poses, cylinders and both of their ways.
+
+    A stop pushes with a force along the way on which the cylinder would move the point. Forces are affine in it, so that the machine's own
+    loads and two unit forces tell all of it.
+    """
+    worst: dict[tuple[str, ...], Blocked] = {}
+    acting = Acting(case=subject.judge.acting.case)
+    for motion in judged_poses(subject):
+        poses = motion.moved(motion.strokes)
+        own = pin_forces(poses, acting=acting)
+        units = [pin_forces(poses, acting=Acting(loads=[Force(point, (x, y))])) for x, y in ((1.0, 0.0), (0.0, 1.0))]
+        for cylinder in held:
+            if any(cylinder not in each.thrusts for each in (own, *units)):
+                continue  # gas that presses by itself holds no load
+            low, high = subject.machine.plan.of_kind(TwoPoint)[cylinder].bounds(poses, False)
+            parts = np.array([each.thrusts[cylinder] for each in units])
+            answers = np.hypot(*parts)  # the thrust that a unit force along the point's way asks for
+            far = float(np.nanmax(answers, initial=0.0))
+            answers = np.where(answers > STILL * far, answers, np.nan)
+            way = parts / answers
+            for thrust, pushes in ((high, True), (low, False)):
+                force = (thrust - own.thrusts[cylinder]) / answers
+                for joint, *along in zip(own.joints, units[0].joints, units[1].joints, strict=True):
+                    if not joint.has_force:
+                        continue
+                    total = joint.force + force * (way[0] * along[0].force + way[1] * along[1].force)
+                    size = np.hypot(*total)
+                    if np.isnan(size).all():
+                        continue
+                    place = np.unravel_index(int(np.argmax(size >= (1.0 - NEAR) * np.nanmax(size))), size.shape)
+                    key = (joint.point, joint.on, joint.by, joint.kind)
+                    if key not in worst or size[place] > worst[key].force:
+                        strokes = {name: float(np.broadcast_to(value, size.shape)[place]) for name, value in poses.strokes.items()}
+                        cells = joint.point, translated(joint.kind), frame(joint.on), frame(joint.by)
+                        worst[key] = Blocked(cells, float(size[place]), cylinder, pushes, strokes)
+    return list(worst.values())

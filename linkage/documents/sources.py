@@ -1,0 +1,43 @@
+"""Where a number comes from: the comment beside it in the source of the machine's class."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import tokenize
+from io import StringIO
+from textwrap import dedent
+
+from ..language import translated
+from ..mechanism import Mechanism
+
+
+def notes_of(machine: type[Mechanism]) -> dict[str, str]:
+    """Return the comments that stand beside the members in the source of a class and its bases, by name."""
+    found: dict[str, str] = {}
+    for cls in reversed(machine.__mro__):
+        if issubclass(cls, Mechanism) and cls is not Mechanism:
+            found |= comments_in(cls)
+    return {name: translated(text) for name, text in found.items() if name in machine.plan.members}
+
+
+def comments_in(cls: type) -> dict[str, str]:
+    """Return the comments behind the assignments in a class's body, by the names assigned; none where it has no source."""
+    try:
+        source = dedent(inspect.getsource(cls))
+        body = ast.parse(source).body[0]
+        tokens = list(tokenize.generate_tokens(StringIO(source).readline))
+    except (OSError, TypeError, SyntaxError, tokenize.TokenError, IndexError):
+        return {}
+    comments = {token.start[0]: token.string.lstrip("#: ").strip() for token in tokens if token.type == tokenize.COMMENT}
+    found: dict[str, str] = {}
+    for line in getattr(body, "body", []):
+        if (
+            isinstance(line, ast.Assign)
+            and (text := comments.get(line.end_lineno or line.lineno))
+            and not text.startswith(("fmt:", "type:", "noqa"))
+        ):
+            for target in line.targets:
+                names = target.elts if isinstance(target, ast.Tuple) else [target]
+                found |= {name.id: text for name in names if isinstance(name, ast.Name)}
+    return found

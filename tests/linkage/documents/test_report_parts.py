@@ -1,0 +1,324 @@
+"""What a checking engineer looks for: who signs, what stands where, what is assumed, what pins carry; and that nothing is cut."""
+
+import re
+from functools import cache
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+from scipy.optimize import brentq
+
+from hydraulics import Cylinder, LiftCircuit
+from linkage import RIGHT, DefinitionError, Dyad, Force, Ground, LoadCase, Mechanism, OnLink, Stroke, Weight, max_table, pin_forces, report
+from linkage.cli import main
+from linkage.documents import report_document
+from linkage.documents.breaking import LONGEST, MATH, formula_pieces
+from linkage.documents.content import Illustration, ListBlock, TableBlock
+from linkage.documents.forces import blocked_cylinders, worst_blocked
+from linkage.documents.html import html_text
+from linkage.documents.markdown import markdown
+from linkage.documents.pdf import BOTTOM, HIGH, LEFT, TOP, WIDE, Flow, pdf
+from linkage.documents.pdf import RIGHT as RIGHT_EDGE
+from linkage.documents.pictures import painted
+from linkage.documents.reporting import NUMBER, cited_numbers, own_system, speaking
+from linkage.documents.run import ReportSubject
+from linkage.documents.setting import GlyphRun, set_formula, width
+from linkage.documents.title import TitleBlock
+from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes
+from linkage.statics import elements_of
+from linkage.units import bar, mm
+from mechanisms.mower_lift import MowerLift
+from mechanisms.three_point_hitch import ThreePointHitch
+from tests.shipped import MACHINES
+
+
+class Loader(Mechanism):
+    """A lift arm, after (12) and (2.7) of its source.
+
+    The force is that of (3a); 2 cylinders (of 80 mm) lift (since 2026) up to [see table 4] f(3).
+    """
+
+    S = Stroke(0.0, 0.25)
+    A, O = Ground(0.20, 0.55), Ground(0.30, 1.15)
+    B = Dyad(A, O, AB=0.5 + S, OB=0.30, side=RIGHT)  # of EN 1234-1
+    G = OnLink(O, B, OG=0.90, BOG=0.35)
+    load = Weight(G, mass=800)
+    lift = Cylinder(A, B, bore=80 * mm, rod=45 * mm, count=2)
+    pump = LiftCircuit(lift, pressure=180 * bar, relief=21e6, flow=5e-4, mechanical_efficiency=0.9)
+    shock = LoadCase("with shock", scale={"load": 1.8})
+
+
+@cache
+def shown(cls=Loader):
+    """Return a document in the system of units of the machine's own numbers, as `report` writes it, and its subject."""
+    machine = cls()
+    with speaking("en", own_system(machine)):
+        return report_document(machine, count=3)
+
+
+def blocks(document, kind):
+    return [block for section in document.sections for block in section.blocks if isinstance(block, kind)]
+
+
+def texts(document):
+    """Return all texts of a document."""
+    found = [block.text for block in blocks(document, object) if hasattr(block, "text")]
+    for block in blocks(document, TableBlock):
+        found += [cell for row in block.rows for cell in (block.caption, *row) if isinstance(cell, str)]
+    found += [text for block in blocks(document, ListBlock) for text in block.texts]
+    return found + [block.caption for block in blocks(document, Illustration)]
+
+
+# -- who signs ---------------------------------------------------------------------------------------------
+
+FULL = {
+    "number": "R-104", "revision": "B", "date": "2026-05-01", "client": "A <b> & C", "prepared": "N. N.", "checked": "M. M.",
+    "approved": "K. K.",
+}  # fmt: skip
+
+
+def markdown_of(document):
+    return markdown(document, {id(each): "x" for each in blocks(document, Illustration)})
+
+
+@pytest.mark.parametrize("write", [html_text, markdown_of])
+def test_a_title_block_says_what_is_given_and_leaves_lines_for_the_rest(write):
+    given = write(report_document(Loader(), count=3, block=TitleBlock(**FULL)))
+    for value in ("R-104", "2026-05-01", "N. N.", "M. M.", "K. K."):
+        assert value in given.replace("\\", "")
+    empty = write(report_document(Loader(), count=3))
+    for name in ("report No.", "client", "prepared", "checked", "approved", "signature"):
+        assert name in given and name in empty
+    assert "<b>" not in given
+
+
+def test_a_pdf_has_its_title_block_on_the_first_page_and_its_number_on_all():
+    document = report_document(Loader(), count=3, block=TitleBlock(**FULL))
+    pages = Flow(document).pages
+    first = [each.text for each in pages[0].ink if isinstance(each, GlyphRun)]
+    assert {"R-104", "N. N.", "M. M.", "K. K.", "signature"} <= {*first}
+    assert document.footer.startswith("R-104, revision B · Loader") and len(pdf(document)) > 10_000
+
+
+@pytest.mark.parametrize("wrong", [{"number": 104}, {"client": "two\nlines"}, {"checked": None}])
+def test_a_title_block_is_text(wrong, tmp_path):
+    with pytest.raises(DefinitionError, match=next(iter(wrong))):
+        report(Loader(), tmp_path / "a.md", **wrong)
+
+
+def test_the_command_has_the_title_block(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    options = [part for name, value in FULL.items() for part in (f"--{name}", value)]
+    assert main(["report", "mower_lift", "-o", "a.md", "--count", "3", *options]) == 0
+    assert "| R\\-104 |" in (tmp_path / "a.md").read_text(encoding="utf-8") or "R-104" in (tmp_path / "a.md").read_text(encoding="utf-8")
+
+
+# -- what stands where -------------------------------------------------------------------------------------
+
+
+def test_results_come_before_inputs_and_inputs_before_equations():
+    titles = [section.title for section in shown().sections]
+    order = ["Sketch", "Verdicts", "Results", "Inputs", "Assumptions", "Standards used", "Calculation", "Forces in drives and pins"]
+    assert [title for title in titles if title in order] == order
+
+
+@pytest.mark.parametrize("machine", [Loader, ThreePointHitch, MowerLift])
+def test_the_sketch_is_on_the_first_page_with_every_pin_by_name(machine):
+    first = Flow(shown(machine)).pages[0]
+    ((sketch, _, _),) = first.pictures
+    figure = Figure(figsize=sketch.size)
+    FigureCanvasAgg(figure)
+    names = {each.get_text() for each in painted(figure, sketch, (0.0, 0.0)).findobj(Text)}
+    assert sketch.name == "sketch" and {*machine.plan.points} <= names
+
+
+def test_assumptions_follow_the_machine():
+    (assumed, left_open) = blocks(shown(), ListBlock)
+    said = " ".join(assumed.texts)
+    for words in ("rigid", "planar", "quasi-static", "no friction", "Losses of pump", "2 × lift", "Only these have weight: load"):
+        assert words in said
+    assert "whether the machine tips over" in left_open.texts
+
+
+def test_standards_are_those_that_rules_and_inputs_cite():
+    (grid,) = (block for block in blocks(shown(), TableBlock) if block.headings[0] == "standard")
+    assert dict(grid.rows)["ISO 3320"] == "rule: standard size" and dict(grid.rows)["EN 1234-1"] == "source of B"
+
+
+# -- one unit for one kind, no raw numbers, no numbers of others' equations --------------------------------
+
+
+def test_no_number_stands_without_its_unit():
+    (grid,) = (block for block in blocks(shown(), TableBlock) if block.caption.startswith("Loads, force"))
+    rows = {name: text for name, text, _ in grid.rows}
+    assert "pressure=180 bar" in rows["pump"] and "relief=210 bar" in rows["pump"] and "flow=30 l/min" in rows["pump"]
+    assert "bore=80 mm" in rows["lift"] and "mass=800 kg" in rows["load"]
+    assert not [text for text in texts(shown()) if re.search(r"\d{7}\.0|\de[+-]?\d{2}\b", text) and "e-" not in text]
+
+
+def test_lengths_and_pressures_have_one_unit():
+    for machine, other in ((Loader, r"\d (MPa|kgf/cm2|m)\b"), (MowerLift, r"\d (bar|MPa|m|kN)\b")):
+        document = shown(machine)
+        found = [text for section in document.sections if section.title not in ("Calculation", "Definition of the mechanism")
+                 for block in section.blocks for text in texts_of(block) if re.search(other, text)]  # fmt: skip
+        assert not found
+
+
+def texts_of(block):
+    """Return the texts of a block that the report writes: not what the machine says of itself."""
+    if isinstance(block, TableBlock):
+        pairs = [pair for row in block.rows for pair in zip(row, block.headings, strict=True)]
+        return [cell for cell, head in pairs if isinstance(cell, str) and "note" not in head]
+    return [block.caption] if isinstance(block, Illustration) else []
+
+
+def test_numbers_of_a_sources_equations_say_whose_they_are():
+    document = shown()
+    said = [text for text in texts(document) if "source, eq." in text]
+    assert document.subtitle == "A lift arm, after [source, eq. 12] and [source, eq. 2.7] of its source."
+    assert said == ["The force is that of [source, eq. 3a]; 2 cylinders (of 80 mm) lift (since 2026) up to [see table 4] f(3)."]
+    assert cited_numbers("(2026), (0.5, 1), S(3)") == "(2026), (0.5, 1), S(3)"
+    for machine in (ThreePointHitch, MowerLift):
+        for section in shown(machine).sections:
+            if section.title != "Definition of the mechanism":
+                assert not [text for block in section.blocks for text in texts_of(block) if NUMBER.search(text)]
+
+
+def test_no_curve_is_drawn_twice():
+    """The mower's kz is its cylinder's reserve and pd its pressure, in another unit."""
+    drawn = {each.name: each.caption for each in blocks(shown(MowerLift), Illustration)}
+    assert "curve_kz" in drawn and "curve_reserve_lift" not in drawn and "reserve lift is the same curve" in drawn["curve_kz"]
+    assert "curve_pd" in drawn and "curve_pressure_lift" not in drawn
+
+
+# -- what pins carry ---------------------------------------------------------------------------------------
+
+
+def test_every_load_case_has_its_pins():
+    for case, title in (("plain", "own loads"), ("shock", "with shock")):
+        (grid,) = (each for each in blocks(report_document(Loader(), count=3), TableBlock) if each.caption.endswith(f"load case {title}"))
+        rows = max_table(pin_forces(Loader().sweep(101), case=None if case == "plain" else case))
+        shown_forces = {(row[0], row[2], row[3]): float(row[4]) for row in grid.rows}
+        for each in rows:
+            key = each.point, each.on.split(" ")[0], each.by.split(" ")[0]
+            assert shown_forces[key] == pytest.approx(each.force / 1e3, rel=1e-3)
+
+
+def test_at_the_relief_pressure_a_stop_takes_what_the_load_leaves():
+    """Against the same by a force at G that is looked for until the cylinder has the relief valve's thrust."""
+    machine = Loader()
+    subject = ReportSubject.at(machine, {}, 5)
+    held = blocked_cylinders(subject)
+    piston, annulus = 2 * np.pi / 4 * 0.08**2, 2 * np.pi / 4 * (0.08**2 - 0.045**2)
+    assert held["lift"] == pytest.approx((-21e6 * annulus, 21e6 * piston), rel=1e-12)
+    own = [element for _, element in elements_of(machine.plan, None)]
+    for row in worst_blocked(subject, "G", held):
+        motion = machine.at(**row.strokes)
+        way = motion.ratio("G") / np.hypot(*motion.ratio("G"))
+        target = held["lift"][1 if row.pushes else 0]
+
+        def carried(force, motion=motion, way=way):
+            return pin_forces(motion, loads=[*own, Force("G", tuple(float(each) for each in force * way))])
+
+        def over(force, carried=carried, target=target):
+            return float(carried(force).thrusts["lift"]) - target
+
+        at = carried(brentq(over, -1e6, 1e6, xtol=1e-6))
+        joint = next(each for each in at.joints if (each.point, each.kind) == row.cells[:2] and each.on.startswith(row.cells[2][:4]))
+        assert float(joint.size) == pytest.approx(row.force, rel=1e-7)
+    assert {row.cylinder for row in worst_blocked(subject, "G", held)} == {"lift"}
+
+
+# -- nothing is cut ----------------------------------------------------------------------------------------
+
+
+def random_formula(draw, depth):
+    """Return a formula of nested sums, fractions and functions."""
+    kind = draw.integers(0, 6 if depth else 1)
+    if kind == 0:
+        return Sign("number", str(draw.integers(1, 10**6)))
+    if kind == 1:
+        return Sign("variable", "x")
+    if kind == 2:
+        return Fraction(random_formula(draw, depth - 1), random_formula(draw, depth - 1))
+    if kind == 3:
+        return BoxRow((Sign("name", "cos"), Fenced("(", random_formula(draw, depth - 1), ")")))
+    if kind == 4:
+        return Script(Fenced("(", random_formula(draw, depth - 1), ")"), None, Sign("number", "2"))
+    signs = [Sign("operator", text) for text in draw.choice([*"+−·,"], 6)]
+    parts = [part for sign in signs for part in (random_formula(draw, depth - 1), sign)]
+    return BoxRow(tuple(parts[:-1]))
+
+
+def letters(box: Box) -> str:
+    """Return what is set of a formula, as text, without the signs that a quotient in one line takes."""
+    return "".join(each.text for each in set_formula(box, 1.0).ink if isinstance(each, GlyphRun)).translate(str.maketrans("", "", "()/ "))
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_a_formula_of_any_kind_breaks_into_pieces_that_fit_and_loses_nothing(seed):
+    draw = np.random.default_rng(seed)
+    box = random_formula(draw, 4)
+    found = formula_pieces(box, 120.0, MATH)
+    assert all(set_formula(each, MATH).width <= 120.0 for each in found)
+    assert sorted("".join(map(letters, found))) == sorted(letters(box))
+
+
+def test_what_fits_is_not_broken():
+    box = boxes(r"\frac{a + b}{c} \cdot \cos\left(x\right)")
+    assert formula_pieces(box, LONGEST, MATH) == [box]
+
+
+def beyond_the_paper(document):
+    """Return the texts of a document's pages, and of the pictures on them, that lie beyond the margins."""
+    found = []
+    for number, page in enumerate(Flow(document).pages, 1):
+        runs = [each for each in page.ink if isinstance(each, GlyphRun)]
+        for each in runs:
+            right = each.x + width(each.text, each.size, each.face)
+            inside = each.x >= LEFT - 0.5 and right <= WIDE - RIGHT_EDGE + 0.5 and TOP - 6.0 <= each.y <= HIGH - BOTTOM + 4.0
+            found += [] if inside else [(number, each.text)]
+        with speaking("en", "bar-mm"):
+            for picture, _, _ in page.pictures:
+                found += [(number, picture.name, text) for text in beyond_the_picture(picture)]
+    return found
+
+
+def beyond_the_picture(picture):
+    """Return the texts of a picture that its edges cut."""
+    figure = Figure(figsize=picture.size, dpi=72)
+    canvas = FigureCanvasAgg(figure)
+    painted(figure, picture, (0.0, 0.0))
+    renderer, drawn = canvas.get_renderer(), []
+    draw_text = renderer.draw_text
+
+    def recorded(gc, x, y, text, prop, angle, ismath=False, mtext=None):
+        drawn.append(mtext)
+        draw_text(gc, x, y, text, prop, angle, ismath=ismath, mtext=mtext)
+
+    renderer.draw_text = recorded  # what is drawn, not ticks that lie outside
+    figure.draw(renderer)
+    boxes_drawn = [(each.get_text(), each.get_window_extent(renderer)) for each in drawn if each is not None and each.get_text().strip()]
+    assert boxes_drawn
+    wide, high = figure.bbox.width, figure.bbox.height
+    return [text for text, box in boxes_drawn if min(box.x0, box.y0, wide - box.x1, high - box.y1) < -1.0]
+
+
+DAILY = ("three_point_hitch", "jansen")
+
+
+@pytest.mark.parametrize("name", [name if name in DAILY else pytest.param(name, marks=pytest.mark.slow) for name in MACHINES])
+def test_nothing_is_cut_at_the_papers_edge(name):
+    machine = MACHINES[name]
+    if machine.plan.strokes:
+        assert not beyond_the_paper(shown(machine))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["excavator", "forwarder", "wheel_loader", "telehandler", "spreader_tractor", "tail_lift"])
+def test_nothing_of_a_machine_at_work_is_cut(name):
+    from linkage.cli.machines import find
+
+    assert not beyond_the_paper(shown(find(name)))

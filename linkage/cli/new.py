@@ -89,7 +89,7 @@ transport = { title = "transport", scale = { load = 2.0 } }
 
 [hydraulics]
 lift = { Cylinder = ["A", "B"], bore = "80 mm", rod = "45 mm", closed = "closed", stroke = "250 mm" }
-pump = { LiftCircuit = "lift", pressure = "180 bar", flow = 5e-4, mechanical_efficiency = 0.9 }     # flow in m3/s
+pump = { LiftCircuit = "lift", pressure = "180 bar", flow = "30 l/min", mechanical_efficiency = 0.9 }
 """
 
 TEMPLATES = {".py": PYTHON, ".toml": TOML}

@@ -108,7 +108,7 @@ class Document:
     @property
     def footer(self) -> str:
         """What stands at the foot of every page, beside its number."""
-        return " · ".join(each for each in (self.block.short, self.title, self.subtitle) if each)
+        return " · ".join(each for each in (self.block.short, self.title) if each)
 
 
 def numbered_captions(sections: Sequence[Section], table: Callable[[int, str], str], figure: Callable[[int, str], str]) -> dict[int, str]:

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 from math import cos, sin
 from typing import final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import LinkageError, unwarned
 from ..language import noted, said, translated
 from ..loads import PLAIN, Acting, Force, TwoPoint
 from ..motion import Column, Motion, Request, least, most, places_text, stroke_display_unit
 from ..plan import Plan
-from ..statics import PinLoad, drive_force, judged_table, pin_forces, thrust_from_forces
+from ..program import FloatArray
+from ..statics import PinForces, PinLoad, drive_force, judged_table, pin_forces, thrust_from_forces
 from ..units import shown_number, unit_sign
 from .calculation import has_loads
 from .content import Block, Paragraph, Section, TableBlock
@@ -130,12 +133,13 @@ def case_tables(subject: ReportSubject) -> Iterator[Block]:
 @final
 @dataclass(frozen=True)
 class Blocked:
-    """The largest force of a joint while the machine is blocked: which cylinder presses, whether it pushes, and the strokes there."""
+    """The largest force of a joint while the machine is blocked: which cylinder presses, how, whose relief valve opens, and the strokes."""
 
     cells: tuple[str, ...]
     force: float
     cylinder: str
     pushes: bool
+    opens: str
     strokes: Mapping[str, float]
 
 
@@ -164,9 +168,9 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     pressures = ", ".join(f"{name} {' … '.join(shown_number(end, 'kN', '.1f') for end in ends)}" for name, ends in held.items())
     yield Paragraph(
         said(
-            "At the relief pressure: {point} stands against a stop, in whichever way it would go, and one cylinder after the other presses "
-            "with all that its relief valve holds; the others hold. The machine's own loads act too. Least and greatest thrusts, {unit}: "
-            "{thrusts}. Looked at are {count} poses of all that the machine runs.",
+            "At the relief pressure: {point} stands against a stop, in whichever way it would go, and one cylinder after the other "
+            "presses, the others hold, until the first relief valve opens. The machine's own loads act too. Thrusts at which the valves "
+            "open, {unit}: {thrusts}. Looked at are {count} poses of all that the machine runs.",
             point=point, unit=unit_sign("kN"), thrusts=pressures, count=sum(int(place.reached.sum()) for place in judged_poses(subject)),
         )
     )  # fmt: skip
@@ -174,14 +178,14 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     plain_units = {name: "rad" if unit == "deg" else unit for name, unit in units.items()}
     cells = tuple(
         (*row.cells, force_cell(row.force), said("{member} pushes", member=row.cylinder) if row.pushes
-         else said("{member} pulls", member=row.cylinder), places_text(row.strokes, plain_units))
+         else said("{member} pulls", member=row.cylinder), row.opens, places_text(row.strokes, plain_units))
         for row in rows
     )  # fmt: skip
     heads = (
         said("pin"), said("joint"), said("on body"), said("from body"), said("F, {unit}", unit=unit_sign("kN")), said("member"),
-        said("strokes"),
+        said("valve of"), said("strokes"),
     )  # fmt: skip
-    yield TableBlock(said("Largest pin forces at the relief pressure, against a stop"), heads, cells, "llllrlm")
+    yield TableBlock(said("Largest pin forces at the relief pressure, against a stop"), heads, cells, "llllrllm")
 
 
 def judged_poses(subject: ReportSubject) -> list[Motion]:
@@ -204,45 +208,73 @@ def blocked_cylinders(subject: ReportSubject) -> dict[str, tuple[float, float]]:
 
 
 def stopped_point(subject: ReportSubject) -> str:
-    """Return the point that runs against a stop: the one that the machine is about, else the last that moves."""
+    """Return the point that runs against a stop: the last of those that the machine is about, else the last that moves."""
     moving = subject.machine.plan.moving
-    return next((name for name in subject.machine.featured().path if name in moving), moving[-1])
+    return next((name for name in reversed(subject.machine.featured().path) if name in moving), moving[-1])
 
 
-def worst_blocked(subject: ReportSubject, point: str, held: Mapping[str, tuple[float, float]]) -> list[Blocked]:
+def worst_blocked(subject: ReportSubject, point: str, held: Iterable[str]) -> list[Blocked]:
     """Return the largest force of each joint over some poses, cylinders and both of their ways.
 
-    A stop pushes with a force along the way on which the cylinder would move the point. Forces are affine in it, so that the machine's own
-    loads and two unit forces tell all of it.
+    A stop pushes with a force along the way on which the cylinder would move the point, until the first relief valve opens: the
+    cylinder's own, or that of another one that holds. Forces are affine in it, so that the machine's own loads and two unit forces tell it.
     """
     worst: dict[tuple[str, ...], Blocked] = {}
-    acting = Acting(case=subject.judge.acting.case)
     for motion in judged_poses(subject):
-        poses = motion.moved(motion.strokes)
-        own = pin_forces(poses, acting=acting)
-        units = [pin_forces(poses, acting=Acting(loads=[Force(point, (x, y))])) for x, y in ((1.0, 0.0), (0.0, 1.0))]
-        for cylinder in held:
-            if any(cylinder not in each.thrusts for each in (own, *units)):
-                continue  # gas that presses by itself holds no load
-            low, high = subject.machine.plan.of_kind(TwoPoint)[cylinder].bounds(poses, False)
-            parts = np.array([each.thrusts[cylinder] for each in units])
-            answers = np.hypot(*parts)  # the thrust that a unit force along the point's way asks for
-            far = float(np.nanmax(answers, initial=0.0))
-            answers = np.where(answers > STILL * far, answers, np.nan)
-            way = parts / answers
-            for thrust, pushes in ((high, True), (low, False)):
-                force = (thrust - own.thrusts[cylinder]) / answers
-                for joint, *along in zip(own.joints, units[0].joints, units[1].joints, strict=True):
-                    if not joint.has_force:
-                        continue
-                    total = joint.force + force * (way[0] * along[0].force + way[1] * along[1].force)
-                    size = np.hypot(*total)
-                    if np.isnan(size).all():
-                        continue
-                    place = np.unravel_index(int(np.argmax(size >= (1.0 - NEAR) * np.nanmax(size))), size.shape)
-                    key = (joint.point, joint.on, joint.by, joint.kind)
-                    if key not in worst or size[place] > worst[key].force:
-                        strokes = {name: float(np.broadcast_to(value, size.shape)[place]) for name, value in poses.strokes.items()}
-                        cells = joint.point, translated(joint.kind), frame(joint.on), frame(joint.by)
-                        worst[key] = Blocked(cells, float(size[place]), cylinder, pushes, strokes)
+        stop = Stop.of(subject, motion.moved(motion.strokes), point, held)
+        for cylinder, pushes in product(stop.bounds, (True, False)):
+            force, way, opens = stop.until_open(cylinder, pushes)
+            for key, cells, size in stop.sizes(force, way):
+                if np.isnan(size).all():
+                    continue
+                place = np.unravel_index(int(np.argmax(size >= (1.0 - NEAR) * np.nanmax(size))), size.shape)
+                if key not in worst or size[place] > worst[key].force:
+                    strokes = {name: float(np.broadcast_to(value, size.shape)[place]) for name, value in stop.motion.strokes.items()}
+                    worst[key] = Blocked(cells, float(size[place]), cylinder, pushes, str(opens[place]), strokes)
     return list(worst.values())
+
+
+@final
+@dataclass(frozen=True)
+class Stop:
+    """A point against a stop over some poses: what joints and cylinders carry of the machine's own loads and of two unit forces there."""
+
+    motion: Motion
+    own: PinForces
+    units: tuple[PinForces, PinForces]
+    bounds: Mapping[str, tuple[FloatArray, FloatArray]]
+
+    @classmethod
+    def of(cls, subject: ReportSubject, poses: Motion, point: str, held: Iterable[str]) -> Stop:
+        """Return it at poses; raises LinkageError where there are no joint forces."""
+        own = pin_forces(poses, acting=Acting(case=subject.judge.acting.case))
+        across, up = (pin_forces(poses, acting=Acting(loads=[Force(point, way)])) for way in ((1.0, 0.0), (0.0, 1.0)))
+        elements = subject.machine.plan.of_kind(TwoPoint)
+        # gas that presses by itself holds no load, and is in no unit's thrusts
+        known = [name for name in held if all(name in each.thrusts for each in (own, across, up))]
+        ends = {name: elements[name].bounds(poses, False) for name in known}
+        return cls(poses, own, (across, up), {name: (np.asarray(low), np.asarray(high)) for name, (low, high) in ends.items()})
+
+    def until_open(self, cylinder: str, pushes: bool) -> tuple[FloatArray, FloatArray, NDArray[np.str_]]:
+        """Return the stop's force [N], its way (2, ...), and whose relief valve opens first; NaN where none does."""
+        parts = np.array([each.thrusts[cylinder] for each in self.units])
+        answers = np.hypot(*parts)  # the thrust that a unit force along the point's way asks for
+        finite = answers[np.isfinite(answers)]
+        far = float(np.max(finite, initial=0.0))
+        way = (1.0 if pushes else -1.0) * parts / np.where(answers > STILL * far, answers, np.nan)
+        least, opens = np.full(answers.shape, np.inf), np.full(answers.shape, cylinder, dtype=object)
+        for name, (low, high) in self.bounds.items():
+            grows = sum(along * each.thrusts[name] for along, each in zip(way, self.units, strict=True))
+            limit = np.where(grows > 0.0, high, low)
+            force = np.where(grows != 0.0, (limit - self.own.thrusts[name]) / np.where(grows == 0.0, 1.0, grows), np.inf)
+            opens = np.where(force < least, name, opens)
+            least = np.minimum(least, np.maximum(force, 0.0))
+        return np.where(np.isfinite(least), least, np.nan), way, opens
+
+    def sizes(self, force: FloatArray, way: FloatArray) -> Iterator[tuple[tuple[str, ...], tuple[str, ...], FloatArray]]:
+        """Yield, of each joint that transmits a force, what tells it apart, its cells, and the size of its force [N]."""
+        for joint, *along in zip(self.own.joints, self.units[0].joints, self.units[1].joints, strict=True):
+            if joint.has_force:
+                total = joint.force + force * (way[0] * along[0].force + way[1] * along[1].force)
+                key = (joint.point, joint.on, joint.by, joint.kind)
+                yield key, (joint.point, translated(joint.kind), frame(joint.on), frame(joint.by)), np.hypot(*total)

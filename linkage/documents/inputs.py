@@ -22,6 +22,7 @@ from ..units import display_unit, show, shown_in, shown_number, unit_sign
 from .content import Block, Cell, Formula, Illustration, Paragraph, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit
 from .run import ReportSubject
+from .sources import comments_in
 
 
 def inputs_section(subject: ReportSubject, listing: Equations) -> Section:
@@ -62,19 +63,7 @@ def dimensions(ax: Axes, motion: Motion) -> None:
 
 def own_words(machine: Mechanism) -> Iterator[Paragraph]:
     """Yield the paragraphs of the machine's own words, after the first line, which is the subtitle."""
-    yield from (Paragraph(translated(each)) for each in own_paragraphs(type(machine))[1:])
-
-
-def own_paragraphs(machine: type[Mechanism]) -> list[str]:
-    """Return the paragraphs of a class's own words, each in one line; the first is the subtitle."""
-    return [" ".join(each.split()) for each in inspect.cleandoc(machine.__doc__ or "").split("\n\n")]
-
-
-def own_texts(machine: type[Mechanism]) -> list[str]:
-    """Return all that a class says in its own words, which a catalogue may have in another language: name, prose, notes."""
-    classes = [each for each in machine.__mro__ if issubclass(each, Mechanism) and each is not Mechanism]
-    found = [machine.plan.heading, *(text for each in classes for text in (*own_paragraphs(each), *comments_in(each).values()))]
-    return [*dict.fromkeys(text for text in found if any(letter.isalpha() for letter in text))]
+    yield from (Paragraph(translated(each).replace("`", "")) for each in own_paragraphs(type(machine))[1:])
 
 
 def stroke_table(machine: Mechanism, listing: Equations, held: Mapping[str, float], notes: Mapping[str, str]) -> TableBlock:

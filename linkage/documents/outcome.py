@@ -107,7 +107,8 @@ def results_section(subject: ReportSubject, names: Sequence[str] | None, first: 
         caption = said("{column} along {stroke}; {held} held.", column=whole[name].heading, stroke=along, held=over) if over else said(
             "{column} along {stroke}.", column=whole[name].heading, stroke=along
         )  # fmt: skip
-        caption += said(" {names} is the same curve.", names=", ".join(map(heading_of, same[name]))) if same[name] else ""
+        others = [each for each in same[name] if not any(each.startswith(f"{one} ") for one in (name, *same[name]))]
+        caption += said(" The same curve: {names}.", names=", ".join(map(heading_of, others))) if others else ""
         caption += said(" Shaded: what its limit excludes.") if bound is not None else ""
         caption += beyond_words(further, whole[name]) if further else ""
         size = (WIDE, 2.6) if name == first else (HALF, 2.15)

@@ -202,6 +202,8 @@ class Flow:
         self.y += 10.0
         first = section.blocks[0] if section.blocks else None
         room = 30.0 + first.size[1] * INCH if isinstance(first, Illustration) else 70.0  # a title goes with what it is the title of
+        if isinstance(first, Paragraph) and section.blocks[1:] and isinstance(section.blocks[1], TableBlock):
+            room += 1.38 * TEXT * len(filled_lines(first.text, ROOM, TEXT)) + 20.0
         self.take(room)
         self.y -= room
         y = self.take(22.0)
@@ -357,7 +359,10 @@ def column_widths(grid: TableBlock) -> list[float]:
         natural.append(6.0 + (in_one_line if in_one_line < 1.5 * body + 8.0 else max(body, *words)))
         natural[-1] = max(natural[-1], 6.0 + body)
     over = sum(natural) - ROOM
-    words = [6.0 + max([30.0, *(longest_word(row[place]) for row in grid.rows)]) for place in range(len(grid.columns))]
+    words = [
+        6.0 + max([30.0, *(width(word, CELL, "bold") for word in head.split()), *(longest_word(row[place]) for row in grid.rows)])
+        for place, head in enumerate(grid.headings)
+    ]
     for kinds, least in (("m", 0.42 * ROOM), ("l", 0.0), ("m", 0.0), ("lrm", 0.0)):
         floors = [max(least, word) if kinds != "lrm" else 30.0 for word in words]
         soft = [place for place, kind in enumerate(grid.columns) if kind in kinds and natural[place] > floors[place]]

@@ -21,6 +21,7 @@ from ..motion.requests import stroke_of
 from ..plan import Part
 from ..quantities import is_whole
 from ..shown import Shown
+from ..units import SI, UNITS, factor, shown_in
 from .forces import WORDS, ForceLines
 from .listing import X_AXIS, GivenNumber, Listing, ListingLine
 from .names import escaped_latex
@@ -258,10 +259,13 @@ def value_in_equation(value: Any, unit: Unit) -> str:
 
 
 def value_shown(value: Any, unit: Unit) -> str:
-    """Return a value in the unit it is shown in, with that unit."""
+    """Return a value in the unit it is shown in, with that unit; what is not shown in SI follows the system of units that is chosen."""
     if np.ndim(value):
         return f"({', '.join(plain_number(float(part) / unit.shown_factor) for part in value)}) {unit.text}".rstrip()
-    return f"{plain_number(float(value) / unit.shown_factor)} {unit.text}".rstrip()
+    name, size = unit.text, unit.shown_factor
+    if name in UNITS and SI.get(UNITS[name][1]) != name and shown_in(name) != name:
+        size, name = size * factor(shown_in(name)) / factor(name), shown_in(name)
+    return f"{plain_number(float(value) / size)} {name}".rstrip()
 
 
 @final

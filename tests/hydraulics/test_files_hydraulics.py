@@ -91,7 +91,7 @@ def test_hydraulics_are_written_as_they_are_said():
         "ram": {"Cylinder": ["A", "B"], "bore": "63 mm", "rod": "thick", "count": 2, "stroke": "250 mm", "closed": "S0 + 0.4",
                 "mounting": "fixed-pin", "safety": 4},
         "pulling": {"Cylinder": ["A", "B"], "bore": "80 mm", "rod": "50 mm", "works": "rod"},
-        "pump": {"LiftCircuit": "ram", "pressure": "180 bar", "flow": 0.001, "mechanical_efficiency": "k", "back_pressure": "2 bar"},
+        "pump": {"LiftCircuit": "ram", "pressure": "180 bar", "flow": "60 l/min", "mechanical_efficiency": "k", "back_pressure": "2 bar"},
         "fixed": {"FloatCircuit": "ram", "charge_pressure": "60 bar", "at": "S0", "seal_friction": "3 bar",
                   "accumulators": [{"volume": "4 l", "charge": "50 bar"}, {"volume": "4 l", "charge": "25 bar"}]},
         "line": {"FloatCircuit": "pulling", "charge_pressure": "2.0 * p", "at": 0.1, "exponent": "n", "atmosphere": 0,

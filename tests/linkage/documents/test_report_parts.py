@@ -16,7 +16,7 @@ from linkage.cli import main
 from linkage.documents import report_document
 from linkage.documents.breaking import LONGEST, MATH, formula_pieces
 from linkage.documents.content import Illustration, ListBlock, TableBlock
-from linkage.documents.forces import blocked_cylinders, worst_blocked
+from linkage.documents.forces import Stop, blocked_cylinders, worst_blocked
 from linkage.documents.html import html_text
 from linkage.documents.markdown import markdown
 from linkage.documents.pdf import BOTTOM, HIGH, LEFT, TOP, WIDE, Flow, pdf
@@ -29,6 +29,7 @@ from linkage.documents.title import TitleBlock
 from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes
 from linkage.statics import elements_of
 from linkage.units import bar, mm
+from mechanisms.crane import Crane
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.shipped import MACHINES
@@ -189,7 +190,7 @@ def test_numbers_of_a_sources_equations_say_whose_they_are():
 def test_no_curve_is_drawn_twice():
     """The mower's kz is its cylinder's reserve and pd its pressure, in another unit."""
     drawn = {each.name: each.caption for each in blocks(shown(MowerLift), Illustration)}
-    assert "curve_kz" in drawn and "curve_reserve_lift" not in drawn and "reserve lift is the same curve" in drawn["curve_kz"]
+    assert "curve_kz" in drawn and "curve_reserve_lift" not in drawn and "The same curve: reserve lift." in drawn["curve_kz"]
     assert "curve_pd" in drawn and "curve_pressure_lift" not in drawn
 
 
@@ -229,6 +230,24 @@ def test_at_the_relief_pressure_a_stop_takes_what_the_load_leaves():
         joint = next(each for each in at.joints if (each.point, each.kind) == row.cells[:2] and each.on.startswith(row.cells[2][:4]))
         assert float(joint.size) == pytest.approx(row.force, rel=1e-7)
     assert {row.cylinder for row in worst_blocked(subject, "G", held)} == {"lift"}
+
+
+def test_a_stop_pushes_until_the_first_relief_valve_opens():
+    """No cylinder of the crane carries more than its valve lets through, and one of them carries just that."""
+    subject = ReportSubject.at(Crane(), {}, 5)
+    motion = subject.judge.places[0].sampled
+    stop = Stop.of(subject, motion.moved(motion.strokes), "T", blocked_cylinders(subject))
+    assert set(stop.bounds) == {"extend", "lift", "fold"}
+    for cylinder in stop.bounds:
+        for pushes in (True, False):
+            force, way, opens = stop.until_open(cylinder, pushes)
+            used = {}
+            for name, (low, high) in stop.bounds.items():
+                thrust = stop.own.thrusts[name] + force * sum(w * each.thrusts[name] for w, each in zip(way, stop.units, strict=True))
+                used[name] = np.where(thrust > 0.0, thrust / high, thrust / low)
+            known = np.isfinite(force) & (force > 0.0)
+            assert known.any() and max(each[known].max() for each in used.values()) <= 1.0 + 1e-9
+            assert np.allclose([used[name][place] for place, name in zip(np.flatnonzero(known), opens[known], strict=True)], 1.0)
 
 
 # -- nothing is cut ----------------------------------------------------------------------------------------

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
+import numpy as np
+
 from ..errors import LinkageError, unwarned
 from ..language import said
 from ..loads import ForceElement, LinkMass, Support, TwoPoint, Weight
@@ -53,14 +55,17 @@ def assumed(subject: ReportSubject) -> Iterator[str]:
 def friction_words(subject: ReportSubject) -> str:
     """Return which friction counts, in words."""
     elements, losses = subject.machine.plan.of_kind(ForceElement), []
+    rubbing = []
     with unwarned():
-        rubbing = [name for name, each in elements.items() if each.frictions(subject.table)]
         for name, each in elements.items():
             try:
-                if any(float(each.number(subject.table, key).flat[0]) != 1.0 for key in each.numbers if key.endswith("efficiency")):
-                    losses.append(name)
+                values = {key: float(np.ravel(each.number(subject.table, key))[0]) for key in each.numbers}
             except LinkageError:
                 continue
+            if any(values[key] != 1.0 for key in values if key.endswith("efficiency")):
+                losses.append(name)
+            if any(values[key] != 0.0 for key in values if key == "coefficient" or key.endswith("friction")):
+                rubbing.append(name)
     words = said("There is no friction in pins, guides and slots.")
     if rubbing:
         words = said("Friction counts where it is declared ({names}), in both directions of motion; elsewhere there is none.",

@@ -112,9 +112,10 @@ def case_tables(subject: ReportSubject) -> Iterator[Block]:
     """Yield a table of the largest pin forces of each load case; nothing where there is one only, which the table above has."""
     cases = subject.judge.cases
     for case in cases if len(cases) > 1 else ():
-        judge = subject.machine.judge(subject.over, replace(subject.judge.acting, case=case)).lost_allowed()
+        places = [place.over for place in subject.judge.places if case in place.cases(subject.judge.acting)]
         try:
             with unwarned():
+                judge = subject.machine.judge(places, replace(subject.judge.acting, case=case)).lost_allowed()
                 rows = judged_table(judge)
         except LinkageError as error:
             yield Paragraph(said("Load case {case}: {why}", case=subject.case_words(case), why=str(error)))

@@ -66,6 +66,18 @@ def own_words(machine: Mechanism) -> Iterator[Paragraph]:
     yield from (Paragraph(translated(each).replace("`", "")) for each in own_paragraphs(type(machine))[1:])
 
 
+def own_paragraphs(machine: type[Mechanism]) -> list[str]:
+    """Return the paragraphs of a class's own words, each in one line; the first is the subtitle."""
+    return [" ".join(each.split()) for each in inspect.cleandoc(machine.__doc__ or "").split("\n\n")]
+
+
+def own_texts(machine: type[Mechanism]) -> list[str]:
+    """Return all that a class says in its own words, which a catalogue may have in another language: name, prose, notes."""
+    classes = [each for each in machine.__mro__ if issubclass(each, Mechanism) and each is not Mechanism]
+    found = [machine.plan.heading, *(text for each in classes for text in (*own_paragraphs(each), *comments_in(each).values()))]
+    return [*dict.fromkeys(text for text in found if any(letter.isalpha() for letter in text))]
+
+
 def stroke_table(machine: Mechanism, listing: Equations, held: Mapping[str, float], notes: Mapping[str, str]) -> TableBlock:
     """Return the strokes with their ranges, and where those stand that are held."""
     rows: list[tuple[Cell, ...]] = []
@@ -118,7 +130,7 @@ def definition_section(machine: Mechanism) -> Section:
     left_out = (Dimension, Stroke, ForceElement, LoadCase)  # these stand among the inputs
     names = tuple(name for name, member in machine.plan.members.items() if not isinstance(member, left_out))
     heads = (said("name"), said("declared as"))
-    rows = tuple(row[:2] for row in member_rows(machine, names, {}))
+    rows = tuple((name, OF_PART.sub("", text)) for name, text, _ in member_rows(machine, names, {}))
     bodies = tuple((str(place), str(body)) for place, body in enumerate(machine.links))
     bodies += tuple(
         (str(len(bodies) + place), said("cylinder {P} {Q}", P=bar.P, Q=bar.Q)) for place, bar in enumerate(machine.plan.cylinders)
@@ -137,6 +149,10 @@ def definition_section(machine: Mechanism) -> Section:
             Paragraph(count),
         ),
     )
+
+
+OF_PART = re.compile(r", \*\*\{.*\}")
+"""What a part is given by names with a dot: it stands in the table of dimensions."""
 
 
 def length_unit() -> str:

@@ -335,10 +335,23 @@ def fitting(piece: Box) -> SetFormula:
     return found if found.width <= LONGEST else set_formula(piece, MATH * LONGEST / found.width)
 
 
+LEAST = 0.65
+"""A side of numbers that would be set smaller than this share is left out: what it comes to follows."""
+
+
+def readable(steps: Sequence[str]) -> list[str]:
+    """Return the sides of an equation without numbers that would be too small to read: neither the first two nor the last."""
+    return [
+        step for place, step in enumerate(steps)
+        if place < 2 or place == len(steps) - 1
+        or all(set_formula(each, MATH).width <= LONGEST / LEAST for each in line_pieces(step))
+    ]  # fmt: skip
+
+
 def equality_pieces(block: Equality) -> Iterator[SetFormula]:
     """Yield the pieces of an equation, set; all but the first of a step's that follow another begin with its sign of equality."""
     equals = set_formula(boxes("= "), MATH)
-    for place, step in enumerate(block.steps):
+    for place, step in enumerate(readable(block.steps)):
         for first, piece in enumerate(line_pieces(step)):
             each = fitting(BoxRow((BoxRow(()), piece)) if first else piece)  # so that a sign in front has room on both sides
             if not place or first:
@@ -363,7 +376,7 @@ def column_widths(grid: TableBlock) -> list[float]:
         6.0 + max([30.0, *(width(word, CELL, "bold") for word in head.split()), *(longest_word(row[place]) for row in grid.rows)])
         for place, head in enumerate(grid.headings)
     ]
-    for kinds, least in (("m", 0.42 * ROOM), ("l", 0.0), ("m", 0.0), ("lrm", 0.0)):
+    for kinds, least in (("l", 0.24 * ROOM), ("m", 0.42 * ROOM), ("l", 0.0), ("m", 0.0), ("lrm", 0.0)):
         floors = [max(least, word) if kinds != "lrm" else 30.0 for word in words]
         soft = [place for place, kind in enumerate(grid.columns) if kind in kinds and natural[place] > floors[place]]
         total = sum(natural[place] - floors[place] for place in soft)

@@ -179,7 +179,8 @@ function legend() {
   }
 }
 
-const room = () => (showsForces || data.cylinders.some((each) => each.pressure !== undefined) ? 24 : 0);
+const beside = () => (showsForces || data.cylinders.some((each) => each.pressure !== undefined) ? 24 : 0);
+const room = () => beside() + (data.task && data.task.points ? 36 : 0);
 function build() {
   const paths = () => data.paths.map((point) => {
     const line = draw(sheet, "path", { class: "line", w: 2.2, dash: "0.1 4.6", stroke: css("accent") });

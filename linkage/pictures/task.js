@@ -68,7 +68,7 @@ function wanted() {
   const bars = draw(sheet, "path", { class: "line", w: 2, stroke: css("curve") }), lines = draw(sheet, "path", { class: "line", w: 1.6, stroke: css("ink") });
   const rings = task.points.map(() => draw(sheet, "circle", { r: many ? 2.6 : 4, w: 1.8, fill: css("paper"), stroke: css("curve") }));
   const texts = task.points.map((_, n) => (many && n && (n + 1) % 5 ? null : draw(sheet, "text", { class: "wanted halo", anchor: "middle" })));
-  const words = [0, 1].map((row) => draw(sheet, "text", { x: 12, y: (scene.legend ? 52 : 20) + 16 * row, class: "halo" }));
+  const words = [28, 12].map((above) => draw(sheet, "text", { x: 12, y: sheetTall - above - beside(), class: "halo" }));
   let seen;
   return [() => {
     answerShown();

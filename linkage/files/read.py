@@ -111,7 +111,7 @@ def featured_read(given: object, faults: Faults) -> Featured:
     """Return what the machine is about; what is none is noted."""
     found = Featured()
     with faults.at("featured"):
-        if not isinstance(given, Mapping) or not {"column", "path", "limits"} >= given.keys():
+        if not isinstance(given, Mapping) or not {"column", "path", "limits", "coupler"} >= given.keys():
             raise DefinitionError('a table is expected, column = "tilt", path = ["G"], limits = { tilt = [0.1, "most"] }.')
         found = Featured(**given)
     return found

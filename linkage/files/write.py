@@ -78,7 +78,7 @@ def featured_table(machine: Machine) -> dict[str, Any]:
     design = machine if isinstance(machine, Mechanism) else machine()
     found = design.featured()
     limits = {name: list(limit) for name, limit in found.limits.items()}
-    table: dict[str, Any] = {"column": found.column, "path": list(found.path), "limits": limits}
+    table: dict[str, Any] = {"column": found.column, "path": list(found.path), "limits": limits, "coupler": found.coupler}
     return {name: value for name, value in table.items() if value}
 
 

@@ -15,17 +15,21 @@ from ..quantities import is_number
 class Featured:
     """The column of results that a machine is about, the points whose paths are drawn, and limits of columns by their names.
 
-    A limit is `(value [SI], text)` or `(value, text, "below")`: the side that fails, above unless said. What is left out is chosen
-    from the results: the last column that changes, no path, no limit.
+    A limit is `(value [SI], text)` or `(value, text, "below")`: the side that fails, above unless said. `coupler` is the point of a
+    coupler, which a synthesis brings along a path where no other one is said. What is left out is chosen from the results: the last column
+    that changes, no path, no limit.
     """
 
     column: str = ""
     path: Sequence[str] = ()
     limits: Mapping[str, Sequence[Any]] = field(default_factory=dict)
+    coupler: str = ""
 
     def __post_init__(self) -> None:
         if not isinstance(self.column, str):
             raise DefinitionError(f'Featured(column={cited(self.column)}): the name of a column of results is expected, "tilt".')
+        if not isinstance(self.coupler, str):
+            raise DefinitionError(f'Featured(coupler={cited(self.coupler)}): the name of a point is expected, "P".')
         if not isinstance(self.path, (list, tuple)) or not all(isinstance(name, str) for name in self.path):
             raise DefinitionError(f'Featured(path={cited(self.path)}): a list of points is expected, path=["G"].')
         if not isinstance(self.limits, Mapping):

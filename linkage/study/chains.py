@@ -361,7 +361,7 @@ def machine_class(inversion: Inversion, crank: int, coupler: int) -> type[Mechan
     moving = ", ".join(" ".join(each) for each in joints.moving.values())
     said = f"crank {' '.join(joints.links[crank])} drives the links {moving}"
     doc = f"The {inversion.name}: {said}; {COUPLER} is a point of {' '.join(joints.links[coupler])}."
-    own: dict[str, Any] = {"__module__": __name__, "__doc__": doc, "featured": lambda self: Featured("", [COUPLER])}
+    own: dict[str, Any] = {"__module__": __name__, "__doc__": doc, "featured": lambda self: Featured("", [COUPLER], coupler=COUPLER)}
     with unwarned():
         return type(class_name(inversion, crank, coupler), (Mechanism,), {**own, **members})
 

@@ -13,7 +13,7 @@ import numpy as np
 from ..disk import Place, replacing_text
 from ..errors import DefinitionError, StudyError, cited
 from ..frozen import read_only
-from ..language import said
+from ..language import said, said_of
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
 from ..motion.judging import transmissions
@@ -32,7 +32,7 @@ from .problem import Problem
 from .result_tables import heading_with_unit, tried_names
 from .sides import ENDING, is_side
 from .task_error import squares_near
-from .tasks import Task
+from .tasks import Task, TaskRows
 
 RUN = 721
 """Poses of a stroke at which is looked where a machine that does not run can be assembled."""
@@ -40,6 +40,16 @@ MOST_ROUNDINGS = 1024
 TOLD = 3
 """Answers that a sentence lists, and machines that do not run."""
 CLOSEST_CHANGE_POINT = 1e-6
+SAME, NEAR = 1e-5, 1e-2
+"""Of a side of the box: designs nearer than the first are one, nearer than the second where their errors are the same."""
+ALIKE = 1e-6
+"""Errors that differ by less than this part are the same."""
+EXACT = 1e-9
+"""Of a task's size: a fit that misses by no more is exact."""
+MISSES = 8
+"""Machines that are no answers but come near, that are told at the most."""
+ROUND = 97
+"""Poses over which a machine's size is looked at."""
 
 
 @final
@@ -104,7 +114,9 @@ class Synthesis(Shown):
 
     `solutions` are these; none where nothing runs. `misses` are the best of those that are no answers. `population` designs were spread
     over the box, of which `running` are assembled over the whole stroke, `starts` local searches begun; `evaluations` counts all designs
-    that were looked at. `limit` is that of the designs where it was reached; None where the search came to its end.
+    that were looked at. `limit` is that of the designs where it was reached; None where the search came to its end. Where several classes
+    were searched, `classes` are what was found of each, the best first, and `table` compares them; `start`, `task` and `problem` are then
+    those of the best class.
     """
 
     start: Mechanism
@@ -118,6 +130,7 @@ class Synthesis(Shown):
     limit: int | None
     problem: Problem = field(repr=False)
     fits: tuple[Fit, ...] = field(repr=False)
+    classes: tuple[Synthesis, ...] = field(default=(), repr=False)
 
     @property
     def machine(self) -> Mechanism:
@@ -139,13 +152,9 @@ class Synthesis(Shown):
     @property
     def sentence(self) -> str:
         """The answers in words, the best of them and the count; or what misses least, and why."""
-        title, found = self.problem.plan.title, self.solutions
-        searched = said(
-            "{population} designs, of which {running} run, {starts} searches, {evaluations} designs looked at.",
-            population=self.population, running=self.running, starts=self.starts, evaluations=self.evaluations,
-        )  # fmt: skip
-        if self.limit is not None:
-            searched += " " + said("The limit of {limit} designs was reached: this is the best so far.", limit=self.limit)
+        if self.classes:
+            return sentence_of_classes(self)
+        title, found, searched = self.problem.plan.title, self.solutions, self.searched
         if found:
             lines = [
                 said(
@@ -157,6 +166,27 @@ class Synthesis(Shown):
             return "\n".join(lines)
         lines = [said("{title}: no machine that runs was found for it; {searched}", title=title, searched=searched)]
         return "\n".join([*lines, *(f"  {each}" for each in self.misses[:TOLD])])
+
+    @property
+    def searched(self) -> str:
+        """How much was looked at, in words."""
+        text = said(
+            "{population} designs, of which {running} run, {starts} searches, {evaluations} designs looked at.",
+            population=self.population, running=self.running, starts=self.starts, evaluations=self.evaluations,
+        )  # fmt: skip
+        if self.limit is not None:
+            text += " " + said("The limit of {limit} designs was reached: this is the best so far.", limit=self.limit)
+        return text
+
+    @property
+    def table(self) -> str:
+        """What each class can, a line for each: its links, the error, the size and the least transmission angle of its best machine."""
+        return table_of_classes(self.classes or (self,))
+
+    @property
+    def exact(self) -> float:
+        """The error up to which a fit is exact [SI^2]."""
+        return exact_error(self.fits[0].rows)
 
     def __str__(self) -> str:
         return self.sentence
@@ -192,7 +222,11 @@ class Synthesis(Shown):
 
     def fit_of(self, answer: SynthesisedMachine) -> Fit:
         """Return the fit that an answer is of."""
-        return next(each for each in self.fits if each.combination == answer.combination)
+        return next(each for each in self.own(answer).fits if each.combination == answer.combination)
+
+    def own(self, answer: SynthesisedMachine) -> Synthesis:
+        """Return what was found of the class of an answer: itself where one class was searched."""
+        return next((each for each in self.classes if any(answer is one for one in each.solutions)), self)
 
     def answer_at(self, place: int, asked: str) -> SynthesisedMachine:
         """Return the answer of a place, from 0 on; StudyError where there is none, DefinitionError for a place that is not there."""
@@ -211,6 +245,8 @@ class Synthesis(Shown):
 
     def header(self) -> list[str]:
         """Return the headings of the answers' table, with units."""
+        if self.classes:
+            return header_of_classes(self.classes)
         plan, fit = self.problem.plan, self.fits[0]
         names = [heading_with_unit((name, unit_of(plan, name))) for name in tried_names(self.problem.space)]
         stroke = fit.timing.stroke
@@ -220,6 +256,8 @@ class Synthesis(Shown):
 
     def table_rows(self) -> list[list[str]]:
         """Return the rows of the answers' table, errors in SI, full precision."""
+        if self.classes:
+            return rows_of_classes(self)
         plan, space = self.problem.plan, self.problem.space
         by = factor(shown_in(stroke_display_unit(plan, self.fits[0].timing.stroke, "mm")))
         rows = []
@@ -237,6 +275,101 @@ class Synthesis(Shown):
 def answer_cell(value: Any) -> str:
     """Return what stands in a cell: a number to its last digit, nothing for none, a side by its word."""
     return str(value) if isinstance(value, Side) else "" if value != value else repr(float(value))
+# Which answers are one, and which is the better one.
+
+
+def exact_error(rows: TaskRows) -> float:
+    """Return the error up to which a fit is exact [SI^2]."""
+    return rows.count * (EXACT * rows.size) ** 2
+
+
+def is_one_design(one: FloatArray, other: FloatArray, error: float, known: float, exact: float) -> bool:
+    """Return whether two designs (n,) in unit coordinates, with their errors, are one."""
+    far = float(np.abs(one - other).max(initial=0.0))
+    alike = abs(error - known) <= ALIKE * max(error, known, exact) and max(error, known) > exact
+    return far < SAME or (far < NEAR and alike)
+
+
+def told_error(error: float, exact: float) -> float:
+    """Return an error to three digits, 0 of an exact fit."""
+    return 0.0 if error <= exact else float(f"{error:.2e}")
+
+
+# What several classes can.
+
+
+def sentence_of_classes(found: Synthesis) -> str:
+    """Return what was found of several classes, in words and as a table."""
+    title = said_of(len(found.classes), "{n} class", "{n} classes")
+    if found.solutions:
+        count = len(found.solutions)
+        opening = said(
+            "{title}: {count} different machines that run, the best first; {searched}", title=title, count=count, searched=found.searched
+        )
+    else:
+        opening = said("{title}: no machine that runs was found for it; {searched}", title=title, searched=found.searched)
+    best = [f"  {place}. {each.machine.plan.title}: {each}" for place, each in enumerate(found.solutions[:TOLD], 1)]
+    without = [f"  {each.problem.plan.title}: {each.misses[0]}" for each in found.classes if each.misses and not each.solutions]
+    return "\n".join([opening, *best, *without, "", found.table])
+
+
+def table_of_classes(classes: Sequence[Synthesis]) -> str:
+    """Return a line for each class: links, error, root mean square, size and least transmission angle of its best machine."""
+    unit = miss_unit(classes[0].fits[0])
+    headings = [
+        said("class"), said("links"), said("error"), with_unit(said("rms"), unit), with_unit(said("size"), "mm"),
+        with_unit(said("least transmission angle"), "deg"), said("machines"), said("searches"),
+    ]  # fmt: skip
+    cells = [headings]
+    for each in classes:
+        best = each.solutions[0] if each.solutions else None
+        numbers = ["-"] * 4
+        if best is not None:
+            size = swept_size(each.fit_of(best), best.machine)
+            by = factor(shown_in(unit)) if unit else 1.0
+            numbers = [f"{best.error:.3g}", f"{best.rms / by:.4g}", f"{size / mm:.4g}", f"{best.transmission / deg:.3g}"]
+        cells.append([each.problem.plan.title, str(links_of(each.start)), *numbers, str(len(each.solutions)), str(each.starts)])
+    sizes = [max(len(row[place]) for row in cells) for place in range(len(headings))]
+    aligned = ([row[0].ljust(sizes[0]), *(each.rjust(size) for each, size in zip(row[1:], sizes[1:], strict=True))] for row in cells)
+    return "\n".join("  ".join(row) for row in aligned)
+
+
+def with_unit(heading: str, unit: str) -> str:
+    """Return a heading with its unit behind."""
+    return heading_with_unit((heading, unit))
+
+
+def links_of(machine: Mechanism) -> int:
+    """Return how many links a machine's chain has, the frame and sliding blocks included."""
+    return len(machine.plan.chain.bodies)
+
+
+def swept_size(fit: Fit, machine: Mechanism) -> float:
+    """Return the longer side of the rectangle that all points of a machine stay in over the stroke of a task [m]."""
+    strokes = fit.timing.start + fit.timing.span * np.linspace(0.0, 1.0, ROUND)
+    motion = machine.at(unreachable="nan", **{**fit.held, fit.timing.stroke: strokes})
+    places = np.concatenate([np.asarray(motion[name]).reshape(2, -1) for name in machine.plan.points], axis=1)
+    return float(np.ptp(places, axis=1).max())
+
+
+def header_of_classes(classes: Sequence[Synthesis]) -> list[str]:
+    """Return the headings of the answers of several classes: a column for every name that one of them has."""
+    return ["rank", "class", "links", "size, mm", *dict.fromkeys(name for each in classes for name in each.header()[1:])]
+
+
+def rows_of_classes(found: Synthesis) -> list[list[str]]:
+    """Return the rows of the answers of several classes, errors in SI, full precision; empty where a class has no such column."""
+    headings = header_of_classes(found.classes)
+    cells: dict[int, dict[str, str]] = {}
+    for own in found.classes:
+        heading = own.header()
+        cells |= {id(each): dict(zip(heading, row, strict=True)) for each, row in zip(own.solutions, own.table_rows(), strict=True)}
+    rows = []
+    for rank, each in enumerate(found.solutions, 1):
+        head = {"rank": str(rank), "class": each.machine.plan.title, "links": str(links_of(each.machine))}
+        size = repr(swept_size(found.fit_of(each), each.machine) / mm)
+        rows.append([{**cells[id(each)], **head, "size, mm": size}.get(name, "") for name in headings])
+    return rows
 
 
 # What is said of a machine.
@@ -346,8 +479,8 @@ def ranges(points: Sequence[int]) -> str:
 
 def rounded_machine(found: Synthesis, answer: SynthesisedMachine, to: float, angle: float) -> RoundedMachine:
     """Return an answer on drawing dimensions; see `Synthesis.rounded`."""
-    problem = found.problem
     fit = found.fit_of(answer)
+    problem = fit.problem
     values = problem.space.values(answer.at[: fit.n])
     near = []
     for variable, value in zip(problem.space.variables, values, strict=True):

@@ -18,6 +18,7 @@ from ..program import FloatArray, fixed_backend
 from .box import unit_points
 from .checkpoint import Checkpoint, digest, facts_as_json, facts_of_machine, measure_text
 from .checks import check_one_design
+from .classes import synthesised_classes
 from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
 from .designs import Array
 from .fit import Fit, Timing
@@ -27,18 +28,23 @@ from .space import Space
 from .starts import POPULATION, WHOLE_ENOUGH, Likeness, Starts, standing_apart
 from .survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
 from .synthesis import (
+    MISSES,
+    NEAR,
     Miss,
     Synthesis,
     SynthesisedMachine,
     circuit_words,
+    exact_error,
     frozen,
     in_order,
+    is_one_design,
     machine_words,
     misses_of,
     poorest_transmission,
+    told_error,
 )
 from .task_work import STEPS, Combination, DescentWork, LayWork, LookWork, PolishWork, SearchRows, Stages, Through
-from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, task_of, timed_as
+from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, named_in, task_of, timed_as
 
 STARTS = 64
 POLISHED, FEW = 8, 3
@@ -47,30 +53,23 @@ time, then only from those that may come to less."""
 CLOSE, KEEPING, HOPE = 512, 16, 1.2
 """Designs that lie best on the task, of which those are started from that keep the conditions, and how many of these; such an end is
 searched on from where its error is at most so many times the best."""
-SAME, NEAR = 1e-5, 1e-2
-"""Of a side of the box: ends nearer than the first are one, nearer than the second where their errors are the same."""
-ALIKE = 1e-6
-"""Errors that differ by less than this part are the same."""
-EXACT = 1e-9
-"""Of a task's size: a fit that misses by no more is exact."""
 ENOUGH_GOOD = 6
 """Ends that are answers: with so many no others are looked for that are worse than the best of them."""
 ANSWERS = 24
 """Answers that are judged at the most."""
-MISSES = 8
 
 
 def synthesise(
-    machine: Mechanism,
+    machine: Mechanism | list[Any] | tuple[Any, ...] | None = None,
     *,
     path: PathTask | None = None,
     function: FunctionTask | None = None,
     motion: PoseTask | None = None,
-    vary: Mapping[Any, Any],
+    vary: Mapping[Any, Any] | None = None,
     subject_to: Any = (),
     regions: Mapping[str, Any] | None = None,
     timed: Any = None,
-    rank: Measure | None = None,
+    rank: Any = None,
     case: Any = None,
     over: Mapping[str, Any] | None = None,
     starts: int | str | CurveCatalogue = STARTS,
@@ -97,16 +96,30 @@ def synthesise(
     where another one stopped. `progress=True` shows a bar. `starts="catalogue"`, for a closed path that is not timed: from the nearest
     curves of `curve_catalogue(machine, of)`, or of one that is given, in place of a population; one that is not there is made first.
 
+    Instead of one machine there may be a list of classes or designs, `synthesise([FourBar, SliderCrank], ...)`, or none: then it is all
+    installed ones that name a point of a coupler, `Featured(coupler="P")`, and need no iteration. Each begins a quarter of `starts`; the
+    others go one quarter after the other to the class of which the least error, of an answer or a miss, promises most, four times less
+    after each quarter that bettered nothing, until the budget of all is spent or an answer is exact. `solutions` are ranked over all
+    classes, of the same error those of fewer links first; `table` compares the classes. `vary`, `subject_to`, `rank`, `over` and the
+    task's `of` may be dictionaries by class, `vary={FourBar: {...}}`. Where `vary` says nothing of a class, the machine is brought to the
+    task's size s, and all varies that moves its point: lengths from 0.05 to 5 s, angles by a turn, fixed points by 5 s to either side of
+    the task's middle. For a function s is the machine's longest length.
+
     Raises DefinitionError for what cannot be asked, or a folder of another task. Where no machine that runs was found, `solutions` are
     none and `misses` say why.
     """
+    wanted = [("path", path, PathTask), ("function", function, FunctionTask), ("motion", motion, PoseTask)]
+    if machine is None or isinstance(machine, (list, tuple)):
+        by_class = {"vary": vary, "subject_to": subject_to, "rank": rank, "over": over}
+        options = {"timed": timed, "case": case, "executor": executor, "folder": folder}
+        return synthesised_classes(synthesise, machine, wanted, by_class, starts, seed, limit, progress, options)
     check_one_design(machine)
     title = machine.plan.title
     catalogued = starts == "catalogue" or isinstance(starts, CurveCatalogue)
     check_counts(title, STARTS if catalogued else starts, seed, limit)
     check_progress(progress)
     check_executor(executor)
-    task = task_of(title, [("path", path, PathTask), ("function", function, FunctionTask), ("motion", motion, PoseTask)])
+    task = named_in(machine, task_of(title, wanted))
     timed = timed_as(title, task, timed)
     rows, space = task.rows(machine), Space.of(machine, vary, regions)
     if rank is not None and not isinstance(rank, Measure):
@@ -421,20 +434,11 @@ class TaskSearch:
         if ends.fit.combination != others.fit.combination:
             return False
         n = ends.fit.n
-        far = float(np.abs(ends.at[k, :n] - others.at[j, :n]).max(initial=0.0))
-        floor = self.floor
-        alike = abs(error - known) <= ALIKE * max(error, known, floor) and max(error, known) > floor
-        return far < SAME or (far < NEAR and alike)
-
-    @property
-    def floor(self) -> float:
-        """The error up to which a fit is exact [SI^2]."""
-        return self.rows.count * (EXACT * self.rows.size) ** 2
+        return is_one_design(ends.at[k, :n], others.at[j, :n], error, known, exact_error(self.rows))
 
     def order(self, each: SynthesisedMachine) -> tuple[float, float]:
         """Return by what answers are ordered: by the error to three digits, or exact, then by what is asked, then by the error."""
-        told = 0.0 if each.error <= self.floor else float(f"{each.error:.2e}")
-        return told, each.error if np.isnan(each.ranked) else each.ranked
+        return told_error(each.error, exact_error(self.rows)), each.error if np.isnan(each.ranked) else each.ranked
 
     def why_not(self, machine: Mechanism, ends: Ends, k: int) -> str:
         """Return why a design is no answer, in words; "" of one that is, by the judge."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 from typing import Any, TypeAlias, final
 
@@ -58,16 +59,17 @@ class PathTask:
 
     `at` are the strokes (n,) [SI] of timed points. Without them the points are passed in the order in which they stand, to either side,
     within one turn, unless `in_order=False`. A path is a closed curve where its last point is its first one, or `closed=True`: the machine
-    then goes along all of it in one turn of its crank.
+    then goes along all of it in one turn of its crank. Without `of` it is the point that the machine names as that of its coupler,
+    `Featured(coupler="P")`; for several classes `of={FourBar: "P", Jansen: "F"}` says it of each.
     """
 
     points: FloatArray
-    of: str
+    of: Any
     at: FloatArray | None
     in_order: bool
     closed: bool
 
-    def __init__(self, points: Any, of: str, at: Any = None, *, in_order: bool = True, closed: bool | None = None) -> None:
+    def __init__(self, points: Any, of: Any = None, at: Any = None, *, in_order: bool = True, closed: bool | None = None) -> None:
         what = f"PathTask(of={cited(of)})"
         found = table_of(what, "points", points, 2)
         different = len(np.unique(found, axis=0))
@@ -81,8 +83,9 @@ class PathTask:
 
     def rows(self, machine: Mechanism) -> TaskRows:
         """Return what is wanted of a machine."""
-        check_point(machine, self.of)
-        return TaskRows((x(self.of), y(self.of)), read_only(self.points.T), np.ones(2), np.zeros(2), True, self.closed)
+        of = named_in(machine, self).of
+        check_point(machine, of)
+        return TaskRows((x(of), y(of)), read_only(self.points.T), np.ones(2), np.zeros(2), True, self.closed)
 
 
 @final
@@ -91,7 +94,7 @@ class PathTask:
 class FunctionTask:
     """Values that an output or a quantity is to have at strokes: `FunctionTask([0.0, 0.1], [0.0, 5 * deg], of="tilt")`, (n,) each [SI].
 
-    Angles count modulo a turn.
+    Angles count modulo a turn. For several classes `of` may be a dictionary, class by class.
     """
 
     at: FloatArray | None
@@ -105,8 +108,9 @@ class FunctionTask:
 
     def rows(self, machine: Mechanism) -> TaskRows:
         """Return what is wanted of a machine."""
-        turns = measure_of(machine.plan, self.of) == "angle"
-        return TaskRows((self.of,), read_only(self.values[None]), np.ones(1), np.full(1, float(turns)), False)
+        of = named_in(machine, self).of
+        turns = measure_of(machine.plan, of) == "angle"
+        return TaskRows((of,), read_only(self.values[None]), np.ones(1), np.full(1, float(turns)), False)
 
 
 @final
@@ -121,12 +125,12 @@ class PoseTask:
     x: FloatArray
     y: FloatArray
     angle: FloatArray
-    of: str
+    of: Any
     at: FloatArray | None
     length: float | None
     in_order: bool
 
-    def __init__(self, x: Any, y: Any, angle: Any, of: str, at: Any = None, *, length: float | None = None, in_order: bool = True) -> None:
+    def __init__(self, x: Any, y: Any, angle: Any, of: Any, at: Any = None, *, length: float | None = None, in_order: bool = True) -> None:
         what = f"PoseTask(of={cited(of)})"
         parts = {name: table_of(what, name, each, 0) for name, each in (("x", x), ("y", y), ("angle", angle))}
         if len({len(each) for each in parts.values()}) > 1:
@@ -134,13 +138,14 @@ class PoseTask:
             raise DefinitionError(f"{what}: x, y and angle are to have one length; theirs are {sizes}.")
         if length is not None and not (is_number(length) and length > 0.0):
             raise DefinitionError(f"{what}: length={cited(length)}: a length above zero is expected, in m.")
-        if not isinstance(of, str) or len(of.split()) != 2:
-            raise DefinitionError(f'{what}: two points of the body are expected, such as of="C D".')
+        for each in of.values() if is_by_class(of) else [of]:
+            if not isinstance(each, str) or len(each.split()) != 2:
+                raise DefinitionError(f'{what}: two points of the body are expected, such as of="C D".')
         vars(self).update(parts, of=of, at=timed_strokes("PoseTask", at, len(parts["x"])), length=length, in_order=bool(in_order))
 
     def rows(self, machine: Mechanism) -> TaskRows:
         """Return what is wanted of a machine."""
-        first, second = self.of.split()
+        first, second = named_in(machine, self).of.split()
         for each in (first, second):
             check_point(machine, each)
         length = self.length
@@ -153,6 +158,31 @@ class PoseTask:
 
 
 Task: TypeAlias = PathTask | FunctionTask | PoseTask
+
+
+def named_in(machine: Mechanism, task: Task) -> Task:
+    """Return a task that says by one name of a machine what it is of; DefinitionError where neither it nor the machine says so."""
+    of, title = of_class(task.of, type(machine)), machine.plan.title
+    if of is None and isinstance(task, PathTask):
+        of = machine.featured().coupler or None
+    if of is None:
+        known = f"one of {', '.join(machine.plan.moving)}" if isinstance(task, PathTask) else "such as {FourBar: ...}"
+        raise DefinitionError(f"{title}: say what of this class the task is of, of=..., {known}.")
+    if of is task.of:
+        return task
+    found = copy(task)
+    vars(found).update(of=of)
+    return found
+
+
+def is_by_class(given: object) -> bool:
+    """Return whether something is said class by class: a dictionary by classes of mechanism."""
+    return isinstance(given, Mapping) and bool(given) and all(isinstance(each, type) and issubclass(each, Mechanism) for each in given)
+
+
+def of_class(given: Any, kind: type[Mechanism]) -> Any:
+    """Return what is said of a class, by itself or by the nearest of its bases; what is not said class by class as it is."""
+    return next((given[each] for each in kind.__mro__ if each in given), None) if is_by_class(given) else given
 
 
 def table_of(what: str, name: str, given: Any, width: int) -> FloatArray:

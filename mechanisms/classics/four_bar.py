@@ -32,7 +32,7 @@ class FourBar(Mechanism):
 
     def featured(self) -> Featured:
         """Return psi and the path of P."""
-        return Featured("psi", ["P"])
+        return Featured("psi", ["P"], coupler="P")
 
 
 class DragLink(FourBar):

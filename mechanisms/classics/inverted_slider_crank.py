@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import pi
 
-from linkage import LEFT, Crank, Featured, Ground, Guide, Mechanism, PinSlotDyad, SliderDyad, Stroke, angle, x
+from linkage import LEFT, Crank, Featured, Ground, Guide, Mechanism, OnLink, PinSlotDyad, SliderDyad, Stroke, angle, deg, x
 
 
 class InvertedSliderCrank(Mechanism):
@@ -27,9 +27,10 @@ class InvertedSliderCrank(Mechanism):
     A = Crank(O, OA=0.120, angle=phi)
     R = PinSlotDyad(C, A, CR=0.480)  # the slotted lever's end
     E = SliderDyad(R, rail, RE=0.180, side=LEFT)  # the ram
+    P = OnLink(R, E, RP=0.090, ERP=30 * deg)  # a point of the rod
     psi = angle(C, R)  # lever
     ram = x(E)  # m
 
     def featured(self) -> Featured:
         """Return ram and the paths of A and R."""
-        return Featured("ram", ["A", "R"])
+        return Featured("ram", ["A", "R"], coupler="P")

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from math import pi
 
-from linkage import RIGHT, Crank, Featured, Ground, Guide, Mechanism, SliderDyad, Stroke, x
+from linkage import RIGHT, Crank, Featured, Ground, Guide, Mechanism, OnLink, SliderDyad, Stroke, deg, x
 
 
 class SliderCrank(Mechanism):
-    """Crank OA moves slider B through rod AB; the slider's line passes 20 mm below the crank's centre.
+    """Crank OA moves slider B through rod ABP; the slider's line passes 20 mm below the crank's centre.
 
     Known for: d = a cos(phi) + sqrt(b^2 - (a sin(phi) - c)^2) with crank a, rod b, offset c; its travel is
     sqrt((b + a)^2 - c^2) - sqrt((b - a)^2 - c^2), and one way takes longer than the other.
@@ -24,8 +24,9 @@ class SliderCrank(Mechanism):
 
     A = Crank(O, OA=0.040, angle=phi)
     B = SliderDyad(A, rail, AB=0.120, side=RIGHT)
+    P = OnLink(A, B, AP=0.060, BAP=30 * deg)  # a point of the rod
     d = x(B)  # slider, m
 
     def featured(self) -> Featured:
         """Return d and the path of A."""
-        return Featured("d", ["A"])
+        return Featured("d", ["A"], coupler="P")

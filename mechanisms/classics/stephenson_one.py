@@ -24,8 +24,9 @@ class StephensonOne(Mechanism):
     B = Dyad(A, C, AB=0.120, CB=0.080, side=LEFT)
     E = OnLink(C, B, CE=0.060, BE=0.050, side=RIGHT)
     F = Dyad(D, E, DF=0.140, EF=0.090, side=RIGHT)
+    P = OnLink(D, F, DP=0.070, FDP=30 * deg)  # a point of the rod DF
     reach = angle(O, F)
 
     def featured(self) -> Featured:
         """Return reach and the path of F."""
-        return Featured("reach", ["F"])
+        return Featured("reach", ["F"], coupler="P")

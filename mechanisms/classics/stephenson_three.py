@@ -28,11 +28,12 @@ class StephensonThree(Mechanism):
     B = Dyad(A, C, AB=0.200, CB=0.152, side=LEFT)
     D = OnLink(A, B, AD=0.090, BAD=121.3 * deg)
     F = Dyad(D, E, DF=0.1006, EF=0.160, near=(-0.038, 0.010))
+    P = OnLink(D, F, DP=0.050, FDP=30 * deg)  # a point of the rod
     psi = angle(E, F)
 
     def featured(self) -> Featured:
         """Return psi and the path of D."""
-        return Featured("psi", ["D"])
+        return Featured("psi", ["D"], coupler="P")
 
 
 class StephensonThreeFar(Mechanism):
@@ -60,4 +61,4 @@ class StephensonThreeFar(Mechanism):
 
     def featured(self) -> Featured:
         """Return phi and the path of D."""
-        return Featured("phi", ["D"])
+        return Featured("phi", ["D"], coupler="D")

@@ -30,7 +30,7 @@ class StephensonTwo(Mechanism):
 
     def featured(self) -> Featured:
         """Return psi and the paths of B and F."""
-        return Featured("psi", ["B", "F"])
+        return Featured("psi", ["B", "F"], coupler="F")
 
 
 class StephensonTwoFar(Mechanism):
@@ -58,4 +58,4 @@ class StephensonTwoFar(Mechanism):
 
     def featured(self) -> Featured:
         """Return phi and the paths of B and F."""
-        return Featured("phi", ["B", "F"])
+        return Featured("phi", ["B", "F"], coupler="F")

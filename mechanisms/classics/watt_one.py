@@ -30,4 +30,4 @@ class WattOne(Mechanism):
 
     def featured(self) -> Featured:
         """Return G_x and the paths of P and G."""
-        return Featured("G_x", ["P", "G"])
+        return Featured("G_x", ["P", "G"], coupler="G")

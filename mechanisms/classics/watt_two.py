@@ -23,9 +23,10 @@ class WattTwo(Mechanism):
     B = Dyad(A, C, AB=0.180, CB=0.110, side=LEFT)  # first four-bar
     D = OnLink(C, B, CD=0.120, BCD=-30 * deg)  # the rocker's other arm
     F = Dyad(D, E, DF=0.180, EF=0.100, side=LEFT)  # second four-bar
+    P = OnLink(D, F, DP=0.090, FDP=30 * deg)  # a point of the second coupler
     middle = angle(C, B)
     psi = angle(E, F)
 
     def featured(self) -> Featured:
         """Return psi and the path of D."""
-        return Featured("psi", ["D"])
+        return Featured("psi", ["D"], coupler="P")

@@ -1,0 +1,275 @@
+"""Synthesis over several classes: each is searched on equal terms first, then more is spent on those that promise most."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, final
+
+import numpy as np
+
+from .. import plugins
+from ..errors import DefinitionError, cited
+from ..language import said_of
+from ..mechanism import Mechanism
+from ..program import FloatArray
+from .checks import check_one_design
+from .optimise import check_counts
+from .space import size_of_machine
+from .survey import check_progress, progress_told
+from .synthesis import MISSES, Synthesis, SynthesisedMachine, is_one_design, links_of, told_error
+from .tasks import PathTask, PoseTask, Task, named_in, of_class, task_of
+
+SHARES = 4
+"""Parts into which the searches of a class are divided: the first is every class's own, the others go by promise."""
+BETTERED = 0.99
+"""Of the least error: what a share must come below to count as one that betters it."""
+IDLE = 4.0
+"""By which factor a class promises less after each share that betters nothing."""
+NEXT = 1_000_003
+"""What is added to the seed for each further share of a class."""
+SHORTEST, LONGEST, ASIDE = 0.05, 5.0, 5.0
+"""Of a task's size: between which lengths vary where nothing is said, and how far fixed points from its middle."""
+POSES = 97
+CHANGE = 1e-3
+"""Of a dimension: a change that shows whether a task depends on it."""
+
+
+def synthesised_classes(
+    one: Callable[..., Synthesis],
+    machines: Any,
+    asked: Sequence[tuple[str, Any, type]],
+    by_class: Mapping[str, Any],
+    starts: int,
+    seed: int,
+    limit: int | None,
+    progress: Any,
+    options: Mapping[str, Any],
+) -> Synthesis:
+    """Return what several classes can, each searched by `one`, the synthesis of one machine; see `synthesise`.
+
+    `by_class` are what may be said class by class; `options` go to each search as they are.
+    """
+    designs = machines_of(machines)
+    check_counts("synthesise", starts, seed, limit)
+    check_progress(progress)
+    classes = [Candidate.of(each, asked, by_class) for each in designs]
+    share = max(starts // SHARES, 1)
+    total = starts // share * len(classes)
+    with progress_told(progress, said_of(len(classes), "{n} class", "{n} classes")) as tell:
+        for number in range(total):
+            first = number < len(classes)
+            going = [each for each in classes if not each.found] if first else classes
+            left = None if limit is None else limit - sum(each.spent for each in classes)
+            if (left is not None and left < 1) or (not first and nothing_to_better(classes, by_class)):
+                break
+            tell(number, total)
+            chosen = going[0] if first else min(classes, key=lambda each: each.promise)
+            allowed = left if left is None else max(left // max(len(going), 1), 1) if first else left
+            chosen.search(one, share, seed, allowed, options)
+        tell(total, total)
+    return compared(classes, limit)
+
+
+def nothing_to_better(classes: Sequence[Candidate], by_class: Mapping[str, Any]) -> bool:
+    """Return whether an answer fits exactly, so that no other one can be better; not where answers are ranked by something else too."""
+    return by_class["rank"] is None and any(each.is_exact for each in classes)
+
+
+def machines_of(given: Any) -> list[Mechanism]:
+    """Return the designs of classes, of those that are installed where none are given; DefinitionError for anything else."""
+    if given is None:
+        return shipped_machines()
+    if not isinstance(given, (list, tuple)) or not given:
+        raise DefinitionError(f"synthesise({cited(given)}): a design or a list of classes is expected, such as [FourBar, SliderCrank].")
+    found: list[Mechanism] = []
+    for each in given:
+        made = each() if isinstance(each, type) and issubclass(each, Mechanism) else each
+        check_one_design(made)
+        found.append(made)
+    return found
+
+
+def shipped_machines() -> list[Mechanism]:
+    """Return the designs of the installed machines that name a point of a coupler and need no iteration, those of few links first."""
+    found: dict[type[Mechanism], Mechanism] = {}
+    for name, entry in plugins.entry_points(plugins.MACHINES).items():
+        try:
+            kind = plugins.guarded(entry.load, name)
+        except DefinitionError:  # one that cannot be loaded hides no other
+            continue
+        if isinstance(kind, type) and issubclass(kind, Mechanism) and "featured" in vars(kind):
+            machine = kind()
+            if machine.featured().coupler and not machine.plan.groups:
+                found[kind] = machine
+    if not found:
+        raise DefinitionError("synthesise: no machine with a point of a coupler is installed; give a list, synthesise([FourBar, ...]).")
+    return sorted(found.values(), key=lambda each: (links_of(each), each.plan.title))
+
+
+# A class, and what was found of it.
+
+
+@final
+class Candidate:
+    """A class that is searched: its machine, what it is searched with, and what its shares of the budget found."""
+
+    def __init__(self, machine: Mechanism, options: Mapping[str, Any]) -> None:
+        self.machine, self.options = machine, options
+        self.found: list[Synthesis] = []
+        self.least, self.idle = np.inf, 0
+
+    @classmethod
+    def of(cls, machine: Mechanism, asked: Sequence[tuple[str, Any, type]], by_class: Mapping[str, Any]) -> Candidate:
+        """Return a class with the task in its own names, and with what is said of it alone or of all."""
+        task = named_in(machine, task_of(machine.plan.title, asked))
+        task.rows(machine)  # refuses what is no point of it
+        options = {name: of_class(value, type(machine)) for name, value in by_class.items()}
+        if options["vary"] is None:
+            machine = laid_machine(machine, task)
+            options["vary"] = default_box(machine, task)
+        if options["subject_to"] is None:
+            options["subject_to"] = ()
+        keyword = next(name for name, value, _ in asked if value is not None)
+        return cls(machine, {**options, keyword: task})
+
+    def search(self, one: Callable[..., Synthesis], starts: int, seed: int, limit: int | None, options: Mapping[str, Any]) -> None:
+        """Search on, from new starts."""
+        share = len(self.found)
+        if options.get("folder") is not None:
+            options = {**options, "folder": os.path.join(options["folder"], f"{self.machine.plan.title}-{share + 1}")}
+        found = one(self.machine, starts=starts, seed=seed + NEXT * share, limit=limit, **self.options, **options)
+        self.found.append(found)
+        hope = min([found.error, *(each.error for each in found.misses)])
+        self.idle = 0 if hope < BETTERED * self.least else self.idle + 1
+        self.least = min(self.least, hope)
+
+    @property
+    def promise(self) -> float:
+        """What is hoped for from another share, an error [SI^2]: the least that came near, more after each share that bettered nothing."""
+        return float(self.least * IDLE**self.idle)
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether an answer fits exactly."""
+        return any(each.error <= each.exact for each in self.found)
+
+    @property
+    def spent(self) -> int:
+        """How many designs were looked at."""
+        return sum(each.evaluations for each in self.found)
+
+    def joined(self) -> Synthesis:
+        """Return what all shares found, each design once."""
+        first, exact = self.found[0], self.found[0].exact
+        solutions: list[SynthesisedMachine] = []
+        every = [answer for found in self.found for answer in found.solutions]
+        for each in sorted(every, key=lambda one: (*ranking(one, exact), one.error)):
+            n = first.fit_of(each).n
+            near = [one for one in solutions if one.combination == each.combination]
+            if not any(is_one_design(each.at[:n], one.at[:n], each.error, one.error, exact) for one in near):
+                solutions.append(each)
+        misses = sorted((miss for found in self.found for miss in found.misses), key=lambda miss: miss.error)
+        limits = [each.limit for each in self.found if each.limit is not None]
+        sums = {name: sum(getattr(each, name) for each in self.found) for name in ("population", "running", "starts", "evaluations")}
+        return replace(first, solutions=tuple(solutions), misses=tuple(misses[:MISSES]), limit=sum(limits) or None, **sums)
+
+
+def ranking(each: SynthesisedMachine, exact: float) -> tuple[float, float]:
+    """Return by what answers are ranked: the error to three digits, then what is asked."""
+    return told_error(each.error, exact), 0.0 if np.isnan(each.ranked) else each.ranked
+
+
+def compared(classes: Sequence[Candidate], limit: int | None) -> Synthesis:
+    """Return what was found of all classes, ranked over all; of answers of the same error the one of fewer links first."""
+    found = [each.joined() for each in classes if each.found]
+    every = [(own, answer) for own in found for answer in own.solutions]
+    every.sort(key=lambda one: (*ranking(one[1], one[0].exact), links_of(one[1].machine), one[1].error))
+    order = {id(own): place for place, (own, _) in reversed([*enumerate(every)])}
+    found.sort(key=lambda own: (order.get(id(own), len(every)), min([miss.error for miss in own.misses], default=np.inf)))
+    misses = sorted((miss for own in found for miss in own.misses), key=lambda miss: miss.error)
+    sums = {name: sum(getattr(own, name) for own in found) for name in ("population", "running", "starts", "evaluations")}
+    spent = limit if limit is not None and sums["evaluations"] >= limit else None
+    return replace(
+        found[0], solutions=tuple(answer for _, answer in every), misses=tuple(misses[:MISSES]), limit=spent, classes=tuple(found), **sums
+    )
+
+
+# What varies where nothing is said.
+
+
+def laid_machine(machine: Mechanism, task: Task) -> Mechanism:
+    """Return a machine as large as the task, and where it is: lengths and fixed points scaled and shifted; as it is for a function."""
+    where = places_of(task)
+    if where is None:
+        return machine
+    own = run_of(machine, task)[:2]
+    own = own[:, np.isfinite(own).all(axis=0)]
+    large = float(np.ptp(own, axis=1).max()) if own.size else 0.0
+    if not large:
+        return machine
+    by, middle, aim = size_of_places(where) / large, own.mean(axis=1), where.mean(axis=1)
+    values: dict[str, Any] = {}
+    for name, entry in machine.plan.table.entries.items():
+        now = float(machine.dimensions[name])
+        if entry.kind == "length":
+            values[name] = by * now
+        elif entry.kind == "coordinate":
+            axis = "xy".index(name[-1])
+            values[name] = float(aim[axis] + by * (now - middle[axis]))
+    return machine.replaced(**values)
+
+
+def run_of(machine: Mechanism, task: Task) -> FloatArray:
+    """Return what a task wants of a machine over its first stroke, shape (r, poses), NaN out of reach."""
+    (name, stroke), *others = machine.strokes.items()
+    held = {other: each.start for other, each in others}
+    strokes: dict[str, Any] = {**held, name: np.linspace(stroke.start, stroke.end, POSES)}
+    return np.array(machine.evaluate(task.rows(machine).quantities, unreachable="nan", **strokes))
+
+
+def places_of(task: Task) -> FloatArray | None:
+    """Return the places of a task, shape (2, n) [m]; None of a function, which has none."""
+    if isinstance(task, PathTask):
+        return np.asarray(task.points.T)
+    return np.array([task.x, task.y]) if isinstance(task, PoseTask) else None
+
+
+def size_of_places(where: FloatArray) -> float:
+    """Return the longer side of the rectangle about some places [m]; how far they lie from the origin where they are one."""
+    return float(np.ptp(where, axis=1).max()) or float(np.abs(where).max()) or 1.0
+
+
+def default_box(machine: Mechanism, task: Task) -> dict[str, tuple[float, float]]:
+    """Return the ranges of all dimensions that a task depends on, by its size; see `synthesise`."""
+    where, entries = places_of(task), machine.plan.table.entries
+    if where is None:
+        lengths = [float(machine.dimensions[name]) for name, entry in entries.items() if entry.kind == "length"]
+        large, middle = max(lengths, default=1.0), np.zeros(2)
+    else:
+        large, middle = size_of_places(where), where.mean(axis=1)
+    found: dict[str, tuple[float, float]] = {}
+    for name, entry in entries.items():
+        if entry.kind not in ("length", "coordinate", "angle") or not depends_on(machine, task, name):
+            continue
+        if entry.kind == "length":
+            found[name] = (SHORTEST * large, LONGEST * large)
+        elif entry.kind == "angle":
+            found[name] = (-np.pi, np.pi)
+        else:
+            aim = float(middle["xy".index(name[-1])])
+            found[name] = (aim - ASIDE * large, aim + ASIDE * large)
+    if not found:
+        raise DefinitionError(f"{machine.plan.title}: no length, angle or fixed point of it moves what the task is of; say vary={{...}}.")
+    return found
+
+
+def depends_on(machine: Mechanism, task: Task, name: str) -> bool:
+    """Return whether what a task is of changes with a dimension."""
+    now = float(machine.dimensions[name])
+    step = CHANGE * (abs(now) or size_of_machine(machine))
+    before, after = run_of(machine, task), run_of(machine.replaced(**{name: now + step}), task)
+    with np.errstate(all="ignore"):
+        change = np.abs(after - before)
+    return bool(np.nanmax(change, initial=0.0) > 1e-9 * step)

@@ -19,10 +19,12 @@ from .optimise import check_counts
 from .space import size_of_machine
 from .survey import check_progress, progress_told
 from .synthesis import MISSES, Synthesis, SynthesisedMachine, is_one_design, links_of, told_error
-from .tasks import PathTask, PoseTask, Task, named_in, of_class, task_of
+from .tasks import PathTask, PoseTask, Task, of_class, task_named_in, task_of
 
 SHARES = 4
 """Parts into which the searches of a class are divided: the first is every class's own, the others go by promise."""
+HOPE = 0.01
+"""Of the best answer's error: what nears a task by less promises no more."""
 BETTERED = 0.99
 """Of the least error: what a share must come below to count as one that betters it."""
 IDLE = 4.0
@@ -51,10 +53,10 @@ def synthesised_classes(
 
     `by_class` are what may be said class by class; `options` go to each search as they are.
     """
-    designs = machines_of(machines)
+    designs = designs_of_classes(machines)
     check_counts("synthesise", starts, seed, limit)
     check_progress(progress)
-    classes = [Candidate.of(each, asked, by_class) for each in designs]
+    classes = [SearchedClass.of(each, asked, by_class) for each in designs]
     share = max(starts // SHARES, 1)
     total = starts // share * len(classes)
     with progress_told(progress, said_of(len(classes), "{n} class", "{n} classes")) as tell:
@@ -65,19 +67,20 @@ def synthesised_classes(
             if (left is not None and left < 1) or (not first and nothing_to_better(classes, by_class)):
                 break
             tell(number, total)
-            chosen = going[0] if first else min(classes, key=lambda each: each.promise)
+            best = min((each.error for own in classes for each in own.found), default=np.inf)
+            chosen = going[0] if first else min(classes, key=lambda each: each.promise(best))
             allowed = left if left is None else max(left // max(len(going), 1), 1) if first else left
             chosen.search(one, share, seed, allowed, options)
         tell(total, total)
     return compared(classes, limit)
 
 
-def nothing_to_better(classes: Sequence[Candidate], by_class: Mapping[str, Any]) -> bool:
+def nothing_to_better(classes: Sequence[SearchedClass], by_class: Mapping[str, Any]) -> bool:
     """Return whether an answer fits exactly, so that no other one can be better; not where answers are ranked by something else too."""
     return by_class["rank"] is None and any(each.is_exact for each in classes)
 
 
-def machines_of(given: Any) -> list[Mechanism]:
+def designs_of_classes(given: Any) -> list[Mechanism]:
     """Return the designs of classes, of those that are installed where none are given; DefinitionError for anything else."""
     if given is None:
         return shipped_machines()
@@ -112,7 +115,7 @@ def shipped_machines() -> list[Mechanism]:
 
 
 @final
-class Candidate:
+class SearchedClass:
     """A class that is searched: its machine, what it is searched with, and what its shares of the budget found."""
 
     def __init__(self, machine: Mechanism, options: Mapping[str, Any]) -> None:
@@ -121,9 +124,9 @@ class Candidate:
         self.least, self.idle = np.inf, 0
 
     @classmethod
-    def of(cls, machine: Mechanism, asked: Sequence[tuple[str, Any, type]], by_class: Mapping[str, Any]) -> Candidate:
+    def of(cls, machine: Mechanism, asked: Sequence[tuple[str, Any, type]], by_class: Mapping[str, Any]) -> SearchedClass:
         """Return a class with the task in its own names, and with what is said of it alone or of all."""
-        task = named_in(machine, task_of(machine.plan.title, asked))
+        task = task_named_in(machine, task_of(machine.plan.title, asked))
         task.rows(machine)  # refuses what is no point of it
         options = {name: of_class(value, type(machine)) for name, value in by_class.items()}
         if options["vary"] is None:
@@ -145,10 +148,14 @@ class Candidate:
         self.idle = 0 if hope < BETTERED * self.least else self.idle + 1
         self.least = min(self.least, hope)
 
-    @property
-    def promise(self) -> float:
-        """What is hoped for from another share, an error [SI^2]: the least that came near, more after each share that bettered nothing."""
-        return float(self.least * IDLE**self.idle)
+    def promise(self, best: float) -> tuple[float, float]:
+        """Return what is hoped for from another share, an error [SI^2]: the least that came near, more after each that bettered nothing.
+
+        `best` is the error of the best answer of all classes; where there is none yet, those come first that were searched in vain least.
+        """
+        if np.isfinite(best):
+            return max(self.least, HOPE * best) * IDLE**self.idle, 0.0
+        return float(self.idle), self.least
 
     @property
     def is_exact(self) -> bool:
@@ -181,7 +188,7 @@ def ranking(each: SynthesisedMachine, exact: float) -> tuple[float, float]:
     return told_error(each.error, exact), 0.0 if np.isnan(each.ranked) else each.ranked
 
 
-def compared(classes: Sequence[Candidate], limit: int | None) -> Synthesis:
+def compared(classes: Sequence[SearchedClass], limit: int | None) -> Synthesis:
     """Return what was found of all classes, ranked over all; of answers of the same error the one of fewer links first."""
     found = [each.joined() for each in classes if each.found]
     every = [(own, answer) for own in found for answer in own.solutions]
@@ -201,10 +208,10 @@ def compared(classes: Sequence[Candidate], limit: int | None) -> Synthesis:
 
 def laid_machine(machine: Mechanism, task: Task) -> Mechanism:
     """Return a machine as large as the task, and where it is: lengths and fixed points scaled and shifted; as it is for a function."""
-    where = places_of(task)
+    where = places_wanted(task)
     if where is None:
         return machine
-    own = run_of(machine, task)[:2]
+    own = run_of_task(machine, task)[:2]
     own = own[:, np.isfinite(own).all(axis=0)]
     large = float(np.ptp(own, axis=1).max()) if own.size else 0.0
     if not large:
@@ -221,7 +228,7 @@ def laid_machine(machine: Mechanism, task: Task) -> Mechanism:
     return machine.replaced(**values)
 
 
-def run_of(machine: Mechanism, task: Task) -> FloatArray:
+def run_of_task(machine: Mechanism, task: Task) -> FloatArray:
     """Return what a task wants of a machine over its first stroke, shape (r, poses), NaN out of reach."""
     (name, stroke), *others = machine.strokes.items()
     held = {other: each.start for other, each in others}
@@ -229,7 +236,7 @@ def run_of(machine: Mechanism, task: Task) -> FloatArray:
     return np.array(machine.evaluate(task.rows(machine).quantities, unreachable="nan", **strokes))
 
 
-def places_of(task: Task) -> FloatArray | None:
+def places_wanted(task: Task) -> FloatArray | None:
     """Return the places of a task, shape (2, n) [m]; None of a function, which has none."""
     if isinstance(task, PathTask):
         return np.asarray(task.points.T)
@@ -243,7 +250,7 @@ def size_of_places(where: FloatArray) -> float:
 
 def default_box(machine: Mechanism, task: Task) -> dict[str, tuple[float, float]]:
     """Return the ranges of all dimensions that a task depends on, by its size; see `synthesise`."""
-    where, entries = places_of(task), machine.plan.table.entries
+    where, entries = places_wanted(task), machine.plan.table.entries
     if where is None:
         lengths = [float(machine.dimensions[name]) for name, entry in entries.items() if entry.kind == "length"]
         large, middle = max(lengths, default=1.0), np.zeros(2)
@@ -269,7 +276,7 @@ def depends_on(machine: Mechanism, task: Task, name: str) -> bool:
     """Return whether what a task is of changes with a dimension."""
     now = float(machine.dimensions[name])
     step = CHANGE * (abs(now) or size_of_machine(machine))
-    before, after = run_of(machine, task), run_of(machine.replaced(**{name: now + step}), task)
+    before, after = run_of_task(machine, task), run_of_task(machine.replaced(**{name: now + step}), task)
     with np.errstate(all="ignore"):
         change = np.abs(after - before)
     return bool(np.nanmax(change, initial=0.0) > 1e-9 * step)

@@ -44,7 +44,7 @@ from .synthesis import (
     told_error,
 )
 from .task_work import STEPS, Combination, DescentWork, LayWork, LookWork, PolishWork, SearchRows, Stages, Through
-from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, named_in, task_of, timed_as
+from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, task_named_in, task_of, timed_as
 
 STARTS = 64
 POLISHED, FEW = 8, 3
@@ -119,7 +119,7 @@ def synthesise(
     check_counts(title, STARTS if catalogued else starts, seed, limit)
     check_progress(progress)
     check_executor(executor)
-    task = named_in(machine, task_of(title, wanted))
+    task = task_named_in(machine, task_of(title, wanted))
     timed = timed_as(title, task, timed)
     rows, space = task.rows(machine), Space.of(machine, vary, regions)
     if rank is not None and not isinstance(rank, Measure):

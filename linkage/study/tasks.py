@@ -83,7 +83,7 @@ class PathTask:
 
     def rows(self, machine: Mechanism) -> TaskRows:
         """Return what is wanted of a machine."""
-        of = named_in(machine, self).of
+        of = task_named_in(machine, self).of
         check_point(machine, of)
         return TaskRows((x(of), y(of)), read_only(self.points.T), np.ones(2), np.zeros(2), True, self.closed)
 
@@ -108,7 +108,7 @@ class FunctionTask:
 
     def rows(self, machine: Mechanism) -> TaskRows:
         """Return what is wanted of a machine."""
-        of = named_in(machine, self).of
+        of = task_named_in(machine, self).of
         turns = measure_of(machine.plan, of) == "angle"
         return TaskRows((of,), read_only(self.values[None]), np.ones(1), np.full(1, float(turns)), False)
 
@@ -145,7 +145,7 @@ class PoseTask:
 
     def rows(self, machine: Mechanism) -> TaskRows:
         """Return what is wanted of a machine."""
-        first, second = named_in(machine, self).of.split()
+        first, second = task_named_in(machine, self).of.split()
         for each in (first, second):
             check_point(machine, each)
         length = self.length
@@ -160,7 +160,7 @@ class PoseTask:
 Task: TypeAlias = PathTask | FunctionTask | PoseTask
 
 
-def named_in(machine: Mechanism, task: Task) -> Task:
+def task_named_in(machine: Mechanism, task: Task) -> Task:
     """Return a task that says by one name of a machine what it is of; DefinitionError where neither it nor the machine says so."""
     of, title = of_class(task.of, type(machine)), machine.plan.title
     if of is None and isinstance(task, PathTask):

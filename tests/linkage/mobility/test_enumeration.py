@@ -1,6 +1,7 @@
 """Kinematic chains against the known counts, and against isomorphism by other means: permutations one by one, and networkx."""
 
 from itertools import combinations, permutations
+from math import factorial
 
 import networkx as nx
 import numpy as np
@@ -47,19 +48,45 @@ def test_the_known_counts_of_ten_links():
         assert not nx.faster_could_be_isomorphic(graph(one), graph(other)) or not nx.is_isomorphic(graph(one), graph(other))
 
 
-def test_every_six_bar_is_found_by_looking_at_all_graphs():
-    """All graphs of six links and seven joints, of which every part has a mobility above 0 and no link hangs loose."""
-    found = []
-    for edges in combinations(combinations(range(6), 2), 7):
-        each = nx.Graph(edges)
-        if len(each) < 6 or min(dict(each.degree).values()) < 2:
-            continue
-        parts = [each.subgraph(part) for size in range(2, 6) for part in combinations(range(6), size)]
-        moves = all(3 * (len(part) - 1) - 2 * part.number_of_edges() >= 1 for part in parts)
-        if moves and not any(nx.is_isomorphic(each, other) for other in found):
-            found.append(each)
-    assert len(found) == 2
-    assert all(any(nx.is_isomorphic(each, graph(form)) for form in chain_forms(6)) for each in found)
+BYTE = np.array([number.bit_count() for number in range(256)])
+
+
+def bits(numbers):
+    """Return how many bits of numbers (n,) are set."""
+    return BYTE[numbers.view(np.uint8).reshape(len(numbers), 8)].sum(axis=1)
+
+
+def labelled_chains(links):
+    """Return how many chains there are of numbered links, each numbering counted: all sets of joints, of which no part is rigid."""
+    joints, pairs = (3 * links - 4) // 2, [*combinations(range(links), 2)]
+    bit = {pair: 1 << place for place, pair in enumerate(pairs)}
+    parts = [part for size in range(3, links) for part in combinations(range(links), size)]
+    limits = [(sum(bit[pair] for pair in combinations(part, 2)), (3 * len(part) - 4) // 2) for part in parts]
+    sets = {0: np.zeros(1, np.int64)}
+    for place, pair in enumerate(pairs):
+        grown = {count: [each] for count, each in sets.items()}
+        for count, each in sets.items():
+            more = each | bit[pair] if count < joints else each[:0]
+            for part, most in limits:
+                if part & bit[pair]:
+                    more = more[bits(more & part) <= most]
+            grown.setdefault(count + 1, []).append(more)
+        left = len(pairs) - place - 1
+        sets = {count: np.concatenate(each) for count, each in grown.items() if joints - left <= count <= joints}
+    on_links = [sum(bit[pair] for pair in pairs if link in pair) for link in range(links)]
+    return int(np.all([bits(sets[joints] & each) >= 2 for each in on_links], axis=0).sum())
+
+
+@pytest.mark.parametrize(
+    ("links", "count"), [(4, 3), (6, 360), pytest.param(8, 247_800, marks=pytest.mark.slow)]
+)  # fmt: skip
+def test_all_numberings_of_all_chains_are_as_many_as_a_count_of_all_sets_of_joints(links, count):
+    """A chain has n! numberings, in parts of its symmetries: together as many as sets of joints are found one joint after the other."""
+    numberings = 0
+    for form in chain_forms(links):
+        matcher = nx.isomorphism.GraphMatcher(graph(form), graph(form))
+        numberings += factorial(links) // sum(1 for _ in matcher.isomorphisms_iter())
+    assert numberings == labelled_chains(links) == count
 
 
 @pytest.mark.parametrize("links", [4, 6, 8])

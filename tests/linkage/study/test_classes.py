@@ -22,9 +22,9 @@ from linkage import (
     synthesise,
     transmission,
 )
-from linkage.study.classes import Candidate, default_box, laid_machine, machines_of, shipped_machines, synthesised_classes
+from linkage.study.classes import SearchedClass, default_box, designs_of_classes, laid_machine, shipped_machines, synthesised_classes
 from linkage.study.synthesis import Miss, swept_size
-from linkage.study.tasks import named_in
+from linkage.study.tasks import task_named_in
 from mechanisms.classics.four_bar import DragLink, FourBar
 from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.classics.stephenson_three import StephensonThree
@@ -117,8 +117,8 @@ def tiny():
     return synthesise(FourBar(), path=PathTask(POINTS, of="P"), vary=BAR, starts=1, limit=600)
 
 
-def spent(errors, tiny, *, starts=16, limit=None, each=100, rank=None):
-    """Return which classes are searched, one after the other, where their searches come to errors."""
+def spent(errors, tiny, *, answers=None, starts=16, limit=None, each=100):
+    """Return which classes are searched, one after the other, where the misses of their searches have errors, and some have an answer."""
     asked = []
 
     class Other(FourBar):
@@ -134,17 +134,18 @@ def spent(errors, tiny, *, starts=16, limit=None, each=100, rank=None):
         error = errors[kind][min(asked.count(kind), len(errors[kind]) - 1)]
         asked.append(kind)
         seeds.append((kind, seed, starts, limit))
-        return replace(tiny, solutions=(), misses=(Miss(machine, error, "."),), evaluations=each, starts=starts)
+        best = tuple(replace(tiny.best, error=(answers or {})[kind]) for _ in range(kind in (answers or {})))
+        return replace(tiny, solutions=best, misses=(Miss(machine, error, "."),), evaluations=each, starts=starts)
 
     seeds = []
-    by_class = {"vary": BAR, "subject_to": (), "rank": rank, "over": None}
+    by_class = {"vary": BAR, "subject_to": (), "rank": None, "over": None}
     task = [("path", PathTask(POINTS), PathTask), ("function", None, FunctionTask), ("motion", None, PoseTask)]
     synthesised_classes(one, machines, task, by_class, starts, 7, limit, False, {})
     return asked, seeds
 
 
 def test_every_class_begins_with_the_same_share_and_the_rest_goes_by_promise(tiny):
-    asked, seeds = spent([[0.9**k for k in range(12)], [3.0], [1000.0]], tiny)
+    asked, seeds = spent([[0.9**k for k in range(12)], [3.0], [1000.0]], tiny, answers={1: 3.0})
     assert asked[:3] == [0, 1, 2] and len(asked) == 12
     assert asked[3:].count(0) == 9  # it betters itself every time
     assert {starts for _, _, starts, _ in seeds} == {4}
@@ -153,8 +154,16 @@ def test_every_class_begins_with_the_same_share_and_the_rest_goes_by_promise(tin
 
 
 def test_a_class_that_betters_nothing_makes_way_for_others(tiny):
-    asked, _ = spent([[1.0], [3.0], [1e9]], tiny)
+    asked, _ = spent([[1.0], [3.0], [1e9]], tiny, answers={0: 1.0, 1: 3.0})
     assert asked[3:] == [0, 1, 0, 1, 0, 1, 0, 1, 0]
+    asked, _ = spent([[1.0], [3.0], [1e9]], tiny)  # where nothing runs, all go on in turn
+    assert asked[3:] == [0, 1, 2, 0, 1, 2, 0, 1, 2]
+
+
+def test_hope_that_no_answer_bears_out_ends(tiny):
+    """A class whose misses are exact but never answers does not take what another one is answered by."""
+    asked, _ = spent([[0.0], [3.0], [5.0]], tiny, answers={1: 2.0, 2: 5.0})
+    assert asked[3:9] == [0, 0, 0, 0, 1, 2]
 
 
 def test_a_limit_is_one_of_all_classes(tiny):
@@ -173,8 +182,7 @@ def test_nothing_is_spent_where_an_answer_is_exact(tiny):
         answers.append(type(machine))
         if type(machine) is not Exact:
             return replace(tiny, solutions=())
-        best = (tiny.solutions or synthesise(FourBar(), path=PathTask(POINTS, of="P"), vary=BAR, starts=2).solutions)[0]
-        return replace(tiny, solutions=(replace(best, error=0.0),))
+        return replace(tiny, solutions=(replace(tiny.best, error=0.0),))
 
     by_class = {"vary": BAR, "subject_to": (), "rank": None, "over": None}
     found = synthesised_classes(one, [FourBar, Exact], [("path", PathTask(POINTS), PathTask)], by_class, 16, 0, None, False, {})
@@ -187,7 +195,7 @@ def test_nothing_is_spent_where_an_answer_is_exact(tiny):
 
 def test_the_default_box_follows_from_the_size_of_the_task():
     task = PathTask(np.array(POINTS) + np.array([[0.5, 0.0]]))
-    bar, own = FourBar(), named_in(FourBar(), task)
+    bar, own = FourBar(), task_named_in(FourBar(), task)
     assert own.of == "P" and task.of is None
     laid = laid_machine(bar, own)
     path = laid.sweep(97)["P"]
@@ -199,7 +207,7 @@ def test_the_default_box_follows_from_the_size_of_the_task():
     assert_allclose(box["OA"], (0.05 * size, 5.0 * size))
     assert_allclose(box["BAP"], (-np.pi, np.pi))
     assert_allclose(box["C.x"], middle[0] + 5.0 * size * np.array([-1.0, 1.0]))
-    slider = default_box(SliderCrank(), named_in(SliderCrank(), task))
+    slider = default_box(SliderCrank(), task_named_in(SliderCrank(), task))
     assert "rail.x" not in slider and {"rail.y", "rail.angle", "AP", "BAP"} <= set(slider)
     function = FunctionTask([0.1, 0.5], [0.2, 0.3], of="psi")
     assert set(default_box(bar, function)) == {"O.x", "O.y", "C.x", "C.y", "OA", "AB", "CB"}
@@ -213,7 +221,7 @@ def test_what_is_said_of_a_class_goes_to_it_alone():
         "over": {"phi": (0.0, 1.0)},
     }
     task = [("path", PathTask(POINTS, of={FourBar: "P", SliderCrank: "B"}), PathTask)]
-    bar, slider, drag = (Candidate.of(machine, task, by_class) for machine in (FourBar(), SliderCrank(), DragLink()))
+    bar, slider, drag = (SearchedClass.of(machine, task, by_class) for machine in (FourBar(), SliderCrank(), DragLink()))
     assert bar.options["path"].of == drag.options["path"].of == "P" and slider.options["path"].of == "B"
     assert bar.options["vary"] is drag.options["vary"] is BAR and slider.options["vary"] == {"OA": (0.02, 0.05)}
     assert len(bar.options["subject_to"]) == 1 and slider.options["subject_to"] == ()
@@ -224,7 +232,7 @@ def test_machines_that_are_installed_are_the_list_where_none_is_given():
     kinds = [type(each).__name__ for each in shipped_machines()]
     assert {"FourBar", "SliderCrank", "InvertedSliderCrank", "WattOne", "WattTwo", "StephensonOne", "StephensonThree"} <= set(kinds)
     assert not {"StephensonTwo", "Crane", "DragLink", "Jansen"} & set(kinds)
-    assert machines_of(None)[0].plan.title == kinds[0]
+    assert designs_of_classes(None)[0].plan.title == kinds[0]
 
 
 def test_machines_of_chains_are_classes_like_others():

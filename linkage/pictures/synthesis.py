@@ -25,6 +25,7 @@ from ..quantities import is_whole
 from ..study import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
 from ..study.synthesis import CLOSEST_CHANGE_POINT, miss_unit
 from ..study.task_search import EXACT
+from ..study.tasks import Task
 from ..units import display_unit, factor, show, shown_in
 from . import style
 from .curves import axis_range, locator, typeset
@@ -102,10 +103,15 @@ class ShownAnswer:
         (x0, y0), (x1, y1) = self.wanted.min(axis=0) - pad, self.wanted.max(axis=0) + pad
         return min(left, float(x0)), max(right, float(x1)), min(bottom, float(y0)), max(top, float(y1))
 
+    @property
+    def task(self) -> Task:
+        """The task in the names of the answer's class."""
+        return self.found.own(self.answer).task
+
     @cached_property
     def wanted(self) -> FloatArray:
         """The places that the task wants, shape (n, 2) [m]; none of a function."""
-        task = self.found.task
+        task = self.task
         if isinstance(task, PathTask):
             return task.points
         return np.stack([task.x, task.y], axis=1) if isinstance(task, PoseTask) else np.empty((0, 2))
@@ -113,7 +119,7 @@ class ShownAnswer:
     @property
     def point(self) -> str:
         """The point that is to come to these places."""
-        return str(self.found.task.of).split()[0]
+        return str(self.task.of).split()[0]
 
     @cached_property
     def met(self) -> FloatArray:
@@ -323,7 +329,7 @@ CORNERS = ((-1, -1), (-1, 1), (0, 0), (1, -1), (1, 1))
 
 def draw_pose_task(ax: Axes, shown: ShownAnswer, stretch: float) -> None:
     """Draw the machine at the first pose, its body faint at the others, and the wanted poses as lines along the body."""
-    task, scene = shown.found.task, shown.scene
+    task, scene = shown.task, shown.scene
     assert isinstance(task, PoseTask)
     first, second = task.of.split()
     trace(ax, shown.swept[first].reshape(2, -1))
@@ -348,7 +354,7 @@ def draw_function_task(ax: Axes, shown: ShownAnswer, _: float) -> None:
 
 def draw_wanted_curve(ax: Axes, shown: ShownAnswer) -> None:
     """Draw what a machine gives over its stroke, the wanted values, and what is missed at each."""
-    task, plan = shown.found.task, shown.answer.machine.plan
+    task, plan = shown.task, shown.answer.machine.plan
     assert isinstance(task, FunctionTask)
     unit = shown_in(stroke_display_unit(plan, shown.stroke, "mm"))
     measure = measure_of(plan, task.of)

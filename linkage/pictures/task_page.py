@@ -32,6 +32,7 @@ def task_page(found: Synthesis, *, count: int, language: str, at: Mapping[str, A
         raise StudyError(str(found))
     if at:
         raise DefinitionError(f"{found.start.plan.title}: the page of a synthesis runs over the stroke of its task; leave out at=.")
+    found = found.own(found.best)
     best, task = found.best, found.task
     fit = found.fit_of(best)
     run = {**fit.held, fit.timing.stroke: (fit.timing.start, fit.timing.start + fit.timing.span)}

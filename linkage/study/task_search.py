@@ -338,9 +338,10 @@ class TaskSearch:
         stepped = [place for place, each in enumerate(self.problem.space.variables) if each.step is not None]
         if stepped:
             return [self.on_steps(each, stepped) for own in found for each in own]
+        exact = exact_error(self.rows)
         ways = [Polishing(self, starts, own, kept.get(starts.fit)) for starts, own in zip(first, found, strict=True)]
         wave = 0
-        while not self.problem.count.is_spent and min(each.best for each in ways) > self.floor and any([each.next() for each in ways]):
+        while not self.problem.count.is_spent and min(each.best for each in ways) > exact and any([each.next() for each in ways]):
             self.polished(stages, wave, ways)
             wave += 1
         return [each for own, way in zip(found, ways, strict=True) for each in [*own, *way.ends]]

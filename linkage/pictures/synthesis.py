@@ -23,8 +23,7 @@ from ..motion.measures import words_of
 from ..program import FloatArray
 from ..quantities import is_whole
 from ..study import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
-from ..study.synthesis import CLOSEST_CHANGE_POINT, miss_unit
-from ..study.task_search import EXACT
+from ..study.synthesis import CLOSEST_CHANGE_POINT, EXACT, miss_unit
 from ..study.tasks import Task
 from ..units import display_unit, factor, show, shown_in
 from . import style
@@ -205,9 +204,8 @@ def stretched(shown: Sequence[ShownAnswer], sides: Sequence[float]) -> float:
 def write_head(figure: Figure, found: Synthesis, stretch: float) -> None:
     """Write the title, the task in words, and what lines mean."""
     width, height = (float(each) for each in figure.get_size_inches())
-    title = figure.text(
-        LEFT / width, 1.0 - 0.22 / height, found.start.plan.heading, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center"
-    )
+    heading = said_of(len(found.classes), "{n} class", "{n} classes") if found.classes else found.start.plan.heading
+    title = figure.text(LEFT / width, 1.0 - 0.22 / height, heading, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
     canvas: Any = FigureCanvasAgg(figure)  # matplotlib declares no types for its methods
     end = title.get_window_extent(canvas.get_renderer()).x1 / figure.bbox.width
     words = task_words(found)
@@ -254,13 +252,14 @@ def write_answer(ax: Axes, shown: ShownAnswer, *, alone: bool) -> None:
     figure = ax.figure.figure
     assert figure is not None
     place, height = ax.get_position(original=True), float(figure.get_figheight())
-    name = "" if alone else f"{answer.machine.plan.title}: "
     rms, most = show(answer.rms, unit, 4), show(answer.most, unit, 4)
     misses = said("rms {rms}, at most {most} at point {worst}", rms=rms, most=most, worst=answer.worst)
     is_exact = answer.most <= EXACT * shown.found.fit_of(answer).rows.size
-    first = f"{shown.place}.  {name}{said('exact') if is_exact else misses}"
+    misses = said("exact") if is_exact else misses
     angle = 0.0 if answer.transmission < CLOSEST_CHANGE_POINT else answer.transmission
-    second = said("least transmission angle {angle}", angle=show(angle, "deg", 3)) if np.isfinite(angle) else ""
+    least = said("least transmission angle {angle}", angle=show(angle, "deg", 3)) if np.isfinite(angle) else ""
+    first, second = (misses, least) if alone else (answer.machine.plan.heading, "; ".join(each for each in (misses, least) if each))
+    first = f"{shown.place}.  {first}"
     figure.text(place.x0, place.y1 + 0.31 / height, first, fontsize=style.TEXT, fontweight="bold", color=style.INK, va="center")
     figure.text(place.x0, place.y1 + 0.12 / height, second, fontsize=style.SMALL, color=style.MUTED, va="center")
 

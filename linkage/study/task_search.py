@@ -100,17 +100,17 @@ def synthesise(
     installed ones that name a point of a coupler, `Featured(coupler="P")`, and need no iteration. Each begins a quarter of `starts`; the
     others go one quarter after the other to the class of which the least error, of an answer or a miss, promises most, four times less
     after each quarter that bettered nothing, until the budget of all is spent or an answer is exact. `solutions` are ranked over all
-    classes, of the same error those of fewer links first; `table` compares the classes. `vary`, `subject_to`, `rank`, `over` and the
-    task's `of` may be dictionaries by class, `vary={FourBar: {...}}`. Where `vary` says nothing of a class, the machine is brought to the
-    task's size s, and all varies that moves its point: lengths from 0.05 to 5 s, angles by a turn, fixed points by 5 s to either side of
-    the task's middle. For a function s is the machine's longest length.
+    classes, of the same error those of fewer links first; `table` compares the classes. `vary`, `subject_to`, `regions`, `rank`, `over`
+    and the task's `of` may be dictionaries by class, `vary={FourBar: {...}}`. Where `vary` says nothing of a class, the machine is brought
+    to the task's size s, and all varies that moves its point: lengths from 0.05 to 5 s, angles by a turn, fixed points by 5 s to either
+    side of the task's middle. For a function s is the machine's longest length.
 
     Raises DefinitionError for what cannot be asked, or a folder of another task. Where no machine that runs was found, `solutions` are
     none and `misses` say why.
     """
     wanted = [("path", path, PathTask), ("function", function, FunctionTask), ("motion", motion, PoseTask)]
     if machine is None or isinstance(machine, (list, tuple)):
-        by_class = {"vary": vary, "subject_to": subject_to, "rank": rank, "over": over}
+        by_class = {"vary": vary, "subject_to": subject_to, "regions": regions, "rank": rank, "over": over}
         options = {"timed": timed, "case": case, "executor": executor, "folder": folder}
         return synthesised_classes(synthesise, machine, wanted, by_class, starts, seed, limit, progress, options)
     check_one_design(machine)

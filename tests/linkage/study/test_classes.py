@@ -218,6 +218,7 @@ def test_what_is_said_of_a_class_goes_to_it_alone():
         "vary": {FourBar: BAR, SliderCrank: {"OA": (0.02, 0.05)}},
         "subject_to": {FourBar: [least(transmission("B")) >= 40 * deg]},
         "rank": None,
+        "regions": {SliderCrank: {"O": None}},
         "over": {"phi": (0.0, 1.0)},
     }
     task = [("path", PathTask(POINTS, of={FourBar: "P", SliderCrank: "B"}), PathTask)]
@@ -225,6 +226,7 @@ def test_what_is_said_of_a_class_goes_to_it_alone():
     assert bar.options["path"].of == drag.options["path"].of == "P" and slider.options["path"].of == "B"
     assert bar.options["vary"] is drag.options["vary"] is BAR and slider.options["vary"] == {"OA": (0.02, 0.05)}
     assert len(bar.options["subject_to"]) == 1 and slider.options["subject_to"] == ()
+    assert bar.options["regions"] is None and slider.options["regions"] == {"O": None}
     assert bar.options["over"] == slider.options["over"] == {"phi": (0.0, 1.0)}
 
 

@@ -258,9 +258,11 @@ def write_answer(ax: Axes, shown: ShownAnswer, *, alone: bool) -> None:
     misses = said("exact") if is_exact else misses
     angle = 0.0 if answer.transmission < CLOSEST_CHANGE_POINT else answer.transmission
     least = said("least transmission angle {angle}", angle=show(angle, "deg", 3)) if np.isfinite(angle) else ""
-    first, second = (misses, least) if alone else (answer.machine.plan.heading, "; ".join(each for each in (misses, least) if each))
-    first = f"{shown.place}.  {first}"
-    figure.text(place.x0, place.y1 + 0.31 / height, first, fontsize=style.TEXT, fontweight="bold", color=style.INK, va="center")
+    first, second = (misses, least) if alone else (answer.machine.plan.heading, misses)
+    first, high = f"{shown.place}.  {first}", place.y1 + 0.31 / height
+    if not alone:
+        figure.text(place.x1, high, least, fontsize=style.SMALL, color=style.MUTED, va="center", ha="right")
+    figure.text(place.x0, high, first, fontsize=style.TEXT, fontweight="bold", color=style.INK, va="center")
     figure.text(place.x0, place.y1 + 0.12 / height, second, fontsize=style.SMALL, color=style.MUTED, va="center")
 
 

@@ -43,7 +43,7 @@ def synthesised_classes(
     machines: Any,
     asked: Sequence[tuple[str, Any, type]],
     by_class: Mapping[str, Any],
-    starts: int,
+    starts: Any,
     seed: int,
     limit: int | None,
     progress: Any,
@@ -54,11 +54,12 @@ def synthesised_classes(
     `by_class` are what may be said class by class; `options` go to each search as they are.
     """
     designs = designs_of_classes(machines)
-    check_counts("synthesise", starts, seed, limit)
+    is_catalogue = starts == "catalogue"
+    check_counts("synthesise", SHARES if is_catalogue else starts, seed, limit)
     check_progress(progress)
     classes = [SearchedClass.of(each, asked, by_class) for each in designs]
-    share = max(starts // SHARES, 1)
-    total = starts // share * len(classes)
+    share = starts if is_catalogue else max(starts // SHARES, 1)
+    total = len(classes) * (1 if is_catalogue else starts // share)
     with progress_told(progress, said_of(len(classes), "{n} class", "{n} classes")) as tell:
         for number in range(total):
             first = number < len(classes)
@@ -137,7 +138,7 @@ class SearchedClass:
         keyword = next(name for name, value, _ in asked if value is not None)
         return cls(machine, {**options, keyword: task})
 
-    def search(self, one: Callable[..., Synthesis], starts: int, seed: int, limit: int | None, options: Mapping[str, Any]) -> None:
+    def search(self, one: Callable[..., Synthesis], starts: Any, seed: int, limit: int | None, options: Mapping[str, Any]) -> None:
         """Search on, from new starts."""
         share = len(self.found)
         if options.get("folder") is not None:

@@ -51,9 +51,9 @@ def forces_section(subject: ReportSubject) -> Section | None:
     unit = unit_sign("kN")
     heads = (
         said("pin"), said("joint"), said("on body"), said("from body"), said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit),
-        said("F, {unit}", unit=unit), said("x axis"), said("strokes"), said("load case"), said("motion"),
+        said("F, {unit}", unit=unit), said("x axis"), said("situation and place"),
     )  # fmt: skip
-    table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(map(pin_row, rows)), "llllrrrlmml")
+    table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(map(pin_row, rows)), "llllrrrlm")
     drives = (
         said("drive or member"), said("unit"), said("least"), said("situation and place"), said("greatest"), said("situation and place")
     )  # fmt: skip
@@ -65,8 +65,7 @@ def forces_section(subject: ReportSubject) -> Section | None:
 def pin_row(row: PinLoad) -> tuple[str, ...]:
     """Return a joint's largest force as cells."""
     parts = [shown_number(row.force * way(row.angle), "kN", "z.3f") if np.isfinite(row.force) else "∞" for way in (cos, sin)]
-    case = translated(row.case)
-    return (*joint_cells(row), *parts, force_cell(row.force), row.axis, row.place, case, row.movement)
+    return (*joint_cells(row), *parts, force_cell(row.force), row.axis, f"{translated(row.case)}, {row.movement}, {row.place}")
 
 
 def joint_cells(row: PinLoad) -> tuple[str, ...]:

@@ -50,6 +50,43 @@ def test_sentences_are_counted_without_code_and_formulas():
     assert [count for count, _ in sentences(text)] == [5, 3, 2]
 
 
+SEARCHES = {
+    "collision": "planes", "undo": "page", "excavator": "excavator", "two cylinders": "cylinders", "cannot be reached": "reach",
+    "load case": "load_case", "friction": "friction", "gas spring": "gas_spring", "telescope": "telescope", "sketch": "sketch",
+    "dxf": "sketch", "redesign": "redesign", "catalogue": "redesign", "vector": "vectors", "rope": "rope", "pulley": "rope",
+    "axle load": "axle_loads", "tipping": "axle_loads", "load chart": "chart", "bucket": "machine_of_parts", "side of a dyad": "side",
+    "holding valve": "holding_valve", "regenerative": "regenerative", "barrel": "barrel_and_rod", "file": "files", "units": "units",
+    "own columns": "columns", "notebook": "notebook", "report": "export", "drawing": "export", "level lift": "places",
+    "grading path": "places", "duty": "duty", "force element": "element", "damper": "gas_spring", "slope": "load_case",
+    "pin forces": "forces", "accumulator": "hydraulics", "missing millimetres": "reach", "live page": "page", "pressure": "hydraulics",
+    "transfer ratio": "theory", "tolerance": "studies", "optimise": "studies", "synthesis": "studies",
+}  # fmt: skip
+"""What a reader types, and the page that answers it."""
+FOUND = 3
+"""Among so many pages it is."""
+
+
+def found_by(words):
+    """Return the pages that have all words, by how much they are about them: as a search of these pages ranks title, headings and text."""
+    ranked = []
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8").lower()
+        headings = re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE)
+        stems = [word[:-1] if word.endswith("s") and len(word) > 3 else word for word in words.split()]
+        if not all(stem in text for stem in stems):
+            continue
+        title = sum(15 for stem in stems if stem in (headings or [""])[0])
+        heads = sum(5 for stem in stems for heading in headings[1:] if stem in heading)
+        counts = sum(min(len(re.findall(rf"\b{re.escape(stem)}", text)), 10) for stem in stems)
+        ranked.append((title + min(heads, 12) + counts, page.stem))
+    return [name for _, name in sorted(ranked, key=lambda each: (-each[0], each[1]))]
+
+
+@pytest.mark.parametrize("words", SEARCHES)
+def test_a_page_is_found_by_the_word_its_reader_types(words):
+    assert SEARCHES[words] in found_by(words)[:FOUND]
+
+
 def listed(page):
     """Return the entries of a page's contents."""
     blocks = re.findall(r"```\{toctree\}\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)

@@ -179,7 +179,7 @@ def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], keys: list[
     It is in kN, or in N where the largest is less than 100 N, or in the unit of a chosen system.
     """
     largest = max((each.length for each in arrows), default=0.0)
-    shown = tuple(each for each in arrows if each.length > NOTHING_THERE * largest or (each.colour in (PIN, MEMBER) and largest > 0.0))
+    shown = tuple(each for each in arrows if each.length > NOTHING_THERE * largest)
     most = max((abs(each.moment) for each in turning), default=0.0)
     turns: list[TurningArrow] = []
     for each in turning:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, final
 
 import numpy as np
@@ -52,7 +52,7 @@ class Timing:
     @classmethod
     def of(cls, problem: Problem, stroke: str, timed: Any, count: int) -> Timing:
         """Return how the points of a task are timed on the one stroke of a machine that moves."""
-        low, high = (float(end) for end in (problem.ranges[stroke].low, problem.ranges[stroke].high))
+        low, high = ends_of_stroke(problem, stroke, [0] * len(problem.space.choices))
         is_turn = stroke_display_unit(problem.plan, stroke, "mm") == "deg" and abs(abs(high - low) - TURN) < 1e-9
         if timed is True:
             moves = np.zeros((count, 0))
@@ -113,6 +113,9 @@ class Fit:
     def __init__(
         self, problem: Problem, rows: TaskRows, timing: Timing, combination: Sequence[int] = (), at: FloatArray | None = None
     ) -> None:
+        if problem.ranges[timing.stroke].follows:  # a cylinder's whole way, by its row
+            low, high = ends_of_stroke(problem, timing.stroke, combination)
+            timing = replace(timing, start=low, span=high - low)
         self.problem, self.rows, self.timing, self.combination = problem, rows, timing, tuple(combination)
         self.known = np.zeros(rows.count) if at is None else at
         self.plan, self.space = problem.plan, problem.space
@@ -234,6 +237,14 @@ class Fit:
     def errors(self, at: FloatArray, base: FloatArray) -> FloatArray:
         """Return the sums of the squares of the misses (m,), infinite out of reach."""
         return squared(self.misses(at, base)) if len(at) else np.zeros(0)
+
+
+def ends_of_stroke(problem: Problem, stroke: str, combination: Sequence[int]) -> tuple[float, float]:
+    """Return from where to where [SI] a stroke is looked at, of a combination of choices."""
+    one = problem.ranges[stroke]
+    if not one.follows:
+        return float(one.low), float(one.high)
+    return problem.ends(dict(problem.machine.dimensions) | dict(problem.space.chosen(combination)))[stroke]
 
 
 def squared(off: FloatArray) -> FloatArray:

@@ -40,6 +40,7 @@ from ..units import show
 from .box import unit_points
 from .checkpoint import measure_text
 from .checks import check_one_design
+from .cylinder_rows import fitted_rows
 from .infeasible import infeasible_error
 from .optimum import Optimum, in_units, polished, unit_of_constraint
 from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of, reduced
@@ -142,6 +143,8 @@ def optimise(
 
     `vary` says what may change: `"OB": (low, high)` [SI], with a third number in steps; `"M": around(60 * mm)`, of a point both
     coordinates; a list of choices; and for several names at once rows of a catalogue, `("lift.bore", "lift.rod"): [(0.1, 0.056), ...]`.
+    A cylinder by its name takes rows of `hydraulics.catalogue(...)`: its sizes, and as its whole way the range of the stroke that drives
+    it; the machine that comes back has that stroke.
     `regions={"M": [(0.1, 0.9), (0.4, 0.9), (0.4, 1.2)]}` keeps a point in a polygon [m], `around(radius=60 * mm)` in a circle; a list of
     shapes allows any of them, `outside(...)` none, and an outline of the frame goes by its name, `["plate", outside("wheel")]`.
     `over={"S": (0.0, 0.2)}` looks at a part of the stroke; an end may be a quantity that follows the design. `case` names a load case or
@@ -170,6 +173,8 @@ def optimise(
     one_word("solver", solver, SOLVERS)
     check_counts(title, starts, seed, limit)
     check_progress(progress)
+    fitted = fitted_rows(machine, vary)
+    machine, vary = fitted.machine, fitted.vary
     objectives, sense = objectives_of(machine, minimise, maximise)
     space = Space.of(machine, vary, regions)
     sides = space.sides([0] * len(space.choices))
@@ -178,6 +183,7 @@ def optimise(
         raise DefinitionError(f"{title}: {text}, class Other({type(machine).__name__}).")
     constraints = [*conditions_of(subject_to, machine), *space.conditions]
     over, occurring = where_searched(machine, over)
+    over = {**fitted.travels, **(over or {})} or over
     cases, shares = cases_searched(machine, case, occurring)
     judge = machine.judge(over)
     held = pieces_in_cases(constraints, cases, judge)

@@ -380,7 +380,7 @@ def multipliers(local: Local, unit: FloatArray) -> Prices:
                 columns.append(sign * np.eye(local.width)[place])
                 at_bounds.append(place)
     known = bool(np.isfinite(slope).all()) and all(bool(np.isfinite(line).all()) for line in columns)
-    lines = np.array(columns).reshape(-1, local.width)
+    lines = np.array(columns).reshape(len(columns), local.width)
     prices = nnls(lines.T, np.asarray(slope, float))[0] if columns and known else np.zeros(len(columns))
     of_constraint, reach, of_bound = np.zeros(len(local.problem.constraints)), np.zeros(n), np.zeros(n)
     for price, owner, line in zip(prices, owners, lines, strict=False):

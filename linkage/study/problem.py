@@ -41,6 +41,7 @@ from ..plan import Mask, Plan
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
 from ..vectors import Numbers
+from .cylinder_rows import Travel, travelled
 from .measured import eager, motion_of, nothing_limits
 from .sampling import Samples, Sampling, divisors_of, rows_of_motion, with_values
 from .sides import on_sides
@@ -75,6 +76,8 @@ class Range:
 
     low: Any
     high: Any
+    is_travel: bool = False
+    """Whether it is the whole way of a cylinder that is chosen by its row of a catalogue, and so the stroke of the machine."""
 
     @property
     def follows(self) -> tuple[Any, ...]:
@@ -113,7 +116,8 @@ def ranges_of(machine: Mechanism, over: Any) -> dict[str, Range]:
     found = {}
     for name, stroke in plan.strokes.items():
         ends = given.get(name, (stroke.start, stroke.end))
-        found[name] = Range(*((float(ends), float(ends)) if is_number(ends) else ends))
+        low, high = (float(ends), float(ends)) if is_number(ends) else ends
+        found[name] = Range(low, high, isinstance(ends, Travel))
     return found
 
 
@@ -694,9 +698,12 @@ class Problem:
 
     def machine_of(self, unit: FloatArray, combination: Sequence[int]) -> Mechanism:
         """Return the machine of unit coordinates (n,), on the sides of a combination."""
-        return self.on_branch(combination).machine.replaced(
+        machine = self.on_branch(combination).machine.replaced(
             **self.space.chosen(combination), **{name: float(each) for name, each in self.space.dimensions_at(unit).items()}
         )
+        driven = [name for name, one in self.ranges.items() if one.is_travel]
+        ends = self.ends(machine.dimensions) if driven else {}
+        return travelled(machine, {name: ends[name] for name in driven})
 
     def assembled(self, machine: Mechanism) -> Motion:
         """Return a machine's motion over the strokes' ranges; AssemblyError where it cannot be assembled, between the poses too."""

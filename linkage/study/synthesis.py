@@ -455,6 +455,24 @@ def circuit_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
     return f"{where}; {', '.join(named)}"
 
 
+def beyond_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
+    """Return which point a design comes to beyond the way of the cylinder that drives it; "" where there is none."""
+    timing = fit.timing
+    if not fit.problem.ranges[timing.stroke].is_travel:
+        return ""
+    strokes = misses_of(fit, at, base)[0]
+    far = np.abs(strokes - timing.start - 0.5 * timing.span) - 0.5 * abs(timing.span)
+    worst = int(np.argmax(far))
+    if far[worst] <= 1e-9 * abs(timing.span):
+        return ""
+    unit = stroke_display_unit(fit.plan, timing.stroke, "mm")
+    ends = [show(float(each), unit, 4) for each in (strokes[worst], timing.start, timing.start + timing.span)]
+    return said(
+        "it comes to point {point} at {stroke} = {value}, and the cylinder goes from {low} to {high}",
+        point=worst + 1, stroke=timing.stroke, value=ends[0], low=ends[1], high=ends[2],
+    )  # fmt: skip
+
+
 def connected_parts(mask: Mask, *, closed: bool) -> FloatArray:
     """Return the number of the connected part of a stroke that each pose (n,) lies in; a turn's last part goes on with its first."""
     number = np.cumsum(np.concatenate([[0], (mask[1:] & ~mask[:-1]).astype(int)]))

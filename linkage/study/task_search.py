@@ -20,6 +20,7 @@ from .checkpoint import Checkpoint, digest, facts_as_json, facts_of_machine, mea
 from .checks import check_one_design
 from .classes import synthesised_classes
 from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
+from .cylinder_rows import fitted_rows
 from .designs import Array
 from .fit import Fit, Timing
 from .optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
@@ -33,6 +34,7 @@ from .synthesis import (
     Miss,
     Synthesis,
     SynthesisedMachine,
+    beyond_words,
     circuit_words,
     exact_error,
     frozen,
@@ -121,10 +123,13 @@ def synthesise(
     check_executor(executor)
     task = task_named_in(machine, task_of(title, wanted))
     timed = timed_as(title, task, timed)
-    rows, space = task.rows(machine), Space.of(machine, vary, regions)
+    fitted = fitted_rows(machine, vary)
+    machine = fitted.machine
+    rows, space = task.rows(machine), Space.of(machine, fitted.vary, regions)
     if rank is not None and not isinstance(rank, Measure):
         raise DefinitionError(f'{title}: rank={cited(rank)}: one number of a design is expected, such as -least(transmission("B")).')
     over, occurring = where_searched(machine, over)
+    over = {**fitted.travels, **(over or {})} or over
     cases, shares = cases_searched(machine, case, occurring)
     asked = [*conditions_of(subject_to, machine), *space.conditions]
     ranks = () if rank is None else (mean_in_cases(rank, shares),) if shares else each_in_cases([rank], cases, machine, in_case)
@@ -189,7 +194,7 @@ def moving_stroke(problem: Problem) -> str:
     if len(moving) != 1:
         held = ", ".join(f'"{name}": value' for name in moving[1:]) or "..."
         raise DefinitionError(f"{problem.plan.title}: a task runs along one stroke; hold the others, over={{{held}}}.")
-    if problem.ranges[moving[0]].follows:
+    if problem.ranges[moving[0]].follows and not problem.ranges[moving[0]].is_travel:
         raise DefinitionError(f"{problem.plan.title}: over={{{moving[0]!r}: ...}}: a synthesis looks at a range of numbers.")
     return moving[0]
 
@@ -447,6 +452,9 @@ class TaskSearch:
         circuits = circuit_words(fit, at, base)
         if circuits:
             return circuits
+        beyond = beyond_words(fit, at, base)
+        if beyond:
+            return beyond
         if self.ordered and not in_order(fit, at, base):
             return "it comes to the points in another order"
         try:

@@ -1,0 +1,199 @@
+"""Rows of a catalogue for a cylinder by its name: they set its sizes, the linkage's closed length, and the range of its stroke.
+
+    vary={"lift": catalogue(dead=0.2)}        AB = L0 + S:   L0 = the row's closed length, S from 0 to the row's stroke
+                                              AB = 1.79 + S: S from closed - 1.79 to closed + stroke - 1.79
+
+A machine of a row is of a subclass whose stroke has that range, so that whatever is asked of it holds over the cylinder's whole way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeAlias, final
+
+from ..errors import DefinitionError, cited
+from ..loads import TwoPoint
+from ..mechanism import Mechanism, declared
+from ..plan import Plan, Reading
+from ..quantities import Dimension, Member, Stroke, Variable, name_of
+from ..quantities.quantity import Negative, Ref, Sum
+from ..steps import Drawn
+
+BASE = "_class_before_rows"
+LENGTHS = ("closed", "stroke")
+Pairs: TypeAlias = Mapping[str, tuple[float, float]]
+
+
+class Travel(NamedTuple):
+    """The range of a stroke over which a cylinder goes its whole way: numbers [m], or quantities that follow the row."""
+
+    low: Any
+    high: Any
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class FittedRows:
+    """A machine of which a search can set a cylinder by rows, what varies then, and the ranges of the strokes that drive such cylinders."""
+
+    machine: Mechanism
+    vary: Any
+    travels: Mapping[str, Travel]
+
+
+def fitted_rows(machine: Mechanism, vary: Any) -> FittedRows:
+    """Return the same with rows of the cylinders that `vary` names as rows of their dimensions; DefinitionError for what is none."""
+    if not isinstance(vary, Mapping):
+        return FittedRows(machine, vary, {})
+    elements = machine.plan.of_kind(TwoPoint)
+    named = {name: rows for name, rows in vary.items() if isinstance(name, str) and name in elements}
+    if not named:
+        return FittedRows(machine, vary, {})
+    lengths = {}
+    for name, rows in named.items():
+        fields = fields_of(machine.plan, name, rows)
+        given = [elements[name].given(field) for field in LENGTHS]
+        if set(LENGTHS) <= set(fields) and None in given:
+            lengths[name] = (float(rows[0].closed), float(rows[0].stroke))
+    if lengths:
+        machine = class_with(type(machine), lengths, {})(**machine.dimensions)
+    found: dict[Any, Any] = {name: each for name, each in vary.items() if name not in named}
+    travels: dict[str, Travel] = {}
+    for name, rows in named.items():
+        names, table, travel = rows_fitted(machine, name, rows)
+        found[names] = table
+        travels |= travel
+    return FittedRows(machine, found, travels)
+
+
+def fields_of(plan: Plan, name: str, rows: Any) -> tuple[str, ...]:
+    """Return what the rows for an element say of it; DefinitionError for rows that say nothing, or what it does not have."""
+    listed = list(rows) if isinstance(rows, (list, tuple)) else []
+    fields = {getattr(type(row), "_fields", ()) for row in listed}
+    known = plan.of_kind(TwoPoint)[name].parameters
+    (own,) = fields if len(fields) == 1 else ((),)
+    if not own or not set(own) <= set(known):
+        example = f'vary={{"{name}": hydraulics.catalogue(dead=120 * mm)}}, or a tuple of its dimensions, ("{name}.bore", ...)'
+        raise DefinitionError(f"{plan.title}: {name}={cited(rows)}: rows of a catalogue are expected, {example}.")
+    return tuple(own)
+
+
+def rows_fitted(machine: Mechanism, name: str, rows: Sequence[Any]) -> tuple[tuple[str, ...], list[tuple[float, ...]], dict[str, Travel]]:
+    """Return the names of what the rows of a cylinder set, these rows as numbers [SI], and the range of the stroke that drives it."""
+    plan = machine.plan
+    element, fields = plan.of_kind(TwoPoint)[name], fields_of(plan, name, rows)
+    names = [parameter_named(plan, element, field) for field in fields]
+    table = [tuple(float(value) for value in row) for row in rows]
+    if not set(LENGTHS) <= set(fields):
+        return tuple(names), table, {}
+    stroke, others = length_of(machine, name)
+    closed, reach = (names[fields.index(field)] for field in LENGTHS)
+    start = float(plan.strokes[stroke].start)
+    rest = sum(value for _, value in others)
+    dimension = next((each for each, _ in others if each), "")
+    along = Variable(plan.table.spellings[reach][0])
+    if not dimension:
+        begin = Variable(plan.table.spellings[closed][0]) - rest
+        return tuple(names), table, {stroke: Travel(begin, begin + along)}
+    if dimension != closed:
+        now = dict(others)[dimension]
+        table = [(*row, row[fields.index("closed")] - (rest - now) - start) for row in table]
+        return (*names, dimension), table, {stroke: Travel(start, along + start)}
+    low = dict(others)[dimension] - rest  # the cylinder's closed length is the dimension itself
+    return tuple(names), table, {stroke: Travel(low, along + low)}
+
+
+def parameter_named(plan: Plan, element: TwoPoint, field: str) -> str:
+    """Return the dimension that a parameter of an element is; DefinitionError where it follows an expression."""
+    given = element.given(field)
+    own = f"{element.name}.{field}"
+    if own in plan.table.spellings:
+        return own
+    name = name_of(given) if isinstance(given, (str, Member)) else ""
+    if name not in plan.table.spellings:
+        raise DefinitionError(f"{plan.title}: {own} follows {given}; a row of a catalogue sets a number or a dimension.")
+    return name
+
+
+def length_of(machine: Mechanism, name: str) -> tuple[str, list[tuple[str, float]]]:
+    """Return the stroke that drives a cylinder, and what else its length is a sum of: dimensions by name, "" of others, with values [m].
+
+    DefinitionError where its length is no stroke and what stands beside it.
+    """
+    plan = machine.plan
+    ends = plan.of_kind(TwoPoint)[name].ends
+    length = next((bar.length for bar in plan.cylinders if {bar.P, bar.Q} == set(ends)), None)
+    terms = [] if length is None else [*terms_of(plan, length, 1.0)]
+    strokes = [(sign, each.name) for sign, each in terms if isinstance(each, Stroke)]
+    if len(strokes) != 1 or strokes[0][0] != 1.0:
+        label = "".join(ends)
+        what = f"{plan.title}: the length of {name} is {'driven by no stroke' if length is None else length}"
+        raise DefinitionError(f"{what}; rows of a catalogue set one that is a length and a stroke, {label}=L0 + S.")
+    reading = Reading(plan.members, plan.table.lengths, {**machine.dimensions, **plan.sketch_strokes})
+    others = []
+    for sign, each in terms:
+        if not isinstance(each, Stroke):
+            own = each.name if isinstance(each, Dimension) else each.variable if isinstance(each, Variable) else ""
+            value = sign * float(reading.value(each))
+            others.append((own if sign == 1.0 and own in plan.table.spellings else "", value))
+    return strokes[0][1], others
+
+
+def terms_of(plan: Plan, given: Any, sign: float) -> Iterator[tuple[float, Any]]:
+    """Yield the terms of a sum with their signs, through the members it goes by."""
+    if isinstance(given, (str, Ref)):
+        given = plan.members[given if isinstance(given, str) else given.target]
+    if isinstance(given, Sum):
+        yield from terms_of(plan, given.a, sign)
+        yield from terms_of(plan, given.b, sign)
+    elif isinstance(given, Negative):
+        yield from terms_of(plan, given.a, -sign)
+    else:
+        yield sign, given
+
+
+# Classes of rows.
+
+
+def travelled(machine: Mechanism, travels: Pairs) -> Mechanism:
+    """Return the same design of a class whose strokes have these ranges [m]; itself where there are none."""
+    return class_with(type(machine), {}, travels)(**machine.dimensions) if travels else machine
+
+
+def class_with(kind: type[Mechanism], lengths: Pairs, travels: Pairs) -> type[Mechanism]:
+    """Return a class like another one but for closed lengths and strokes of cylinders, and ranges of strokes, each kind once."""
+    base, known, before = vars(kind).get(BASE, (kind, {}, {}))
+    every, ranges = {**known, **lengths}, {**before, **travels}
+    key = ("rows", *sorted(every.items()), "strokes", *sorted(ranges.items()))
+    found: type[Mechanism] = base.plan.made(key, lambda _: made_with(base, every, ranges))
+    return found
+
+
+def made_with(kind: type[Mechanism], lengths: Pairs, travels: Pairs) -> type[Mechanism]:
+    """Return a subclass with closed lengths and strokes of cylinders, and ranges of strokes."""
+    plan, written = kind.plan, declared(kind)
+    for name in (*lengths, *travels):
+        if name not in written:
+            what = f"{plan.title}: {name} is a part's own; rows of a catalogue set what the class itself declares"
+            raise DefinitionError(f"{what}: vary them in the part, or vary the dimensions by name.")
+    own: dict[str, Any] = {name: written[name].renewed(**dict(zip(LENGTHS, ends, strict=True))) for name, ends in lengths.items()}
+    own |= {name: Stroke(*ends) for name, ends in travels.items()}
+    if travels and not any(isinstance(each, Drawn) for each in written.values()):
+        own["sketch"] = Drawn(plan.sketch_strokes)
+    text = {"__module__": kind.__module__, "__qualname__": kind.__qualname__, "__doc__": kind.__doc__}
+    maker: Any = type(kind)
+    made: type[Mechanism] = maker(
+        kind.__name__, (kind,), {**text, **own, BASE: (kind, dict(lengths), dict(travels)), "__reduce__": sent_with}
+    )
+    return made
+
+
+def sent_with(machine: Mechanism) -> tuple[Any, ...]:
+    """Return what pickle is to make a design of such a class of."""
+    return made_again, (*vars(type(machine))[BASE], machine.dimensions)
+
+
+def made_again(kind: type[Mechanism], lengths: Any, travels: Any, dimensions: Mapping[str, Any]) -> Mechanism:
+    """Return the design that was sent."""
+    return class_with(kind, lengths, travels)(**dimensions)

@@ -176,7 +176,7 @@ class Local:
         if not self._usable(first):
             raise DefinitionError("A local search starts from a design of which the objective has a value.")
         self._signs = self._divisor_signs(first)
-        self.start = np.asarray(start, float)
+        self.start = self._fitted_to = np.asarray(start, float)
         self.leaf_scales, self.scales, self.size = self._scales(first)
         self.aux = self._auxiliaries(first)
         self.several = int(len(problem.objectives) > 1)
@@ -477,6 +477,7 @@ class Local:
                 gain = error + price * missing - found - price * short
             if gain > 0.0:
                 at, error, missing, damping = new, found, short, max(0.1 * damping, 1e-12)
+                self.own, self._fitted_to = at[self.width :], at[: self.n]
                 lines, by = self._lines_of_squares(at)
             else:
                 damping *= 5.0
@@ -584,7 +585,7 @@ class Local:
             return self.judged(unit)
         except LimitReachedError:
             with self.problem.count.without_limit():
-                best = self.start if self._watch is None else self._watch.best[: self.n]
+                best = self._fitted_to if self._watch is None else self._watch.best[: self.n]
                 return self.judged(self._nearest_good(np.clip(best, 0.0, 1.0)))
 
     def least(self) -> SearchEnd | None:

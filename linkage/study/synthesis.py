@@ -455,7 +455,7 @@ def circuit_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
     return f"{where}; {', '.join(named)}"
 
 
-def beyond_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
+def beyond_travel_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
     """Return which point a design comes to beyond the way of the cylinder that drives it; "" where there is none."""
     timing = fit.timing
     if not fit.problem.ranges[timing.stroke].is_travel:

@@ -34,7 +34,7 @@ from .synthesis import (
     Miss,
     Synthesis,
     SynthesisedMachine,
-    beyond_words,
+    beyond_travel_words,
     circuit_words,
     exact_error,
     frozen,
@@ -452,7 +452,7 @@ class TaskSearch:
         circuits = circuit_words(fit, at, base)
         if circuits:
             return circuits
-        beyond = beyond_words(fit, at, base)
+        beyond = beyond_travel_words(fit, at, base)
         if beyond:
             return beyond
         if self.ordered and not in_order(fit, at, base):

@@ -26,6 +26,8 @@ from .tasks import TaskRows
 
 STEPS, TURNS = 60, 5
 """Steps of a local search between two looks at the limit, and how many times so many."""
+LOOKS = 3000
+"""Designs that a search with conditions looks at, at the most: where it creeps along a wall, what it has by then is taken."""
 
 Combination = tuple[int, ...]
 Through: TypeAlias = Literal["free", "running", "keeping"]
@@ -201,7 +203,7 @@ class PolishWork(FitWork):
 
     def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
         ((at, first, base),) = zip(rows["at"], rows["first"], rows["base"], strict=True)
-        fit.problem.count.limit = None if self.most == np.inf else int(self.most)
+        fit.problem.count.limit = int(min(self.most, LOOKS))
         for start in (at, first):
             with suppress(LinkageError):
                 squares = FitSquares(fit, start, base, in_order=self.in_order)

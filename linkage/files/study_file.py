@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeAlias, final
 
@@ -49,14 +49,22 @@ class StudyHead:
     faults: Faults
     machine: Mechanism
     base: Path
+    machines: Mapping[str, Mechanism] = field(default_factory=dict)
+    """All machines by the file's texts, where it names a list of them."""
 
     @classmethod
     def of(
-        cls, path: str | os.PathLike[str], keys: Sequence[str], find: FindMachine, settings: Callable[[type[Mechanism]], Mapping[str, Any]]
+        cls,
+        path: str | os.PathLike[str],
+        keys: Sequence[str],
+        find: FindMachine,
+        settings: Callable[[type[Mechanism]], Mapping[str, Any]],
+        *,
+        several: bool = False,
     ) -> StudyHead:
         """Return the head of a file that may have some keys beside `machine`, `set` and `doc`; FileError where there is no machine.
 
-        `settings` are dimensions [SI] that stand above those of the file.
+        `settings` are dimensions [SI] that stand above those of the file. With `several` the machine may be a list of them.
         """
         found = source(path)
         faults, base = Faults(source=found.name, line_of=found.line_of), Path() if found.name == TEXT else Path(path).parent
@@ -65,13 +73,17 @@ class StudyHead:
         for key in data:
             if key not in known:
                 faults.add((str(key),), str(unknown("Key", shortened(key, quote=False), known)))
-        kind = machine_said(data, faults, find, base)
+        given = data.get("machine")
+        listed: list[Any] = given if several and isinstance(given, list) and given else [given]
         machines: list[Mechanism] = []
-        if kind is not None:
-            with faults.at("set"):
-                machines.append(kind(**settings_said(kind.plan, data.get("set", {}), faults)))
+        for text in listed:
+            kind = machine_said(text, faults, find, base)
+            if kind is not None:
+                with faults.at("set"):
+                    made = kind(**settings_said(kind.plan, data.get("set", {}), faults))
+                    machines.append(made.replaced(**settings(kind)))
         faults.check()
-        return cls(data, faults, machines[0].replaced(**settings(type(machines[0]))), base)
+        return cls(data, faults, machines[0], base, dict(zip(listed, machines, strict=True)) if isinstance(given, list) else {})
 
     @property
     def plan(self) -> Plan:
@@ -85,11 +97,10 @@ class StudyHead:
         return self.base / given
 
 
-def machine_said(data: Mapping[str, Any], faults: Faults, find: FindMachine, base: Path) -> type[Mechanism] | None:
+def machine_said(given: object, faults: Faults, find: FindMachine, base: Path) -> type[Mechanism] | None:
     """Return the class of the machine that a file names; None, noted, where there is none."""
     found = None
     with faults.at("machine"):
-        given = data.get("machine")
         if not isinstance(given, str) or not given:
             what = "the machine is missing" if given is None else f"{shortened(given)} is no name in quotes"
             raise DefinitionError(f'{what}; begin with machine = "three_point_hitch", a name of `hydrolinkage list` or a file.')

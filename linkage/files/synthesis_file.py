@@ -15,11 +15,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, final
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, known_name, unknown
 from ..mechanism import Mechanism
 from ..motion import stroke_measure
 from ..motion.kinds import measure_of
@@ -53,9 +53,9 @@ SYNTHESIS_OUTPUTS: Mapping[str, tuple[str, ...]] = {
 @final
 @dataclass(frozen=True, eq=False)
 class SynthesisFile:
-    """A synthesis that a file asks for: the machine, what `synthesise` takes, the steps of `round`, and the files of its results."""
+    """A synthesis that a file asks for: one machine or several, what `synthesise` takes, the steps of `round`, where results go."""
 
-    machine: Mechanism
+    machine: Mechanism | list[Mechanism]
     arguments: Mapping[str, Any]
     rounding: Mapping[str, float] | None
     outputs: Mapping[str, tuple[Path, ...]]
@@ -63,7 +63,8 @@ class SynthesisFile:
     def run(self, folder: str | os.PathLike[str] | None = None, progress: bool | Progress = False) -> Synthesis:
         """Return the machines that do the task; `folder` stands above the file's own."""
         own = self.arguments.get("folder")
-        return synthesise(self.machine, **{**self.arguments, "folder": folder or own}, progress=progress)
+        machine: Any = self.machine
+        return synthesise(machine, **{**self.arguments, "folder": folder or own}, progress=progress)
 
 
 def read_synthesis(
@@ -73,7 +74,7 @@ def read_synthesis(
 
     `find` returns a class by the machine's text; `settings` are dimensions that stand above those of the file.
     """
-    head = StudyHead.of(path, (SECTION, "outputs"), find, settings)
+    head = StudyHead.of(path, (SECTION, "outputs"), find, settings, several=True)
     faults, given = head.faults, head.data.get(SECTION)
     if not isinstance(given, Mapping):
         faults.add((SECTION,), 'a table is expected, [synthesis] with path = { of = "P", points = "points.csv" } and vary = { ... }.')
@@ -84,13 +85,11 @@ def read_synthesis(
             faults.add((SECTION, str(key)), str(unknown("Key", shortened(key, quote=False), SYNTHESIS_KEYS)))
     over = over_said(head, given["over"], SECTION) if "over" in given else None
     arguments: dict[str, Any] = {} if over is None else {"over": over}
-    arguments["subject_to"] = conditions_listed(head, given.get("subject_to", []), over, SECTION)
-    arguments["vary"] = vary_said(head, given.get("vary", {}), SECTION)
+    arguments |= varied_and_kept(head, given, over)
     readers: Mapping[str, Callable[[Any], Any]] = {
         "timed": timed_said,
-        "rank": lambda text: measure_said(text, head.machine, over),
         "case": lambda text: case_said(head, text),
-        "starts": lambda number: count_said(number, 1),
+        "starts": lambda given: given if given == "catalogue" else count_said(given, 1),
         "seed": lambda number: count_said(number, 0),
         "limit": lambda number: count_said(number, 1),
         "folder": head.path_of,
@@ -103,7 +102,46 @@ def read_synthesis(
     rounding = rounding_said(head, given.get("round"), SECTION)
     outputs = outputs_said(head, SYNTHESIS_OUTPUTS)
     faults.check()
-    return SynthesisFile(head.machine, arguments, rounding, outputs)
+    machine: Any = [*head.machines.values()] if head.machines else head.machine
+    return SynthesisFile(machine, arguments, rounding, outputs)
+
+
+def varied_and_kept(head: StudyHead, given: Mapping[str, Any], over: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Return what varies, what must be kept and what answers are ranked by; mistakes are noted.
+
+    Of several machines these are tables by the machines' names, or one thing for all; what `vary` leaves out the search chooses.
+    """
+    if not head.machines:
+        found = {key: read(head, given.get(key, {} if key == "vary" else []), over) for key, read in BY_CLASS.items() if key != "rank"}
+        return found | ({"rank": rank_said(head, given["rank"], over)} if "rank" in given else {})
+    several: dict[str, dict[type[Mechanism], Any]] = {}
+    for key, read in BY_CLASS.items():
+        for name, said in by_machine(head, given.get(key, {})).items():
+            with head.faults.at(SECTION, key):
+                machine = head.machines[known_name("Machine", name, head.machines)]
+                several.setdefault(key, {})[type(machine)] = read(replace(head, machine=machine), said, over)
+    return dict(several)
+
+
+def by_machine(head: StudyHead, given: object) -> Mapping[Any, Any]:
+    """Return what is said by the machines' names, the same of each where it is no table."""
+    return given if isinstance(given, Mapping) else dict.fromkeys(head.machines, given)
+
+
+def rank_said(head: StudyHead, given: object, over: Mapping[str, Any] | None) -> Any:
+    """Return the measure that answers are ranked by; None, noted, for what is none."""
+    found = None
+    with head.faults.at(SECTION, "rank"):
+        found = measure_said(given, head.machine, over)
+    return found
+
+
+BY_CLASS: Mapping[str, Callable[[StudyHead, Any, Any], Any]] = {
+    "vary": lambda head, given, over: vary_said(head, given, SECTION),
+    "subject_to": lambda head, given, over: conditions_listed(head, given, over, SECTION),
+    "rank": rank_said,
+}
+"""What may be said class by class, and what reads it."""
 
 
 def timed_said(given: object) -> Any:
@@ -130,14 +168,25 @@ def task_said(head: StudyHead, section: Mapping[str, Any], over: Mapping[str, An
         table = table_said(name, given)
         of: Any = None
         with head.faults.at(SECTION, name, "of"):
-            of = of_said(head, name, table.get("of"))
+            of = of_said(head, name, table.get("of")) if not head.machines else of_machines(head, name, table.get("of"))
         units: dict[str, float] = {}
         with head.faults.at(SECTION, name, "unit"):
             units = units_said(table["unit"]) if "unit" in table else {}
         with head.faults.at(SECTION, name, "points"):
             if of is not None:
                 values = points_said(table["points"], task_columns(head, name, of, over), units, head.base)
-                found[name] = task_of_values(name, table, of, values)
+                found[name] = task_of_values(name, table, of or None, values)
+    return found
+
+
+def of_machines(head: StudyHead, name: str, given: object) -> dict[type[Mechanism], Any]:
+    """Return whose path, values or poses are wanted of each class; nothing of a path where its machines name the point of their coupler."""
+    if given is None and name == "path":
+        return {}
+    found = {}
+    for machine, text in by_machine(head, given).items():
+        own = head.machines[known_name("Machine", machine, head.machines)]
+        found[type(own)] = of_said(replace(head, machine=own), name, text)
     return found
 
 
@@ -180,7 +229,8 @@ def task_columns(head: StudyHead, name: str, of: Any, over: Mapping[str, Any] | 
         return [*lengths, at]
     if name == "motion":
         return [*lengths, PointColumn(("angle",), "angle"), at]
-    return [at, PointColumn(("value", words_of(of)), measure_of(head.plan, of))]
+    first = next(iter(of.values())) if head.machines else of
+    return [at, PointColumn(("value", words_of(first)), measure_of(head.plan, first))]
 
 
 def task_of_values(name: str, given: Mapping[str, Any], of: Any, values: Mapping[str, Any]) -> Task:

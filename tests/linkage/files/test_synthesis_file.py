@@ -50,7 +50,10 @@ def test_points_in_the_file(tmp_path):
     assert_allclose(found["path"].points, POINTS * mm, rtol=1e-15)
     assert_allclose(found["path"].at, [12 * deg, 45 * deg, 2.0])
     assert found["timed"] is True and not found["path"].in_order and not found["path"].closed
-    assert read(tmp_path, 'path = { of = "P", points = [[1, 2], [2, 3], [2, 1]], closed = true }').arguments["path"].closed
+    text = HEAD.replace("starts = 4", 'starts = "catalogue"') + 'path = { of = "P", points = [[1, 2], [2, 3], [2, 1]], closed = true }'
+    (tmp_path / "task.toml").write_text(text, encoding="utf-8")
+    asked = read_synthesis(tmp_path / "task.toml", finder([])).arguments
+    assert asked["path"].closed and asked["starts"] == "catalogue"
     assert found["vary"]["OA"] == (0.02, 0.06) and found["starts"] == 4
 
 
@@ -61,6 +64,31 @@ def test_a_side_is_a_choice(tmp_path):
     assert vary["B.side"] == ["LEFT", "RIGHT"] and vary["OA"] == (0.02, 0.06)
     (tmp_path / "task.toml").write_text(text.replace("RIGHT", "UP"), encoding="utf-8")
     with pytest.raises(FileError, match=r"B\.side: 'UP' is no side"):
+        read_synthesis(tmp_path / "task.toml", finder([]))
+
+
+SEVERAL = """machine = ["four_bar", "slider_crank"]
+[synthesis]
+path = { of = "P", points = [[30, 60], [15, 70], [0, 72]], unit = "mm" }
+starts = 4
+subject_to = { four_bar = ["least(transmission(B)) >= 30 deg"] }
+rank = "-1 * least(transmission(B))"
+[synthesis.vary.four_bar]
+OA = "20 to 60 mm"
+"""
+
+
+def test_several_machines_are_told_class_by_class(tmp_path):
+    (tmp_path / "task.toml").write_text(SEVERAL, encoding="utf-8")
+    asked = read_synthesis(tmp_path / "task.toml", finder([]))
+    assert [type(each).__name__ for each in asked.machine] == ["FourBar", "SliderCrank"]
+    bar, crank = map(type, asked.machine)
+    assert asked.arguments["vary"] == {bar: {"OA": (0.02, 0.06)}}
+    held = asked.arguments["subject_to"]
+    assert set(held) == {bar} and str(held[bar][0]) == "least(transmission(B)) >= 0.523599"
+    assert set(asked.arguments["rank"]) == {bar, crank} == set(asked.arguments["path"].of)
+    (tmp_path / "task.toml").write_text(SEVERAL.replace("vary.four_bar", "vary.fourbar"), encoding="utf-8")
+    with pytest.raises(FileError, match=r"Machine 'fourbar' is unknown\. Did you mean four_bar"):
         read_synthesis(tmp_path / "task.toml", finder([]))
 
 

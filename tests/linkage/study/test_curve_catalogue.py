@@ -29,6 +29,7 @@ from linkage.study.curve_catalogue import catalogue_file
 from linkage.study.curve_class import CurveClass, CurveMeasure
 from mechanisms.classics.four_bar import FourBar, TripleRocker
 from mechanisms.classics.stephenson_one import StephensonOne
+from tests.benchmarks import bench_catalogue
 from tests.linkage.study.test_closed_curves import known_bars, pairs
 
 
@@ -294,3 +295,17 @@ def test_a_class_that_never_runs_says_so(monkeypatch):
     monkeypatch.setattr("linkage.study.curve_class.PATIENCE", 4)
     with pytest.raises(StudyError, match="of 448 designs none runs its whole turn"):
         curve_catalogue(FourBar(), "P", count=10)
+
+
+@pytest.mark.slow
+def test_two_hundred_closed_curves_are_found_again():
+    errors = bench_catalogue.found_again(curve_catalogue(FourBar(), "P", count=1 << 16), 200)
+    assert np.mean(errors <= 1e-9) >= 0.95
+
+
+@pytest.mark.slow
+def test_a_million_curves_are_made_and_each_finds_itself():
+    found = curve_catalogue(FourBar(), "P", count=1_000_000)
+    assert len(found) == 1_000_000
+    for number in np.random.default_rng(3).integers(len(found), size=20):
+        assert found.nearest(pairs(turned(found.design(number), "P", 720)), 1)[0].number == number

@@ -37,6 +37,7 @@ HOMES = {
     "save": "show:SaveCommand",
     "optimise": "optimise:OptimiseCommand",
     "synthesise": "synthesise:SynthesiseCommand",
+    "catalogue": "catalogue:CatalogueCommand",
     "study": "study:StudyCommand",
     "new": "new:NewCommand",
     "doctor": "doctor:DoctorCommand",

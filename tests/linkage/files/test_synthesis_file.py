@@ -57,6 +57,15 @@ def test_points_in_the_file(tmp_path):
     assert found["vary"]["OA"] == (0.02, 0.06) and found["starts"] == 4
 
 
+def test_it_may_begin_from_a_catalogue(tmp_path):
+    text = HEAD.replace("starts = 4", 'starts = "catalogue"') + 'path = { of = "P", points = [[1, 2], [2, 3], [2, 1]], closed = true }'
+    (tmp_path / "task.toml").write_text(text, encoding="utf-8")
+    assert read_synthesis(tmp_path / "task.toml", finder([])).arguments["starts"] == "catalogue"
+    (tmp_path / "task.toml").write_text(text.replace("catalogue", "atlas"), encoding="utf-8")
+    with pytest.raises(FileError, match="starts"):
+        read_synthesis(tmp_path / "task.toml", finder([]))
+
+
 def test_a_side_is_a_choice(tmp_path):
     text = HEAD.replace(" }\n", ', B = { side = ["LEFT", "RIGHT"] } }\n') + 'path = { of = "P", points = [[1, 2]] }'
     (tmp_path / "task.toml").write_text(text, encoding="utf-8")

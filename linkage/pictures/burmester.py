@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Polygon
 
 from ..language import said
+from ..motion.regions import Disc, Shape
 from ..program import FloatArray
 from ..study.exact_poses import Burmester, GuidingLink
 from . import style
@@ -32,7 +32,9 @@ def draw_burmester(found: Burmester) -> Figure:
     keys: list[Line2D] = []
     texts: list[str] = []
     if found.region is not None:
-        ax.add_patch(Polygon(found.region, closed=True, facecolor=style.GRID, edgecolor=style.RULE, zorder=0.5))
+        for level, shapes, colour in ((0.5, found.region.within, style.GRID), (0.6, found.region.without, style.PAPER)):
+            for shape in shapes:
+                ax.fill(*border_of(shape).T, facecolor=colour, edgecolor=style.RULE, zorder=level)
         keys.append(Line2D([], [], color=style.GRID, linewidth=8.0))
         texts.append(said("region of the fixed pivots"))
     points, centres = said("circle points"), said("centre points")
@@ -58,7 +60,8 @@ def draw_burmester(found: Burmester) -> Figure:
 
 def shown_box(found: Burmester) -> Bounds:
     """Return the box that is shown [m]: about poses, region, and the best machine's pins."""
-    parts = [found.poses[:, :2], *([found.region] if found.region is not None else [])]
+    shapes = found.region.within if found.region is not None else ()
+    parts = [found.poses[:, :2], *(shape.box for shape in shapes)]
     pins = best_pins(found)
     places = [link.places for link in found.links if any(np.allclose(link.point, pin) for pin in pins) or len(found.poses) == 5]
     centres = [link.centre[None] for link in found.links if len(found.poses) == 5 and not link.slides]
@@ -68,6 +71,14 @@ def shown_box(found: Burmester) -> Bounds:
     low, high = cloud[near].min(axis=0), cloud[near].max(axis=0)
     middle, half = 0.5 * (low + high), 0.5 * ROOM * np.maximum(high - low, 0.4 * float((high - low).max()) or 1.0)
     return float(middle[0] - half[0]), float(middle[0] + half[0]), float(middle[1] - half[1]), float(middle[1] + half[1])
+
+
+def border_of(shape: Shape) -> FloatArray:
+    """Return places along the border of a shape of a region (m, 2) [m]."""
+    if isinstance(shape, Disc):
+        turn = np.linspace(0.0, 2.0 * np.pi, 181)
+        return np.array([shape.x, shape.y]) + shape.radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    return np.array(shape.corners)
 
 
 def best_pins(found: Burmester) -> FloatArray:

@@ -16,7 +16,6 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import plugins
-from ..assembly.modes import sided_as
 from ..errors import DefinitionError, StudyError
 from ..frozen import read_only
 from ..language import said
@@ -27,9 +26,10 @@ from ..plugins import Plugins
 from ..program import FloatArray
 from ..quantities import Dimension, Member, Stroke, angle, ref
 from ..shown import Shown
-from ..steps import Guide, Step
+from ..steps import Guide
 from ..units import show
 from ..vectors import LEFT, RIGHT, Side
+from .sides import class_on_sides
 from .synthesis import TOLD, ranges
 
 ComplexArray: TypeAlias = npt.NDArray[np.complex128]
@@ -116,17 +116,14 @@ class ExactMachine(Shown):
     why: str
     is_ordered: bool
     turns_fully: bool
+    side: Side
     members: Mapping[str, Member] = field(repr=False)
     dimensions: Mapping[str, Any] = field(repr=False)
 
     @cached_property
     def machine(self) -> Mechanism:
         """The machine, of a variant of the shipped class of its name."""
-        base = shipped(self.name)
-        own = {"__doc__": "Found by exact algebra for a few points.", "__module__": base.__module__, "featured": featured_path}
-        make: Any = type(base)
-        variant: type[Mechanism] = make(base.__name__, (base,), {**own, **self.members})
-        return variant(**self.dimensions)
+        return exact_variant(self.name, int(self.side), self.members, self.dimensions)
 
     @property
     def runs(self) -> bool:
@@ -148,6 +145,19 @@ class ExactMachine(Shown):
 
     def __str__(self) -> str:
         return self.sentence
+
+
+def exact_variant(name: str, side: int, members: Mapping[str, Member], dimensions: Mapping[str, Any]) -> Mechanism:
+    """Return a design of the shipped class of a name, its dyad on a side, with some members of its own; one that goes through pickle."""
+    base = class_on_sides(shipped(name), {"B": Side(side)})
+
+    def reduce(machine: Mechanism) -> tuple[Any, ...]:
+        return exact_variant, (name, side, dict(members), machine.dimensions)
+
+    text = {"__doc__": "Found by exact algebra for a few points.", "__module__": base.__module__, "__qualname__": base.__qualname__}
+    make: Any = type(base)
+    made: type[Mechanism] = make(base.__name__, (base,), {**text, "featured": featured_path, "__reduce__": reduce, **members})
+    return made(**dimensions)
 
 
 def featured_path(machine: Mechanism) -> Featured:
@@ -278,11 +288,11 @@ def driven(crank: Pivoted, follower: Pivoted, asked: CouplerTask) -> ExactMachin
     lifted = np.array([each.lifted(driven_angles) for each in ways]).reshape(len(ways), -1)
     inside = np.array([each.holds(row) for each, row in zip(ways, lifted, strict=True)]).reshape(len(ways), -1)
     number = np.where(inside.any(axis=0), inside.argmax(axis=0), 0)
-    side = follower_sides(crank, follower) > 0.0
+    left = follower_sides(crank, follower) > 0.0
     fully = bool(ways) and ways[0].fully
-    circuit = side.astype(int) if fully else number
+    circuit = left.astype(int) if fully else number
     strokes, turn = strokes_at_points(ways, number, driven_angles, asked)
-    parts = [*zip(number.tolist(), side.tolist(), turn.tolist(), strict=True)]
+    parts = [*zip(number.tolist(), left.tolist(), turn.tolist(), strict=True)]
     most = max(dict.fromkeys(parts), key=parts.count)
     here = np.array([each == most for each in parts])
     piece = ways[most[0]] if ways else DrivenPiece(-pi, pi)
@@ -292,11 +302,12 @@ def driven(crank: Pivoted, follower: Pivoted, asked: CouplerTask) -> ExactMachin
     low, high = stroke_ends(piece, strokes, asked)
     rods = np.concatenate([abs(follower.places - crank.places), [coupler]])
     error = max(crank.error, follower.error, float(np.ptp(rods)), error_of_point(crank, follower, asked.points))
-    members, dimensions = variant_of(crank, follower, coupler, LEFT if most[1] else RIGHT, (low, high), asked)
+    side = LEFT if most[1] else RIGHT
+    members, dimensions = variant_of(crank, follower, coupler, (low, high), asked)
     kind = class_words(crank, follower, coupler)
     name = "slider_crank" if follower.slides else "four_bar"
     least = least_angle_at_follower(crank, follower, coupler, np.array([low, high]), piece)
-    return ExactMachine(name, read_only(strokes), error, least, kind, why, ordered, fully, members, dimensions)
+    return ExactMachine(name, read_only(strokes), error, least, kind, why, ordered, fully, side, members, dimensions)
 
 
 def follower_sides(crank: Pivoted, follower: Pivoted) -> FloatArray:
@@ -414,14 +425,13 @@ def error_of_point(crank: Pivoted, follower: Pivoted, points: ComplexArray) -> f
 
 
 def variant_of(
-    crank: Pivoted, follower: Pivoted, coupler: float, side: Side, ends: tuple[float, float], asked: CouplerTask
+    crank: Pivoted, follower: Pivoted, coupler: float, ends: tuple[float, float], asked: CouplerTask
 ) -> tuple[dict[str, Member], dict[str, Any]]:
     """Return the members by which a variant of the shipped class differs from it, and the dimensions of the design."""
     rod = follower.places[0] - crank.places[0]
     share = (asked.points[0] - crank.places[0]) / rod
     lengths = {"OA": crank.length, "AB": coupler, "AP": abs(share) * coupler, "BAP": float(np.angle(share))}
     members: dict[str, Member] = {"phi": Stroke(*ends)}
-    bar = shipped("four_bar")
     if asked.body is not None:
         theta0 = float(np.angle(rod * np.exp(-1j * asked.body[0])))
         members |= {"theta0": Dimension(theta0, "deg"), "theta": angle("A", "B") - ref("theta0")}
@@ -430,9 +440,7 @@ def variant_of(
     if follower.slides:
         rail = follower.places[0]
         members["rail"] = Guide((rail.real, rail.imag), angle=follower.direction)
-        members["P"] = copy(bar.plan.points["P"])
-    base = shipped("slider_crank") if follower.slides else bar
-    members["B"] = sided_as(base.plan.of_kind(Step)["B"], side)
+        members["P"] = copy(shipped("four_bar").plan.points["P"])
     fixed = {"O": crank.centre} if follower.slides else {"O": crank.centre, "C": follower.centre}
     places = {name: (place.real, place.imag) for name, place in fixed.items()}
     return members, lengths | places | ({} if follower.slides else {"CB": follower.length})

@@ -50,8 +50,9 @@ def freudenstein(pairs: Any, *, free: str = "follower", ground: float = 1.0) -> 
         frame = ground * np.exp(-1j * np.angle(u))  # turned so that the crank's angle is phi
         crank, follower = Pivoted(ground * abs(u) * p, 0.0), Pivoted(frame * (1.0 + v * s), complex(frame))
         if not is_without_links(crank, follower, ground):
-            points = 0.5 * (crank.places + follower.places)
-            asked = CouplerTask(points, given=rows[:, 0], follower_zero=float(np.angle(v * frame)))
+            first = int(np.argmin(rows[:, 0]))  # where a sweep begins, so that psi has no turn too many
+            zero = float(np.angle(follower.places[first] - follower.centre) - rows[first, 1])
+            asked = CouplerTask(0.5 * (crank.places + follower.places), given=rows[:, 0], follower_zero=zero)
             found.append(judged(crank, follower, asked, both_drives=False))
     title = said("Four-bars for {count} pairs of angles", count=len(rows))
     return exact_synthesis(title, found, max(len(rows) - 2, len(found)))

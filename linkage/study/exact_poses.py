@@ -6,6 +6,7 @@ Sources: Burmester, Lehrbuch der Kinematik, 1888; Sandor, Erdman, Advanced Mecha
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations
@@ -15,10 +16,11 @@ from typing import Any, final
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import DefinitionError, StudyError, cited
+from ..errors import DefinitionError, StudyError
 from ..frozen import read_only
 from ..language import said
 from ..mechanism import Mechanism
+from ..motion.regions import Disc, Region, region_of
 from ..program import FloatArray
 from ..shown import Shown
 from ..units import show
@@ -56,7 +58,7 @@ def burmester(poses: Any, region: Any = None, *, in_order: bool = True) -> Burme
     `poses` (n, 3) are x, y [m] and angle [rad] of the body, three to five of them, or a `PoseTask`. A link leads a point of the body, the
     circle point, about a fixed one, its centre point, or along a line. Of three poses each point has one: `found.link(point=)`,
     `found.link(centre=)`. Of four they lie on two cubics, `circle_curve` and `centre_curve`, which `draw(found)` shows; of five there are
-    none, two or four. `region` (k, 2) [m] is a polygon for the fixed pivots: `links` are picked in it, along the curves or on a grid.
+    none, two or four. `region` is one for the fixed pivots, as in `synthesise`: `links` are picked in it, along the curves or on a grid.
 
     `solutions` are the machines of all pairs of links that run through the poses on one branch, in order unless `in_order=False`, the
     greatest least transmission angle first; `misses` say why they do not. P and theta of a machine are the body's x, y and angle.
@@ -64,7 +66,7 @@ def burmester(poses: Any, region: Any = None, *, in_order: bool = True) -> Burme
     Raises DefinitionError for poses that coincide, do not turn, or are not as many.
     """
     rows = checked_poses(poses)
-    border = None if region is None else region_rows(region)
+    border = None if region is None else region_of(region, "burmester(region=...)")
     body = PosedBody(rows)
     loops = body.loops() if len(rows) == 4 else ()
     curves = [loop.at(STEPS_OF_LOOP) for loop in loops]
@@ -86,14 +88,6 @@ def checked_poses(poses: Any) -> FloatArray:
             raise DefinitionError(f"burmester: poses {one + 1} and {other + 1} are the same; give poses that differ.")
     if abs(turned - turned[0]).max() < 1e-9:
         raise DefinitionError("burmester: the poses do not turn, so that every point of the body moves alike; let the angles differ.")
-    return rows
-
-
-def region_rows(region: Any) -> FloatArray:
-    """Return the corners of a polygon (k, 2); DefinitionError for what is none."""
-    rows = table_of("burmester", "region", region, 2)
-    if len(rows) < 3:
-        raise DefinitionError(f"burmester(region={cited(region)}): a polygon of three corners or more is expected.")
     return rows
 
 
@@ -153,7 +147,7 @@ class Burmester(Shown):
     """
 
     poses: FloatArray
-    region: FloatArray | None
+    region: Region | None
     circle_curve: tuple[FloatArray, ...]
     centre_curve: tuple[FloatArray, ...]
     links: tuple[GuidingLink, ...]
@@ -280,6 +274,12 @@ class PosedBody:
         if not np.isfinite(point):
             raise StudyError("burmester: the circle point of this centre is at infinity; choose another centre.")
         return GuidingLink.of(self.places_of(point + self.z[0]), centre)
+
+    def link_or_none(self, centre: complex) -> GuidingLink | None:
+        """Return the link of a centre point of three poses; None where its circle point is at infinity."""
+        with suppress(StudyError):
+            return self.link_about(centre)
+        return None
 
     # -- four poses --
 
@@ -493,34 +493,34 @@ def as_points(places: ComplexArray) -> FloatArray:
 
 
 def links_picked(
-    body: PosedBody, curves: Sequence[tuple[ComplexArray, ComplexArray]], region: FloatArray | None
+    body: PosedBody, curves: Sequence[tuple[ComplexArray, ComplexArray]], region: Region | None
 ) -> list[GuidingLink]:
     """Return the links: of five poses all, of four along the curves, of three on a grid, those with their centre in the region."""
     count = len(body.rows)
     if count == 5:
         every = body.burmester_points()
-        return [each for each in every if region is None or lies_within(each.pivoted.centre, region)]
+        return [each for each in every if region is None or lies_within(np.array([each.pivoted.centre]), region)[0]]
     if count == 3:
         centres = () if region is None else grid_in(region)
-        return [body.link_about(complex(each)) for each in centres]
+        return [link for link in (body.link_or_none(complex(each)) for each in centres) if link is not None]
     border = around_poses(body) if region is None else region
     found = [GuidingLink.of(body.places_of(point), centre) for point, centre in places_along(curves, border, body.size)]
     slider = body.slider()
     return [*found, *([slider] if slider is not None else [])]
 
 
-def around_poses(body: PosedBody) -> FloatArray:
-    """Return the corners (4, 2) of a square about the poses."""
-    middle, half = body.z.mean(), AROUND * body.size
-    return np.array([(middle.real + sx * half, middle.imag + sy * half) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+def around_poses(body: PosedBody) -> Region:
+    """Return a circle about the poses."""
+    middle = body.z.mean()
+    return Region((Disc(middle.real, middle.imag, AROUND * body.size),), ())
 
 
-def places_along(curves: Sequence[tuple[ComplexArray, ComplexArray]], region: FloatArray, size: float) -> list[tuple[complex, complex]]:
+def places_along(curves: Sequence[tuple[ComplexArray, ComplexArray]], region: Region, size: float) -> list[tuple[complex, complex]]:
     """Return circle and centre points at equal steps along the parts of the centre-point curve in a region."""
     points, centres = (np.concatenate([curve[k] for curve in curves]) if curves else np.zeros(0, complex) for k in (0, 1))
     steps = np.concatenate([np.append(abs(np.diff(curve[1])), 0.0) for curve in curves]) if curves else np.zeros(0)
     with np.errstate(invalid="ignore"):
-        inside = np.array(lies_within(centres, region)) & (abs(points - centres) < 1e3 * size) & np.isfinite(points)
+        inside = lies_within(centres, region) & (abs(points - centres) < 1e3 * size) & np.isfinite(points)
     length = np.cumsum(np.where(inside, np.minimum(np.nan_to_num(steps), size), 0.0))
     if not inside.any() or not length[-1] > 0.0:
         return []
@@ -529,22 +529,17 @@ def places_along(curves: Sequence[tuple[ComplexArray, ComplexArray]], region: Fl
     return [(complex(points[k]), complex(centres[k])) for k in dict.fromkeys(places.tolist())]
 
 
-def grid_in(region: FloatArray) -> ComplexArray:
+def grid_in(region: Region) -> ComplexArray:
     """Return places on a grid within a polygon (m,)."""
-    low, high = region.min(axis=0), region.max(axis=0)
+    low, high = region.box
     x, y = (low[k] + (high[k] - low[k]) * (np.arange(GRID) + 0.5) / GRID for k in (0, 1))
     every = (x[:, None] + 1j * y[None, :]).ravel()
-    return np.asarray(every[np.array(lies_within(every, region))])
+    return np.asarray(every[lies_within(every, region)])
 
 
-def lies_within(places: Any, region: FloatArray) -> npt.NDArray[np.bool_]:
-    """Return whether complex places (m,) lie within a polygon (k, 2), by the edges that a ray to the right crosses."""
-    spots = np.asarray(places)[..., None]
-    one, other = region @ np.array([1.0, 1.0j]), np.roll(region, -1, axis=0) @ np.array([1.0, 1.0j])
-    with np.errstate(all="ignore"):
-        spans = (one.imag > spots.imag) != (other.imag > spots.imag)
-        across = one.real + (spots.imag - one.imag) * (other.real - one.real) / (other.imag - one.imag)
-        return np.asarray((spans & (spots.real < across)).sum(axis=-1) % 2 == 1)
+def lies_within(places: ComplexArray, region: Region) -> npt.NDArray[np.bool_]:
+    """Return whether complex places (m,) lie in a region."""
+    return np.asarray(region.depths(as_points(places).T) >= 0.0)
 
 
 def pair_machines(body: PosedBody, links: Sequence[GuidingLink], *, in_order: bool) -> ExactSynthesis:

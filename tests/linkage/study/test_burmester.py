@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import root
 
-from linkage import DefinitionError, PoseTask, StudyError, burmester, draw
+from linkage import DefinitionError, Outline, PoseTask, StudyError, burmester, draw, outside
 from tests.linkage.study.exact_tasks import bar_at, lengths
 
 POSES = [(0.0, 0.0, 0.0), (0.15, 0.05, -0.35), (0.27, 0.02, -0.80), (0.33, -0.10, -1.25)]
@@ -179,6 +179,15 @@ def test_no_link_of_five_poses_is_missed_that_a_search_finds():
     assert len(hits) > 1
 
 
+def test_a_region_is_that_of_a_search():
+    """A wheel is left out of it, as in `regions=` of a search."""
+    wheel = Outline.circle((0.1, -0.25), 0.12)
+    found = burmester(POSES, [BELOW, outside(wheel)])
+    far = np.array([np.hypot(*(link.centre - [0.1, -0.25])) for link in found.links if not link.slides])
+    assert len(far) > 10 and far.min() >= 0.12
+    assert draw(found).axes
+
+
 def test_poses_may_be_a_task():
     x, y, angle = np.transpose(POSES)
     one, other = burmester(PoseTask(x, y, angle, of="A B"), BELOW), burmester(POSES, BELOW)
@@ -205,7 +214,7 @@ def test_the_picture_has_both_curves_the_poses_and_the_region():
         (POSES[:2], None, "three to five"),
         ([*POSES[:3], POSES[0]], None, "poses 1 and 4 are the same"),
         ([(0, 0, 0), (1, 0, 0), (0, 1, 0)], None, "do not turn"),
-        (POSES, [(0, 0), (1, 1)], "three corners"),
+        (POSES, [(0, 0), (1, 1)], "burmester.region="),
         ([(0, 0), (1, 1), (2, 0)], None, "finite pairs"),
     ],
 )

@@ -188,7 +188,7 @@ class Fit:
         r, points, p = len(self.requests), strokes.shape[1], len(self.owners) + 1
         off = self.rows.off(np.moveaxis(found[1 : 1 + r], 0, 1)).reshape(len(at), r * points)
         shares = np.nan_to_num(found[1 + r :], posinf=0.0, neginf=0.0).reshape(r, p, len(at), points)
-        shares *= self.rows.weights[:, None, None, None]
+        shares *= self.rows.weights[:, None, None, None] * self.rows.asked[:, None, None, :]
         by_unit = np.einsum("vo,romn->mrnv", self.problem._by_owner, shares[:, :-1])
         by_own = self.timing.reach[1] * np.moveaxis(shares[:, -1], 0, 1)[..., None] * self.timing.moves
         return off, np.concatenate([by_unit, by_own], axis=-1).reshape(len(at), r * points, -1)

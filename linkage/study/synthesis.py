@@ -428,7 +428,10 @@ def machine_words(fit: Fit, machine: Mechanism, far: FloatArray, angle: float, j
 
 def miss_unit(fit: Fit) -> str:
     """Return the unit in which misses are shown."""
-    return "mm" if len(fit.requests) > 1 else display_unit(measure_of(fit.plan, fit.rows.quantities[0]), "mm")
+    measures = [measure_of(fit.plan, each) for each in fit.rows.quantities]
+    if len(measures) == 1:
+        return display_unit(measures[0], "mm")
+    return "mm" if measures[:2] == ["length"] * 2 else ""  # the angle of a pose counts by what a length does with it
 
 
 def circuit_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:

@@ -73,6 +73,8 @@ def misses_at(machine: Mechanism, rows: TaskRows, place: int) -> list[Any]:
     """Return how far each wanted quantity is off at a point, weighed, as quantities of a pose."""
     found = []
     for quantity, values, weight, turns in zip(rows.quantities, rows.wanted, rows.weights, rows.turns, strict=True):
+        if np.isnan(values[place]):
+            continue
         off = (ref(quantity) if isinstance(quantity, str) else quantity) - float(values[place])
         found.append(float(weight) * (np.arctan2(np.sin(off), np.cos(off)) if turns else off))
     return found

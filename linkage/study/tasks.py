@@ -13,6 +13,7 @@ from ..errors import DefinitionError, cited
 from ..frozen import read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..motion.kinds import measure_of
+from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import angle, is_number, real, x, y
 
@@ -20,7 +21,7 @@ from ..quantities import angle, is_number, real, x, y
 @final
 @dataclass(frozen=True, eq=False)
 class TaskRows:
-    """What a task wants: quantities, their values (r, n) [SI], the weight of each, and which of them count modulo a turn.
+    """What a task wants: quantities, their values (r, n) [SI], NaN where none, the weight of each, and which count modulo a turn.
 
     `is_path` says that the first two are the coordinates of one point, and no other; `is_closed` that this path is a closed curve.
     """
@@ -40,12 +41,17 @@ class TaskRows:
     @property
     def size(self) -> float:
         """How large the task is [SI]: the largest of what its values differ by, or are, weighed."""
-        spans = np.ptp(self.wanted, axis=1) * self.weights
-        return float(spans.max()) or float(np.abs(self.wanted).max()) or 1.0
+        spans = (np.nanmax(self.wanted, axis=1) - np.nanmin(self.wanted, axis=1)) * self.weights
+        return float(spans.max()) or float(np.nanmax(np.abs(self.wanted))) or 1.0
+
+    @property
+    def asked(self) -> Mask:
+        """Which values are wanted (r, n)."""
+        return np.isfinite(self.wanted)
 
     def off(self, values: FloatArray) -> FloatArray:
         """Return how far values (m, r, n) are off, weighed, shape (m, r, n): angles modulo a turn."""
-        found = values - self.wanted
+        found = np.where(self.asked, values - self.wanted, 0.0)
         turn = 2.0 * np.pi * self.turns[:, None]
         whole = np.round(found / np.where(turn > 0.0, turn, 1.0))
         return np.asarray((found - turn * whole) * self.weights[:, None])
@@ -94,23 +100,40 @@ class PathTask:
 class FunctionTask:
     """Values that an output or a quantity is to have at strokes: `FunctionTask([0.0, 0.1], [0.0, 5 * deg], of="tilt")`, (n,) each [SI].
 
-    Angles count modulo a turn. For several classes `of` may be a dictionary, class by class.
+    Several quantities at the same strokes are a list, with a row of values for each, NaN where one is not wanted:
+    `FunctionTask([0.0, 0.1], [[0.0, 0.09], [1.2, nan]], of=["tilt", ratio("tilt")])`; the first one is wanted at every stroke. A miss of
+    each counts in parts of `within`, one for each quantity, by default 1 in SI. Angles count modulo a turn. For several
+    classes `of`, of one quantity, may be a dictionary, class by class.
     """
 
     at: FloatArray | None
     values: FloatArray
     of: Any
+    others: tuple[tuple[Any, FloatArray], ...]
+    within: FloatArray
     in_order: bool
 
-    def __init__(self, strokes: Any, values: Any, of: Any) -> None:
-        found = table_of(f"FunctionTask(of={cited(of)})", "values", values, 0)
-        vars(self).update(values=found, of=of, at=timed_strokes("FunctionTask", strokes, len(found)), in_order=True)
+    def __init__(self, strokes: Any, values: Any, of: Any, *, within: Any = None) -> None:
+        several = isinstance(of, (list, tuple))
+        quantities = list(of) if several else [of]
+        what = f"FunctionTask(of={cited(of)})"
+        rows = rows_of_values(what, values, len(quantities)) if several else [table_of(what, "values", values, 0)]
+        if within is None:
+            scale: FloatArray = np.ones(len(quantities))
+        else:
+            scale = table_of(what, "within", within if several else [within], 0)
+        if len(scale) != len(quantities) or not (scale > 0.0).all():
+            raise DefinitionError(f"{what}: within={cited(within)}: a number above zero for each quantity is expected, in SI.")
+        others = tuple(zip(quantities[1:], rows[1:], strict=True))
+        at = timed_strokes("FunctionTask", strokes, len(rows[0]))
+        vars(self).update(values=rows[0], of=quantities[0], others=others, within=read_only(scale), at=at, in_order=True)
 
     def rows(self, machine: Mechanism) -> TaskRows:
         """Return what is wanted of a machine."""
-        of = task_named_in(machine, self).of
-        turns = measure_of(machine.plan, of) == "angle"
-        return TaskRows((of,), read_only(self.values[None]), np.ones(1), np.full(1, float(turns)), False)
+        quantities = (task_named_in(machine, self).of, *(each for each, _ in self.others))
+        turns = np.array([float(measure_of(machine.plan, each) == "angle") for each in quantities])
+        wanted = np.stack([self.values, *(row for _, row in self.others)])
+        return TaskRows(quantities, read_only(wanted), 1.0 / self.within, turns, False)
 
 
 @final
@@ -196,6 +219,23 @@ def table_of(what: str, name: str, given: Any, width: int) -> FloatArray:
         rows = f"pairs (x, y), shape (n, {width})" if width else "numbers in a row, shape (n,)"
         raise DefinitionError(f"{what}: {name}={cited(given)}: finite {rows}, are expected, in SI.")
     return read_only(np.array(found, float))
+
+
+def rows_of_values(what: str, given: Any, count: int) -> list[FloatArray]:
+    """Return a row of values (n,) for each of some quantities, the first without NaN; DefinitionError for anything else."""
+    rows = list(given) if isinstance(given, (list, tuple, np.ndarray)) else []
+    if not count or len(rows) != count:
+        raise DefinitionError(f"{what}: {len(rows)} rows of values for {count} quantities; give a row for each.")
+    first, *others = rows
+    found = [table_of(what, "values", first, 0)]
+    for each in others:
+        row = np.array(each, float) if isinstance(each, (list, tuple, np.ndarray)) else np.empty(())
+        missing = np.isnan(row) if row.shape == found[0].shape else np.ones(1, bool)
+        if missing.all():
+            raise DefinitionError(f"{what}: values={cited(each)}: {len(found[0])} numbers are expected, NaN where nothing is wanted.")
+        table_of(what, "values", row[~missing], 0)
+        found.append(read_only(row))
+    return found
 
 
 def timed_strokes(what: str, given: Any, count: int) -> FloatArray | None:

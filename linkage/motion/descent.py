@@ -3,62 +3,115 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeAlias
+from dataclasses import dataclass
+from typing import TypeAlias, final
 
 import numpy as np
 
+from ..plan import Mask
 from ..program import FloatArray
 from .line import Index
 
-LEAST = 1e-13
+LEAST = 1e-14
 """The damping of a step, at least: with it a singular system of equations has a solution."""
+EASED, GROWTH = 0.5, 2.0
+"""What the damping is multiplied with after a step that is taken, and after one that is refused, twice as much after each more in a row."""
+PROBE = 0.1
+"""The part of a step at which is looked how the misses bend."""
+MOST_BENT = 0.75
+"""A bend counts where twice its length is at most this part of the step's."""
 
 Look: TypeAlias = Callable[[FloatArray, Index], FloatArray]
 """What is seen at unit coordinates (m, k) of the starts with these numbers (m,): misses (m, targets), or their slopes (m, targets, k)."""
 
 
 def descended(
-    misses: Look, slopes: Look, unit: FloatArray, steps: int, *, enough: float = 0.0, begin: float = 1e-3, settled: float = -1.0
+    misses: Look,
+    slopes: Look,
+    unit: FloatArray,
+    steps: int,
+    *,
+    enough: float = 0.0,
+    begin: float = 1e-3,
+    settled: float = -1.0,
+    ahead: Look | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Return where the misses are least near each start, unit coordinates (m, k), and the misses there (m, targets).
 
     A start ends where its steps do, where all its misses are at most `enough`, or where a step changes the sum of their squares by no more
-    than the part `settled` of it. `begin` is the damping of the first step.
-    Source: Nocedal, Wright, Numerical Optimization, 2nd ed., 10.3; a coordinate that a step would take out of the box is held.
+    than the part `settled` of it. `begin` is the damping of the first step. With `ahead`, the misses at a part of a step, steps bend as
+    the misses do, so that narrow valleys are followed by long ones.
+    Sources: Nocedal, Wright, Numerical Optimization, 2nd ed., 10.3; a coordinate that a step would take out of the box is held.
+    H. B. Nielsen, Damping parameter in Marquardt's method (1999): the damping grows faster with every step in a row that is refused.
+    M. K. Transtrum, J. P. Sethna, Improvements to the Levenberg-Marquardt algorithm (2012): the bend, or geodesic acceleration.
     """
     unit = unit.copy()
     off = misses(unit, np.arange(len(unit)))
-    damping, going = np.full(len(unit), begin), np.arange(len(unit)) if unit.shape[1] else np.arange(0)
+    damping, growth = np.full(len(unit), begin), np.full(len(unit), GROWTH)
+    going = np.arange(len(unit)) if unit.shape[1] else np.arange(0)
     for _ in range(steps):
         if not len(going):
             break
-        new = damped_steps(unit[going], off[going], slopes(unit[going], going), damping[going])
+        now, missed = unit[going], off[going]
+        system = DampedSystem.of(now, missed, slopes(now, going), damping[going])
+        bend = 0.0 if ahead is None else system.bend(missed, ahead(now + PROBE * system.step, going))
+        new = np.clip(now + system.step + bend, 0.0, 1.0)
         found = misses(new, going)
-        new_size, size = np.sum(found**2, axis=1), np.sum(off[going] ** 2, axis=1)
+        new_size, size = np.sum(found**2, axis=1), np.sum(missed**2, axis=1)
         better, still = new_size < size, np.abs(new_size - size) <= settled * size
-        moved = np.abs(new - unit[going]).max(axis=1)
+        moved = np.abs(new - now).max(axis=1)
         unit[going[better]], off[going[better]] = new[better], found[better]
-        damping[going] = np.where(better, np.maximum(damping[going] * 0.1, LEAST), damping[going] * 5.0)
+        damping[going] = np.where(better, np.maximum(damping[going] * EASED, LEAST), damping[going] * growth[going])
+        growth[going] = np.where(better, GROWTH, growth[going] * GROWTH)
         going = going[~still & (moved > 1e-14) & (damping[going] < 1e12) & (np.abs(off[going]).max(axis=1) > enough)]
     return unit, off
 
 
-def damped_steps(unit: FloatArray, off: FloatArray, slopes: FloatArray, damping: FloatArray) -> FloatArray:
-    """Return where a step of Levenberg and Marquardt leads from unit coordinates (m, k), within the box."""
-    m, k = unit.shape
-    slopes = np.where(np.isfinite(slopes), slopes, 0.0)
-    size = np.sqrt(np.sum(slopes**2, axis=1))
-    slopes = slopes / np.where(size > 0.0, size, 1.0)[:, None]  # every coordinate by its own effect
-    turned = slopes.transpose(0, 2, 1)
-    pull, matrix = (turned @ off[:, :, None])[:, :, 0], turned @ slopes
-    free = np.ones((m, k), bool)
-    step: FloatArray = np.zeros((m, k))
-    for _ in range(k + 1):  # coordinates that would leave the box are held, one round after the other
-        both = free[:, :, None] & free[:, None, :]
-        system = np.where(both, matrix, 0.0) + np.eye(k) * np.where(free & (size > 0.0), damping[:, None], 1.0)[:, :, None]
-        step = np.asarray(-np.linalg.solve(system, np.where(free, pull, 0.0)[:, :, None])[:, :, 0], float)
-        leaving = free & (((unit <= 0.0) & (step < 0.0)) | ((unit >= 1.0) & (step > 0.0)))
-        if not leaving.any():
-            break
-        free &= ~leaving
-    return np.clip(unit + np.where(free & (size > 0.0), step / np.where(size > 0.0, size, 1.0), 0.0), 0.0, 1.0)
+@final
+@dataclass(frozen=True, eq=False)
+class DampedSystem:
+    """The linear equations of a step of Levenberg and Marquardt from unit coordinates (m, k), and their solution, the `step` (m, k).
+
+    `slopes` (m, targets, k) are in parts of each coordinate's own effect `size` (m, k); `free` (m, k) are the coordinates that move.
+    """
+
+    slopes: FloatArray
+    size: FloatArray
+    free: Mask
+    matrix: FloatArray
+    step: FloatArray
+
+    @classmethod
+    def of(cls, unit: FloatArray, off: FloatArray, slopes: FloatArray, damping: FloatArray) -> DampedSystem:
+        """Return the equations at misses (m, targets); a coordinate that the step would take out of the box is held."""
+        k = unit.shape[1]
+        slopes = np.where(np.isfinite(slopes), slopes, 0.0)
+        length = np.sqrt(np.sum(slopes**2, axis=1))
+        size = np.where(length > 0.0, length, 1.0)
+        slopes = slopes / size[:, None]
+        turned = slopes.transpose(0, 2, 1)
+        pull, squares = (turned @ off[:, :, None])[:, :, 0], turned @ slopes
+        free = length > 0.0
+        while True:  # coordinates that would leave the box are held, one round after the other
+            both = free[:, :, None] & free[:, None, :]
+            matrix = np.where(both, squares, 0.0) + np.eye(k) * np.where(free, damping[:, None], 1.0)[:, :, None]
+            step = damped_solution(matrix, np.where(free, -pull, 0.0)) / size
+            leaving = free & (((unit <= 0.0) & (step < 0.0)) | ((unit >= 1.0) & (step > 0.0)))
+            if not leaving.any():
+                return cls(slopes, size, free, matrix, step)
+            free &= ~leaving
+
+    def bend(self, off: FloatArray, ahead: FloatArray) -> FloatArray:
+        """Return what the curvature of the misses adds to the step (m, k), from the misses at a part of it; nothing where that is large."""
+        along = (self.slopes @ (self.step * self.size)[:, :, None])[:, :, 0]
+        curved = (2.0 / PROBE) * ((ahead - off) / PROBE - along)
+        known = np.asarray(np.isfinite(curved).all(axis=1))
+        pull = (self.slopes.transpose(0, 2, 1) @ np.where(known[:, None], curved, 0.0)[:, :, None])[:, :, 0]
+        bend = 0.5 * damped_solution(self.matrix, np.where(self.free, -pull, 0.0)) / self.size
+        far, straight = (np.linalg.norm(each * self.size, axis=1) for each in (bend, self.step))
+        return np.where(np.asarray(4.0 * far <= MOST_BENT * straight)[:, None], bend, 0.0)
+
+
+def damped_solution(matrix: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the solutions (m, k) of linear equations, matrices (m, k, k) that are damped."""
+    return np.asarray(np.linalg.solve(matrix, right[:, :, None])[:, :, 0], float)

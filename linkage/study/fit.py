@@ -231,7 +231,12 @@ class Fit:
             found[:, :, [*held]] = 0.0
             return found
 
-        found, off = descended(misses, slopes, at, steps, enough=ENOUGH * self.rows.size, settled=SETTLED)
+        def ahead(unit: FloatArray, which: Index) -> FloatArray:
+            return self.misses(unit, base[which])
+
+        enough = ENOUGH * self.rows.size
+        bent = ahead if through is None else None
+        found, off = descended(misses, slopes, at, steps, enough=enough, settled=SETTLED, ahead=bent)
         return found, squared(off)
 
     def errors(self, at: FloatArray, base: FloatArray) -> FloatArray:

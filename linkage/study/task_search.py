@@ -45,7 +45,7 @@ from .synthesis import (
     poorest_transmission,
     told_error,
 )
-from .task_work import STEPS, Combination, DescentWork, LayWork, LookWork, PolishWork, SearchRows, Stages, Through
+from .task_work import RACE, STEPS, Combination, DescentWork, LayWork, LookWork, PolishWork, RaceWork, SearchRows, Stages, Through
 from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, task_named_in, task_of, timed_as
 
 STARTS = 64
@@ -57,6 +57,13 @@ CLOSE, KEEPING, HOPE = 512, 16, 1.2
 searched on from where its error is at most so many times the best."""
 ENOUGH_GOOD = 6
 """Ends that are answers: with so many no others are looked for that are worse than the best of them."""
+RACING = 6
+"""Times as many starts as are asked for make their first steps; the best of them go on."""
+NEARLY, HOPS, HOPPED, EACH_HOP = 1e-4, 6, 8, 8
+"""Of a task's size: where the best answer misses by no more, yet is not exact, searches begin again about the best few answers, so many
+about each, and so many times while that helps: near an exact design there are many that come close to the task."""
+HOP = 0.02
+"""How far from an answer they begin, of a side of the box, as a standard deviation."""
 ANSWERS = 24
 """Answers that are judged at the most."""
 
@@ -308,8 +315,20 @@ class TaskSearch:
         laid = stages.done("lay", LayWork(*self.shared, self.timed, likeness, running), rows)
         found = []
         for (_, own), each, fit, runs in zip(parts, found_of_parts(laid, parts), fits, whole, strict=True):
-            places = standing_apart(own["unit"], each["error"], self.many)
+            places = standing_apart(own["unit"], each["error"], RACING * self.many)
             found.append(Starts(fit, each["at"][places], each["base"][places], int(runs.sum()), self.that_keep(fit, each)))
+        return self.raced(stages, found)
+
+    def raced(self, stages: Stages, first: Sequence[Starts]) -> list[Starts]:
+        """Return as many of the starts as are asked for, the best after their first steps."""
+        parts = [(each.fit.combination, {"at": each.at, "base": each.base}) for each in first]
+        rows = SearchRows.joined(parts)
+        if self.most(rows.count) < 4 * 3 * RACE:  # a limit is better spent on the best
+            return [Starts(each.fit, each.at[: self.many], each.base[: self.many], each.running, each.keeping) for each in first]
+        found = []
+        for each, own in zip(first, found_of_parts(stages.done("race", RaceWork(*self.shared), rows), parts), strict=True):
+            places = standing_apart(own["at"][:, : each.fit.n], own["error"], self.many)
+            found.append(Starts(each.fit, own["at"][places], each.base[places], each.running, each.keeping))
         return found
 
     def that_keep(self, fit: Fit, laid: Mapping[str, Array]) -> Starts:
@@ -340,6 +359,7 @@ class TaskSearch:
                 kept[begun.fit] = self.ends_of(begun.fit, at, begun.base)
             for each in found:
                 each += [kept[each[0].fit]] if each[0].fit in kept else []
+        self.hop(stages, found)
         stepped = [place for place, each in enumerate(self.problem.space.variables) if each.step is not None]
         if stepped:
             return [self.on_steps(each, stepped) for own in found for each in own]
@@ -350,6 +370,39 @@ class TaskSearch:
             self.polished(stages, wave, ways)
             wave += 1
         return [each for own, way in zip(found, ways, strict=True) for each in [*own, *way.ends]]
+
+    def hop(self, stages: Stages, found: Sequence[list[Ends]]) -> None:
+        """Add what searches come to that begin again about the best answers, where these are nearly exact."""
+        best, before = self.best_of(found), np.inf
+        for wave in range(HOPS):
+            if not exact_error(self.rows) < best <= self.rows.count * (NEARLY * self.rows.size) ** 2 or best > 0.5 * before:
+                break
+            if self.problem.count.is_spent:
+                break
+            again = [self.about_best(own, wave) for own in found]
+            for own, begun, at in zip(found, again, self.descended(stages, "free", again, name=f"hop {wave}"), strict=True):
+                own.append(self.ends_of(begun.fit, at, begun.base))
+            best, before = self.best_of(found), best
+
+    def best_of(self, found: Sequence[Sequence[Ends]]) -> float:
+        """Return the least error of what runs, keeps the conditions and comes to the points in order [SI^2]."""
+        return min([np.inf, *(float(one) for own in found for each in own for one in each.error[self.good_in_order(each)])])
+
+    def about_best(self, own: Sequence[Ends], wave: int) -> Starts:
+        """Return starts about the best answers of a combination that stand apart."""
+        fit, random = own[0].fit, np.random.default_rng([self.seed, wave])
+        ranked = sorted(
+            ((float(each.error[k]), each.at[k], each.base[k]) for each in own for k in np.flatnonzero(self.good_in_order(each))),
+            key=lambda one: one[0],
+        )
+        chosen: list[tuple[FloatArray, FloatArray]] = []
+        for _, at, base in ranked:
+            if len(chosen) < HOPPED and not any(np.abs(at[: fit.n] - other[: fit.n]).max(initial=0.0) < NEAR for other, _ in chosen):
+                chosen.append((at, base))
+        at, base = (np.array([each[part] for each in chosen for _ in range(EACH_HOP)]) for part in (0, 1))
+        at = at.reshape(-1, fit.n + fit.width)
+        at[:, : fit.n] = np.clip(at[:, : fit.n] + HOP * random.standard_normal((len(at), fit.n)), 0.0, 1.0)
+        return Starts(fit, at, base.reshape(len(at), -1), 0)
 
     def that_run_first(self, first: Starts, ends: Ends) -> Starts:
         """Return the starts that run over the whole stroke, of searches that come to what does not.
@@ -364,11 +417,11 @@ class TaskSearch:
             away = away[first.fit.whole(first.at[away])] if len(away) else away
         return Starts(first.fit, first.at[away], first.base[away])
 
-    def descended(self, stages: Stages, name: Through, first: Sequence[Starts], told: int = 0) -> list[FloatArray]:
-        """Return where local searches end, or where they stand when the limit is reached."""
+    def descended(self, stages: Stages, through: Through, first: Sequence[Starts], told: int = 0, *, name: str = "") -> list[FloatArray]:
+        """Return where local searches end, or where they stand when the limit is reached; `name` is the stage's where it is another."""
         parts = [(each.fit.combination, {"at": each.at, "base": each.base}) for each in first]
         rows = SearchRows.joined(parts)
-        found = stages.done(name, DescentWork(*self.shared, name, self.most(rows.count)), rows, told=told)
+        found = stages.done(name or through, DescentWork(*self.shared, through, self.most(rows.count)), rows, told=told)
         return [each["at"] for each in found_of_parts(found, parts)]
 
     def polished(self, stages: Stages, wave: int, ways: Sequence[Polishing]) -> None:

@@ -22,12 +22,17 @@ from .problem import Problem
 from .solver import Local
 from .starts import Likeness, laid_designs, poses_of
 from .survey import Executor, Progress, SurveyRun
+from .synthesis import exact_error
 from .tasks import TaskRows
 
 STEPS, TURNS = 60, 5
 """Steps of a local search between two looks at the limit, and how many times so many."""
 LOOKS = 3000
 """Designs that a search with conditions looks at, at the most: where it creeps along a wall, what it has by then is taken."""
+LONGER, FARTHER, WORTH = 16, 15, 0.9
+"""Of a piece the best ends that go on, how many times more, while their error comes down to this part: valleys may be long."""
+RACE = 10
+"""Steps of a race, after which the best go on."""
 
 Combination = tuple[int, ...]
 Through: TypeAlias = Literal["free", "running", "keeping"]
@@ -179,13 +184,33 @@ class DescentWork(FitWork):
         at, base = np.array(rows["at"]), rows["base"]
         error, going = fit.errors(at, base), np.arange(len(at))
         through = {"free": None, "running": fit.whole, "keeping": fit.keeping}[self.through]
-        for _ in range(TURNS):
+        for turn in range(TURNS + FARTHER):
+            if turn >= TURNS:
+                going = going[np.isin(going, np.argsort(error, kind="stable")[:LONGER]) & (error[going] > exact_error(self.rows))]
             if not len(going) or fit.problem.count.designs >= self.most * len(at):
                 break
             before = error[going]
             at[going], error[going] = fit.descend(at[going], base[going], STEPS, through=through)
-            going = going[error[going] < (1.0 - 1e-9) * before]
+            going = going[error[going] < (1.0 - 1e-9 if turn < TURNS else WORTH) * before]
         return {"at": at}
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class RaceWork(FitWork):
+    """The first steps of local searches, for those that run then; with the `error` where each stands."""
+
+    piece: ClassVar[int] = 64
+
+    @property
+    def facts(self) -> str:
+        return f"{super().facts} {RACE}"
+
+    def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
+        at, base = rows["at"], rows["base"]
+        raced, error = fit.descend(at, base, RACE)
+        runs = fit.whole(raced) & np.isfinite(error)
+        return {"at": np.where(runs[:, None], raced, at), "error": np.where(runs, error, fit.errors(at, base))}
 
 
 @final

@@ -1,0 +1,42 @@
+"""Synthesis finds random machines of eight classes again from their own paths, judged without the package."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from tests.linkage.study.known_machines import CLASSES, KINDS, along_stroke, known_task
+
+EACH = 25
+"""Machines of a class, of seeds in a row, whose tasks are timed, untimed and closed by turns."""
+AGAIN = 1e-9
+"""Of a path's size: what an answer may miss at its worst point."""
+
+
+def found_again(name, seed, **options):
+    """Return how far the best answer for a random machine's path misses, in parts of its size."""
+    task = known_task(CLASSES[name], KINDS[seed % len(KINDS)], seed)
+    return task.exact(task.found(**options))
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_the_evaluators_stand_where_the_classes_do(name):
+    known = CLASSES[name]
+    machine, (stroke, ends) = known.kind(), known.stroke()
+    strokes = np.linspace(*ends, 31)
+    place = known.places(machine, strokes)
+    assert_allclose([place.real, place.imag], machine.at(**{stroke: strokes})[known.of], rtol=0, atol=1e-13)
+    assert np.isfinite(along_stroke(known, machine)).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "seed"), [("four-bar", 1), ("slider-crank", 0), ("Klann, of parts", 2), ("a tailgate of a user's own", 0)]
+)
+def test_a_known_machine_is_found_again(name, seed):
+    assert found_again(name, seed, starts=16) <= AGAIN
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CLASSES)
+def test_known_machines_are_found_again(name):
+    missed = [seed for seed in range(EACH) if not found_again(name, seed) <= AGAIN]
+    assert len(missed) <= 1, missed

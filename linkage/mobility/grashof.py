@@ -24,6 +24,16 @@ class FourBar:
     follower: float
 
     @property
+    def lengths(self) -> tuple[float, float, float, float]:
+        """Its four lengths [m]."""
+        return self.ground, self.crank, self.coupler, self.follower
+
+    @property
+    def margin(self) -> float:
+        """By how much the shortest and the longest link are together shorter than the other two [m]; nothing at a change point."""
+        return sum(self.lengths) - 2.0 * (min(self.lengths) + max(self.lengths))
+
+    @property
     def kind(self) -> str:
         """The Grashof class in words."""
         return grashof(self.ground, self.crank, self.coupler, self.follower)

@@ -29,8 +29,9 @@ from ..shown import Shown
 from ..steps import Guide
 from ..units import show
 from ..vectors import LEFT, RIGHT, Side
+from .defects import point_ranges
 from .sides import class_on_sides
-from .synthesis import TOLD, ranges
+from .synthesis import TOLD
 
 ComplexArray: TypeAlias = npt.NDArray[np.complex128]
 
@@ -383,7 +384,7 @@ def why_not(parts: Sequence[tuple[int, bool, int]], circuit: npt.NDArray[np.int_
 
 def point_numbers(mask: Any) -> str:
     """Return the numbers of points, counted from 1, as text."""
-    return ranges((np.flatnonzero(mask) + 1).tolist())
+    return point_ranges((np.flatnonzero(mask) + 1).tolist())
 
 
 def class_words(crank: Pivoted, follower: Pivoted, coupler: float) -> str:

@@ -19,13 +19,13 @@ from ..motion import stroke_display_unit
 from ..motion.judging import transmissions
 from ..motion.kinds import measure_of
 from ..motion.measures import Measure
-from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import is_number
 from ..shown import Shown
 from ..units import deg, display_unit, factor, mm, show, shown_in
 from ..vectors import Side
 from .checks import unit_of
+from .defects import change_point_words, in_order, order_words
 from .fit import Fit
 from .optimum import steps_about
 from .problem import Problem
@@ -34,8 +34,6 @@ from .sides import ENDING, is_side
 from .task_error import squares_near
 from .tasks import Task, TaskRows
 
-RUN = 721
-"""Poses of a stroke at which is looked where a machine that does not run can be assembled."""
 MOST_ROUNDINGS = 1024
 TOLD = 3
 """Answers that a sentence lists, and machines that do not run."""
@@ -383,14 +381,6 @@ def misses_of(fit: Fit, at: FloatArray, base: FloatArray) -> tuple[FloatArray, F
     return fit.timing.within(strokes[0]), values[0], far
 
 
-def in_order(fit: Fit, at: FloatArray, base: FloatArray) -> bool:
-    """Return whether a design comes to the points one after the other, to either side, within one turn or the stroke."""
-    strokes = fit.timing.strokes(base[None], at[None, fit.n :])[0]
-    steps = np.diff(strokes) * (1.0 if strokes[-1] >= strokes[0] else -1.0)
-    wide = abs(fit.timing.span)
-    return bool((steps >= -1e-9 * wide).all() and abs(strokes[-1] - strokes[0]) <= (1.0 + 1e-9) * wide)
-
-
 def poorest_transmission(machine: Mechanism, over: Any) -> tuple[float, str]:
     """Return the least transmission angle of a machine's joints [rad], and of which; NaN without one."""
     judge = machine.judge(over)
@@ -402,8 +392,10 @@ def poorest_transmission(machine: Mechanism, over: Any) -> tuple[float, str]:
     return value, name
 
 
-def machine_words(fit: Fit, machine: Mechanism, far: FloatArray, angle: float, joint: str, *, ordered: bool) -> str:
-    """Return an answer in words: its misses, order, circuit, Grashof class and least transmission angle."""
+def machine_words(
+    fit: Fit, machine: Mechanism, at: FloatArray, base: FloatArray, far: FloatArray, angle: float, joint: str
+) -> str:
+    """Return an answer in words: its misses, order, circuit, Grashof class, least transmission angle, and how near to a change point."""
     unit = miss_unit(fit)
     rms, worst = float(np.sqrt(np.mean(far**2))), int(np.argmax(far))
     parts = [
@@ -414,15 +406,17 @@ def machine_words(fit: Fit, machine: Mechanism, far: FloatArray, angle: float, j
     ]  # fmt: skip
     parts.append(
         said("all {count} points in order, on one circuit and one branch", count=len(far))
-        if ordered
-        else said("all {count} points on one circuit and one branch, in an order of their own", count=len(far))
+        if in_order(fit, at, base)
+        else said(
+            "all {count} points on one circuit and one branch, in the order {order}", count=len(far), order=order_words(fit, at, base)
+        )
     )
     parts += [f"{name}{ENDING} = {side}" for name, side in fit.space.sides(fit.combination).items()]
-    parts += [str(each) for each in machine.four_bars]
+    four_bars = machine.four_bars
+    parts += [str(each) for each in four_bars]
     if np.isfinite(angle):
         parts.append(said("least transmission angle {angle}, of {joint}", angle=show(angle, "deg", 3), joint=joint))
-    if np.isfinite(angle) and angle < CLOSEST_CHANGE_POINT:
-        parts.append(said("it passes a change point"))
+    parts += change_point_words(angle, four_bars)
     return "; ".join(parts) + "."
 
 
@@ -432,30 +426,6 @@ def miss_unit(fit: Fit) -> str:
     if len(measures) == 1:
         return display_unit(measures[0], "mm")
     return "mm" if measures[:2] == ["length"] * 2 else ""  # the angle of a pose counts by what a length does with it
-
-
-def circuit_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
-    """Return where a design cannot be assembled over its stroke, and which points lie on which part of it; "" of one that can."""
-    _, reached = fit.swept(at[None], RUN)
-    mask = reached[0]
-    if mask.all():
-        return ""
-    number = connected_parts(mask, closed=bool(fit.timing.turn))
-    strokes = misses_of(fit, at, base)[0]
-    share = (strokes - fit.timing.start) / fit.timing.span
-    places = np.round(share * (RUN if fit.timing.turn else RUN - 1)).astype(int) % RUN
-    groups: dict[int, list[int]] = {}
-    for point, place in enumerate(places.tolist(), 1):
-        near = place if mask[place] else int(np.argmin(np.where(mask, np.abs(np.arange(RUN) - place), RUN))) if mask.any() else place
-        groups.setdefault(int(number[near]), []).append(point)
-    unit = stroke_display_unit(fit.plan, fit.timing.stroke, "mm")
-    gaps = np.flatnonzero(~mask) / (RUN if fit.timing.turn else RUN - 1)
-    low, high = (show(float(fit.timing.start + fit.timing.span * each), unit, 4) for each in (gaps.min(), gaps.max()))
-    where = said("it cannot be assembled between {stroke} = {low} and {high}", stroke=fit.timing.stroke, low=low, high=high)
-    if len(groups) < 2:
-        return where
-    named = [said("points {points} lie on circuit {number}", points=ranges(each), number=k) for k, each in enumerate(groups.values(), 1)]
-    return f"{where}; {', '.join(named)}"
 
 
 def beyond_travel_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
@@ -474,25 +444,6 @@ def beyond_travel_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
         "it comes to point {point} at {stroke} = {value}, and the cylinder goes from {low} to {high}",
         point=worst + 1, stroke=timing.stroke, value=ends[0], low=ends[1], high=ends[2],
     )  # fmt: skip
-
-
-def connected_parts(mask: Mask, *, closed: bool) -> FloatArray:
-    """Return the number of the connected part of a stroke that each pose (n,) lies in; a turn's last part goes on with its first."""
-    number = np.cumsum(np.concatenate([[0], (mask[1:] & ~mask[:-1]).astype(int)]))
-    if closed and mask[0] and mask[-1]:
-        number[number == number[-1]] = number[0]
-    return np.asarray(number, float)
-
-
-def ranges(points: Sequence[int]) -> str:
-    """Return numbers as text, those in a row as ranges: `1-4, 7`."""
-    rows: list[list[int]] = []
-    for each in points:
-        if rows and rows[-1][-1] == each - 1:
-            rows[-1].append(each)
-        else:
-            rows.append([each])
-    return ", ".join(str(row[0]) if len(row) == 1 else f"{row[0]}-{row[-1]}" for row in rows)
 
 
 # Drawing dimensions.

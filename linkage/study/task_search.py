@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, final
 
 import numpy as np
 
 from ..errors import DefinitionError, LinkageError, cited
+from ..language import said
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint, Given, Measure, conditions_of, in_case, mean_in_cases, reachable, words_of
 from ..plan import Mask
@@ -21,6 +22,7 @@ from .checks import check_one_design
 from .classes import synthesised_classes
 from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
 from .cylinder_rows import fitted_rows
+from .defects import branch_words, circuit_words, in_order, order_words
 from .designs import Array
 from .fit import Fit, Timing
 from .optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
@@ -35,10 +37,8 @@ from .synthesis import (
     Synthesis,
     SynthesisedMachine,
     beyond_travel_words,
-    circuit_words,
     exact_error,
     frozen,
-    in_order,
     is_one_design,
     machine_words,
     misses_of,
@@ -485,7 +485,18 @@ class TaskSearch:
                 misses.append(Miss(machine, error, f"error {error:.6g}: {why}."))
             elif not why:
                 solutions.append(self.answer(machine, each, k))
-        return tuple(sorted(solutions, key=self.order)), tuple(misses)
+        return tuple(self.with_branches(sorted(solutions, key=self.order))), tuple(misses)
+
+    def with_branches(self, solutions: Sequence[SynthesisedMachine]) -> list[SynthesisedMachine]:
+        """Return answers, the best of them with the points that lie on another branch where it misses some by far."""
+        found = [*solutions]
+        for best in found[:1]:
+            fit = Fit(self.problem.on_branch(best.combination), self.rows, self.timing, best.combination, self.task.at)
+            far = misses_of(fit, best.at, best.base)[2]
+            words = branch_words(fit, best.machine, best.at, best.base, far)
+            if words:
+                found[0] = replace(best, sentence=f"{best.sentence.removesuffix('.')}; {words}.")
+        return found
 
     def is_same(self, one: tuple[float, Ends, int], other: tuple[float, Ends, int]) -> bool:
         """Return whether two ends are one design."""
@@ -509,7 +520,7 @@ class TaskSearch:
         if beyond:
             return beyond
         if self.ordered and not in_order(fit, at, base):
-            return "it comes to the points in another order"
+            return said("it comes to the points in the order {order}", order=order_words(fit, at, base))
         try:
             answers = machine.judge(self.over).answers([reachable, *self.held])
         except LinkageError as error:
@@ -523,7 +534,7 @@ class TaskSearch:
         strokes, reached, far = misses_of(fit, at, base)
         angle, joint = poorest_transmission(machine, self.over)
         ranked = max((float(each.value) for each in machine.judge(self.over).answers([*self.ranks])), default=float("nan"))
-        words = machine_words(fit, machine, far, angle, joint, ordered=in_order(fit, at, base))
+        words = machine_words(fit, machine, at, base, far, angle, joint)
         error, worst = float(np.sum(far**2)), int(np.argmax(far))
         return SynthesisedMachine(
             machine, error, float(np.sqrt(np.mean(far**2))), float(far[worst]), worst + 1, frozen(strokes), frozen(reached), angle, ranked,

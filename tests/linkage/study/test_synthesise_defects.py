@@ -1,0 +1,158 @@
+"""What is no answer, and why: order, circuit, branch and what cannot be assembled, told in words; angles that wrap and closed curves."""
+
+import re
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from linkage import FunctionTask, PathTask, PoseTask, deg, mm, synthesise
+from linkage.study.defects import connected_parts, gaps_of, point_ranges
+from mechanisms.classics.four_bar import FourBar
+from tests.linkage.study.synthesis_tasks import Bar, OtherBar, places
+
+TURN = 2.0 * np.pi
+
+
+def near(machine, part=1e-4):
+    """Return ranges about a machine's own lengths."""
+    return {name: (machine[name] * (1 - part), machine[name] * (1 + part)) for name in ("OA", "AB", "CB", "AP")}
+
+
+def test_points_in_another_order_are_told_with_the_order():
+    known = Bar()
+    at = np.array([0.5, 1.5, 2.5, 3.5, 4.5, 5.5])
+    order = [0, 1, 3, 2, 4, 5]
+    task = PathTask(places(known, at[order]).T, of="P")
+    found = synthesise(known, path=task, vary=near(known), starts=4)
+    assert any("it comes to the points in the order 1-2, 4, 3, 5-6" in each.why for each in found.misses)
+    for each in found.solutions:
+        assert each.most > 1 * mm and "in order, on one circuit" in each.sentence
+    free = synthesise(known, path=PathTask(task.points, of="P", in_order=False), vary=near(known))
+    assert free.best.most <= 1e-9 and "in the order 1-2, 4, 3, 5-6" in free.best.sentence
+
+
+def test_points_on_two_circuits_are_told():
+    """A double rocker: the crank swings within two ranges, one above and one below the frame, that no motion joins."""
+    known = Bar(OA=0.060, AB=0.020, CB=0.050, **{"C.x": 0.080})
+    turn = np.linspace(0.0, TURN, 720, endpoint=False)
+    runs = np.isfinite(places(known, turn)[0])
+    number = connected_parts(runs, closed=True)
+    groups = [turn[runs & (number == each)] for each in np.unique(number[runs])]
+    assert len(groups) == 2
+    at = np.concatenate([groups[0][[10, 30, 50, 70]], groups[1][[10, 20, 40, 60, 70]]])
+    task = PathTask(places(known, at).T, of="P", at=at)
+    found = synthesise(known, path=task, vary=near(known))
+    assert not found.solutions
+    assert "points 1-4 lie on the one circuit, 5-9 on the other" in found.misses[0].why
+    told = [tuple(map(float, each)) for each in re.findall(r"phi = ([\d.]+) deg and ([\d.]+) deg", found.misses[0].why)]
+    gaps = np.array(gaps_of(runs, closed=True)) * 0.5
+    assert_allclose(sorted(told), sorted(map(tuple, gaps)), rtol=0, atol=1.0)
+
+
+def test_points_on_two_branches_are_told():
+    known, other = Bar(), OtherBar()
+    at = np.linspace(0.3, 5.5, 9)
+    points = np.concatenate([places(known, at[:5]).T, places(other, at[5:]).T])
+    timed = synthesise(known, path=PathTask(points, of="P", at=at), vary=near(known))
+    assert "points 6-9 lie on the other branch, B.side = RIGHT" in timed.best.sentence
+    untimed = synthesise(known, path=PathTask(points, of="P", in_order=False), vary=near(known))
+    assert "lie on the other branch, B.side = RIGHT" in untimed.best.sentence
+    whole = synthesise(known, path=PathTask(places(known, at).T, of="P", at=at), vary=near(known))
+    assert "branch, B.side" not in whole.best.sentence
+
+
+def test_a_part_of_the_turn_that_cannot_be_assembled_is_told():
+    """A triple rocker; the gap goes over the end of the turn."""
+    known = Bar(OA=0.040, AB=0.030, CB=0.035, **{"C.x": 0.050})
+    turn = np.linspace(0.0, TURN, 721, endpoint=False)
+    runs = np.isfinite(places(known, turn)[0])
+    assert 0 < runs.sum() < 721
+    at = turn[runs][[40, 80, 120, 160]]
+    found = synthesise(known, path=PathTask(places(known, at).T, of="P", at=at), vary=near(known))
+    assert not found.solutions and "points" not in found.misses[0].why
+    low, high = map(float, re.search(r"between phi = ([\d.]+) deg and ([\d.]+) deg", found.misses[0].why).groups())
+    gaps = gaps_of(runs, closed=True)
+    assert len(gaps) == 1
+    assert_allclose([low, high], np.array(gaps[0]) * 360 / 721, rtol=0, atol=0.6)
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_gaps_and_parts_of_masks(closed):
+    mask = np.array([0, 1, 1, 0, 0, 1, 0, 0], bool)
+    assert gaps_of(mask, closed=closed) == ([(3, 4), (6, 0)] if closed else [(0, 0), (3, 4), (6, 7)])
+    assert gaps_of(~mask, closed=closed) == [(1, 2), (5, 5)]
+    assert len(np.unique(connected_parts(~mask, closed=closed)[~mask])) == (2 if closed else 3)
+    assert point_ranges([1, 2, 3, 5, 7, 8]) == "1-3, 5, 7-8"
+
+
+def test_an_answer_near_a_change_point_says_how_near():
+    """Parallelogram lengths but for a few hundredths of a millimetre."""
+    known = FourBar(OA=0.040, AB=0.10002, CB=0.03999 + 0.00004)
+    at = np.linspace(0.4, 5.9, 8)
+    pose = known.at(phi=at)
+    found = synthesise(known, path=PathTask(pose["P"].T, of="P", at=at), vary={"AP": (0.03, 0.09), "BAP": (0.1, 1.0)})
+    assert found.best.most <= 1e-9
+    (bar,) = known.four_bars
+    lengths = sorted(bar.lengths)
+    assert_allclose(bar.margin, lengths[1] + lengths[2] - lengths[0] - lengths[3], rtol=0, atol=1e-15)
+    words = found.best.sentence
+    told = re.search(r"its Grashof margin is ([-\d.]+) mm", words)
+    assert told and abs(float(told[1]) * mm - bar.margin) <= 1e-3 * abs(bar.margin) + 1e-9
+    if found.best.transmission < 1 * deg:
+        assert re.search(r"it passes within [\d.]+ deg of a change point", words)
+    far = synthesise(FourBar(), path=PathTask(FourBar().at(phi=at)["P"].T, of="P", at=at), vary={"AP": (0.03, 0.09)})
+    assert "margin" not in far.best.sentence and "change point" not in far.best.sentence
+
+
+@pytest.mark.parametrize("timed", [False, "steps"])
+def test_a_closed_curve_of_which_the_last_point_is_the_first(timed):
+    known = FourBar(OA=0.036, AB=0.11, CB=0.085, AP=0.05)
+    turn = np.linspace(0.8, 0.8 + TURN, 13)
+    points = np.array(known.at(phi=turn)["P"].T)
+    points[-1] = points[0]
+    if timed == "steps":
+        points = points[:-1]
+    vary = {"OA": (0.02, 0.06), "AB": (0.08, 0.15), "CB": (0.06, 0.12), "AP": (0.03, 0.08), "BAP": (0.1, 1.0)}
+    found = synthesise(FourBar(), path=PathTask(points, of="P"), vary=vary, timed=timed, starts=24)
+    assert found.best.most <= 1e-9
+    steps = np.abs(np.diff(np.unwrap(found.best.strokes)))
+    assert_allclose(steps, 30 * deg, rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("turns", [0, 1, -2])
+def test_angles_wrap_between_designs(turns):
+    """The same poses with angles that are whole turns more, and designs whose own angle lies on the other side of 180 degrees."""
+    known = FourBar(AP=0.06)
+    at = np.linspace(0.3, 5.9, 7)
+    pose = known.at(phi=at)
+    wrapped = np.mod(pose.angle("B", "A") + np.pi, TURN) - np.pi + turns * TURN
+    task = PoseTask(*pose["B"], wrapped, of="B A", at=at)
+    vary = {"OA": (0.02, 0.06), "AB": (0.08, 0.15), "CB": (0.06, 0.12)}
+    found = synthesise(FourBar(), motion=task, vary=vary, starts=16)
+    assert found.best.most <= 1e-9 and abs(found.machine["AB"] - known["AB"]) <= 1e-8
+    function = FunctionTask(at, np.mod(known.at(phi=at)["psi"], TURN) + turns * TURN, of="psi")
+    again = synthesise(FourBar(), function=function, vary={"OA": (0.02, 0.06), "AB": (0.08, 0.15)}, starts=16)
+    assert again.best.most <= 1e-9
+
+
+def without_answer(seed):
+    """Return a four-bar, points and a box in which nothing turns fully: the crank is never the shortest link that Grashof asks for."""
+    random = np.random.default_rng(seed)
+    crank, coupler, follower = random.uniform(0.058, 0.075, 3)
+    vary = {name: (value * 0.97, value * 1.03) for name, value in (("OA", crank), ("AB", coupler), ("CB", follower))}
+    vary |= {"AP": (0.01, 0.1), "BAP": (-1.5, 1.5)}
+    return FourBar(OA=crank, AB=coupler, CB=follower), random.uniform(-0.08, 0.12, (int(random.integers(3, 9)), 2)), vary
+
+
+@pytest.mark.parametrize("seeds", [range(2), pytest.param(range(2, 40), marks=pytest.mark.slow)], ids=["some", "rest"])
+def test_tasks_without_an_answer_say_so(seeds):
+    """By Grashof: the frame, 100 mm, is the longest link and with the shortest one longer than the two others together."""
+    for seed in seeds:
+        machine, points, vary = without_answer(seed)
+        lows, highs = zip(*(vary[name] for name in ("OA", "AB", "CB")), strict=True)
+        assert 0.1 + min(lows) > sum(highs) - min(lows) or min(lows) + 0.1 > sum(sorted(highs)[1:])
+        found = synthesise(machine, path=PathTask(points, of="P"), vary=vary, starts=8)
+        assert not found.solutions and not np.isfinite(found.error)
+        assert "no machine that runs was found" in str(found)
+        assert all("cannot be assembled between phi" in each.why for each in found.misses)

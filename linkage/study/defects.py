@@ -66,7 +66,7 @@ def circuit_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
         near = place if mask[place] or not mask.any() else int(np.argmin(np.where(mask, np.abs(np.arange(RUN) - place), RUN)))
         groups.setdefault(int(number[near]), []).append(point)
     unit = stroke_display_unit(fit.plan, timing.stroke, "mm")
-    gaps = gaps_of(mask, closed=bool(timing.turn))
+    gaps = lost_stretches(mask, closed=bool(timing.turn))
     ends = [[show(float(timing.start + timing.span * each / last), unit, 4) for each in gap] for gap in gaps]
     where = said(" and ").join(said("{stroke} = {low} and {high}", stroke=timing.stroke, low=low, high=high) for low, high in ends)
     lost = said("it cannot be assembled between {where}", where=where)
@@ -98,7 +98,7 @@ def connected_parts(mask: Mask, *, closed: bool) -> FloatArray:
     return np.asarray(number, float)
 
 
-def gaps_of(mask: Mask, *, closed: bool) -> list[tuple[int, int]]:
+def lost_stretches(mask: Mask, *, closed: bool) -> list[tuple[int, int]]:
     """Return the first and the last pose of every stretch that is not in a mask; of a turn one may go over its end."""
     lost = np.flatnonzero(~mask)
     runs = [(int(run[0]), int(run[-1])) for run in np.split(lost, np.flatnonzero(np.diff(lost) > 1) + 1)]

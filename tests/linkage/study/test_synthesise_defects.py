@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import FunctionTask, PathTask, PoseTask, deg, mm, synthesise
-from linkage.study.defects import connected_parts, gaps_of, point_ranges
+from linkage.study.defects import connected_parts, lost_stretches, point_ranges
 from mechanisms.classics.four_bar import FourBar
 from tests.linkage.study.synthesis_tasks import Bar, OtherBar, places
 
@@ -46,7 +46,7 @@ def test_points_on_two_circuits_are_told():
     assert not found.solutions
     assert "points 1-4 lie on the one circuit, 5-9 on the other" in found.misses[0].why
     told = [tuple(map(float, each)) for each in re.findall(r"phi = ([\d.]+) deg and ([\d.]+) deg", found.misses[0].why)]
-    gaps = np.array(gaps_of(runs, closed=True)) * 0.5
+    gaps = np.array(lost_stretches(runs, closed=True)) * 0.5
     assert_allclose(sorted(told), sorted(map(tuple, gaps)), rtol=0, atol=1.0)
 
 
@@ -72,7 +72,7 @@ def test_a_part_of_the_turn_that_cannot_be_assembled_is_told():
     found = synthesise(known, path=PathTask(places(known, at).T, of="P", at=at), vary=near(known))
     assert not found.solutions and "points" not in found.misses[0].why
     low, high = map(float, re.search(r"between phi = ([\d.]+) deg and ([\d.]+) deg", found.misses[0].why).groups())
-    gaps = gaps_of(runs, closed=True)
+    gaps = lost_stretches(runs, closed=True)
     assert len(gaps) == 1
     assert_allclose([low, high], np.array(gaps[0]) * 360 / 721, rtol=0, atol=0.6)
 
@@ -80,8 +80,8 @@ def test_a_part_of_the_turn_that_cannot_be_assembled_is_told():
 @pytest.mark.parametrize("closed", [True, False])
 def test_gaps_and_parts_of_masks(closed):
     mask = np.array([0, 1, 1, 0, 0, 1, 0, 0], bool)
-    assert gaps_of(mask, closed=closed) == ([(3, 4), (6, 0)] if closed else [(0, 0), (3, 4), (6, 7)])
-    assert gaps_of(~mask, closed=closed) == [(1, 2), (5, 5)]
+    assert lost_stretches(mask, closed=closed) == ([(3, 4), (6, 0)] if closed else [(0, 0), (3, 4), (6, 7)])
+    assert lost_stretches(~mask, closed=closed) == [(1, 2), (5, 5)]
     assert len(np.unique(connected_parts(~mask, closed=closed)[~mask])) == (2 if closed else 3)
     assert point_ranges([1, 2, 3, 5, 7, 8]) == "1-3, 5, 7-8"
 

@@ -38,7 +38,8 @@ from .reports.table import cells, flat
 from .shown import Shown, ShownList
 from .statics import PinForces, max_table
 from .statics.table import max_headings
-from .study import Front, Optimum, Survey, Synthesis
+from .study import Front, Optimum, Survey
+from .synthesis import Synthesis
 from .units import show
 from .verdict import Verdict
 

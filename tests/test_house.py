@@ -23,7 +23,7 @@ FLOORS = (
     ("motion",),
     ("mechanism",),
     ("statics",),
-    ("formulas", "study", "files"),
+    ("formulas", "study", "synthesis", "files"),
     ("pictures", "reports"),
     ("documents", "exports", "notebook"),
     ("cli",),
@@ -39,7 +39,7 @@ MAY_PRINT = {"cli", "demo"}
 
 HEAVY = {"PIL", "imageio_ffmpeg", "matplotlib", "networkx", "numba", "pydantic", "rich", "scipy", "sympy"}
 OPTIONAL = {"dask", "distributed", "ezdxf", "pymoo", "xlsxwriter"}  # extras: there may be nothing to import
-HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "pictures", "reports", "files", "exports", "documents")}
+HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "synthesis", "pictures", "reports", "files", "exports", "documents")}
 
 
 def room(module: str) -> str:

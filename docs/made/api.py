@@ -23,6 +23,7 @@ ROOMS = {
     ".loads": "Loads and force elements",
     ".statics": "Forces",
     ".study": "What a search asks for",
+    ".synthesis": "Machines for a task",
     ".mobility": "Mobility",
     ".surroundings": "Surroundings",
     ".verdict": "Verdicts",
@@ -34,6 +35,7 @@ ROOMS = {
 """The rooms behind the front door, in the order of the page."""
 OTHERS = {
     "linkage.study": "Studies",
+    "linkage.synthesis": "Synthesis",
     "linkage.files": "Files",
     "linkage.reports": "Tables and results as text",
     "hydraulics": "Hydraulics",

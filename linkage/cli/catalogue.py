@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from typing import final
 
-from ..study.curve_catalogue import curve_catalogue
+from ..synthesis.curve_catalogue import curve_catalogue
 from .command import Command, machine_arguments, pose_count
 from .machines import find
 from .optimise import study_progress

@@ -11,7 +11,7 @@ from ..disk import check_place, in_words
 from ..errors import DefinitionError
 from ..files import save
 from ..files.synthesis_file import read_synthesis
-from ..study import Synthesis
+from ..synthesis import Synthesis
 from ..units import deg, mm
 from .command import Command
 from .optimise import NOT_FEASIBLE, finder, settings_of, study_arguments, study_progress

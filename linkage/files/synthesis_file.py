@@ -24,11 +24,11 @@ from ..mechanism import Mechanism
 from ..motion import stroke_measure
 from ..motion.kinds import measure_of
 from ..motion.measures import words_of
-from ..study import FunctionTask, PathTask, PoseTask, Synthesis
 from ..study.problem import is_still, ranges_of
 from ..study.survey import Progress
-from ..study.task_search import synthesise
-from ..study.tasks import Task
+from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis
+from ..synthesis.task_search import synthesise
+from ..synthesis.tasks import Task
 from .criterion import measure_said, quantity_said
 from .names import shortened
 from .points import PointColumn, points_said, units_said

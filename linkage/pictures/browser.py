@@ -12,7 +12,8 @@ from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism, design_of_motion, require_mechanism
 from ..motion import Column, Motion, RequestLike, live_text
 from ..reports import NOTHING, At
-from ..study import Synthesis, WorkingField
+from ..study import WorkingField
+from ..synthesis import Synthesis
 from .browser_data import PageRequests, page_data
 from .browser_file import MACHINE, START, page_part, page_text
 from .chart_page import chart_page

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from ..language import said
 from ..motion.regions import Disc, Shape
 from ..program import FloatArray
-from ..study.exact_poses import Burmester, GuidingLink
+from ..synthesis.exact_poses import Burmester, GuidingLink
 from . import style
 from .paper import empty_page, legend_row, write_title
 from .scene import Bounds

@@ -13,8 +13,9 @@ from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike
 from ..reports import NOTHING
-from ..study import Optimum, Synthesis, WorkingField
-from ..study.exact_poses import Burmester
+from ..study import Optimum, WorkingField
+from ..synthesis import Synthesis
+from ..synthesis.exact_poses import Burmester
 from .burmester import draw_burmester
 from .chain import draw_chain
 from .curves import plot_machine, plot_motion

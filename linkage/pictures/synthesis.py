@@ -22,9 +22,9 @@ from ..motion.kinds import measure_of
 from ..motion.measures import words_of
 from ..program import FloatArray
 from ..quantities import is_whole
-from ..study import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
-from ..study.synthesis import CLOSEST_CHANGE_POINT, EXACT, miss_unit
-from ..study.tasks import Task
+from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
+from ..synthesis.synthesis import CLOSEST_CHANGE_POINT, EXACT, miss_unit
+from ..synthesis.tasks import Task
 from ..units import display_unit, factor, show, shown_in
 from . import style
 from .curves import axis_range, locator, typeset

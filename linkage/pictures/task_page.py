@@ -14,8 +14,8 @@ from ..motion.measures import words_of
 from ..plan import Plan
 from ..quantities import Quantity
 from ..reports import results
-from ..study import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
-from ..study.synthesis import miss_unit
+from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
+from ..synthesis.synthesis import miss_unit
 from .browser_data import PageRequests, page_data, unit_data
 from .browser_file import MACHINE, START, page_part, page_text
 from .strokes import frame_count

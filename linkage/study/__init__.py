@@ -2,7 +2,6 @@
 
 from ..motion import Target
 from .box import Box
-from .curve_catalogue import CurveCatalogue, CurveMatch
 from .infeasible import InfeasibleError
 from .load_rule import ISO_10567, ISO_14397_1, OECD_2, LoadRule
 from .monte_carlo import Band, MonteCarlo, monte_carlo
@@ -12,11 +11,7 @@ from .sensitivity import Effect, SobolIndices, Tornado, sobol, tornado
 from .settings import Settings, settings_for
 from .space import around
 from .survey import Survey, survey
-from .synthesis import Synthesis, SynthesisedMachine
 from .targets import Solutions
-from .task_error import point_errors, task_error
-from .task_search import synthesise
-from .tasks import FunctionTask, PathTask, PoseTask
 from .tolerances import Tolerance, sigma, spread
 from .working_field import WorkingField, working_field
 from .zone import Zone, zone

@@ -12,7 +12,7 @@ import numpy as np
 
 from linkage import PathTask, distance, least, mm, most, synthesise
 from tests.linkage.study import synthesis_tasks as papers
-from tests.linkage.study.synthesis_tasks import Bar, OtherBar, box, places
+from tests.linkage.synthesis.synthesis_tasks import Bar, OtherBar, box, places
 
 APART = [least(distance("O", "C")) >= 5 * mm, most(distance("O", "C")) <= 50 * mm]
 FAR = {"C.x": (-100 * mm, 100 * mm), "C.y": (-100 * mm, 100 * mm)}

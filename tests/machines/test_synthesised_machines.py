@@ -34,7 +34,7 @@ from linkage import (
     synthesise,
 )
 from linkage.units import g0
-from tests.linkage.study.bars_apart import apart, cross, fixed, from_segment, meet
+from tests.linkage.synthesis.bars_apart import apart, cross, fixed, from_segment, meet
 
 MANY = 5001
 

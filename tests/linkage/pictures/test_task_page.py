@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 from linkage import DefinitionError, deg, mm, page
 from tests.linkage.pictures.test_draw_synthesis import found_for
 from tests.linkage.pictures.test_page import PHONE, Shown, chromium, data_of  # noqa: F401
-from tests.linkage.study.test_task_error import nearest
+from tests.linkage.synthesis.test_task_error import nearest
 
 
 @pytest.fixture(scope="module")

@@ -30,7 +30,7 @@ from mechanisms.classics.klann import Klann
 from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.classics.stephenson_one import StephensonOne
 from tests.linkage.study import synthesis_tasks
-from tests.linkage.study.synthesis_tasks import Bar
+from tests.linkage.synthesis.synthesis_tasks import Bar
 
 KINDS = ("timed", "untimed", "closed")
 POSES = 5001

@@ -10,7 +10,7 @@ from linkage.quantities import ref
 from linkage.study import Target, settings_for
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.random_mechanisms import random_mechanism
-from tests.linkage.study.synthesis_tasks import Bar
+from tests.linkage.synthesis.synthesis_tasks import Bar
 
 HITCH = {"MK": (0.5, 1.3), "CD": (0.4, 0.8), "M": [(0.22, 1.05), (0.22, 0.95)]}
 

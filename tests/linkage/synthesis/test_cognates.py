@@ -13,7 +13,7 @@ from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.classics.stephenson_three import StephensonThree
 from mechanisms.classics.watt_two import WattTwo
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.linkage.study.exact_tasks import lengths
+from tests.linkage.synthesis.exact_tasks import lengths
 
 MACHINES = [
     (FourBar, "P"), (DragLink, "P"), (DoubleRocker, "P"), (TripleRocker, "P"), (Parallelogram, "P"),

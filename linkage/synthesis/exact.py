@@ -27,10 +27,10 @@ from ..program import FloatArray
 from ..quantities import Dimension, Member, Stroke, angle, ref
 from ..shown import Shown
 from ..steps import Guide
+from ..study.sides import class_on_sides
 from ..units import show
 from ..vectors import LEFT, RIGHT, Side
 from .defects import point_ranges
-from .sides import class_on_sides
 from .synthesis import TOLD
 
 ComplexArray: TypeAlias = npt.NDArray[np.complex128]

@@ -7,9 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import FunctionTask, PathTask, PoseTask, deg, mm, synthesise
-from linkage.study.defects import connected_parts, lost_stretches, point_ranges
+from linkage.synthesis.defects import connected_parts, lost_stretches, point_ranges
 from mechanisms.classics.four_bar import FourBar
-from tests.linkage.study.synthesis_tasks import Bar, OtherBar, places
+from tests.linkage.synthesis.synthesis_tasks import Bar, OtherBar, places
 
 TURN = 2.0 * np.pi
 

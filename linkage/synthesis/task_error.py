@@ -14,8 +14,8 @@ from ..motion import ratio
 from ..motion.measures import Measure, at, least
 from ..program import FloatArray
 from ..quantities import ref
-from .checks import check_one_design
-from .problem import is_still, ranges_of
+from ..study.checks import check_one_design
+from ..study.problem import is_still, ranges_of
 from .tasks import Task, TaskRows, table_of
 
 Squares: TypeAlias = tuple[Measure, ...]

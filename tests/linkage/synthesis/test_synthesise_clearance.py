@@ -6,7 +6,7 @@ import pytest
 from linkage import FunctionTask, PathTask, Planes, around, clearance, least, mm, synthesise
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.stephenson_three import StephensonThree
-from tests.linkage.study.bars_apart import fixed, four_bar, meet, pairs_apart
+from tests.linkage.synthesis.bars_apart import fixed, four_bar, meet, pairs_apart
 
 WIDTH = 10 * mm
 TURN = np.linspace(0.0, 2.0 * np.pi, 5001)

@@ -16,20 +16,20 @@ from ..mechanism import Mechanism
 from ..motion.measures import Constraint, Given, Measure, conditions_of, in_case, mean_in_cases, reachable, words_of
 from ..plan import Mask
 from ..program import FloatArray, fixed_backend
-from .box import unit_points
-from .checkpoint import Checkpoint, digest, facts_as_json, facts_of_machine, measure_text
-from .checks import check_one_design
+from ..study.box import unit_points
+from ..study.checkpoint import Checkpoint, digest, facts_as_json, facts_of_machine, measure_text
+from ..study.checks import check_one_design
+from ..study.cylinder_rows import fitted_rows
+from ..study.designs import Array
+from ..study.optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
+from ..study.problem import Problem, end_words, is_still
+from ..study.space import Space
+from ..study.survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
 from .classes import synthesised_classes
 from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
-from .cylinder_rows import fitted_rows
 from .defects import branch_words, circuit_words, in_order, order_words
-from .designs import Array
 from .fit import Fit, Timing
-from .optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
-from .problem import Problem, end_words, is_still
-from .space import Space
 from .starts import POPULATION, WHOLE_ENOUGH, Likeness, Starts, standing_apart
-from .survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
 from .synthesis import (
     MISSES,
     NEAR,

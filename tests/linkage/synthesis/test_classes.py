@@ -22,9 +22,9 @@ from linkage import (
     synthesise,
     transmission,
 )
-from linkage.study.classes import SearchedClass, default_box, designs_of_classes, laid_machine, shipped_machines, synthesised_classes
-from linkage.study.synthesis import Miss, swept_size
-from linkage.study.tasks import task_named_in
+from linkage.synthesis.classes import SearchedClass, default_box, designs_of_classes, laid_machine, shipped_machines, synthesised_classes
+from linkage.synthesis.synthesis import Miss, swept_size
+from linkage.synthesis.tasks import task_named_in
 from mechanisms.classics.four_bar import DragLink, FourBar
 from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.classics.stephenson_three import StephensonThree

@@ -14,10 +14,10 @@ from ..motion import stroke_display_unit
 from ..plan import Mask
 from ..program import FloatArray
 from ..steps import Step
+from ..study.sides import ENDING, on_sides
 from ..units import deg, show
 from ..vectors import Side
 from .fit import Fit
-from .sides import ENDING, on_sides
 
 RUN = 721
 """Poses of a stroke at which is looked where a machine that does not run can be assembled."""

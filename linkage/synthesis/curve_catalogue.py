@@ -27,14 +27,14 @@ from ..program import FloatArray
 from ..program.cache import FOLDER, cache_folder
 from ..quantities import is_whole
 from ..shown import Shown
-from .checkpoint import digest
+from ..study.checkpoint import digest
+from ..study.problem import Problem
+from ..study.space import Space, Varied
+from ..study.survey import Executor, Progress, check_executor, check_progress, progress_told
 from .closed_curves import ClosedCurves, drawn_curve, laid_onto
 from .curve_class import HARMONICS, CurveClass
 from .fit import WHOLE, Fit, Timing
-from .problem import Problem
-from .space import Space, Varied
 from .starts import Likeness, as_complex
-from .survey import Executor, Progress, check_executor, check_progress, progress_told
 from .tasks import PathTask
 
 FORM = 1

@@ -15,13 +15,13 @@ from ..motion import Grid
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, RunOptions
 from ..quantities import x, y
-from .checkpoint import digest, plan_text
-from .checks import check_one_design
+from ..study.checkpoint import digest, plan_text
+from ..study.checks import check_one_design
+from ..study.measured import traced_number
+from ..study.sampling import all_placed
+from ..study.survey import Executor, Progress, survey
 from .closed_curves import ClosedCurves, ComplexArray
 from .fit import TURN
-from .measured import traced_number
-from .sampling import all_placed
-from .survey import Executor, Progress, survey
 from .tasks import check_point
 
 HARMONICS, POSES, FIRST = 8, 64, 16

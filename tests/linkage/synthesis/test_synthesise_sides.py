@@ -32,7 +32,7 @@ from mechanisms.classics.klann import Klann
 from mechanisms.classics.stephenson_two import StephensonTwo
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.study import synthesis_tasks as papers
-from tests.linkage.study.synthesis_tasks import Bar, OtherBar, box, places
+from tests.linkage.synthesis.synthesis_tasks import Bar, OtherBar, box, places
 
 
 class Tailed(StephensonTwo):

@@ -15,13 +15,13 @@ import numpy as np
 from ..errors import LinkageError
 from ..mechanism import Mechanism
 from ..program import FloatArray
-from .checkpoint import Checkpoint
-from .designs import Array, Rows
+from ..study.checkpoint import Checkpoint
+from ..study.designs import Array, Rows
+from ..study.problem import Problem
+from ..study.solver import Local
+from ..study.survey import Executor, Progress, SurveyRun
 from .fit import Fit, FitSquares, Timing
-from .problem import Problem
-from .solver import Local
 from .starts import Likeness, laid_designs, poses_of
-from .survey import Executor, Progress, SurveyRun
 from .synthesis import exact_error
 from .tasks import TaskRows
 

@@ -14,10 +14,10 @@ from ..errors import DefinitionError, cited
 from ..language import said_of
 from ..mechanism import Mechanism
 from ..program import FloatArray
-from .checks import check_one_design
-from .optimise import check_counts
-from .space import size_of_machine
-from .survey import check_progress, progress_told
+from ..study.checks import check_one_design
+from ..study.optimise import check_counts
+from ..study.space import size_of_machine
+from ..study.survey import check_progress, progress_told
 from .synthesis import MISSES, Synthesis, SynthesisedMachine, is_one_design, links_of, told_error
 from .tasks import PathTask, PoseTask, Task, of_class, task_named_in, task_of
 

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from scipy.optimize import root
 
 from linkage import DefinitionError, Outline, PoseTask, StudyError, burmester, draw, outside
-from tests.linkage.study.exact_tasks import bar_at, lengths
+from tests.linkage.synthesis.exact_tasks import bar_at, lengths
 
 POSES = [(0.0, 0.0, 0.0), (0.15, 0.05, -0.35), (0.27, 0.02, -0.80), (0.33, -0.10, -1.25)]
 BELOW = [(-0.15, -0.45), (0.4, -0.45), (0.4, -0.15), (-0.15, -0.15)]

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import cumulative_simpson, simpson
 
 from linkage import DefinitionError, PathTask, around, mm, synthesise
-from linkage.study.closed_curves import ClosedCurves, drawn_curve, laid_onto
+from linkage.synthesis.closed_curves import ClosedCurves, drawn_curve, laid_onto
 from mechanisms.classics.four_bar import FourBar
 
 FREE = np.array([[1e-3], [1e3]])

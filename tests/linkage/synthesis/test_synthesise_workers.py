@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from linkage import DefinitionError, FunctionTask, PathTask, deg, distance, least, mm, most, synthesise, transmission
-from linkage.study.task_work import SearchRows
+from linkage.synthesis.task_work import SearchRows
 from mechanisms.classics.four_bar import FourBar
 from tests.linkage.study import synthesis_tasks as papers
-from tests.linkage.study.synthesis_tasks import Bar
+from tests.linkage.synthesis.synthesis_tasks import Bar
 
 TASK = PathTask(np.array(papers.FIVE) * mm, of="P", at=papers.FIVE_AT)
 VARY = {"OA": (1 * mm, 9 * mm), "AB": (3 * mm, 40 * mm), "CB": (3 * mm, 40 * mm), "C.x": (1 * mm, 30 * mm), "AP": [1 * mm, 2 * mm]}

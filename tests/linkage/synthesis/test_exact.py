@@ -8,9 +8,9 @@ from numpy.testing import assert_allclose
 from scipy.optimize import root
 
 from linkage import RIGHT, DefinitionError, StudyError, burmester, deg, five_point, freudenstein
-from linkage.study.exact_paths import general_task, solutions_of
+from linkage.synthesis.exact_paths import general_task, solutions_of
 from mechanisms.classics.four_bar import FourBar
-from tests.linkage.study.exact_tasks import as_rows, bar_at, lengths
+from tests.linkage.synthesis.exact_tasks import as_rows, bar_at, lengths
 
 LINE = [(0.5, 1.06), (-0.83, -0.27), (-0.34, 0.22), (-0.13, 0.43), (0.22, 0.78)]
 """Morgan and Wampler's problem 7."""

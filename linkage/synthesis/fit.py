@@ -15,10 +15,10 @@ from ..motion.line import Index
 from ..motion.requests import slope
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, RunOptions
-from .measured import traced_number
-from .problem import Problem, is_still
-from .sampling import all_placed
-from .solver import MET
+from ..study.measured import traced_number
+from ..study.problem import Problem, is_still
+from ..study.sampling import all_placed
+from ..study.solver import MET
 from .tasks import TaskRows
 
 TURN = 2.0 * np.pi

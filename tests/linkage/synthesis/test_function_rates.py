@@ -7,9 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import DefinitionError, FunctionTask, draw, ratio, synthesise
-from linkage.study.fit import Fit, Timing
 from linkage.study.problem import Problem
 from linkage.study.space import Space
+from linkage.synthesis.fit import Fit, Timing
 from mechanisms.classics.four_bar import FourBar
 
 LENGTHS = {"OA": (0.01, 0.08), "AB": (0.05, 0.2), "CB": (0.05, 0.2)}

@@ -22,15 +22,15 @@ from ..motion.measures import Measure
 from ..program import FloatArray
 from ..quantities import is_number
 from ..shown import Shown
+from ..study.checks import unit_of
+from ..study.optimum import steps_about
+from ..study.problem import Problem
+from ..study.result_tables import heading_with_unit, tried_names
+from ..study.sides import ENDING, is_side
 from ..units import deg, display_unit, factor, mm, show, shown_in
 from ..vectors import Side
-from .checks import unit_of
 from .defects import change_point_words, in_order, order_words
 from .fit import Fit
-from .optimum import steps_about
-from .problem import Problem
-from .result_tables import heading_with_unit, tried_names
-from .sides import ENDING, is_side
 from .task_error import squares_near
 from .tasks import Task, TaskRows
 

@@ -13,7 +13,7 @@ from ..mobility import FourBar
 from ..motion import Motion
 from ..quantities import is_whole
 from ..shown import ShownList
-from .checks import check_one_design
+from ..study.checks import check_one_design
 from .exact import ComplexArray, CouplerTask, ExactMachine, Pivoted, judged
 from .tasks import check_point
 

@@ -24,13 +24,13 @@ from linkage import (
     deg,
     synthesise,
 )
-from linkage.study.closed_curves import ClosedCurves, drawn_curve, laid_onto
-from linkage.study.curve_catalogue import catalogue_file
-from linkage.study.curve_class import CurveClass, CurveMeasure
+from linkage.synthesis.closed_curves import ClosedCurves, drawn_curve, laid_onto
+from linkage.synthesis.curve_catalogue import catalogue_file
+from linkage.synthesis.curve_class import CurveClass, CurveMeasure
 from mechanisms.classics.four_bar import FourBar, TripleRocker
 from mechanisms.classics.stephenson_one import StephensonOne
 from tests.benchmarks import bench_catalogue
-from tests.linkage.study.test_closed_curves import known_bars, pairs
+from tests.linkage.synthesis.test_closed_curves import known_bars, pairs
 
 
 class SixBar(Mechanism):
@@ -162,7 +162,7 @@ def test_it_is_kept_and_read_again(cache):
 
 
 def test_the_largest_is_taken_where_no_count_is_said(cache, monkeypatch):
-    monkeypatch.setattr("linkage.study.curve_catalogue.CURVES", 300)
+    monkeypatch.setattr("linkage.synthesis.curve_catalogue.CURVES", 300)
     assert len(curve_catalogue(FourBar(), "P", count=200)) == 200
     assert len(curve_catalogue(FourBar(), "P")) == 300
     assert len(curve_catalogue(FourBar(), "P", count=400)) == 400
@@ -228,7 +228,7 @@ def test_a_closed_curve_in_a_machine_out(four_bars, bar, points):
 
 
 def test_the_word_makes_and_keeps_one(cache, monkeypatch):
-    monkeypatch.setattr("linkage.study.curve_catalogue.CURVES", 500)
+    monkeypatch.setattr("linkage.synthesis.curve_catalogue.CURVES", 500)
     ((bar, points),) = known_bars(1, seed=3)
     vary = {"OA": (0.01, 0.08), "AB": (0.05, 0.2), "CB": (0.05, 0.2), "AP": (0.01, 0.15)}
     vary |= {f"{point}.{axis}": (-0.2, 0.2) for point in "OC" for axis in "xy"}
@@ -290,9 +290,9 @@ def test_what_a_catalogue_cannot_be_asked(four_bars, ask, words):
 
 
 def test_a_class_that_never_runs_says_so(monkeypatch):
-    monkeypatch.setattr("linkage.study.curve_class.EDGE", 10.0)
-    monkeypatch.setattr("linkage.study.curve_class.ROUND", 1 << 10)
-    monkeypatch.setattr("linkage.study.curve_class.PATIENCE", 4)
+    monkeypatch.setattr("linkage.synthesis.curve_class.EDGE", 10.0)
+    monkeypatch.setattr("linkage.synthesis.curve_class.ROUND", 1 << 10)
+    monkeypatch.setattr("linkage.synthesis.curve_class.PATIENCE", 4)
     with pytest.raises(StudyError, match="of 448 designs none runs its whole turn"):
         curve_catalogue(FourBar(), "P", count=10)
 

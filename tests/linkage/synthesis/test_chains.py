@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from linkage import DefinitionError, chains
 from linkage.plan import gruebler
-from linkage.study.chains import bodies
+from linkage.synthesis.chains import bodies
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.klann import Klann
 from mechanisms.classics.stephenson_one import StephensonOne

@@ -21,14 +21,14 @@ from linkage import (
     transmission,
 )
 from linkage.motion.measures import Given
-from linkage.study.fit import Fit, Timing
 from linkage.study.problem import Problem
 from linkage.study.space import Space
+from linkage.synthesis.fit import Fit, Timing
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks import bench_synthesis
 from tests.linkage.study import synthesis_tasks as papers
-from tests.linkage.study.synthesis_tasks import Bar, box, places
+from tests.linkage.synthesis.synthesis_tasks import Bar, box, places
 
 SQUARE_MM = mm**2
 

@@ -27,7 +27,9 @@ ALLOWED = {
     "linkage/statics/joint_forces.py": "the residual of the equations, and words on poses that were asked for",
     "linkage/statics/work.py": "the residual of the equations",
     "linkage/documents/checks.py": "residuals of a calculation's own checks",
+    "linkage/documents/forces.py": "pin forces beyond what the machine runs, against a stop, at the judge's own poses, as the report says",
     "linkage/study/": "statistics of samples of designs",
+    "linkage/synthesis/": "sizes of tasks and curves, statistics of samples of designs",
     "linkage/files/study_tasks.py": "statistics of samples of designs",
 }  # fmt: skip
 """Files, or folders, that may ask for the greatest and least of numbers, with what these are."""

@@ -67,7 +67,7 @@ class Likeness:
         def keeps(factor: complex, by: complex, ahead: float) -> bool:
             return nothing._keeps(fit, sample, factor, by, ahead)
 
-        size = float(np.ptp(fit.rows.wanted, axis=1).max())
+        size = fit.rows.size
         shift = bool(points) and keeps(1.0, complex(0.3, -0.2) * size, 0.0)
         scale = keeps(1.2, 0.0, 0.0)
         plain = keeps(np.exp(0.4j), 0.0, 0.0)
@@ -124,6 +124,7 @@ class Likeness:
                 factor = product / np.abs(product)
             if self.scale:
                 factor = factor * (np.clip(np.abs(factor), *sizes) / np.abs(factor))
+        factor = np.where(np.isfinite(factor) & (np.abs(factor) > 0.0), factor, 1.0)  # a single point has no size
         by = aim - factor * middle[:, 0]
         error = np.sum(np.abs(factor[:, None] * own - other) ** 2, axis=1)
         return factor, by, np.where(np.isfinite(error), error, np.inf)
@@ -208,7 +209,7 @@ def standing_apart(unit: FloatArray, error: FloatArray, many: int) -> Index:
     chosen: list[int] = []
     far = APART * np.sqrt(max(unit.shape[1], 1))
     for place in order:
-        if all(np.linalg.norm(unit[place] - unit[other]) > far for other in chosen):
+        if not chosen or np.linalg.norm(unit[chosen] - unit[place], axis=1).min() > far:
             chosen.append(place)
         if len(chosen) == many:
             break

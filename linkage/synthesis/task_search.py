@@ -13,6 +13,7 @@ import numpy as np
 from ..errors import DefinitionError, LinkageError, cited
 from ..language import said
 from ..mechanism import Mechanism
+from ..motion import stroke_display_unit
 from ..motion.measures import Constraint, Given, Measure, conditions_of, in_case, mean_in_cases, reachable, words_of
 from ..plan import Mask
 from ..program import FloatArray, fixed_backend
@@ -23,8 +24,9 @@ from ..study.cylinder_rows import fitted_rows
 from ..study.designs import Array
 from ..study.optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
 from ..study.problem import Problem, end_words, is_still
-from ..study.space import Space
+from ..study.space import FAR, Space, size_of_machine
 from ..study.survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
+from ..units import show
 from .classes import synthesised_classes
 from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
 from .defects import branch_words, circuit_words, in_order, order_words
@@ -145,6 +147,8 @@ def synthesise(
     problem = Problem(machine, [Given(0.0)], constraints, space, 1.0, over)
     problem.count.limit = limit
     timing = Timing.of(problem, moving_stroke(problem), timed, rows.count)
+    check_unit_of_points(machine, rows, space)
+    check_timed(problem, timing, task.at if timed is True else None)
     catalogue = catalogue_for(problem, task, timing, timed, starts, executor, progress) if catalogued else None
     many = starts if isinstance(starts, int) else STARTS
     search = TaskSearch(problem, task, rows, timing, timed, ranks, held, over, many, seed, catalogue)
@@ -193,6 +197,30 @@ def catalogue_for(
     varied = {each.owner for each in problem.space.variables} | {owner for owners, _ in problem.space.choices for owner, _ in owners}
     hold = [name for name, entry in machine.plan.table.entries.items() if entry.kind == "angle" and name not in varied]
     return curve_catalogue(machine, task.of, hold=hold, executor=executor, progress=progress)
+
+
+def check_unit_of_points(machine: Mechanism, rows: TaskRows, space: Space) -> None:
+    """Raise DefinitionError for points so far away that they are of another unit."""
+    if len(rows.quantities) < 2:
+        return
+    ends = [abs(end) for each in space.variables if each.unit == "mm" for end in (each.low, each.high)]
+    far, size = float(np.abs(rows.wanted[:2]).max()), max([size_of_machine(machine), *ends])
+    if far > 5.0 * FAR * size:  # a path may be out of reach, and is told so
+        told = f"points as far as {far:.6g} m from the origin, where no length is above {size:.6g} m"
+        raise DefinitionError(f"{machine.plan.title}: {told}; points are in m, write np.array(points) * mm if these are millimetres.")
+
+
+def check_timed(problem: Problem, timing: Timing, at: FloatArray | None) -> None:
+    """Raise DefinitionError for timed points outside the part of the stroke that is looked at; a crank goes round."""
+    if at is None or timing.turn:
+        return
+    low, high = sorted((timing.start, timing.start + timing.span))
+    outside = np.flatnonzero((at < low - 1e-9 * (high - low)) | (at > high + 1e-9 * (high - low)))
+    if len(outside):
+        unit = stroke_display_unit(problem.plan, timing.stroke, "mm")
+        told, least, most = (show(float(each), unit, 4) for each in (at[outside[0]], low, high))
+        where = f"point {outside[0] + 1} is timed at {timing.stroke} = {told}, outside the stroke from {least} to {most}"
+        raise DefinitionError(f"{problem.plan.title}: {where}; give a stroke within it, or another over={{...}}.")
 
 
 def moving_stroke(problem: Problem) -> str:
@@ -471,12 +499,13 @@ class TaskSearch:
         solutions: list[SynthesisedMachine] = []
         misses: list[Miss] = []
         seen: list[tuple[float, Ends, int]] = []
+        moving = self.moving(ends)
         for one in every:
             error, each, k = one
             if len(solutions) == ANSWERS:
                 break
             full = len(misses) >= MISSES
-            if (full and not each.good[k]) or any(self.is_same(one, other) for other in seen):
+            if (full and not each.good[k]) or any(self.is_same(one, other, moving) for other in seen):
                 continue
             seen.append(one)
             machine = self.problem.machine_of(each.at[k, : each.fit.n], each.fit.combination)
@@ -498,13 +527,23 @@ class TaskSearch:
                 found[0] = replace(best, sentence=f"{best.sentence.removesuffix('.')}; {words}.")
         return found
 
-    def is_same(self, one: tuple[float, Ends, int], other: tuple[float, Ends, int]) -> bool:
-        """Return whether two ends are one design."""
+    def is_same(self, one: tuple[float, Ends, int], other: tuple[float, Ends, int], moving: Mask) -> bool:
+        """Return whether two ends are one design, by the variables (n,) that move anything."""
         (error, ends, k), (known, others, j) = one, other
         if ends.fit.combination != others.fit.combination:
             return False
         n = ends.fit.n
-        return is_one_design(ends.at[k, :n], others.at[j, :n], error, known, exact_error(self.rows))
+        return is_one_design(ends.at[k, :n][moving], others.at[j, :n][moving], error, known, exact_error(self.rows))
+
+    def moving(self, ends: Sequence[Ends]) -> Mask:
+        """Return which variables (n,) move anything of the task; all where conditions or a rank are asked."""
+        found = np.zeros(len(self.problem.space.variables), bool)
+        if self.problem.constraints or self.ranks:
+            return np.ones(len(found), bool)
+        for each in ends:
+            steep = each.fit.slopes(each.at, each.base)[:, :, : each.fit.n] if len(each.at) else np.zeros((0, 0, len(found)))
+            found |= np.asarray(np.any(steep != 0.0, axis=(0, 1)))
+        return found
 
     def order(self, each: SynthesisedMachine) -> tuple[float, float]:
         """Return by what answers are ordered: by the error to three digits, or exact, then by what is asked, then by the error."""

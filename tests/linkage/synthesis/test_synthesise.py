@@ -232,3 +232,64 @@ def test_what_cannot_be_asked_is_said(given, words):
 def test_a_task_that_is_none_is_refused(make, words):
     with pytest.raises(DefinitionError, match=words):
         make()
+
+
+def bar_task(count, **task):
+    """Return a synthesis of a known bar from some points of its path, each given once or twice."""
+    points = FourBar(OA=0.036, AB=0.11, CB=0.085, AP=0.05).at(phi=np.linspace(0.3, 3.5, count))["P"].T
+    vary = {"OA": (0.01, 0.08), "AB": (0.05, 0.2), "CB": (0.05, 0.2), "AP": (0.01, 0.12), "BAP": (-1.5, 1.5), "C": around(30 * mm)}
+    path = PathTask(np.repeat(points, task.pop("each", 1), axis=0) * task.pop("unit", 1.0), of="P")
+    return synthesise(FourBar(), path=path, vary=vary, starts=6, **task)
+
+
+@pytest.mark.parametrize(("count", "each"), [(1, 1), (1, 3), (2, 1), (5, 2)])
+def test_few_points_and_points_given_twice(count, each):
+    found = bar_task(count, each=each)
+    assert found.best.most <= 1e-10
+    assert np.ptp(found.best.strokes.reshape(count, each), axis=1).max() <= 1e-6
+
+
+def test_one_point_at_equal_steps():
+    assert bar_task(1, timed="steps").best.most <= 1e-10
+
+
+def test_millimetres_for_metres_are_said():
+    with pytest.raises(DefinitionError, match=r"points are in m, write np.array\(points\) \* mm"):
+        bar_task(4, unit=1e3)
+
+
+def test_a_point_that_is_timed_outside_the_stroke_is_said():
+    task = PathTask([(0.5, 0.5), (0.6, 0.5)], of="G", at=[0.1, 0.4])
+    with pytest.raises(DefinitionError, match="point 2 is timed at S = 400 mm, outside the stroke from 0 mm to 250 mm"):
+        synthesise(ThreePointHitch(), path=task, vary={"MK": (0.75, 1.0)})
+    phi = np.array([0.5, 1.0])
+    task = PathTask(FourBar(OA=0.03).at(phi=phi)["P"].T, of="P", at=phi + 4 * np.pi)  # a crank goes round
+    assert synthesise(FourBar(), path=task, vary={"OA": (0.02, 0.05)}, starts=4).best.most <= 1e-12
+    with pytest.raises(DefinitionError, match="outside the stroke from"):
+        synthesise(FourBar(), path=task, vary={"OA": (0.02, 0.05)}, over={"phi": (0.7, 2.0)})
+
+
+@pytest.mark.parametrize("turns", [0, 2, -3])
+def test_angles_count_modulo_a_turn(turns):
+    phi, known = np.array([0.5, 1.0, 1.5]), FourBar(OA=0.03)
+    pose = known.at(phi=phi)
+    function = FunctionTask(phi, pose["psi"] + turns * 2 * np.pi, of="psi")
+    motion = PoseTask(*pose["A"], pose.angle("A", "B") + turns * 2 * np.pi, of="A B", at=phi)
+    for task in ({"function": function}, {"motion": motion}):
+        found = synthesise(FourBar(), vary={"OA": (0.01, 0.06), "CB": (0.05, 0.12)}, starts=6, **task)
+        assert_allclose([found.machine["OA"], found.machine["CB"]], [0.03, 0.08], rtol=0, atol=1e-9)
+
+
+def test_a_dimension_that_moves_nothing_makes_no_other_machine():
+    phi = np.array([0.5, 1.0, 1.5])
+    function = FunctionTask(phi, FourBar(OA=0.03).at(phi=phi)["psi"], of="psi")
+    found = synthesise(FourBar(), function=function, vary={"OA": (0.01, 0.06), "AP": (0.01, 0.1)}, starts=6)
+    assert len(found.solutions) == 1
+    assert_allclose(found.machine["OA"], 0.03, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("values", [[0.030, 0.036, 0.040], (0.030, 0.040, 0.002)])
+def test_choices_and_steps_hold_the_known_bar(values):
+    points = FourBar(OA=0.036, AB=0.11).at(phi=np.linspace(0.3, 3.5, 8))["P"].T
+    found = synthesise(FourBar(), path=PathTask(points, of="P"), vary={"OA": values, "AB": (0.08, 0.14)}, starts=6)
+    assert found.best.most <= 1e-10 and abs(found.machine["OA"] - 0.036) <= 1e-12

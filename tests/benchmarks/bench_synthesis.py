@@ -14,11 +14,11 @@ from linkage import PathTask, distance, mm, synthesise
 from linkage import least as lowest
 from linkage import most as highest
 from linkage.motion.measures import Given
-from linkage.study.fit import Fit, Timing
 from linkage.study.problem import Problem
 from linkage.study.space import Space
+from linkage.synthesis.fit import Fit, Timing
 from mechanisms.classics.jansen import Jansen
-from tests.linkage.study import synthesis_tasks as papers
+from tests.linkage.synthesis import synthesis_tasks as papers
 from tests.linkage.synthesis.synthesis_tasks import Bar, OtherBar, box, places
 
 BEST = 1e-5

@@ -27,7 +27,7 @@ from linkage.synthesis.fit import Fit, Timing
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks import bench_synthesis
-from tests.linkage.study import synthesis_tasks as papers
+from tests.linkage.synthesis import synthesis_tasks as papers
 from tests.linkage.synthesis.synthesis_tasks import Bar, box, places
 
 SQUARE_MM = mm**2

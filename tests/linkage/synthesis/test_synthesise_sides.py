@@ -31,7 +31,7 @@ from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.klann import Klann
 from mechanisms.classics.stephenson_two import StephensonTwo
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.linkage.study import synthesis_tasks as papers
+from tests.linkage.synthesis import synthesis_tasks as papers
 from tests.linkage.synthesis.synthesis_tasks import Bar, OtherBar, box, places
 
 

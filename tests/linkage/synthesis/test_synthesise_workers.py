@@ -11,7 +11,7 @@ import pytest
 from linkage import DefinitionError, FunctionTask, PathTask, deg, distance, least, mm, most, synthesise, transmission
 from linkage.synthesis.task_work import SearchRows
 from mechanisms.classics.four_bar import FourBar
-from tests.linkage.study import synthesis_tasks as papers
+from tests.linkage.synthesis import synthesis_tasks as papers
 from tests.linkage.synthesis.synthesis_tasks import Bar
 
 TASK = PathTask(np.array(papers.FIVE) * mm, of="P", at=papers.FIVE_AT)

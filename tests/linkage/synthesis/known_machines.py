@@ -29,7 +29,7 @@ from linkage import (
 from mechanisms.classics.klann import Klann
 from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.classics.stephenson_one import StephensonOne
-from tests.linkage.study import synthesis_tasks
+from tests.linkage.synthesis import synthesis_tasks
 from tests.linkage.synthesis.synthesis_tasks import Bar
 
 KINDS = ("timed", "untimed", "closed")

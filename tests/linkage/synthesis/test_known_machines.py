@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from tests.linkage.study.known_machines import CLASSES, KINDS, along_stroke, known_task
+from tests.linkage.synthesis.known_machines import CLASSES, KINDS, along_stroke, known_task
 
 EACH = 25
 """Machines of a class, of seeds in a row, whose tasks are timed, untimed and closed by turns."""

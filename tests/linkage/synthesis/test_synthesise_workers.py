@@ -99,7 +99,7 @@ def test_what_is_torn_is_searched_again(alone, tmp_path):
     ],
 )
 def test_a_folder_of_another_task_is_refused(tmp_path, monkeypatch, other, words):
-    from linkage.study import task_search
+    from linkage.synthesis import task_search
 
     monkeypatch.setattr(task_search.TaskSearch, "run", lambda self, stages: None)
     searched(folder=tmp_path)

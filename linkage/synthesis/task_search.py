@@ -447,6 +447,8 @@ class TaskSearch:
 
     def descended(self, stages: Stages, through: Through, first: Sequence[Starts], told: int = 0, *, name: str = "") -> list[FloatArray]:
         """Return where local searches end, or where they stand when the limit is reached; `name` is the stage's where it is another."""
+        if self.problem.count.is_spent:
+            return [each.at for each in first]
         parts = [(each.fit.combination, {"at": each.at, "base": each.base}) for each in first]
         rows = SearchRows.joined(parts)
         found = stages.done(name or through, DescentWork(*self.shared, through, self.most(rows.count)), rows, told=told)

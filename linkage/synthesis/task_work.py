@@ -190,7 +190,8 @@ class DescentWork(FitWork):
             if not len(going) or fit.problem.count.designs >= self.most * len(at):
                 break
             before = error[going]
-            at[going], error[going] = fit.descend(at[going], base[going], STEPS, through=through)
+            left = (self.most * len(at) - fit.problem.count.designs) / (2.0 * len(going))  # a step looks at one design or two
+            at[going], error[going] = fit.descend(at[going], base[going], int(np.clip(left, 1, STEPS)), through=through)
             going = going[error[going] < (1.0 - 1e-9 if turn < TURNS else WORTH) * before]
         return {"at": at}
 

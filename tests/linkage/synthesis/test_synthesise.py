@@ -293,3 +293,13 @@ def test_choices_and_steps_hold_the_known_bar(values):
     points = FourBar(OA=0.036, AB=0.11).at(phi=np.linspace(0.3, 3.5, 8))["P"].T
     found = synthesise(FourBar(), path=PathTask(points, of="P"), vary={"OA": values, "AB": (0.08, 0.14)}, starts=6)
     assert found.best.most <= 1e-10 and abs(found.machine["OA"] - 0.036) <= 1e-12
+
+
+@pytest.mark.parametrize("limit", [500, 2000])
+def test_a_limit_counts_designs(limit):
+    known = FourBar(OA=0.036, AB=0.11, CB=0.085, AP=0.05)
+    points = known.at(phi=np.linspace(0.3, 5.7, 10))["P"].T
+    vary = {"OA": (0.02, 0.06), "AB": (0.05, 0.2), "CB": (0.05, 0.2), "AP": (0.02, 0.1), "O": around(50 * mm), "C": around(50 * mm)}
+    found = synthesise(FourBar(), path=PathTask(points, of="P"), vary=vary, limit=limit)
+    assert found.limit == limit and limit <= found.evaluations <= limit + 400
+    assert f"The limit of {limit} designs was reached" in found.sentence

@@ -397,12 +397,14 @@ def machine_words(
 ) -> str:
     """Return an answer in words: its misses, order, circuit, Grashof class, least transmission angle, and how near to a change point."""
     unit = miss_unit(fit)
-    rms, worst = float(np.sqrt(np.mean(far**2))), int(np.argmax(far))
+    error, rms, worst = float(np.sum(far**2)), float(np.sqrt(np.mean(far**2))), int(np.argmax(far))
     parts = [
         said(
             "error {error}, rms {rms}, at most {most} at point {worst}",
-            error=f"{float(np.sum(far**2)):.6g}", rms=show(rms, unit, 4), most=show(float(far[worst]), unit, 4), worst=worst + 1,
+            error=f"{error:.6g}", rms=show(rms, unit, 4), most=show(float(far[worst]), unit, 4), worst=worst + 1,
         )
+        if error > exact_error(fit.rows)
+        else said("exact, error {error}", error=f"{error:.2g}")
     ]  # fmt: skip
     parts.append(
         said("all {count} points in order, on one circuit and one branch", count=len(far))

@@ -82,7 +82,7 @@ def test_a_table_says_what_each_class_can(found, tmp_path):
         assert_allclose(float(size) * mm, np.ptp(box, axis=1).max(), rtol=1e-3)
         assert swept_size(each.fit_of(each.best), each.machine) == np.ptp(box, axis=1).max()
         assert (int(count), int(searches)) == (len(each.solutions), each.starts)
-    assert found.table in str(found) and "2 classes: " in str(found) and "1. SliderCrank: error" in str(found)
+    assert found.table in str(found) and "2 classes: " in str(found) and "1. SliderCrank: exact, error" in str(found)
     found.csv(tmp_path / "answers.csv")
     with open(tmp_path / "answers.csv", newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))

@@ -148,7 +148,8 @@ def synthesise(
     problem.count.limit = limit
     timing = Timing.of(problem, moving_stroke(problem), timed, rows.count)
     check_unit_of_points(machine, rows, space)
-    check_timed(problem, timing, task.at if timed is True else None)
+    if timing.stroke not in fitted.travels:  # rows of cylinders have ranges of their own
+        check_timed(problem, timing, task.at if timed is True else None)
     catalogue = catalogue_for(problem, task, timing, timed, starts, executor, progress) if catalogued else None
     many = starts if isinstance(starts, int) else STARTS
     search = TaskSearch(problem, task, rows, timing, timed, ranks, held, over, many, seed, catalogue)

@@ -1,4 +1,4 @@
-"""A tipper and a tailgate synthesised whole: cylinder of a catalogue, planes, pivots in regions, pin forces and reserve together.
+"""A tipper, a tailgate and a bucket synthesised whole: cylinder of a catalogue, planes, pivots in regions, pin forces and reserve together.
 
 Every answer is looked at again at 5,001 poses by formulas of its own: circles, moments about pins, segments, rays.
 """
@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, LiftCircuit, catalogue, reserve
 from linkage import (
+    LEFT,
     RIGHT,
     Dimension,
     Dyad,
@@ -32,6 +33,7 @@ from linkage import (
     outside,
     pin_force,
     synthesise,
+    transmission,
 )
 from linkage.units import g0
 from tests.linkage.synthesis.bars_apart import apart, cross, fixed, from_segment, meet
@@ -187,3 +189,55 @@ def test_a_tailgate():
         assert is_inside(A, PANEL) and abs(A - complex(*LAMP[:2])) >= LAMP[2]
         assert (from_segment(complex(*LAMP[:2]) + 0.0 * B, A + 0.0 * B, B) - LAMP[2]).min() - 30 * mm >= 10 * mm * (1 - 1e-9)
         check_forces(each.machine, push, hinge, 1.5, 8 * kN)
+
+
+# -- a bucket -----------------------------------------------------------------------------------------------
+
+
+class Bucket(Mechanism):
+    """On the arm: the cylinder EP turns the lever NP, the rod PQ turns the bucket KQT, whose edge T is loaded."""
+
+    S = Stroke(0.0, 0.4)
+    L0 = Dimension(0.86)
+    E, N, K = Ground(0.0, 0.45), Ground(1.05, 0.05), Ground(1.40, 0.0)
+    P = Dyad(E, N, EP=L0 + S, NP=0.38, side=LEFT)
+    Q = Dyad(P, K, PQ=0.45, KQ=0.32, side=LEFT)
+    T = OnLink(K, Q, KT=0.8, QKT=-100 * deg)
+    dig = angle(K, T)
+    soil = Weight(T, mass=300.0)
+    lift = Cylinder(E, P, bore=80 * mm, rod=45 * mm, works="both")
+    line = LiftCircuit(lift, pressure=180 * bar)
+    planes = Planes("lift KQT", width=90 * mm)
+
+
+BUCKET_ROWS = catalogue(bores=[50 * mm, 63 * mm], rods=[36 * mm], strokes=[320 * mm, 400 * mm], dead=460 * mm)
+
+
+def test_a_bucket():
+    """It lies open at the start, is at 28 deg below level after 0.2 m and closed after 0.4 m: a stroke of 320 mm does not reach."""
+    task = FunctionTask([0.0, 0.2, 0.4], [10 * deg, -28 * deg, -75 * deg], of="dig")
+    lengths = {"NP": (0.25, 0.5), "PQ": (0.3, 0.6), "KQ": (0.2, 0.45), "QKT": (-130 * deg, -70 * deg)}
+    kept = [least(clearance()) >= 20 * mm, least(reserve("lift")) >= 4.0]
+    kept += [least(transmission("Q")) >= 35 * deg, most(pin_force("K")) <= 14 * kN]
+    found = synthesise(Bucket(), function=task, vary={"lift": BUCKET_ROWS, **lengths}, starts=4, subject_to=kept)
+    assert found.best.most <= 1e-9
+    for each in found.solutions:
+        machine = each.machine
+        S = way_of(machine, BUCKET_ROWS)
+        E, N, K = (fixed(machine, name) + 0.0 * S for name in "ENK")
+        P = meet(E, machine["L0"] + S, N, machine["NP"], 1.0)
+        Q = meet(P, machine["PQ"], K, machine["KQ"], 1.0)
+        T = K + polar(0.8, np.angle(Q - K) + machine["QKT"])
+        told = np.interp(task.at, S, np.unwrap(np.angle(T - K)))
+        assert_allclose(told, task.values, atol=1e-6)
+        corner = np.abs(np.angle((P - Q) / (K - Q)))
+        assert np.minimum(corner, np.pi - corner).min() >= 35 * deg * (1 - 1e-9)
+        gap = np.min([apart(E, P, K, Q), apart(E, P, Q, T), apart(E, P, T, K)], axis=0) - 90 * mm
+        assert gap.min() >= 20 * mm * (1 - 1e-9)
+        rod, ram, lever = ((to - at) / np.abs(to - at) for at, to in ((P, Q), (E, P), (N, P)))
+        weight = -1j * 300.0 * g0
+        pushed = -cross(T - K, weight) / cross(Q - K, rod)
+        assert np.abs(weight + pushed * rod).max() <= 14 * kN * (1 + 1e-9)
+        force = pushed * cross(rod, lever) / cross(ram, lever)
+        piston, annulus = (np.pi / 4 * (machine["lift.bore"] ** 2 - size) for size in (0.0, machine["lift.rod"] ** 2))
+        assert (180 * bar * np.where(force > 0.0, piston, annulus) / np.abs(force)).min() >= 4.0 * (1 - 1e-9)

@@ -59,7 +59,7 @@ SEARCHES = {
     "own columns": "columns", "notebook": "notebook", "report": "export", "drawing": "export", "level lift": "places",
     "grading path": "places", "duty": "duty", "force element": "element", "damper": "gas_spring", "slope": "load_case",
     "pin forces": "forces", "accumulator": "hydraulics", "missing millimetres": "reach", "live page": "page", "pressure": "hydraulics",
-    "transfer ratio": "theory", "tolerance": "studies", "optimise": "studies", "synthesis": "studies",
+    "transfer ratio": "theory", "tolerance": "studies", "optimise": "studies", "synthesis": "exact_synthesis",
 }  # fmt: skip
 """What a reader types, and the page that answers it."""
 FOUND = 3

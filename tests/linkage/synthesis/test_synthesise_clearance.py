@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from linkage import FunctionTask, PathTask, Planes, around, clearance, least, mm, synthesise
+from linkage import Featured, FunctionTask, PathTask, Planes, around, clearance, least, mm, synthesise
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.stephenson_three import StephensonThree
 from tests.linkage.synthesis.bars_apart import fixed, four_bar, meet, pairs_apart
@@ -22,9 +22,13 @@ class Flat(FourBar):
 
 
 class FlatSix(StephensonThree):
-    """A six-bar of bars 10 mm wide, all in one plane but the coupler."""
+    """A six-bar of bars 10 mm wide, all in one plane but the coupler; its rod has no point of its own."""
 
+    P = None
     planes = Planes("OA CB DF EF", "ABD", width=WIDTH)
+
+    def featured(self) -> Featured:
+        return Featured("psi", ["D"])
 
 
 def six_bar(machine, phi):

@@ -130,14 +130,18 @@ function reshaped(point, to) {
 
 /* ---- what was done: back and forth ---- */
 
+/* What is moved with one press, however slowly, is one thing done: it is noted when nothing is pressed any more. */
 let done = [], undone = [];
+const down = new Set();
+addEventListener("pointerdown", (event) => down.add(event.pointerId), true);
+for (const end of ["pointerup", "pointercancel"]) addEventListener(end, (event) => { down.delete(event.pointerId); remember(); }, true);
 const state = () => JSON.stringify([present, stands, runs, chosen]);
 function noted() {
-  if (!playing && done[done.length - 1] !== state()) { done.push(state()); undone = []; if (done.length > 400) done.shift(); }
+  if (!playing && !down.size && done[done.length - 1] !== state()) { done.push(state()); undone = []; if (done.length > 400) done.shift(); }
   keysOf();
 }
 function keysOf() { byId("undo").disabled = done.length < 2; byId("redo").disabled = !undone.length; }
-function restored_to(text) {
+function backAt(text) {
   let stood;
   [present, stood, runs, chosen] = JSON.parse(text);
   stands = stood;
@@ -146,9 +150,9 @@ function restored_to(text) {
 }
 function undo() {
   if (done[done.length - 1] !== state()) noted();
-  if (done.length > 1) { undone.push(done.pop()); restored_to(done[done.length - 1]); }
+  if (done.length > 1) { undone.push(done.pop()); backAt(done[done.length - 1]); }
 }
-function redo() { if (undone.length) { done.push(undone.pop()); restored_to(done[done.length - 1]); } }
+function redo() { if (undone.length) { done.push(undone.pop()); backAt(done[done.length - 1]); } }
 on(byId("undo"), "click", undo);
 on(byId("redo"), "click", redo);
 on(document, "keydown", (event) => {

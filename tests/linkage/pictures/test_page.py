@@ -493,6 +493,25 @@ def test_with_shift_the_lengths_that_meet_at_a_joint_follow_and_the_other_joints
         assert shown.state["design"] == design
 
 
+def test_what_is_dragged_slowly_is_undone_at_once(chromium, written):
+    machine = FourBar()
+    with Shown(chromium, written(machine)) as shown:
+        at = middle(shown, "B")
+        shown.tab.keyboard.down("Shift")
+        shown.tab.mouse.move(*at)
+        shown.tab.mouse.down()
+        for step in (4, 8, 12):
+            shown.tab.mouse.move(at[0] + step, at[1] - step)
+            shown.tab.wait_for_timeout(350)
+        shown.tab.mouse.up()
+        shown.tab.keyboard.up("Shift")
+        shown.settle()
+        assert shown.state["design"] != pytest.approx(dict(machine.dimensions), abs=1e-6)
+        shown.tab.keyboard.press("Control+z")
+        shown.settle()
+        assert shown.state["design"] == pytest.approx(dict(machine.dimensions), abs=1e-12)
+
+
 FORMS = ("python", "toml", "options")
 
 

@@ -175,7 +175,7 @@ class LiftingCylinder:
         held, supply = (at(LawRequest(text=f"{name} {each.__name__}", formula=each)) for each in (self.circuit.held, self.circuit.supply))
         back = most(going_back_request(*asked, self.way_back))
         holding = most(pressure_request(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held
-        pressed = least(thrust_request(self.ram.name, Acting(direction=FRICTIONLESS))) >= 0.0
+        pressed = self.ram.pressed(self.ram.name)
         return {
             "lifting": least(reserve_request(*asked)) >= 1.0,
             "holding": AllOf((holding, pressed)) if self.ram.is_single_acting else holding,

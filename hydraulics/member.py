@@ -270,6 +270,15 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return the verdict on a load that pulls at it where no oil holds it; None where there is no such load."""
         return None
 
+    def pressed(self, which: Ram | str) -> Condition:
+        """Return the condition that the load is on the side that works everywhere, with the drive at rest; of the class's, or of itself."""
+        thrust = thrust_request(which, Acting(direction=FRICTIONLESS))
+        return most(thrust) <= 0.0 if self.side == "rod" else least(thrust) >= 0.0
+
+    def _is_alone(self, judge: Judge) -> bool:
+        """Return whether it carries loads on no line that has a verdict on holding."""
+        return carries_loads(judge) and not circuits_of(self, judge.plan)
+
     @property
     def is_single_acting(self) -> bool:
         """Whether oil pushes it alone, and nothing holds it against a pull."""
@@ -742,7 +751,30 @@ class Cylinder(BarrelAndRod, Ram):
         return Verdict("standard size", False, f"{'; '.join([says, *faults])}.")
 
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
-        return [self.standard(judge.motion)]
+        return [self.standard(judge.motion), *self._side_verdicts(judge)]
+
+    def questions(self, judge: Judge) -> list[Question]:
+        """Return what any ram asks, and whether the load is on the side that works where no line says it."""
+        return [*super().questions(judge), *([self.pressed(self)] if self._is_bare(judge) else [])]
+
+    def _is_bare(self, judge: Judge) -> bool:
+        """Return whether it works with one side, carries loads, and no line or circuit has it."""
+        return self.side in SIDES and not lines_of(self, judge.plan.members) and self._is_alone(judge)
+
+    def _side_verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return a note where the load is against the side that works, which no line's verdict says; nothing where it is not."""
+        if not self._is_bare(judge):
+            return []
+        found = judge.answer(self.pressed(self))
+        if found.ok or np.isnan(found.value):
+            return []
+        force = said("a force without bounds") if found.unbounded else said("up to {thrust}", thrust=show(abs(found.value), "kN", 4))
+        given = {"name": self.name, "force": force, "where": found.place}
+        if self.side == PISTON:
+            text = said('the load pulls {name} with {force}, {where}: its piston side holds no pull; say works="both" or "rod".', **given)
+        else:
+            text = said('the load pushes {name} with {force}, {where}: its rod side holds no push; say works="both" or "piston".', **given)
+        return [Verdict("side", None, text, answer=found)]
 
     def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
         size = one_size(self.sized(judge.motion))

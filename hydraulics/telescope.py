@@ -28,9 +28,9 @@ import numpy as np
 from linkage.errors import DefinitionError, cited, unwarned
 from linkage.frozen import keep_own, refuses_changes
 from linkage.language import noted, said
-from linkage.loads import FRICTIONLESS, Acting, Case, Glyph, Parameter, Poses
+from linkage.loads import Acting, Case, Glyph, Parameter, Poses
 from linkage.loads.element import Formulas, value_text
-from linkage.motion import Column, Condition, Judge, Motion, least, most
+from linkage.motion import Column, Condition, Judge, Motion, most
 from linkage.quantities import Member, Quantity, Reference, quantity
 from linkage.statics import member_thrust
 from linkage.units import mm, show, shown_number
@@ -39,7 +39,7 @@ from linkage.verdict import Verdict
 from .buckling import Buckling, never_pushed
 from .cylinder import MOST, RamSize, Works
 from .inputs import Array, follows, in_metres, number_set, one_number, positive, stroke_in_metres
-from .member import LENGTHS, PISTON, TOLERANCE, Ram, Side, buckling_request, carries_loads, circuits_of, thrust_request
+from .member import LENGTHS, PISTON, TOLERANCE, Ram, Side, buckling_request
 
 STAGES = 12
 """More moving stages than any telescope has."""
@@ -272,14 +272,6 @@ class Telescope(Ram):
         """Return that it fits, that its thinnest stage does not buckle, and that nothing pulls at it where no pump line says so."""
         found = dict(super().conditions(judge))
         return found | ({"holding": self.pressed(self.name)} if self._is_alone(judge) else {})
-
-    def pressed(self, which: Ram | str) -> Condition:
-        """Return the condition that the load presses on it everywhere, with the drive at rest; of the class's, or of itself."""
-        return least(thrust_request(which, Acting(direction=FRICTIONLESS))) >= 0.0
-
-    def _is_alone(self, judge: Judge) -> bool:
-        """Return whether it carries loads on no line that has a verdict on holding."""
-        return carries_loads(judge) and not circuits_of(self, judge.plan)
 
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
         if not self._is_alone(judge):

@@ -133,11 +133,17 @@ function reshaped(point, to) {
 /* What is moved with one press, however slowly, is one thing done: it is noted when nothing is pressed any more. */
 let done = [], undone = [];
 const down = new Set();
-addEventListener("pointerdown", (event) => down.add(event.pointerId), true);
+addEventListener("pointerdown", (event) => { noted(); down.add(event.pointerId); }, true);
 for (const end of ["pointerup", "pointercancel"]) addEventListener(end, (event) => { down.delete(event.pointerId); remember(); }, true);
 const state = () => JSON.stringify([present, stands, runs, chosen]);
+/* Whether the present state is the last one noted; while it plays, whether the design is. */
+function isNoted() {
+  if (!done.length || !playing) return done[done.length - 1] === state();
+  const [design, , run, sizes] = JSON.parse(done[done.length - 1]);
+  return JSON.stringify([design, run, sizes]) === JSON.stringify([present, runs, chosen]);
+}
 function noted() {
-  if (!playing && !down.size && done[done.length - 1] !== state()) { done.push(state()); undone = []; if (done.length > 400) done.shift(); }
+  if (!down.size && !isNoted()) { done.push(state()); undone = []; if (done.length > 400) done.shift(); }
   keysOf();
 }
 function keysOf() { byId("undo").disabled = done.length < 2; byId("redo").disabled = !undone.length; }
@@ -149,7 +155,7 @@ function backAt(text) {
   keysOf();
 }
 function undo() {
-  if (done[done.length - 1] !== state()) noted();
+  noted();
   if (done.length > 1) { undone.push(done.pop()); backAt(done[done.length - 1]); }
 }
 function redo() { if (undone.length) { done.push(undone.pop()); backAt(done[done.length - 1]); } }

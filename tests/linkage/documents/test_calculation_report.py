@@ -248,7 +248,7 @@ class Grab(GrabArms):
     shock = LoadCase("with shock", scale={"load": 1.8})
     lift = Cylinder("A", "B", bore=80 * mm, rod=45 * mm)
     pump = LiftCircuit(lift, pressure=160 * bar)
-    jib = Cylinder("D", "H", bore=63 * mm, rod=36 * mm)
+    jib = Cylinder("D", "H", bore=63 * mm, rod=36 * mm, works="both")
 
 
 class Cornered(Grab):

@@ -502,7 +502,7 @@ def test_what_is_dragged_slowly_is_undone_at_once(chromium, written):
         shown.tab.mouse.down()
         for step in (4, 8, 12):
             shown.tab.mouse.move(at[0] + step, at[1] - step)
-            shown.tab.wait_for_timeout(350)
+            shown("() => new Promise((then) => setTimeout(then, 300))")
         shown.tab.mouse.up()
         shown.tab.keyboard.up("Shift")
         shown.settle()
@@ -510,6 +510,24 @@ def test_what_is_dragged_slowly_is_undone_at_once(chromium, written):
         shown.tab.keyboard.press("Control+z")
         shown.settle()
         assert shown.state["design"] == pytest.approx(dict(machine.dimensions), abs=1e-12)
+
+
+def test_what_is_dragged_while_it_plays_is_undone(chromium, written):
+    machine = FourBar()
+    with Shown(chromium, written(machine)) as shown:
+        shown("() => hydrolinkage.play(true)")
+        at = middle(shown, "B")
+        shown.tab.keyboard.down("Shift")
+        shown.tab.mouse.move(*at)
+        shown.tab.mouse.down()
+        at = middle(shown, "B")
+        shown.tab.mouse.move(at[0] + 12, at[1] - 12)
+        shown.tab.mouse.up()
+        shown.tab.keyboard.up("Shift")
+        changed = shown.state["design"]
+        shown.tab.keyboard.press("Control+z")
+        shown.settle()
+        assert shown.state["design"] == pytest.approx(dict(machine.dimensions), abs=1e-12) != changed
 
 
 FORMS = ("python", "toml", "options")

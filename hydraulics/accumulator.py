@@ -286,9 +286,9 @@ class AccumulatorBlock:
     def settled(self, p1: ArrayLike, exponent: ArrayLike | None = None) -> AccumulatorBlock:
         """Return the block as it answers a fast movement, after it has slowly settled at `p1` by its own law.
 
-        Accumulators at work follow p V^n = const from there, so they run empty below their charge, cooled; the others join
-        at their charge. n is `exponent`, or what the gas gives at `p1`: 1.4 ideal, the isentropic exponent of real nitrogen
-        (good to 2 % of the pressure over a change of volume by a third at 100 bar, to 5 % at 200 bar).
+        Accumulators at work follow p V^n = const from there, so they run empty below their charge, cooled. The others join
+        at their charge. n is `exponent`, or what the gas gives at `p1`: 1.4 for ideal gas, the isentropic exponent for real
+        nitrogen. That is good to 2 % of the pressure over a change of volume by a third at 100 bar, to 5 % at 200 bar.
         An array `p1` gives one design per element. DefinitionError where the block is rigid or n is outside 1..10.
         """
         bank, pressure = self._bank, self._charged(p1)

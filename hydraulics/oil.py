@@ -192,13 +192,13 @@ NUMBERS: Mapping[str, tuple[str, ...]] = MappingProxyType({
 class OilLine(PumpLine, GasLine):
     """Oil that joins chambers: `level = OilLine(master.piston_side, slave.piston_side, filled=dict(slave=0.72))`.
 
-    What is `on` it, beside chambers, says what is given: a `Pump` the volume, by the pose, so that the line is held; a `Tank` or
-    accumulators the pressure; with nothing the line is closed, keeps its oil, and gives one of its cylinders its length, `slave.length`.
-    A bare cylinder stands for the side that it works with. A `Relief` may lie on any line.
+    What is `on` it, beside chambers, says what is given. A `Pump` gives the volume, by the pose, so that the line is held. A `Tank` or
+    accumulators give the pressure. With nothing the line is closed: it keeps its oil and gives one of its cylinders its length,
+    `slave.length`. A bare cylinder stands for the side that it works with. A `Relief` may lie on any line.
 
-    A line is filled, or charged with `charge_pressure` [Pa gauge], where strokes are `at` their values [SI] (a number or a dict, of
-    strokes that are not named the sketch); `filled` tells lengths of cylinders there instead [m], or that all are "open" or "closed".
-    `oil` is what was put in since [m3], a number, a dimension or a Stroke; `make_up` the pressure below which a closed line runs empty
+    A line is filled, or charged with `charge_pressure` [Pa gauge], where strokes are `at` their values [SI]: a number or a dict, the
+    sketch for strokes that are not named. `filled` tells lengths of cylinders there instead [m], or that all are "open" or "closed".
+    `oil` is what was put in since [m3], a number, a dimension or a Stroke. `make_up` is the pressure below which a closed line runs empty
     [Pa gauge]. `seal_friction` [Pa] and `exponent` are those of a FloatCircuit.
     """
 

@@ -17,7 +17,8 @@ DOCS = ROOT / "docs"
 sys.path.insert(0, str(DOCS))
 from made import drawn, examples, gallery  # noqa: E402
 
-from tests.tools.prose import LONGEST_MEAN, mean_length, sentences  # noqa: E402
+from tests.tools.catalogues import messages  # noqa: E402
+from tests.tools.prose import LONGEST_MEAN, docstrings, mean_length, sentences  # noqa: E402
 
 PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("howto/*.md"))]
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
@@ -28,6 +29,9 @@ DRAWN = {
     for name, script in SCRIPTS.items()
     for picture, make in script.PICTURES.items()
 }
+PACKAGES = ("linkage", "hydraulics", "mechanisms")
+LONGEST_MESSAGE = 32
+"""The words that one sentence of a message may have: more than that nobody reads beside a machine."""
 WIDE = 100
 """The characters of code that the column has room for."""
 
@@ -42,6 +46,14 @@ def test_what_a_page_links_is_there(page):
 def test_sentences_are_short(page):
     text = page.read_text(encoding="utf-8")
     assert mean_length(text) <= LONGEST_MEAN, [sentence for count, sentence in sentences(text) if count > 2 * LONGEST_MEAN]
+
+
+def test_docstrings_and_what_is_said_are_short_too():
+    sources = {path: path.read_text(encoding="utf-8") for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py"))}
+    assert mean_length(*(each for source in sources.values() for each in docstrings(source))) <= LONGEST_MEAN
+    said = [each.text for path, source in sources.items() for each in messages(path.relative_to(ROOT).as_posix(), source)]
+    assert mean_length(*said) <= LONGEST_MEAN
+    assert [each for each in said for count, _ in sentences(each) if count > LONGEST_MESSAGE] == []
 
 
 def test_sentences_are_counted_without_code_and_formulas():

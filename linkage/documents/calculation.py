@@ -72,9 +72,9 @@ def calculation_section(found: FilledEquations, pose_words: str) -> Section:
         ),
         Paragraph(
             said(
-                "An arrow over one letter is the position of a point, over two the vector between two points. L is a given length, "
-                "TurnV turns a vector by an angle and, with an index L, scales it to a length; Tcos is the angle of a triangle by the "
-                "cosine rule; arg is the direction of a vector from the x axis."
+                "An arrow over one letter is the position of a point, over two the vector between two points. L is a given length. "
+                "TurnV turns a vector by an angle and, with an index L, scales it to a length. Tcos is the angle of a triangle by the "
+                "cosine rule, arg the direction of a vector from the x axis."
             )
         ),
     ]
@@ -96,8 +96,8 @@ def calculation_section(found: FilledEquations, pose_words: str) -> Section:
         body.append(
             Paragraph(
                 said(
-                    "Forces are without friction. P is a force downwards, F another one, Q the force of a drive by virtual work, positive "
-                    "the way its stroke grows, T what a member carries, positive where it pushes its ends apart."
+                    "Forces are without friction. P is a force downwards, F another one. Q is the force of a drive by virtual work, "
+                    "positive the way its stroke grows. T is what a member carries, positive where it pushes its ends apart."
                 )
             )
         )

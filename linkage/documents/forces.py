@@ -43,8 +43,8 @@ def forces_section(subject: ReportSubject) -> Section | None:
     looks = Paragraph(
         said(
             "The largest force of each joint over {domain}, between the poses of the tables too, over load cases and directions of "
-            "motion. Fx and Fy act on the body, in its own axes: x from the first of the named points to the second, y to its left; on "
-            "the frame in the axes of the drawing.",
+            "motion. Fx and Fy act on the body, in its own axes: x from the first of the named points to the second, y to its left. On "
+            "the frame they are in the axes of the drawing.",
             domain=subject.domain,
         )
     )

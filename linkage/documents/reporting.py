@@ -68,10 +68,11 @@ def report(
 ) -> Path:
     """Return the path of the calculation report it wrote: .html, in one file; .pdf, A4; or .md with its pictures in FILE_files.
 
-    It has a title block, a sketch, verdicts, tables and curves, the inputs with units and sources, assumptions, the standards that are
-    cited, the numbered equations with numbers filled in, from `start` on, pin forces in every load case and at the relief valve's
-    pressure, limits of motion, checks with their measured figures, the version and a hash of the inputs. The same inputs give the same
-    bytes. Tables and curves run along one stroke; what is judged is over all that the machine runs, its `overs` or those of `over`.
+    It begins with a title block, a sketch, verdicts, tables and curves. Then stand the inputs with units and sources, assumptions, and the
+    standards that are cited. The equations are numbered from `start` on, with numbers filled in. Pin forces stand in every load case and
+    at the relief valve's pressure. Limits of motion, checks with their measured figures, the version and a hash of the inputs end it.
+    The same inputs give the same bytes. Tables and curves run along one stroke. What is judged is over all that the machine runs, its
+    `overs` or those of `over`.
 
     `number`, `revision`, `date`, `client` and who `prepared`, `checked` and `approved` it stand in the title block; what is left out is an
     empty line to write on. `title_block` adds rows to those below it, `{"Order": "4711"}`. `language` ("en", "ru") is the one that holds

@@ -187,19 +187,20 @@ def export(
 ) -> Path:
     """Return the path of the file it wrote for another program: `export(hitch, "hitch.xlsx")`. The ending of the name says which.
 
-    .xlsx (extra `xlsx`): a workbook of live formulas, the numbered equations one after the other at `count` poses of a stroke; a dimension
-    typed over changes all of it. `at=dict(tilt=0.1)` holds a stroke, `at=dict(S=(0.1, 0.2))` says where one runs. What no formula gives
-    (pins found by iteration) is a number there, marked so.
-    .csv: the table of results in full precision: of a machine over its strokes, `count` poses each of those that `at` does not give; of a
-    motion at its poses, its points and outputs or the `columns` given.
-    .dxf (extra `cad`) and .svg: a drawing in millimetres, true size, by layers: of a machine at the strokes that `at` gives, a pose each
-    (default: the start of the first stroke); of a motion all its poses. `trace` names points whose paths are drawn.
-    Of a working field .csv has a row each cell, .xlsx the chart as it is printed, too.
+    * .xlsx (extra `xlsx`) is a workbook of live formulas, the numbered equations one after the other at `count` poses of a stroke. A
+      dimension typed over changes all of it. `at=dict(tilt=0.1)` holds a stroke, `at=dict(S=(0.1, 0.2))` says where one runs. What no
+      formula gives (pins found by iteration) is a number there, marked so.
+    * .csv is the table of results in full precision. Of a machine it goes over its strokes, `count` poses each of those that `at` does not
+      give. Of a motion it has its poses, with its points and outputs or the `columns` given.
+    * .dxf (extra `cad`) and .svg are a drawing in millimetres, true size, by layers. Of a machine it has a pose each of the strokes that
+      `at` gives (default: the start of the first stroke), of a motion all its poses. `trace` names points whose paths are drawn.
+    * Of a working field .csv has a row each cell, .xlsx the chart as it is printed, too.
+
     Other kinds of files come with packages that are installed; `format="mjcf"` says by its name which kind is meant, whatever the ending.
 
     What stood at the path is replaced whole, or left as it was. Raises DefinitionError for another kind of file, for what does not go with
-    it, a batch of designs, and where the extra is not installed; AssemblyError for poses out of reach; FileError for a path that cannot be
-    written.
+    it, for a batch of designs, and where the extra is not installed. AssemblyError stands for poses out of reach, FileError for a path
+    that cannot be written.
     """
     check_name(path)
     file = Path(path)

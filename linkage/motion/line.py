@@ -304,10 +304,10 @@ def grows_along_leg(look: Look, tops: Tops) -> Mask:
 def is_pole(value: FloatArray, seen: FloatArray, reached: Mask, far: FloatArray, border: float = 1e-12, near: float = SEEN) -> Mask:
     """Return from which sides (..., 2) a value (...) grows beyond bounds, by what is seen (..., 2, n) at distances (n,) on either side.
 
-    A value c / (x0 + d)^q gains most by halving d where d is about x0. It is taken for a pole where its gains grew all the way there,
-    over six halvings at least 2.5-fold (for q = 1/2 it is 4-fold; the gains of a finite value shrink), and where x0 is as near as numbers
-    go (`near`); or where the poses beyond the place are refused, from `border` on, and x0 is as near as poses are refused for their
-    condition: below 1e-5, or about half the width of what is refused.
+    A value c / (x0 + d)^q gains most by halving d where d is about x0. At a pole its gains grew all the way there, over six halvings at
+    least 2.5-fold. For q = 1/2 it is 4-fold; the gains of a finite value shrink. And x0 is as near as numbers go (`near`). Or the poses
+    beyond the place are refused, from `border` on, and x0 is as near as poses are refused for their condition: below 1e-5, or about half
+    the width of what is refused.
     """
     gains = np.diff(seen, axis=-1)
     most = np.argmax(missing_lowest(gains), axis=-1)[..., None]

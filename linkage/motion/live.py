@@ -49,8 +49,8 @@ class LiveText:
 def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engine") -> LiveText:
     """Return JavaScript `const engine=...;` that sweeps a machine in a page; what no program gives is left out, with the reason.
 
-    `engine.sweep(d, strokes)` takes a design and an array for each stroke, and gives `values`, an array for each row, `reason`, 0 where a
-    pose is reached, else the number from 1 on of the member in `engine.steps` that cannot be placed, and `missing`, by how much [m]. NaN
+    `engine.sweep(d, strokes)` takes a design and an array for each stroke. It gives `values`, an array for each row. `reason` is 0 where a
+    pose is reached, else the number from 1 on of the member in `engine.steps` that cannot be placed; `missing` tells by how much [m]. NaN
     stands where there is no value, and for ratios and forces where a dead point is so near that Python refuses them.
     """
     found: dict[str, Request] = {}

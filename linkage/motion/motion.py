@@ -216,10 +216,10 @@ class Motion(Shown):
     def transmission_angle(self, point: Reference) -> FloatArray:
         """Return the transmission angle of a dyad's joint [rad], shape (...), 0 to pi; best near pi / 2.
 
-        Between the two links that meet in it (Dyad); between the link and the normal to its guide (SliderDyad: a
-        slider-crank's connecting rod and the normal to the slide); between the line to the pin and the normal to the slot
-        (PinSlotDyad); between the two guides (GuideCross); between slot and guide (YokeDyad). Its sine is the share of the
-        force on the way from link to link that moves the second one. DefinitionError for a point that is no such joint.
+        Of a Dyad it is between the two links that meet in it. Of a SliderDyad it is between the link and the normal to its
+        guide: a slider-crank's connecting rod and the normal to the slide. Of a PinSlotDyad it is between the line to the pin
+        and the normal to the slot, of a GuideCross between the two guides, of a YokeDyad between slot and guide. Its sine is
+        the share of the force on the way from link to link that moves the second one. DefinitionError for a point that is no such joint.
         Sources: H. Alt, Werkstattstechnik 26 (1932); S. S. Balli, S. Chand, Mech. Mach. Theory 37 (2002) 175-195.
         """
         name = checked_name("Point", point, self.plan.points, self.plan.title)

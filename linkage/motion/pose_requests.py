@@ -48,8 +48,8 @@ WORST = 1e16
 def condition(target: str | Member | None = None) -> NodeRequest:
     """Return the request for the condition of a pose, in `evaluate`, `function` and `source`: a number, 2 / 0.3 at regular poses.
 
-    Next to a singular pose it is 2 over the sine of the loop in line, and the product of such where several follow one another or a
-    direction is taken between points that come close: above 1e4 a ratio is off by some 0.3 eps cond^2, above 1e6 it is refused.
+    Next to a singular pose it is 2 over the sine of the loop in line. It is the product of such where several follow one another, or where
+    a direction is taken between points that come close. Above 1e4 a ratio is off by some 0.3 eps cond^2, above 1e6 it is refused.
     `condition("G")` is of what G is built from, `condition(angle("A", "P"))` of what the angle is built from and of its own direction,
     `condition()` of all points of the machine. What else is asked beside it makes no difference.
     """

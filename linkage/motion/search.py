@@ -59,15 +59,15 @@ class Extremum:
 def greatest(motion: Motion, f: Function) -> Extremum:
     """Return the greatest value of f over all that a motion covers, and where: one a design, and of each of several quantities.
 
-    `f(motion)` is asked again, of motions with the same designs at strokes in between: shape (...) as the motion's, or (k, ...) for k
-    quantities at once, NaN where it has no value. It may have kinks, jumps and gaps. The value is right to 1e-6 of its range, the place
+    `f(motion)` is asked again, of motions with the same designs at strokes in between. Its shape is (...) as the motion's, or (k, ...) for
+    k quantities at once, NaN where it has no value. It may have kinks, jumps and gaps. The value is right to 1e-6 of its range, the place
     to 1e-4 of the stroke, for every bump from 1/2000 of the range wide, and the same from however many poses. Where it jumps the larger
-    side counts; where it grows beyond bounds up to a pose that is refused or out of reach it is infinite, and told as `unbounded`.
+    side counts. Where it grows beyond bounds up to a pose that is refused or out of reach it is infinite, and told as `unbounded`.
     Poses out of reach are passed over, whatever the motion was asked for with.
 
-    Over a box of several strokes the highest part is found if what is higher than all else holds a box of 1/128 of each of two strokes,
-    1/32 of three, 1/12 of four, 1/7 of five, 1/5 of six; the value is right to 1e-9 of its range where f is smooth, to 1e-6 on borders
-    of what is reached, to 1e-3 on kinks.
+    Over a box of several strokes what is higher than all else is found if it holds a box of a share of each stroke: 1/128 of two, 1/32 of
+    three, 1/12 of four, 1/7 of five, 1/5 of six. The value is right to 1e-9 of its range where f is smooth, to 1e-6 on borders of what is
+    reached, to 1e-3 on kinks.
     """
     return extremum(motion, f, 1.0)
 

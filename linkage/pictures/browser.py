@@ -39,10 +39,10 @@ def page(
 ) -> Path:
     """Return the path of the live page it wrote, .html: one file without network access, in which the mechanism moves and changes.
 
-    Every stroke has a slider, and so have the dimensions of `vary`, `["OB", "CD"]` or with their ranges [SI], `{"OB": (0.28, 0.34)}`, of a
-    point "M" both coordinates; without it the first lengths, a mass and a bore. All others can be added in the page, and pins on the
-    ground can be dragged. Everything is worked out anew in the browser by the machine's own program; a value goes only as far as the
-    mechanism can be assembled, and the page says which step is how much short.
+    Every stroke has a slider, and so have the dimensions of `vary`: `["OB", "CD"]`, or with their ranges [SI], `{"OB": (0.28, 0.34)}`. Of a
+    point "M" both coordinates have one. Without `vary` these are the first lengths, a mass and a bore. All others can be added in the
+    page, and pins can be dragged. Everything is worked out anew in the browser by the machine's own program. A value goes only as far as
+    the mechanism can be assembled, and the page says which step is how much short.
 
     `columns` are what its chooser offers, names of columns or requests such as `capacity("lift", "G")`, by default the table of
     results; `column` is shown first, else what the machine is about. A column that no program gives is shown for the delivered design
@@ -51,13 +51,13 @@ def page(
     `count` is the number of poses of the curve. The page speaks English and Russian, `language` is the one it begins with.
 
     Several strokes that run together, `at=dict(lift=[...], dump=[...])`, are a path with places from 1 on, straight in the strokes between
-    two of them: it has a slider, the curve is drawn over it, and a stroke that is moved by its own slider leaves it. Of a motion along one
-    path, `machine.follow(...)`, that is its page: the curves and the verdicts are along it; of one that is not reached everywhere, along
-    the longest part that is.
+    two of them. It has a slider, and the curve is drawn over it. A stroke that is moved by its own slider leaves it. Of a motion along one
+    path, `machine.follow(...)`, that is its page: the curves and the verdicts are along it. Of one that is not reached everywhere they are
+    along the longest part that is.
 
-    Of a working field it is the load chart as it is printed, with the machine beside it in the pose of the cell that is pointed at, by the
-    mouse, a finger or the arrow keys, and all that the cell says: the load, what limits it, what each limiter leaves, the strokes, or why
-    it is out of reach. Only `language` goes with it.
+    Of a working field it is the load chart as it is printed. The machine stands beside it in the pose of the cell that is pointed at, by
+    the mouse, a finger or the arrow keys. All that the cell says stands there too: the load, what limits it, what each limiter leaves, the
+    strokes, or why it is out of reach. Only `language` goes with it.
 
     Of what a synthesis found it is the page of the best machine, with the task on the sheet or on the curve and what is missed of it,
     worked out anew as dimensions change. The other answers of its class can be chosen, and the sliders are what was searched.

@@ -101,23 +101,24 @@ def draw(
     `update(pose)` moves it. Empty axes become a sheet with equal scales that has room for the whole motion. A faint mechanism has
     no names. Raises DefinitionError for a batch of designs, an unknown name or a pose that is not there.
 
-    Over the pose, the bold one of several, are laid: with `forces=True` the pin forces and loads as arrows to one scale, with the name of
-    a body, `forces="OBC"`, that body alone with all forces on it and their polygon; `loads`, `case`, `direction`, `drive` as `pin_forces`
-    takes them. `velocities=dict(S=0.05)` gives the points' velocities at these stroke rates [1/s], which dampers get too. `pole="EDF"` is
-    the body's instant centre, `pole=("EDF", "FKG")` that of two bodies, `pole=True` that of each body no fixed pin holds. Where a pose is
-    refused the picture says why, for a motion without `unreachable="nan"` this raises SingularError. With `clearance=True` a dimension
-    stands between what comes nearest of all that the machine's `Planes` keep apart, with `clearance=("OBC", "MK")` between these two. A
-    machine without `at` is then drawn where they come nearest in all that it runs; of a motion its own worst pose is drawn, faint.
+    More is laid over the pose, the bold one of several. `forces=True` gives the pin forces and loads as arrows to one scale. With the name
+    of a body, `forces="OBC"`, that body stands alone with all forces on it and their polygon. `loads`, `case`, `direction` and `drive` are
+    as `pin_forces` takes them. `velocities=dict(S=0.05)` gives the points' velocities at these stroke rates [1/s], which dampers get too.
+    `pole="EDF"` is the body's instant centre, `pole=("EDF", "FKG")` that of two bodies, `pole=True` that of each body no fixed pin holds.
+    Where a pose is refused the picture says why; for a motion without `unreachable="nan"` this raises SingularError. With
+    `clearance=True` a dimension stands between what comes nearest of all that the machine's `Planes` keep apart, with
+    `clearance=("OBC", "MK")` between these two. A machine without `at` is then drawn where they come nearest in all that it runs. Of a
+    motion its own worst pose is drawn, faint.
 
-    Of several designs, `draw([hitch, hitch.replaced(OB=0.32)])`, or a batch, all at the same strokes, in their middle unless `at` says
-    others; of two the first one is faint, of more each has its own colour; up to 12. Of `machine.assemblies()`, a small picture of each
+    Several designs, `draw([hitch, hitch.replaced(OB=0.32)])`, or a batch, stand at the same strokes, in their middle unless `at` says
+    others. Of two the first one is faint, of more each has its own colour; up to 12. Of `machine.assemblies()`, a small picture of each
     mode with the line of code that chooses it.
 
     Of the result of a search, the machine before, faint, and after, bold, at both ends of its stroke, with how far each pin moved.
 
-    Of what a synthesis found, its best machines side by side, three unless `answers` says how many: each beside its task, the points
-    numbered, with the path of the point over the whole stroke, the machine at the first of them, and what is missed, drawn so many times
-    as long that it can be seen; of a function the wanted values and the curve, of poses the body at each.
+    Of what a synthesis found, its best machines stand side by side, three unless `answers` says how many. Each is beside its task, the
+    points numbered: the path of the point over the whole stroke, and the machine at the first of them. What is missed is drawn so many
+    times as long that it can be seen. Of a function the wanted values and the curve are drawn, of poses the body at each.
 
     Of `machine.graph`, the kinematic chain: its bodies, and the pins and slides between them. Of `burmester(...)`, the curves of circle and
     centre points, the poses, and the links.

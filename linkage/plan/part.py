@@ -67,9 +67,9 @@ class PartNameError(DefinitionError, AttributeError):
 class Part(Member):
     """A mechanism in a mechanism: `lower = Part(Arm, S=s1, OB=0.45)`, a class or a design; its members are `lower.B`, `"lower.B"`.
 
-    Keywords are the part's own names. A fixed point becomes a point of the whole, or stands at (x, y); a dimension takes a number or
-    follows a quantity; a stroke follows a quantity, and is one of the whole, `lower.S`, where nothing is said; any other member goes by
-    None. `on` carries the part's axes: two points of a body, a link, nothing for the frame; there it stands `at=(x, y)` [m], turned by
+    Keywords are the part's own names. A fixed point becomes a point of the whole, or stands at (x, y). A dimension takes a number or
+    follows a quantity. A stroke follows a quantity; where nothing is said it is one of the whole, `lower.S`. Any other member goes by
+    None. `on` carries the part's axes: two points of a body, a link, nothing for the frame. There it stands `at=(x, y)` [m], turned by
     `angle` [rad], `mirrored` at its own y axis first. Loads, cylinders, circuits and outlines come along; load cases and `Over`s do not.
     """
 

@@ -453,9 +453,9 @@ def what_of(message: str) -> str:
 def on_steps(problem: Problem, combination: Sequence[int], found: SearchEnd, solver: str) -> tuple[Problem, tuple[int, ...], SearchEnd]:
     """Return the problem with its stepped variables held on steps, and the best design there; AssemblyError where none is assembled.
 
-    Where everything goes in steps and there are not too many, the best of all of them, by few poses; else the steps about each value and
-    the most promising of others, and from the best of these on, a step up or down at a time, as long as that is better. The variables that
-    are left are searched from each.
+    Where everything goes in steps and there are not too many, it is the best of all of them, by few poses. Else the steps about each value
+    are looked at, and the most promising of others. From the best of these on it goes a step up or down at a time, as long as that is
+    better. The variables that are left are searched from each.
     """
     search, count = StepSearch(problem, combination, found, solver), problem.count
     if count.is_spent:

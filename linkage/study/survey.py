@@ -379,8 +379,8 @@ def survey(
     `progress=True` shows a bar on stderr; a function is called with (done, total) designs.
 
     The results are the same to the last bit whoever does the work, on processors of one kind with the same libraries and
-    OMP_NUM_THREADS: designs are measured `piece` at a time (by default 64 to 2048, by their number alone), and all on one
-    back end, "numpy" or "numba".
+    OMP_NUM_THREADS. Designs are measured `piece` at a time, by default 64 to 2048, by their number alone. All go on one back
+    end, "numpy" or "numba".
 
     Raises DefinitionError for designs or results that cannot be, or a folder of another study; StudyError where measure fails, naming
     the designs, and where the executor breaks.

@@ -12,8 +12,8 @@ from linkage import RIGHT, Crank, Dyad, Featured, Ground, Mechanism, OnLink, Str
 class Chebyshev(Mechanism):
     """Crossed rockers OA and CB carry the coupler AB, whose middle P draws the line.
 
-    Known for: P stands exactly twice the coupler's length above the frame in the middle and where a rocker is upright
-    above its pivot, and hardly off that line between; Hoeken's linkage is a cognate and draws the same curve.
+    Known for: P stands exactly twice the coupler's length above the frame in the middle, and where a rocker is upright
+    above its pivot. Between these it is hardly off that line. Hoeken's linkage is a cognate and draws the same curve.
     """
 
     phi = Stroke(39 * deg, 88 * deg)  # rocker angle, rad

@@ -16,7 +16,7 @@ class FourBar(Mechanism):
     """Crank OA turns fully and swings rocker CB through coupler AB: a crank-rocker, P a point of its coupler.
 
     Known for: Freudenstein's equation K1 cos(psi) - K2 cos(phi) + K3 = cos(phi - psi) between crank phi and rocker
-    psi, with K1 = OC/OA, K2 = OC/CB, K3 = (OA^2 - AB^2 + CB^2 + OC^2) / (2 OA CB).
+    psi. There K1 = OC/OA, K2 = OC/CB, K3 = (OA^2 - AB^2 + CB^2 + OC^2) / (2 OA CB).
     """
 
     phi = Stroke(0.0, 2 * pi)  # crank angle, rad

@@ -12,8 +12,8 @@ from linkage import LEFT, Crank, Dimension, Dyad, Featured, Ground, Mechanism, O
 class Hart(Mechanism):
     """Antiparallelogram ABCD: O, P and Q divide AB, AD and CB in one proportion m and stay in line, parallel to AC.
 
-    Known for: OP * OQ = m (1 - m) (AD^2 - AB^2) at every pose, so that Q moves along an exactly straight line where P runs
-    on a circle through the fixed point O.
+    Known for: OP * OQ = m (1 - m) (AD^2 - AB^2) at every pose. So Q moves along an exactly straight line where P runs on a
+    circle through the fixed point O.
     """
 
     phi = Stroke(-55 * deg, 55 * deg)  # crank angle, rad

@@ -14,7 +14,7 @@ class Hoeken(Mechanism):
     """Crank OA, frame OC twice as long, coupler AB = rocker CB = BP 2.5 times as long: P is the coupler's far end.
 
     Known for: over half a turn of the crank P runs along a nearly straight line at nearly constant speed, straight to
-    within 0.25 % of its length; it is a cognate of Chebyshev's linkage.
+    within 0.25 % of its length. It is a cognate of Chebyshev's linkage.
     """
 
     phi = Stroke(0.0, 2 * pi)  # crank angle, rad

@@ -11,8 +11,8 @@ from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Featured, Ground, Mecha
 class Peaucellier(Mechanism):
     """Two arms OB, OD and the rhombus ABPD invert the circle of crank CA, which passes through O.
 
-    Known for: OA * OP = arm^2 - side^2 at every pose, so that P moves along an exactly straight line, at right angles
-    to OC, at the distance (arm^2 - side^2) / (2 OC) from O.
+    Known for: OA * OP = arm^2 - side^2 at every pose. So P moves along an exactly straight line, at right angles to OC, at
+    the distance (arm^2 - side^2) / (2 OC) from O.
     """
 
     phi = Stroke(-65 * deg, 65 * deg)  # crank angle, rad

@@ -30,8 +30,8 @@ from linkage.units import bar, litre, minute, mm
 class ScissorLift(Mechanism):
     """Arms OB and AC cross in M, BE and CD in N; A rolls on the floor, E under the platform that is pinned at D.
 
-    The cylinder KJ turns the lowest arm from a pin on the floor. Known for: the platform DE stays level, its height is
-    2 L sin(alpha) with arms L under alpha to the floor, and dh/dalpha = 2 L cos(alpha): the lower the lift, the
+    The cylinder KJ turns the lowest arm from a pin on the floor. Known for: the platform DE stays level. Its height is
+    2 L sin(alpha) with arms L under alpha to the floor, and dh/dalpha = 2 L cos(alpha). The lower the lift, the
     greater the cylinder's force.
     """
 

@@ -13,8 +13,8 @@ from linkage import RIGHT, Crank, Featured, Ground, Guide, Mechanism, OnLink, Sl
 class SliderCrank(Mechanism):
     """Crank OA moves slider B through rod ABP; the slider's line passes 20 mm below the crank's centre.
 
-    Known for: d = a cos(phi) + sqrt(b^2 - (a sin(phi) - c)^2) with crank a, rod b, offset c; its travel is
-    sqrt((b + a)^2 - c^2) - sqrt((b - a)^2 - c^2), and one way takes longer than the other.
+    Known for: d = a cos(phi) + sqrt(b^2 - (a sin(phi) - c)^2) with crank a, rod b, offset c. Its travel is
+    sqrt((b + a)^2 - c^2) - sqrt((b - a)^2 - c^2). One way takes longer than the other.
     """
 
     phi = Stroke(0.0, 2 * pi)  # crank angle, rad

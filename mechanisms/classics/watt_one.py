@@ -12,9 +12,8 @@ from linkage import LEFT, RIGHT, Crank, Dyad, Featured, Ground, Mechanism, OnLin
 class WattOne(Mechanism):
     """Beam OME, radius rod CF and link MF guide P; the parallelogram MEGF magnifies P's path into the piston's G.
 
-    Known for: G is P enlarged from O by OE / OM, exactly; both run up and down a nearly straight
-    line: G leaves it by less than 1 / 150 of its travel, and by less than 1 / 2000 while the beam swings 10 degrees to
-    either side.
+    Known for: G is P enlarged from O by OE / OM, exactly. Both run up and down a nearly straight line. G leaves it by
+    less than 1 / 150 of its travel, and by less than 1 / 2000 while the beam swings 10 degrees to either side.
     """
 
     phi = Stroke(-20 * deg, 20 * deg)  # beam angle, rad

@@ -44,10 +44,10 @@ from .drive_report import drive_columns, drive_verdicts, featured_drive
 class DrivenArm(Mechanism):
     """An arm PT on the boom, what is asked about its hinge P, and the cylinder that a drive of it has.
 
-    Drawn on the boom: x leads towards its end, y away from the side that the arm folds to. psi is the angle between boom and arm, as in
-    the source: 0 folded back, 180 deg straight. M_l1, M_l2 are the bounds of moments (2.39) to (2.43), positive where a moment is asked
-    for that opens the arm: M_l1 with the telescope in, while the arm folds; M_l2 with it out, while the arm opens. `folds` and `opens`
-    are the forces that the cylinder then gives, F p n, positive where it pushes.
+    Drawn on the boom: x leads towards its end, y away from the side that the arm folds to. psi is the angle between boom and arm. It is
+    0 folded back and 180 deg straight, as in the source. M_l1, M_l2 are the bounds of moments (2.39) to (2.43), positive where a moment
+    is asked for that opens the arm. M_l1 is with the telescope in, while the arm folds; M_l2 with it out, while it opens. `folds` and
+    `opens` are the forces that the cylinder then gives, F p n, positive where it pushes.
     """
 
     shut: ClassVar[str] = "psi_k"  # where its cylinder is closed

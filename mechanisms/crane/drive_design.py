@@ -302,7 +302,7 @@ class ArmRules:
     `excess` is k_r of (2.61): M_g2 is over M_l2 by no more than (k_r - 1) K_A, from `excess_from` on, "phi_0" or "psi_0". `above` is
     what the lever's pins stay above the boom's axis at both ends (2.63): "r_6", a height [m], or None. `angles` reads (2.65): "free" does
     not impose it, "travels" asks lever and arm for 90 and 100 deg of travel, "angles" holds alpha_1 under 90 and alpha_2 under 100 deg.
-    `transmission` is the least angle between coupler and lug [rad], 0 for none; r_6 [m], the bend delta [rad], the bell crank's angle
+    `transmission` is the least angle between coupler and lug [rad], 0 for none. r_6 [m], the bend delta [rad], the bell crank's angle
     at its pivot [rad] and the eyes that (2.60) counts are given. A drive without a four-bar keeps (2.62), (2.64) and the boom's length
     alone: (2.61) is what a four-bar is for.
     """

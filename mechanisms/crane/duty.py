@@ -29,9 +29,9 @@ LONGEST_REACH = 40.0
 class Duty:
     """What a forwarder's crane is to do: reach L, rated moment M, the vehicle and its load; by default those of the source's example.
 
-    Lengths in m, M in N m, `payload` in kg, `rho_w` in kg/m3, psi_0 in rad. H_p is the height of the platform, H_w that of the tool,
-    H_k that of the cab, H_max the legal one, all from the ground; A x B is the stack's ground plan, k_d the share of it that is wood,
-    c how far the column's axis is from the guard, psi_0 the least angle between boom and arm.
+    Lengths in m, M in N m, `payload` in kg, `rho_w` in kg/m3, psi_0 in rad. Heights from the ground: H_p of the platform, H_w of the tool,
+    H_k of the cab, H_max the legal one. A x B is the stack's ground plan, k_d the share of it that is wood. c is how far the column's axis
+    is from the guard, psi_0 the least angle between boom and arm.
     """
 
     L: float = 10.0

@@ -31,8 +31,8 @@ FIGURES = ("stems", "moments")
 def figure(name: str, grapple: Grapple | None = None) -> Figure:
     """Return a figure of a grapple, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch.
 
-    "stems" is the grapple open, at the largest and at the smallest stem, with the rosette of stems that rest on T; "moments" what its
-    lever gives and what the stems need, over their diameter.
+    "stems" is the grapple open, at the largest and at the smallest stem, with the rosette of stems that rest on T. "moments" is what
+    its lever gives and what the stems need, over their diameter.
     """
     from .figures import figure
 

@@ -1,7 +1,7 @@
 """The grapple's figures, one call each: `figure("stems")`. They load matplotlib, and are loaded when one is drawn.
 
-"stems" is the grapple open, at the largest and at the smallest stem, with the rosette of stems that rest on T; "moments" what its
-lever gives and what the stems need, over their diameter.
+"stems" is the grapple open, at the largest and at the smallest stem, with the rosette of stems that rest on T. "moments" is what
+its lever gives and what the stems need, over their diameter.
 """
 
 from __future__ import annotations

@@ -27,9 +27,9 @@ def with_header(number: int, **changes: Any) -> HeaderBalancer:
 def setting_table(wanted: Sequence[float], changes: Mapping[str, Any] | None = None) -> list[Column]:
     """Return the charge pressure at the horizon for each header and each wanted reaction of all shoes [N]. (35)
 
-    Beside it stand the reaction that is left, at the least, moving down over the following range, and whether the
-    setting keeps the largest charge without hang-up (1 yes, 0 no): slow, or fast where `changes` say n=1.4. NaN where
-    the weights do not give so much reaction, or the line would be charged below every gas charge and be rigid.
+    Beside it stands the reaction that is left, at the least, moving down over the following range. Another column says
+    whether the setting keeps the largest charge without hang-up (1 yes, 0 no): slow, or fast where `changes` say n=1.4.
+    NaN where the weights do not give so much reaction, or the line would be charged below every gas charge and be rigid.
     `changes` are design variables [SI] of all headers.
     """
     try:

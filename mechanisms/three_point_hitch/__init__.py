@@ -37,8 +37,8 @@ FIGURES = ("zones", "capacity", "lift")
 def figure(name: str, hitch: ThreePointHitch | None = None) -> Figure:
     """Return a figure of a hitch, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch.
 
-    "zones" is figure 2 of the paper, over the admissible settings; "capacity" the capacity curve with its weakest point and
-    the tractor's limits; "lift" the hitch at the ends of its lift range.
+    "zones" is figure 2 of the paper, over the admissible settings. "capacity" is the capacity curve with its weakest point and
+    the tractor's limits, "lift" the hitch at the ends of its lift range.
     """
     from .figures import figure
 

@@ -1,7 +1,7 @@
 """The hitch's figures, one call each: `figure("zones")`. They load matplotlib, and are loaded when one is drawn.
 
-"zones" is figure 2 of the paper, over the admissible settings; "capacity" the capacity curve with its weakest point and
-the tractor's limits; "lift" the hitch at the ends of its lift range.
+"zones" is figure 2 of the paper, over the admissible settings. "capacity" is the capacity curve with its weakest point and
+the tractor's limits, "lift" the hitch at the ends of its lift range.
 """
 
 from __future__ import annotations

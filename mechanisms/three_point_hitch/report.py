@@ -130,7 +130,7 @@ def batch_verdict(motion: Motion) -> Verdict:
     weak = lifted < weight
     text = said(
         "{weak} of {total} designs are too weak for their implement, {light} leave too little on the front axle, {short} do not reach "
-        "all poses; the least capacity is {worst} in the worst design and {best} in the best. Take one design for its sentences.",
+        "all poses. The least capacity is {worst} in the worst design and {best} in the best. Take one design for its sentences.",
         weak=int(weak.sum()), total=lifted.size, light=int(light.sum()), short=int((~whole).sum()),
         worst=show(float(lifted.min()), "kN", ".2f"), best=show(float(lifted.max()), "kN", ".2f"),
     )  # fmt: skip

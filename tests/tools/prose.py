@@ -1,5 +1,6 @@
 """How long the sentences of a page are: prose alone, without code, formulas, tables, headings and lists of names."""
 
+import ast
 import re
 import sys
 from pathlib import Path
@@ -10,6 +11,7 @@ LONGEST_MEAN = 16.0
 FENCES = re.compile(r"^(```|~~~|:::).*?^\1[ \t]*$", re.DOTALL | re.MULTILINE)
 FORMULAS = re.compile(r"\$\$.*?\$\$|\$[^$\n]*\$", re.DOTALL)
 OUTSIDE = ("|", "#", "<", "![", ">")
+EXAMPLE = re.compile(r"^[ \t]*>>>.*(?:\n(?![ \t]*$).*)*", re.MULTILINE)
 ITEM = re.compile(r"^\s*(?:[-*]|\d+\.)\s+")
 END = re.compile(r"(?<=[.!?])[\"')*_]*\s+(?=[\"'(*_]*[A-Z0-9])")
 WORD = re.compile(r"[^\W_][\w'.,/-]*")
@@ -34,9 +36,17 @@ def sentences(text):
     return [(len(WORD.findall(each)), each) for each in found if each.rstrip("\"')*_ ").endswith(".") and WORD.search(each)]
 
 
-def mean_length(text):
-    """Return how many words the sentences of a page have in the mean; 0 of a page without one."""
-    return mean(count for count, _ in sentences(text)) if sentences(text) else 0.0
+def docstrings(source):
+    """Yield the docstrings of a source, but those of private names, without their examples."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and not getattr(node, "name", "").startswith("_"):
+            yield EXAMPLE.sub("", ast.get_docstring(node) or "")
+
+
+def mean_length(*texts):
+    """Return how many words the sentences of some texts have in the mean; 0 where there is none."""
+    found = [count for text in texts for count, _ in sentences(text)]
+    return mean(found) if found else 0.0
 
 
 if __name__ == "__main__":

@@ -72,6 +72,19 @@ SEARCHES = {
     "grading path": "places", "duty": "duty", "force element": "element", "damper": "gas_spring", "slope": "load_case",
     "pin forces": "forces", "accumulator": "hydraulics", "missing millimetres": "reach", "live page": "page", "pressure": "hydraulics",
     "transfer ratio": "theory", "tolerance": "studies", "optimise": "studies", "synthesis": "exact_synthesis",
+    "three-point hitch": "three_point_hitch", "relief valve": "hydraulics", "nitrogen": "hydraulics", "check valve": "holding_valve",
+    "counterbalance valve": "holding_valve", "leak": "holding_valve", "drift": "holding_valve", "stability": "axle_loads",
+    "wheel load": "axle_loads", "wheel loader": "machines_at_work", "payload": "chart", "fatigue": "duty", "interference": "planes",
+    "clearance": "planes", "winch": "rope", "weight of cylinder": "barrel_and_rod", "header": "header_balancer",
+    "dead point": "reach", "mobility": "parts", "degrees of freedom": "parts", "assur group": "parts", "coupler curve": "closed_curve",
+    "four-bar": "closed_curve", "six-bar": "studies", "instant centre": "forces", "velocity": "forces", "free body": "forces",
+    "virtual work": "theory", "slider crank": "conventions", "singular": "reliability", "accuracy": "reliability", "error": "reliability",
+    "exception": "reference", "api": "reference", "install": "index", "dataframe": "columns", "numpy array": "bulk",
+    "broadcasting": "bulk", "numba": "bulk", "javascript": "bulk", "gradient": "bulk", "multiprocessing": "studies", "jupyter": "notebook",
+    "plugin": "extending", "matplotlib": "export", "sympy": "equations", "latex": "equations", "speed": "performance", "toml": "files",
+    "csv": "export", "excel": "export", "pdf": "export", "save picture": "export", "gif": "page", "animation": "page", "zoom": "page",
+    "copy design": "page", "wrong side": "side", "mirror": "machine_of_parts", "inches": "units", "change language": "units",
+    "translation": "units_and_languages", "monte carlo": "studies", "sensitivity": "studies", "pareto": "studies",
 }  # fmt: skip
 """What a reader types, and the page that answers it."""
 FOUND = 3

@@ -186,8 +186,8 @@ class AccumulatorBlock:
     into absolute; `atmosphere=0` puts gauge pressures straight into the law, as Rekhlitski and Chuprynin (2013) do.
     Where a charge, a volume or the atmosphere follows dimensions, `sized(motion)` is the block with numbers.
     A vessel of volume 0 is absent. Sentences give pressures in `unit`; without it in that of the dimension that a charge
-    follows, else in bar. DefinitionError for no accumulators or absent ones only, something that is no gas law,
-    a charge at or below zero absolute.
+    follows, else in bar. DefinitionError without accumulators, for anything but a gas law,
+    and for a charge at or below zero absolute.
     """
 
     accumulators: Sequence[Accumulator]

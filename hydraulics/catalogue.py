@@ -62,7 +62,7 @@ def catalogue(
 
     Without `bores` and `rods` those of ISO 3320, without `strokes` those of ISO 4393 [m]; of the pairs the ones whose areas are in the
     ratios of ISO 3320. `dead` is what a cylinder is longer between its pins, drawn in, than its stroke: a length [m], or (length, factor)
-    for length + factor x bore. DefinitionError for no row, for numbers that are not above zero, or that were given in millimetres.
+    for length + factor x bore. DefinitionError if no row is left, for numbers that are not above zero, or that were given in millimetres.
     """
     constant, factor = dead_length(dead)
     rows = []

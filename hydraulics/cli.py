@@ -126,7 +126,7 @@ def point_of(machine: Mechanism, name: str | None) -> str:
 
 
 def along_of(text: str) -> tuple[float, float]:
-    """Return a direction; DefinitionError for what is none."""
+    """Return a direction; DefinitionError for anything else."""
     parts = text.split(",")
     try:
         x, y = (float(each) for each in parts)

@@ -4,7 +4,7 @@
     <--[====|-----]======-->  pressure left of |     pressure right of |, on the annulus around the rod
 
 Positive thrust pushes the ends apart. A cylinder that works with its rod side pulls: its thrust is negative. One that works
-with "both" pushes with the piston and pulls with the annulus, whichever the load asks for.
+with "both" pushes with the piston and pulls with the annulus, as the load requires.
 
     >>> from linkage.units import bar, kN, mm
     >>> size = CylinderSize(bore=63 * mm, rod=40 * mm, count=2)
@@ -109,7 +109,7 @@ class RamSize(ABC):
     @property
     @abstractmethod
     def pull_area(self) -> float | Array:
-        """The area that pulls the ends together: all annuli, m2; none of what is single acting."""
+        """The area that pulls the ends together: all annuli, m2; none for what is single acting."""
 
     @abstractmethod
     def with_bore(self, bore: float) -> RamSize:

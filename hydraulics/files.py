@@ -73,7 +73,7 @@ def gas_number(value: Any) -> Any:
 
 @final
 class GasLaw:
-    """What stands in the place of a gas law: how it is read from a file, and written into one."""
+    """A gas law in a file: how it is read, and how it is written."""
 
     read = staticmethod(gas_of)
     write = staticmethod(written_gas)

@@ -2,7 +2,7 @@
 
 A setting (a bore, a charge) is finite. A value over poses may be NaN inside an array, where it marks a pose that
 was not reached; a lone NaN is a mistake and refused like any other. A setting may follow the design: a dimension, an
-expression of dimensions or its name may stand in the place of a number.
+expression of dimensions or its name may replace a number.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def all_finite(value: ArrayLike, what: str) -> Array:
 
 
 def one_number(value: ArrayLike, what: str) -> float:
-    """Return one finite number; DefinitionError for several, and for what is none."""
+    """Return one finite number; DefinitionError for several, and for anything else."""
     array = all_finite(value, what)
     if array.ndim:
         raise DefinitionError(f"{what} = {cited(value)}: one number is expected, in SI units.")

@@ -94,7 +94,7 @@ def is_valved(circuit: LiftLine, judge: Judge) -> bool:
 
 
 def the_circuit(circuit: LiftLine | str, motion: Motion) -> LiftLine:
-    """Return the circuit that is meant, by its name in the class too; DefinitionError for what is none."""
+    """Return the circuit that is meant, by its name in the class too; DefinitionError for anything else."""
     require_motion(motion)
     circuits = motion.plan.of_kind(LiftLine)
     found = circuits.get(circuit) if isinstance(circuit, str) else circuit
@@ -281,7 +281,7 @@ class LiftingCylinder:
             for each, side in zip(found, words, strict=True)
             if each.value > 0.0
         ]
-        stands = ", ".join(parts) or said("no pressure stands on either side")
+        stands = ", ".join(parts) or said("neither side holds pressure")
         given, pump = self.show(limit), not circuit.relieves(self.judge.plan)
         valve = said("the relief valve's {limit}", limit=given)
         valve = said("the pump's {limit}, since no relief valve is declared", limit=given) if pump else valve
@@ -321,8 +321,7 @@ class LiftingCylinder:
             return Verdict("lowering", False, text, answer=push)
         if self.ram.is_single_acting:
             text = said(
-                "it does not sink by itself {where} {against}: up to {push} more would have to stand in it, {place}, and no oil pushes it "
-                "in.",
+                "it does not sink by itself {where} {against}: it lacks up to {push}, {place}, and no oil pushes it in.",
                 where=where, against=against, push=self.show(push.value), place=push.place,
             )  # fmt: skip
             return Verdict("lowering", False, text, answer=push)

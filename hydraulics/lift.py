@@ -273,7 +273,7 @@ class PumpLine(LiftLine):
         """Return between which two thrusts one of its cylinders lifts, at a `share` of the pump's pressure, or holds [N].
 
         Lifting takes both efficiencies and the back pressure off, and the side that does not work gives nothing; holding takes none of
-        them, and oil stands on both sides, each up to the relief valve's pressure.
+        them, and both sides hold oil, each up to the relief valve's pressure.
         """
         proper_share(share)
         ram = self.one(motion, cylinder)
@@ -491,7 +491,7 @@ ROUNDS = 12
 
 
 def divisor(written: Formulas, value: Array) -> Any:
-    """Return a factor as it stands in an equation: a plain 1 where it is one."""
+    """Return a factor as it is written in an equation: a plain 1 where it is one."""
     return 1.0 if written.equals(value, 1.0) else value
 
 

@@ -290,7 +290,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return low, high
 
     def travel(self, motion: Motion) -> Array:
-        """Return greatest less least length over all that a motion covers [m], one value a design; DefinitionError for no pose reached."""
+        """Return greatest less least length over all that a motion covers [m], one value a design; DefinitionError if none is reached."""
         low, high = self.extent(motion)
         if not np.all(np.isfinite(high - low)):
             raise DefinitionError(f"{self}: no pose of this motion can be assembled.")
@@ -1253,7 +1253,7 @@ def judge_of(motion: Motion, acting: Acting | None = None) -> Judge:
 
 
 def one_design(motion: Motion, what: str) -> None:
-    """Raise DefinitionError for a motion of several designs, and for what is no motion."""
+    """Raise DefinitionError for a motion of several designs, and for anything but a motion."""
     require_motion(motion)
     if motion._design_shape:
         raise DefinitionError(f"{what} is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
@@ -1265,7 +1265,7 @@ def one_area(size: CylinderSize, thrust: float) -> float:
 
 
 def is_named(reference: Reference) -> bool:
-    """Return whether a reference to a cylinder goes by its name in a class; DefinitionError for what is no reference."""
+    """Return whether a reference to a cylinder goes by its name in a class; DefinitionError for anything but a reference."""
     if not isinstance(reference, (str, Member)):
         raise DefinitionError(f"{cited(reference)} stands where a cylinder or its name is expected.")
     return isinstance(reference, str) or bool(reference.name)

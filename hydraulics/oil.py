@@ -484,7 +484,7 @@ class OilLine(PumpLine, GasLine):
     # -- where it is filled, and the length that it gives ------------------------------------------------------
 
     def strokes_filled(self, strokes: Sequence[str]) -> dict[str, float]:
-        """Return the strokes that it says to be filled at [SI]; DefinitionError for what is no stroke, and a number for several."""
+        """Return the strokes that it says to be filled at [SI]; DefinitionError for anything but a stroke, and a number for several."""
         if self.at is None:
             return {}
         if isinstance(self.at, Mapping):

@@ -126,7 +126,7 @@ class CommonStroke:
 
     @cached_property
     def stroke(self) -> str:
-        """The stroke; "" of one cylinder alone, which counts as it is."""
+        """The stroke; "" for one cylinder alone, which counts as it is."""
         return stroke_followed(self.motion.plan, self.rams[0]) if len(self.rams) > 1 else ""
 
     def total(self, values: Sequence[tuple[Ram, Array]]) -> Array:
@@ -193,7 +193,7 @@ def shut_verdicts(line: Circuit, judge: Judge, unit: str = "bar") -> list[Verdic
         pushed = None if pump is None else judge.answer(most(shut_request(line, True)))
     except DefinitionError as error:
         return [Verdict("shut", False, " ".join(str(error).split()))]
-    says = pressure_range(low, high, unit) if high.value > 0.0 or low.value < 0.0 else said("no pressure stands in it")
+    says = pressure_range(low, high, unit) if high.value > 0.0 or low.value < 0.0 else said("it holds no pressure")
     if low.value < -EMPTY * max(abs(float(high.value)), 1e5):
         text = said("{says}: below zero it runs empty there and does not hold; shut the other side as well.", says=says)
         return [Verdict("shut", False, text, answer=low)]
@@ -215,7 +215,7 @@ def shut_verdicts(line: Circuit, judge: Judge, unit: str = "bar") -> list[Verdic
         text = said("{says}: its relief valve opens at {limit}, and it does not stay shut.", says=says, limit=show(limit, unit, 4))
         return [Verdict("shut", False, text, answer=worst)]
     text = said(
-        "{says}, above the {limit} that stand on the pump's side: put a Relief on {line}, or switch the pump off while it is shut.",
+        "{says}, above the {limit} on the pump's side: put a Relief on {line}, or switch the pump off while it is shut.",
         says=says, limit=show(limit, unit, 4), line=line.name,
     )  # fmt: skip
     return [Verdict("shut", False, text, answer=worst)]

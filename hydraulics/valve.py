@@ -98,7 +98,7 @@ class HoldingValve(LineValve):
         return cast(Circuit, line), cast(Circuit, pilot)
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
-        """Raise DefinitionError for what is no line, and where no cylinder lies between the two lines."""
+        """Raise DefinitionError for anything but a line, and where no cylinder lies between the two lines."""
         opening = f"{title}: {self.name} = {self}"
         known = [name for name, each in members.items() if isinstance(each, Circuit)]
         for each in (self.line, self.pilot):

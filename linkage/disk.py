@@ -61,7 +61,7 @@ def in_words(path: Place) -> Iterator[None]:
 
 
 def check_name(path: Place) -> None:
-    """Raise FileError for what is no name, and for a name that no file can have."""
+    """Raise FileError for anything but a name, and for a name that no file can have."""
     if not isinstance(path, (str, os.PathLike)):
         raise FileError(f"{cited(path)} is no path of a file; give its name as text, or a pathlib.Path.")
     try:
@@ -89,7 +89,7 @@ def replacing(path: Place) -> Iterator[BinaryIO]:
     """Yield a stream whose bytes take the place of a file when all of them are written; until then, and if not, the old one stays.
 
     They go into a new file beside it, which is brought to the disk and then renamed, with the permissions of what was there. A link is
-    followed to what it stands for; what is no file (a terminal, a pipe, `/dev/stdout`) is written straight. FileError, in words, where
+    followed to what it stands for; anything but a file (a terminal, a pipe, `/dev/stdout`) is written straight. FileError, in words, where
     that cannot be.
     """
     file = target(path)
@@ -128,7 +128,7 @@ def replacing_text(path: Place) -> Iterator[TextIO]:
 
 
 def target(path: Place) -> Path | None:
-    """Return the file that a path stands for, all links followed; None for what is no file. FileError where it cannot be written."""
+    """Return the file that a path stands for, all links followed; None for anything but a file. FileError where it cannot be written."""
     check_name(path)
     with in_words(path):
         try:
@@ -174,7 +174,7 @@ def own_stream(found: os.stat_result) -> int | None:
 
 
 def straight(path: Place) -> BinaryIO:
-    """Return a stream into what is no file to replace; a standard stream goes on where it stands."""
+    """Return a stream into something that is not a file; a standard stream goes on where it stands."""
     own = own_stream(os.stat(path))
     if own is None:
         return open(path, "wb")

@@ -122,13 +122,13 @@ class StudyError(LinkageError):
 
 
 def cited(value: object, most: int = 60) -> str:
-    """Return what was given as it stands in a message: on one line, and cut where it is long."""
+    """Return what was given as a message shows it: on one line, and cut where it is long."""
     text = " ".join(repr(value).split())
     return text if len(text) <= most else f"{text[: most - 3]}..."
 
 
 def known_name(kind: str, name: object, names: Collection[str], where: str = "") -> str:
-    """Return a name that is there; raise the error of `unknown` for any other one, and for what is no name at all."""
+    """Return a name that is there; raise the error of `unknown` for anything else."""
     aliases: Mapping[str, str] = getattr(names, "aliases", {})
     if isinstance(name, str) and name in aliases:
         return aliases[name]
@@ -143,7 +143,7 @@ def quoted(word: str) -> str:
 
 
 def one_word(what: str, word: object, words: Sequence[str]) -> str:
-    """Return a word that is one of a few; DefinitionError, with the words there are, for any other and for what is no word."""
+    """Return a word that is one of a few; DefinitionError, with the words there are, for anything else."""
     if not isinstance(word, str) or word not in words:
         raise DefinitionError(f"{what}={cited(word)}: say {' or '.join(map(quoted, words))}.")
     return word

@@ -85,7 +85,7 @@ class OfADesign:
 
 
 def of_own_motion(method: Callable[[Mechanism, Motion], Result]) -> Callable[[Mechanism, Motion], Result]:
-    """Return a machine's own `columns` or `rules`, which refuses in words what is no motion of the machine."""
+    """Return a machine's own `columns` or `rules`, which refuses in words anything but a motion of the machine."""
 
     @wraps(method)
     def checked(machine: Mechanism, motion: Motion) -> Result:
@@ -107,7 +107,7 @@ def design_of_motion(motion: Motion) -> Mechanism:
 
 
 def check_motion(machine: Mechanism, motion: object, what: str) -> None:
-    """Raise DefinitionError for what is no motion, or one of a machine that has not what this one has."""
+    """Raise DefinitionError for anything but a motion of a machine that has the members of this one."""
     found = require_motion(motion)
     missing = [name for name in machine.plan.members if name not in found.plan.members]
     if missing:
@@ -224,7 +224,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         self._values = FrozenDict(self._settings(dimensions))
 
     def _settings(self, dimensions: Mapping[str, npt.ArrayLike]) -> dict[str, Numbers]:
-        """Return the values of all dimensions, some of them set; DefinitionError for what is none, and for what it cannot be."""
+        """Return the values of all dimensions, some of them set; DefinitionError for a wrong name or value."""
         for name in dimensions:
             if name in self.plan.strokes:
                 error = unknown("Dimension", name, self.plan.table.names(), where=self.plan.title)
@@ -591,7 +591,7 @@ def is_strokes(given: object) -> bool:
 
 
 def require_mechanism(given: object) -> None:
-    """Raise DefinitionError for what is no design of a mechanism."""
+    """Raise DefinitionError for anything but a design of a mechanism."""
     if isinstance(given, type) and issubclass(given, Mechanism):
         raise DefinitionError(f"{given.__name__} is a class, the structure; give a design of it, {given.__name__}().")
     if not isinstance(given, Mechanism):

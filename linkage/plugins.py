@@ -1,6 +1,6 @@
 """What other packages bring, joined by entry points: `[project.entry-points."hydrolinkage.exporters"]` of their `pyproject.toml`.
 
-Nothing of a package is loaded before it is asked for by its name; one that cannot be loaded is named, and hides no other.
+No part of a package is loaded before it is asked for by its name; one that cannot be loaded is named, and hides no other.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def guarded(load: Callable[[], T], what: str) -> T:
 
 @final
 class Plugins(Generic[T]):
-    """What there is of one kind, by name: what this package has itself, and what others bring in a group of entry points.
+    """All entries of one kind, by name: those of this package, and those that others bring in a group of entry points.
 
     `what` begins the sentence on an entry that is not as it should be, "The exporter"; `made` returns what an entry's object stands for,
     None where it is none, and `expected` says then what it should be.

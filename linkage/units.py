@@ -207,7 +207,7 @@ def parse(text: str, kind: str = "") -> float:
 
 
 def parse_span(text: str, kind: str = "") -> tuple[float, ...] | None:
-    """Return the ends in SI, and the step where there is one, of a text such as `270 to 330 mm by 5 mm`; None of any other text.
+    """Return the ends in SI, and the step where there is one, of a text such as `270 to 330 mm by 5 mm`; None for any other text.
 
     What has no unit has that of the first part behind it that has one.
     """

@@ -18,7 +18,7 @@ sys.path.insert(0, str(DOCS))
 from made import drawn, examples, gallery  # noqa: E402
 
 from tests.tools.catalogues import messages  # noqa: E402
-from tests.tools.prose import LONGEST_MEAN, docstrings, mean_length, sentences  # noqa: E402
+from tests.tools.prose import LONGEST_MEAN, docstrings, mean_length, riddles, sentences  # noqa: E402
 
 PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("howto/*.md"))]
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
@@ -48,12 +48,32 @@ def test_sentences_are_short(page):
     assert mean_length(text) <= LONGEST_MEAN, [sentence for count, sentence in sentences(text) if count > 2 * LONGEST_MEAN]
 
 
+def sources():
+    """Return the sources of the packages by their paths."""
+    paths = [path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py"))]
+    return {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in paths}
+
+
 def test_docstrings_and_what_is_said_are_short_too():
-    sources = {path: path.read_text(encoding="utf-8") for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py"))}
-    assert mean_length(*(each for source in sources.values() for each in docstrings(source))) <= LONGEST_MEAN
-    said = [each.text for path, source in sources.items() for each in messages(path.relative_to(ROOT).as_posix(), source)]
+    assert mean_length(*(each for source in sources().values() for each in docstrings(source))) <= LONGEST_MEAN
+    said = [each.text for path, source in sources().items() for each in messages(path, source)]
     assert mean_length(*said) <= LONGEST_MEAN
     assert [each for each in said for count, _ in sentences(each) if count > LONGEST_MESSAGE] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_a_page_has_no_riddles(page):
+    assert list(riddles(page.read_text(encoding="utf-8"))) == []
+
+
+def test_docstrings_and_what_is_said_have_no_riddles():
+    found = {path: [*docstrings(source), *(each.text for each in messages(path, source))] for path, source in sources().items()}
+    assert [(path, riddle) for path, texts in found.items() for text in texts for riddle in riddles(text)] == []
+
+
+def test_a_riddle_is_found_and_code_is_none():
+    assert len(list(riddles("DefinitionError for what is no\n pin; None of a\npin. The oil that stands there."))) == 3
+    assert list(riddles("`what is no` pin\n\n```python\nwhat is no pin\n```\n")) == []
 
 
 def test_sentences_are_counted_without_code_and_formulas():

@@ -107,7 +107,7 @@ def path_targets(machine: Mechanism, file: str) -> dict[str, Target]:
 
 
 def heading_quantity(machine: Mechanism, file: str, heading: str) -> tuple[str, RequestLike, str]:
-    """Return a heading's name, what it means, and its unit, "" of SI: `x(M) [mm]`, `M_x, mm`, `tilt`; FileError for what is none."""
+    """Return a heading's name, what it means, and its unit, "" of SI: `x(M) [mm]`, `M_x, mm`, `tilt`; FileError for anything else."""
     match = HEADING.fullmatch(heading.lstrip("'"))
     name, unit = (match["name"], match["unit"] or match["bracketed"] or "") if match else (heading.strip(), "")
     sign = {"°": "deg"}.get(unit, unit)

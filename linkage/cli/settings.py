@@ -52,7 +52,7 @@ def over_argument(parser: ArgumentParser) -> None:
 
 
 def overs_of(machine: Mechanism, texts: Sequence[str]) -> list[Over] | None:
-    """Return where `--over` says that is looked, None where it is not given; DefinitionError for what is no Over of the machine."""
+    """Return where `--over` says that is looked, None where it is not given; DefinitionError for anything but an Over of the machine."""
     return [parsed_over(machine, text) for text in texts] or None
 
 
@@ -173,7 +173,7 @@ def motion_at(
     """Return the motion that a table shows: at strokes such as `S=0.6,650mm`, else along the machine's run at `count` poses.
 
     The run is the path that `overs` or the machine's own `Over` give, where that is one; else the first stroke that is not held, from
-    its start to its end, at steps of `every` where that is said. Strokes that are not given stand in their middle. Several that are
+    its start to its end, at steps of `every` where that is said. Strokes that are not given are at mid-stroke. Several that are
     given more than one value make a grid. Places that cannot be assembled are gaps, and one remark says so.
     """
     given = dict(stroke_values(machine.plan, text) for text in texts)
@@ -317,7 +317,7 @@ def columns_picked(
 
 
 def requested(machine: Mechanism, motion: Motion, text: str, acting: Acting, known: Mapping[str, Column]) -> list[Column]:
-    """Return the columns of a request in text, two of a point's; DefinitionError for what is none."""
+    """Return the columns of a request in text, two of a point's; DefinitionError for anything else."""
     plan = machine.plan
     if not any(sign in text for sign in "()+-*/"):
         is_point = f" {text} is a point; `draw --path {text}` draws its path." if text in plan.points else ""

@@ -84,8 +84,8 @@ def calculation_section(found: FilledEquations, pose_words: str) -> Section:
         body.append(
             Paragraph(
                 said(
-                    "The pins {pins} are found together, by iteration: they form a group that has no closed form. The equations that they "
-                    "stand in are the conditions which they keep.",
+                    "The pins {pins} are found together, by iteration: they form a group that has no closed form. Their equations are "
+                    "the conditions that they keep.",
                     pins=pins,
                 )
             )
@@ -110,7 +110,7 @@ def calculation_section(found: FilledEquations, pose_words: str) -> Section:
 
 
 def axle_words(listing: Equations) -> list[str]:
-    """Return what the equations of axle loads are, in words; nothing of a machine that does not stand on supports."""
+    """Return what the equations of axle loads are, in words; nothing for a machine that does not stand on supports."""
     about, given = listing.axles
     if not about:
         return []

@@ -168,9 +168,9 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     pressures = ", ".join(f"{name} {' … '.join(shown_number(end, 'kN', '.1f') for end in ends)}" for name, ends in held.items())
     yield Paragraph(
         said(
-            "At the relief pressure: {point} stands against a stop, in whichever way it would go, and one cylinder after the other "
-            "presses, the others hold, until the first relief valve opens. The machine's own loads act too. Thrusts at which the valves "
-            "open, {unit}: {thrusts}. Looked at are {count} poses of all that the machine runs.",
+            "At the relief pressure: a stop holds {point} in either direction. One cylinder after the other presses and the others hold, "
+            "until the first relief valve opens. The machine's own loads act too. Thrusts at which the valves open, {unit}: {thrusts}. "
+            "This table looks at {count} poses over all that the machine runs.",
             point=point, unit=unit_sign("kN"), thrusts=pressures, count=sum(int(place.reached.sum()) for place in judged_poses(subject)),
         )
     )  # fmt: skip

@@ -33,7 +33,7 @@ from .title import TitleBlock
 
 
 def write_html(document: Document, path: Path) -> None:
-    """Write a document as HTML; what stood at the path is replaced whole."""
+    """Write a document as HTML; an existing file is replaced whole."""
     with replacing_text(path) as stream:
         stream.write(html_text(document))
 

@@ -49,7 +49,7 @@ def dimension_drawing(subject: ReportSubject) -> Illustration:
     """Return the drawing with dimensions."""
     pose = subject.machine.at(unreachable="nan", **{name: [value] for name, value in subject.pose.items()})
     caption = said(
-        "Dimensions in {unit} at {pose}; what has no room stands in the table of dimensions.",
+        "Dimensions in {unit} at {pose}; the table of dimensions has those without room.",
         unit=length_unit(), pose=subject.words(subject.pose),
     )  # fmt: skip
     return Illustration("dimensions", caption, (WIDE, height_of(Scene(pose), 0.16)), ROOM, partial(dimensions, motion=pose))
@@ -102,7 +102,7 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
         note = "; ".join(each for each in (changed, said_of) if each)
         sign = unit_sign(unit) if unit else ""
         rows.append((name, Formula(listing.symbol_latex(name)), shown_number(float(value), unit, 7), sign, where, note))
-    heads = (said("dimension"), said("symbol"), said("value"), said("unit"), said("stands in"), said("source, note"))
+    heads = (said("dimension"), said("symbol"), said("value"), said("unit"), said("appears in"), said("source, note"))
     return TableBlock(said("Dimensions"), heads, tuple(rows), "llrllm")
 
 

@@ -38,7 +38,7 @@ SETTINGS: Any = {"pdf.fonttype": 42, "pdf.compression": 6, "font.family": ["Deja
 
 
 def write_pdf(document: Document, path: Path) -> None:
-    """Write a document as PDF; what stood at the path is replaced whole."""
+    """Write a document as PDF; an existing file is replaced whole."""
     content = pdf(document)
     with replacing(path) as stream:
         stream.write(content)

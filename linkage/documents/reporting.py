@@ -79,8 +79,8 @@ def report(
     already unless named. `units` are "si", "bar-mm", "kgf" or "us": those that hold already, else the system of the machine's own numbers,
     so that each kind of number has one unit. `case` names one load case; without it all are looked at, or `acting` says loads, case and
     direction in one. `at` holds strokes or says between which values one runs [m or rad], as for `animate`; `count` is the number of rows
-    of the tables, `columns` the results shown, `trace` the points whose paths are drawn, `limits` as `plot` takes them. What stood at the
-    path is replaced whole. Raises DefinitionError for a batch of designs, another kind of file or an unknown name, AssemblyError where no
+    of the tables, `columns` the results shown, `trace` the points whose paths are drawn, `limits` as `plot` takes them. An existing
+    file is replaced whole. Raises DefinitionError for a batch of designs, another kind of file or an unknown name, AssemblyError where no
     pose is in reach.
     """
     check_name(path)
@@ -169,7 +169,7 @@ def composed(
 
 
 def own_system(machine: Any) -> str | None:
-    """Return the system of units that a machine's own numbers are nearest to; None for what is no machine."""
+    """Return the system of units that a machine's own numbers are nearest to; None for anything but a machine."""
     if not isinstance(machine, Mechanism):
         return None
     given = {entry.unit for entry in machine.plan.table.entries.values()} | {each.unit for each in machine.plan.of_kind(Dimension).values()}

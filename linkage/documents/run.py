@@ -137,7 +137,7 @@ class ReportSubject:
 
     @cached_property
     def member_columns(self) -> list[tuple[str, Column]]:
-        """What members show of themselves at the poses of the curves, each with the member's name; nothing of one that is refused."""
+        """What members show of themselves at the poses of the curves, each with the member's name; nothing for one that is refused."""
         with unwarned():
             return [*member_tables(self.machine, self.curve)]
 
@@ -169,7 +169,7 @@ class ReportSubject:
 
 
 def member_tables(machine: Mechanism, motion: Motion) -> Iterator[tuple[str, Column]]:
-    """Yield the columns that members show of themselves, each with the member's name; nothing of one that is refused."""
+    """Yield the columns that members show of themselves, each with the member's name; nothing for one that is refused."""
     for name, member in speakers(machine.plan, Tabled).items():
         try:
             columns = member.columns(motion)

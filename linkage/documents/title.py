@@ -12,7 +12,7 @@ from ..language import said
 @final
 @dataclass(frozen=True)
 class TitleBlock:
-    """What a title block says, each as text; "" leaves an empty line to write on. DefinitionError for what is no text in one line."""
+    """What a title block says, each as text; "" leaves an empty line to write on. DefinitionError for anything but one line of text."""
 
     number: str = ""
     revision: str = ""

@@ -50,7 +50,7 @@ class ExportJob:
     def motion(self) -> Motion:
         """The poses: of a motion its own; of a machine those at the values that `at` gives, else at the start of the first stroke.
 
-        Strokes that are not named stand in their middle. NaN where a pose cannot be assembled; AssemblyError where none can.
+        Strokes that are not named are at mid-stroke. NaN where a pose cannot be assembled; AssemblyError where none can.
         """
         if isinstance(self.what, Motion):
             return self.what
@@ -198,7 +198,7 @@ def export(
 
     Other kinds of files come with packages that are installed; `format="mjcf"` says by its name which kind is meant, whatever the ending.
 
-    What stood at the path is replaced whole, or left as it was. Raises DefinitionError for another kind of file, for what does not go with
+    An existing file is replaced whole, or left as it was. Raises DefinitionError for another kind of file, for what does not go with
     it, for a batch of designs, and where the extra is not installed. AssemblyError stands for poses out of reach, FileError for a path
     that cannot be written.
     """

@@ -41,7 +41,7 @@ def cell_headings(field: WorkingField) -> list[tuple[str, str]]:
 
 
 def cell_rows(field: WorkingField) -> list[tuple[int, list[Any]]]:
-    """Return the rows of the cells in the units of their cell_headings, -1 for that of the cell_headings; empty for no number."""
+    """Return the rows of the cells in the units of their cell_headings, -1 for that of the cell_headings; empty without a number."""
     columns = cell_headings(field)
     weight = g0 if ChartText(field).is_weight else 1.0
     found: list[tuple[int, list[Any]]] = [(-1, [])]

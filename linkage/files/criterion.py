@@ -75,7 +75,7 @@ AXES = {"_x": x, "_y": y, ".x": x, ".y": y}
 
 
 def measure_said(text: object, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Measure:
-    """Return the measure that a text says; DefinitionError for what is none of this machine.
+    """Return the measure of this machine that a text says; DefinitionError for anything else.
 
     What depends on no stroke is one too: `mass`.
     """
@@ -94,7 +94,7 @@ def measure_or_constant(found: Any, machine: Mechanism) -> Measure:
 
 
 def condition_said(text: object, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Condition:
-    """Return the condition that a text says; DefinitionError for what is none of this machine."""
+    """Return the condition on this machine that a text says; DefinitionError for anything else."""
     parser = CriterionParser(checked_text(text), machine)
     found = parser.whole()
     if not isinstance(found, Condition):
@@ -105,7 +105,7 @@ def condition_said(text: object, machine: Mechanism, over: Mapping[str, Any] | N
 
 
 def quantity_said(text: object, machine: Mechanism) -> Any:
-    """Return the quantity over poses that a text says: an output's name, a quantity or a request; DefinitionError for what is none."""
+    """Return the quantity over poses that a text says: an output's name, a quantity or a request; DefinitionError for anything else."""
     found = CriterionParser(checked_text(text), machine).whole()
     if is_number(found) or isinstance(found, (Measure, Condition, Worst)):
         raise DefinitionError(f"{text!r} has no value at every pose; write an output such as tilt, or a request such as drive_force().")

@@ -31,7 +31,7 @@ class Design:
         self.written: set[str] = set()
 
     def variable(self, name: str, given: Quantity) -> float | str:
-        """Return the value of a design variable, or the expression that stands in its place."""
+        """Return the value of a design variable, or the expression given for it."""
         if not isinstance(given, Number):
             return self.scalar(given)
         self.written.add(name)

@@ -58,7 +58,7 @@ class Token:
 
 
 def tokens(text: str, others: str = OWN_WORDS, grammar: str = GRAMMAR) -> list[Token]:
-    """Return an expression's words, the last one of kind `end`; DefinitionError for what is none."""
+    """Return an expression's words, the last one of kind `end`; DefinitionError for anything else."""
     if len(text) > EXPRESSION_LENGTH:
         raise DefinitionError(f"the expression has {len(text)} characters; up to {EXPRESSION_LENGTH} are read. Give a part of it a name.")
     found: list[Token] = []
@@ -77,7 +77,7 @@ def tokens(text: str, others: str = OWN_WORDS, grammar: str = GRAMMAR) -> list[T
 
 
 def one_unit(text: str) -> str:
-    """Return the unit of a text that is one number with a unit, its sign apart; "" for any other. DefinitionError for no expression."""
+    """Return the unit of a text that is one number with a unit, its sign apart; "" for any other. DefinitionError if it cannot be read."""
     values = [word for word in tokens(text) if word.kind in ("number", "name")]
     return values[0].unit if len(values) == 1 else ""
 

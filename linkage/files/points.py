@@ -46,7 +46,7 @@ class PointColumn:
 
 
 def units_said(given: object) -> dict[str, float]:
-    """Return the factors of units by what they measure: of `"mm"`, or of a list `["mm", "deg"]`; DefinitionError for what is no unit."""
+    """Return factors of units by what they measure: of `"mm"`, or of a list `["mm", "deg"]`; DefinitionError for anything but a unit."""
     found = {}
     for each in given if isinstance(given, list) else [given]:
         if each not in UNITS:
@@ -56,7 +56,7 @@ def units_said(given: object) -> dict[str, float]:
 
 
 def points_said(given: object, columns: Sequence[PointColumn], units: Mapping[str, float], base: Path) -> dict[str, FloatArray]:
-    """Return wanted values by the names of columns [SI]; DefinitionError for what is none.
+    """Return wanted values by the names of columns [SI]; DefinitionError for anything else.
 
     `given` are rows, or a text, the CSV file with them, from the folder `base`. `units` are factors of plain numbers by what they measure.
     """

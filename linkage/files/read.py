@@ -46,7 +46,7 @@ def from_dict(data: Mapping[str, Any], trust: Collection[str] = ()) -> type[Mech
 
 
 def trusted(given: object) -> tuple[str, ...]:
-    """Return the packages that may be imported; DefinitionError for what is no list of names."""
+    """Return the packages that may be imported; DefinitionError for anything but a list of names."""
     if isinstance(given, str) or not isinstance(given, Collection) or not all(isinstance(each, str) and each for each in given):
         raise DefinitionError(f'trust={shortened(given)} is no list of packages; write trust=["mypackage"].')
     return tuple(given)
@@ -81,7 +81,7 @@ def built(data: Any, faults: Faults, trust: Collection[str], folder: Path | None
 
 
 def sections_of(data: object, faults: Faults) -> dict[str, Mapping[str, Any]]:
-    """Return the sections with their entries; what is no section is noted."""
+    """Return the sections with their entries; anything else is noted."""
     if not isinstance(data, Mapping):
         raise FileError(f"{faults.source}: a table of sections is expected, not {type(data).__name__}.")
     known = registry().sections
@@ -108,7 +108,7 @@ def head_read(data: Mapping[str, Any], faults: Faults) -> tuple[str, str | None]
 
 
 def featured_read(given: object, faults: Faults) -> Featured:
-    """Return what the machine is about; what is none is noted."""
+    """Return what the machine is about; anything else is noted."""
     found = Featured()
     with faults.at("featured"):
         if not isinstance(given, Mapping) or not {"column", "path", "limits", "coupler"} >= given.keys():

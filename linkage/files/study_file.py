@@ -91,7 +91,7 @@ class StudyHead:
         return self.machine.plan
 
     def path_of(self, given: object) -> Path:
-        """Return a path as it is meant: relative to the file's own folder. DefinitionError for what is none."""
+        """Return a path as it is meant: relative to the file's own folder. DefinitionError for anything else."""
         if not isinstance(given, str) or not given.strip():
             raise DefinitionError(f"{shortened(given)} is no path in quotes.")
         return self.base / given

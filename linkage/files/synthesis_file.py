@@ -129,7 +129,7 @@ def by_machine(head: StudyHead, given: object) -> Mapping[Any, Any]:
 
 
 def rank_said(head: StudyHead, given: object, over: Mapping[str, Any] | None) -> Any:
-    """Return the measure that answers are ranked by; None, noted, for what is none."""
+    """Return the measure that answers are ranked by; None, noted, for anything else."""
     found = None
     with head.faults.at(SECTION, "rank"):
         found = measure_said(given, head.machine, over)
@@ -180,7 +180,7 @@ def task_said(head: StudyHead, section: Mapping[str, Any], over: Mapping[str, An
 
 
 def of_machines(head: StudyHead, name: str, given: object) -> dict[type[Mechanism], Any]:
-    """Return whose path, values or poses are wanted of each class; nothing of a path where its machines name the point of their coupler."""
+    """Return whose path, values or poses are wanted of each class; none for a path if the machines name their coupler's point."""
     if given is None and name == "path":
         return {}
     found = {}

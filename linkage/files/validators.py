@@ -1,4 +1,4 @@
-"""What may stand in the place of an argument: each kind of it, how it is read from a file and how it is written into one."""
+"""What an argument may be: each kind of it, how it is read from a file and how it is written into one."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def file_value(value: object, design: Design, name: str = "") -> Any:
 class Kind:
     """How an argument of one kind is read, by the names of the file, and written, by the design and the name of its variable.
 
-    DefinitionError for what is none. `refers` to other members: without a default such an argument says what a member is built
+    DefinitionError for anything else. `refers` to other members: without a default such an argument says what a member is built
     from. `make` is what becomes of the argument once the whole entry is sound.
     """
 

@@ -103,9 +103,9 @@ def to_json(machine: Machine) -> str:
 
 
 def save(machine: Machine, path: str | os.PathLike[str]) -> None:
-    """Write a mechanism into a file, TOML or JSON by its ending; what stood there is replaced whole.
+    """Write a mechanism into a file, TOML or JSON by its ending; an existing file is replaced whole.
 
-    FileError where it cannot be written: what stood there then stands as it was.
+    FileError where it cannot be written: an existing file is then left as it was.
     """
     writers = {".toml": to_toml, ".json": to_json}
     if not isinstance(path, (str, os.PathLike)):

@@ -109,7 +109,7 @@ def part_of_line(line: ListingLine, listing: Listing) -> str:
 
 
 def check_given(design: Any, start: Any, at: Any, ratio: Any, flags: Mapping[str, Any]) -> None:
-    """Raise DefinitionError for what is no mechanism, no number to begin with, no pose, no name or names, and for no True or False."""
+    """Raise DefinitionError for a wrong mechanism, first number, pose, name or flag."""
     require_mechanism(design)
     if not is_whole(start):
         raise DefinitionError(f"start={cited(start)}: the first equation's number is expected, such as 1.")
@@ -123,7 +123,7 @@ def check_given(design: Any, start: Any, at: Any, ratio: Any, flags: Mapping[str
 
 
 def check_pose(design: Mechanism, at: Any) -> None:
-    """Raise DefinitionError for what is no pose: strokes by name, or None."""
+    """Raise DefinitionError for anything but a pose: strokes by name, or None."""
     if at is not None and not isinstance(at, Mapping):
         raise DefinitionError(f"{design.plan.title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
 
@@ -252,7 +252,7 @@ def shown_latex(text: str) -> str:
 
 
 def value_in_equation(value: Any, unit: Unit) -> str:
-    """Return a value as it stands in an equation: a pair, an angle in degrees, a plain number [SI]."""
+    """Return a value as it is written in an equation: a pair, an angle in degrees, a plain number [SI]."""
     if np.ndim(value):
         return f"({', '.join(plain_number(float(part) / unit.si_factor) for part in value)})"
     return plain_number(float(value) / unit.si_factor) + (" deg" if unit.text == "deg" else "")
@@ -404,7 +404,7 @@ class Equations(Sequence[Equation], Shown):
         return "\n".join([*legend(self, self._listing, shown, self._forces), "", *lines])
 
     def _filled(self, at: Mapping[str, Any] | None, known: Mapping[str, Any] | None = None) -> tuple[dict[str, str], dict[str, str]]:
-        """Return every symbol's value as it stands in an equation, and as it is shown with its unit; `known` are the left sides' own."""
+        """Return every symbol's value as an equation has it, and as it is shown with its unit; `known` are the left sides' own."""
         pose, names, units = self._pose(at), self._listing.names, self._listing.units
         if any(np.ndim(value) for value in pose.values()):
             raise DefinitionError(f"{self.machine.plan.title}: numbers are filled in at one pose; give one value for each stroke.")
@@ -592,7 +592,7 @@ def _rounded(value: Any, digits: int) -> Any:
 
 
 def in_reals(value: Any) -> Any:
-    """Return a value; NaN in the place of what is no real number, such as a power of a negative one."""
+    """Return a value; NaN for anything but a real number, such as a power of a negative one."""
     if isinstance(value, mpmath.mpc):
         return value.real if value.imag == 0 else mpmath.nan
     return np.where(np.imag(value) == 0.0, np.real(value), np.nan)[()] if np.iscomplexobj(value) else value

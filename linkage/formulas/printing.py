@@ -62,7 +62,7 @@ def signed_sum(terms: Sequence[str]) -> str:
 
 @final
 class Text(StrPrinter):  # type: ignore[misc]
-    """Plain text: `AB = TurnVL(AO, -OAB, L_AB)`. With `values` the numbers stand in the place of the symbols."""
+    """Plain text: `AB = TurnVL(AO, -OAB, L_AB)`. With `values` numbers replace the symbols."""
 
     def __init__(self, values: Mapping[str, str] | None = None) -> None:
         super().__init__()
@@ -133,7 +133,7 @@ class Text(StrPrinter):  # type: ignore[misc]
 class Latex(LatexPrinter):  # type: ignore[misc]
     r"""LaTeX: `\overrightarrow{AB} = \operatorname{TurnV}_{L}\left(...\right)`. `words` holds the symbols' LaTeX.
 
-    With `values`, as `Text` takes them, the numbers stand in the place of the symbols, and products have their dots.
+    With `values`, as `Text` takes them, numbers replace the symbols, and products have their dots.
     """
 
     def __init__(self, words: Mapping[str, str], values: Mapping[str, str] | None = None) -> None:

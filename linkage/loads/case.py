@@ -28,7 +28,7 @@ class LoadCase(Member):
     """A named choice of loads: `transport = LoadCase("transport", scale={"load": 2.0}, slope=10 * deg)`.
 
     `scale` multiplies loads by name, 0 leaves one out; `only` keeps those named and leaves out all others. `gravity` (x, y)
-    [m/s2] replaces every element's own; without it each keeps its own. `slope` [rad] turns whichever holds: positive where the
+    [m/s2] replaces every element's own; without it each keeps its own. `slope` [rad] turns the gravity that applies: positive where the
     ground rises towards +x, so that weights also pull towards -x. `shut` names lines of oil or gas whose valves are shut: at each pose
     such a line keeps what it has there, holds, and its pressure is what the loads make of it.
     """
@@ -133,7 +133,7 @@ def shut_members(case: LoadCase, members: Mapping[str, Member], where: str) -> d
 
 
 def check_words(title: object, scale: object, only: object, shut: object) -> None:
-    """Raise DefinitionError for a title that is no text, and for what is no choice of loads."""
+    """Raise DefinitionError for a title that is no text, and for anything but a choice of loads."""
     if not isinstance(title, str):
         example = 'LoadCase("transport", scale={"load": 2.0})'
         raise DefinitionError(f"LoadCase({cited(title)}): its title is expected first, {example}.")

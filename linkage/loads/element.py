@@ -332,7 +332,7 @@ class ForceElement(Jointed):
         return ()
 
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
-        """Return the forces while strokes move at rates [1/s], as far as they are known: other ones where the element rubs or damps."""
+        """Return the forces while strokes move at rates [1/s], as far as they are known; others with friction or damping."""
         return self.loads(motion)
 
     def pushes(self, motion: Poses, rates: Rates) -> list[Push]:
@@ -399,7 +399,7 @@ class ForceElement(Jointed):
         return (*(getattr(self, place) for place in self.places), *(each for each in numbers if not each.is_constant))
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
-        """Raise DefinitionError where something else stands in the place of a point, or one point in two places."""
+        """Raise DefinitionError where something else is given for a point, or one point is given twice."""
         names = [name_of(getattr(self, place)) for place in self.places]
         for name in names:
             if not isinstance(members[name], Point):

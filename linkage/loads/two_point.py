@@ -86,7 +86,7 @@ class TwoPoint(ForceElement):
         return sense
 
     def area_written(self, written: Formulas) -> Array:
-        """Return, for what holds, its thrust at one unit of pressure [m2] as it stands in the equations of forces."""
+        """Return, for what holds, its thrust at one unit of pressure [m2] as it is written in the equations of forces."""
         return self.area_in(written, np.ones(()))
 
     @property

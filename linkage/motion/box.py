@@ -1,6 +1,6 @@
 """The highest values of functions over a box of two strokes and more; many functions and many designs at once.
 
-A grid with the borders on it gives the starts: of the points that no neighbour betters, those that may still win, by half of what the
+A grid with the borders on it gives the starts: of the points that no neighbour improves on, those that may still win, by half of what the
 values bend there; the highest always. A part of the box that is higher than all else is found if it holds a box as wide as the grid's
 steps: one of its points is then the highest of all.
 
@@ -285,7 +285,7 @@ def snapped(unit: FloatArray) -> FloatArray:
 def after_round(
     climbs: Climbs, seen: FloatArray, k: int, least: FloatArray, places: FloatArray | None = None
 ) -> tuple[Climbs, Mask, Mask]:
-    """Return the searches after a round, which have come to their top, and which are not smooth. `least` (r,) is what is no gain.
+    """Return the searches after a round, which have come to their top, and which are not smooth. Less than `least` (r,) is no gain.
 
     What they have `seen` is at `places` (r, n, k), where these are not those of the stencil.
     """
@@ -344,7 +344,7 @@ def at_stencils(box: SeenBox, climbs: Climbs, offsets: FloatArray) -> FloatArray
 
 
 def climbed(box: SeenBox) -> tuple[Climbs, Climbs, FloatArray]:
-    """Return the searches that came to a smooth top, those that did not, and (K, D) what is no gain."""
+    """Return the searches that came to a smooth top, those that did not, and the least gain (K, D)."""
     D = box.seen.shape[1]
     finite = np.where(np.abs(box.seen) < -LOWEST, box.seen, np.nan)
     size = np.fmax.reduce(np.abs(finite), axis=-1, initial=0.0)
@@ -414,7 +414,7 @@ def shortest(slopes: FloatArray, known: Mask) -> FloatArray:
 
 
 def ridden(box: SeenBox, climbs: Climbs, least: FloatArray) -> Climbs:
-    """Return searches (r,) after steps along the directions in which all slopes about them rise; `least` (r,) is what is no gain."""
+    """Return searches (r,) after steps along the directions in which all slopes about them rise; less than `least` (r,) is no gain."""
     k = box.k
     m = 2 * k + SLOPES
     half = np.full(len(climbs.value), 0.5 / (box.side - 1))
@@ -623,7 +623,7 @@ def turned(climbs: Climbs, lost: Mask, half: FloatArray) -> Climbs:
 def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[Climbs, Climbs, Climbs]:
     """Return the searches along borders that came to a smooth top, the others, and places next to which a function is unbounded.
 
-    Those are searched from that may better what is known (K, D); nothing betters what is unbounded.
+    Those are searched from that may better what is known (K, D); nothing improves on what is unbounded.
     """
     first: dict[bytes, int] = {}
     alike = np.array([first.setdefault(np.isnan(row).tobytes(), number) for number, row in enumerate(box.seen)])

@@ -421,7 +421,7 @@ class PoseProgram:
         self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
 
     def of_design(self, designs: Mapping[str, Any]) -> Pose | None:
-        """Return the function of one design, that of the latest kept; None of several designs."""
+        """Return the function of one design, that of the latest kept; None for several designs."""
         known, pose = self._latest
         if known is not designs:
             if any(map(varies, designs.values())):
@@ -504,7 +504,7 @@ class PoseFunction:
 
 
 def one_value(value: Any, name: str, title: str) -> FloatArray:
-    """Return a stroke's one value, shape (); DefinitionError for several, and for what is no finite number."""
+    """Return a stroke's one value, shape (); DefinitionError for several, and for anything but a finite number."""
     try:
         found = real(value)
     except ValueError:

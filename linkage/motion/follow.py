@@ -83,7 +83,7 @@ def goals_of(places: Places) -> FloatArray:
 
 
 def start_of(places: Places, start: Any) -> FloatArray | None:
-    """Return where the path is begun from, values of the free strokes (k,), None where that is not said; DefinitionError for no strokes."""
+    """Return where the path begins, values of the free strokes (k,), None if that is not said; DefinitionError for anything else."""
     if start is None:
         return None
     title = f"{places.plan.title}: follow"
@@ -280,7 +280,7 @@ class TrackedPose:
 
 
 def solved(matrix: Sequence[Sequence[float]], right: Sequence[float]) -> tuple[list[float], float] | None:
-    """Return the solution of a small system of linear equations in floats, and its determinant; None of a singular one."""
+    """Return the solution of a small system of linear equations in floats, and its determinant; None for a singular one."""
     rows = [[*row, b] for row, b in zip(matrix, right, strict=True)]
     count, determinant = len(rows), 1.0
     for k in range(count):
@@ -309,7 +309,7 @@ def solved(matrix: Sequence[Sequence[float]], right: Sequence[float]) -> tuple[l
 class Track:
     """The strokes (n, k) of a path on one branch, from the first place that it reaches, NaN from where it ends.
 
-    `ended` is where that is, None of one that goes to the end.
+    `ended` is where that is, None for one that goes to the end.
     """
 
     route: Route

@@ -461,7 +461,7 @@ def nodes_without_bound(plan: Plan, bound: Request) -> list[Any]:
 
 
 def values_over(motion: Motion, quantity: Any) -> FloatArray:
-    """Return a quantity over a motion's poses, infinite where a function says so; DefinitionError for no number a pose."""
+    """Return a quantity over a motion's poses, infinite where a function says so; DefinitionError unless it is one number a pose."""
     if isinstance(quantity, Worst):
         return worst_at(motion, quantity)
     if callable(quantity) and not isinstance(quantity, (str, Quantity, Request)):
@@ -633,7 +633,7 @@ class Judge:
         return self.answers([question])[0]
 
     def answers(self, questions: Sequence[Question]) -> list[Answer]:
-        """Return the answers to some questions, the worst over all there is, in one pass for all; what was asked before is known."""
+        """Return the answers to some questions, the worst over all that the machine runs, in one pass; earlier answers are kept."""
         held = [(question, self.as_constraints(question)) for question in questions_of(self.plan, questions)]
         for _, each in held:
             check_kinds(self.plan, [one for one in each if isinstance(one, Measure)], [one for one in each if isinstance(one, Constraint)])
@@ -898,7 +898,7 @@ def of_one_design(candidate: Candidate, place: tuple[Any, ...], shape: tuple[int
 
 
 def questions_of(plan: Plan, given: Any) -> list[Any]:
-    """Return questions as a list; DefinitionError for what is none."""
+    """Return questions as a list; DefinitionError for anything else."""
     listed = [given] if isinstance(given, (Measure, Condition)) else given
     if not isinstance(listed, (list, tuple)):
         raise DefinitionError(f"{plan.title}: answers({cited(given)}): a list of questions is expected, [most(...) <= 8 * deg].")
@@ -935,7 +935,7 @@ def leaf_key(plan: Plan, leaf: Leaf) -> Any:
 
 
 def plain_identity(plan: Plan, quantity: Any) -> Hashable:
-    """Return what tells a quantity or a request from others; None of a function of a motion, and of what may change."""
+    """Return what tells a quantity or a request from others; None for a function of a motion, and for what may change."""
     return identity_of(plan, quantity) if isinstance(quantity, (str, Quantity, Request)) else None
 
 
@@ -953,8 +953,8 @@ def shared(a: Situation, b: Situation) -> Situation:
 def together(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[WorstPiece, ...]]:
     """Return the pieces of several leaves that occur at once, all there are.
 
-    They are in the same load case, where they name one, and either at rest or moving: what is at rest only, as nothing rubs, goes with
-    both. What the same stroke, path or cylinder moves goes the same way.
+    They are in the same load case, where they name one, and either at rest or moving: what is at rest only, as nothing has friction,
+    goes with both. What the same stroke, path or cylinder moves goes the same way.
     """
     moves = {id(each): any(is_moving(one) for one in pieces) for pieces in of_leaves for each in pieces}
 

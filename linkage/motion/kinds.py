@@ -53,7 +53,7 @@ class MeasureKind:
 
     @property
     def name(self) -> str:
-        """What it is called, "length"; an angle beside others counts as a number, as in a work. "" of what has no name."""
+        """What it is called, "length"; an angle beside others counts as a number, as in a work. "" for what has no name."""
         length, force, turned = self.powers
         among = [(length, force, turned)] + ([(length, force, 0.0)] if (length, force) != (0.0, 0.0) else [])
         return next((name for each in among for name, powers in KINDS.items() if powers == each), "")
@@ -160,12 +160,12 @@ def kind_of_stroke(plan: Plan, name: str) -> MeasureKind:
 
 
 def unitless_number(measure: Measure) -> float | None:
-    """Return a number without a unit; None of any other measure."""
+    """Return a number without a unit; None for any other measure."""
     return measure.value if isinstance(measure, Given) and not measure.measures else None
 
 
 def constant_part(part: Any) -> float | None:
-    """Return a number that stands in a quantity; None of anything else."""
+    """Return a number that stands in a quantity; None for anything else."""
     return part.number if isinstance(part, Number) else part if isinstance(part, float) else None
 
 

@@ -107,7 +107,7 @@ def highest(look: Look, counts: Sequence[int]) -> Highest:
 
 
 def missing_lowest(values: FloatArray) -> FloatArray:
-    """Return values in which what is missing lies below all others."""
+    """Return the values with NaN replaced by -inf, so that a maximum ignores them."""
     return np.where(np.isnan(values), -np.inf, np.maximum(values, LOWEST))
 
 

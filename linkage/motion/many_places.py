@@ -78,7 +78,7 @@ class ManyPlaces:
     def of(
         cls, plan: Plan, designs: Mapping[str, Any], targets: Sequence[Target], hold: Any, *, where: str, ranges: StrokeRanges
     ) -> ManyPlaces:
-        """Return targets bound to one design; DefinitionError for what is none, and for more than two strokes to spare."""
+        """Return targets bound to one design; DefinitionError for anything else, and for more than two strokes to spare."""
         title = f"{plan.title}: {where}"
         held = held_strokes(plan, hold, title)
         free = [name for name in plan.strokes if name not in held]

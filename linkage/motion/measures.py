@@ -100,7 +100,7 @@ Operand: TypeAlias = "Measure | float"
 
 
 def as_measure(given: object) -> Measure:
-    """Return a measure, a number as one; DefinitionError for what has a value at every pose and none of a design."""
+    """Return a measure, a number as one; DefinitionError for what has a value at every pose and no single one for a design."""
     if isinstance(given, Measure):
         return given
     if is_number(given):
@@ -373,7 +373,7 @@ reachable = Reachable()
 
 
 def conditions_of(given: Any, machine: Any) -> list[Constraint]:
-    """Return the constraints of conditions; DefinitionError for what is none."""
+    """Return the constraints of conditions; DefinitionError for anything else."""
     listed = [given] if isinstance(given, (Condition, Measure, PoseCondition, bool)) else given
     if not isinstance(listed, (list, tuple)):
         raise DefinitionError(f"subject_to={cited(given)}: a list of conditions is expected, such as [least(...) >= 35 * kN].")
@@ -411,7 +411,7 @@ def quantity_in_case(quantity: Any, case: Case) -> Any:
 
 
 def shares_of(spectrum: Spectrum, where: str = "case") -> dict[str, float]:
-    """Return the load cases of a duty by name, each with its share; the shares sum to one. DefinitionError for what is no duty."""
+    """Return the load cases of a duty by name, each with its share; the shares sum to one. DefinitionError for anything but a duty."""
     shown = f"{where}={cited(dict(spectrum))}"
     if not spectrum or not all(isinstance(name, str) for name in spectrum):
         raise DefinitionError(f'{shown}: the names of load cases with their hours are expected, case={{"empty": 700, "full": 300}}.')
@@ -461,7 +461,7 @@ def which_component(plan: Plan, quantity: Any) -> str:
 
 
 def traced(plan: Plan, quantity: Any) -> Request | None:
-    """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for what is no number."""
+    """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for anything but a number."""
     if not isinstance(quantity, (str, Quantity, Request)):
         return None
     try:

@@ -74,7 +74,7 @@ class Over(Member):
         return found
 
     def _hold(self, shape: str, strokes: Mapping[str, Any], only: Any, cases: Any, lost: Any) -> None:
-        """Keep what was given; DefinitionError for what is no condition, no list of cases or no word."""
+        """Keep what was given; DefinitionError for a wrong condition, case or word."""
         listed = (only,) if isinstance(only, PoseCondition) else only
         if not isinstance(listed, (list, tuple)) or not all(isinstance(each, PoseCondition) for each in listed):
             wrong = (

@@ -47,7 +47,7 @@ class PartOfMotion:
 
     @classmethod
     def of(cls, whole: WholeMotion, name: str) -> PartOfMotion:
-        """Return what a part has; DefinitionError for what is no part, and for a dimension that changes over the poses."""
+        """Return what a part has; DefinitionError for anything but a part, and for a dimension that changes over the poses."""
         part = whole.plan.members.get(name)
         if not isinstance(part, Part):
             raise unknown("Part", name, whole.plan.of_kind(Part), where=whole.plan.title)

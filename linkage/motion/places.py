@@ -134,7 +134,7 @@ class Places:
     def of(
         cls, plan: Plan, designs: Mapping[str, Any], targets: Any, hold: Any, *, where: str, ranges: StrokeRanges = DECLARED
     ) -> Places:
-        """Return targets bound to one design; DefinitionError for what is none, and where they do not ask for the strokes there are."""
+        """Return targets bound to one design; DefinitionError for anything else, and where they do not ask for the strokes there are."""
         title = f"{plan.title}: {where}"
         if any(np.ndim(value) for value in designs.values()):
             raise DefinitionError(f"{title} is of one design, this is a batch; choose one of them.")
@@ -294,7 +294,7 @@ def traced_target(plan: Plan, target: Target, title: str) -> Request:
 
 
 def held_strokes(plan: Plan, hold: Any, title: str) -> dict[str, float]:
-    """Return the strokes that are held, by name; DefinitionError for what is no stroke or no number."""
+    """Return the strokes that are held, by name; DefinitionError for a name that is no stroke, and for a value that is no number."""
     if hold is None:
         return {}
     if not isinstance(hold, Mapping):
@@ -530,7 +530,7 @@ class BranchSearch:
         return np.asarray(starts[order[off[order] < FAR_OFF]])
 
     def least_missed(self, count: int) -> FloatArray:
-        """Return the places of the grid where least is missed, shape (n, k): the best, and those that no neighbour betters."""
+        """Return the places of the grid where least is missed, shape (n, k): the best, and those that no neighbour improves on."""
         with np.errstate(invalid="ignore"):
             size = np.sum((self.seen / self.places.within.reshape(-1, *[1] * len(self.axes))) ** 2, axis=0)
         size = np.where(np.isfinite(size), size, np.inf)

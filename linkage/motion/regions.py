@@ -179,7 +179,7 @@ def inside_nodes(point: str, region: Region, plan: Plan) -> tuple[Node, ...]:
 
 
 def inside_names(point: str, plan: Plan) -> set[str]:
-    """Return what the request is built from; DefinitionError for what is no point."""
+    """Return what the request is built from; DefinitionError for anything but a point."""
     if point not in plan.points:
         raise DefinitionError(f"{plan.title}: inside({point}, ...): {point} is no point; its points are {', '.join(plan.points)}.")
     return plan.reaches(point)
@@ -189,7 +189,7 @@ def inside_names(point: str, plan: Plan) -> set[str]:
 
 
 def region_of(given: Any, where: str, outlines: Any = None, value: Any = None) -> Region:
-    """Return the region of a shape or a list of shapes; DefinitionError for what is none.
+    """Return the region of a shape or a list of shapes; DefinitionError for anything else.
 
     `outlines` are those of a machine by name, whose coordinates `value` gives as numbers.
     """
@@ -218,7 +218,7 @@ def is_place(given: Any) -> bool:
 
 
 def region_shape(given: Any, where: str, outlines: Any, value: Any) -> Shape:
-    """Return one shape; DefinitionError for what is none."""
+    """Return one shape; DefinitionError for anything else."""
     if isinstance(given, (Polygon, Disc)):
         return given
     if isinstance(given, str):

@@ -18,11 +18,11 @@ import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited
 from ..loads import DIRECTIONS, Acting
+from ..pickling import object_of, picklable
 from ..plan import NEAR, ArrayReading, Mask, Plan
 from ..program import LAST, FloatArray, Kernel, Node, Notes, ancestors, disturbed, gradient
 from ..quantities import TAKEN, Arithmetic, Member, Number, Quantity, label, quantity, spelled
 from ..quantities.quantity import PoseCondition
-from ..sent import object_of, sent
 from ..steps import Arrow, Point
 from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Conditioning, PrecisionLeft, Rounding, conditioning
 from .grid import Angles, Grid, MotionLike, angles_of
@@ -40,8 +40,8 @@ class Request(Arithmetic):
     # -- as it is written --------------------------------------------------------------------------------
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return what pickle is to make the request of, functions that stand in others too."""
-        return object_of, (type(self), {name: sent(value) for name, value in vars(self).items()})
+        """Return what pickle writes of the request, nested functions too."""
+        return object_of, (type(self), {name: picklable(value) for name, value in vars(self).items()})
 
     def identity(self, plan: Plan) -> Hashable:
         """Return what tells it from others of the same plan as long as what it holds lives; None where what it holds may change."""
@@ -138,7 +138,7 @@ class Request(Arithmetic):
     def traced_with(self) -> Hashable:
         """What tells the requests whose program is traced in one with this one's: where one of them can be, all can.
 
-        None of one that was traced when it was bound.
+        None for one that was traced when it was bound.
         """
         return self.key
 
@@ -293,7 +293,7 @@ def stroke_of(plan: Plan, name: str | None, keyword: str = "wrt") -> str:
 
 
 def dimensions_of(plan: Plan, names: Any) -> list[tuple[str, int]]:
-    """Return design variables by any of their spellings, with signs; DefinitionError for what is none of them."""
+    """Return design variables by any of their spellings, with signs; DefinitionError for anything but one of them."""
     if isinstance(names, str):
         raise DefinitionError(f'{plan.title}: wrt="{names}": a list of dimensions is expected, wrt=["{names}"].')
     if not isinstance(names, Iterable) or isinstance(names, np.ndarray):

@@ -284,7 +284,7 @@ Function: TypeAlias = Callable[[Motion], Any]
 
 
 def require_function(motion: Any, f: Any) -> None:
-    """Raise DefinitionError for what is no motion, and for what is no function of one."""
+    """Raise DefinitionError for anything but a motion and a function of one."""
     require_motion(motion)
     check_any(motion.strokes, motion.plan)
     if not callable(f) or isinstance(f, type):

@@ -67,7 +67,7 @@ class Target:
 
 
 def quantity_cited(quantity: object) -> str:
-    """Return what a target is of as it stands in a message: `'tilt'`, `x(M)`."""
+    """Return what a target is of as it is written in a message: `'tilt'`, `x(M)`."""
     return str(quantity) if isinstance(quantity, (Quantity, Request)) else cited(quantity)
 
 

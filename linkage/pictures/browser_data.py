@@ -232,7 +232,7 @@ def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float]
 
 
 def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[float, float]:
-    """Return a range with the design's own value in it; DefinitionError for what is none."""
+    """Return a range with the design's own value in it; DefinitionError for anything else."""
     if not isinstance(ends, (list, tuple)) or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
         said = f"{machine.plan.title}: vary: {name}={cited(ends)}"
         raise DefinitionError(f"{said}: the least and the greatest value are expected, (0.28, 0.34).")

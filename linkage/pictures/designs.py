@@ -44,7 +44,7 @@ TINTS = ("#0072b2", "#d55e00", "#007f5c", "#9a3a86", "#8a5a00", "#4a5a6a")
 def draw_designs(machines: Sequence[Mechanism], at: Any, path: Sequence[str], count: int) -> Figure:
     """Return a figure of several designs at the same strokes: of two the first one faint, of more each in its own colour.
 
-    `at` and `path` are as for one design; without `at` every stroke stands in its middle.
+    `at` and `path` are as for one design; without `at` every stroke is at mid-stroke.
     """
     designs = separated(machines)
     first = designs[0]

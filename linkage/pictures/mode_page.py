@@ -62,7 +62,7 @@ def draw_modes(modes: Sequence[Assembly]) -> Figure:
     if len(modes) > len(shown):
         count = said("{modes}, the first {number} of them", modes=count, number=len(shown))
     write_title(figure, f"{plan.heading}: {count}", where)
-    notes = [said("Each line stands in the class in place of the one that is there.")]
+    notes = [said("Each line replaces the one that is in the class.")]
     notes += [said("Modes of pins found together are looked for from places at random, one may be missing.")] if plan.groups else []
     footnote(figure, " ".join(notes))
     return figure

@@ -68,7 +68,7 @@ def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
 
 
 def require_optimum(optimum: Any) -> None:
-    """Raise DefinitionError for what is no optimum."""
+    """Raise DefinitionError for anything but an optimum."""
     if not isinstance(optimum, Optimum):
         raise DefinitionError(f"{cited(optimum)} is no result of a search; give what optimise(...) returns.")
 
@@ -242,7 +242,7 @@ def courses_of(optimum: Optimum, count: int) -> Iterator[QuantityCourse]:
 
 
 def sides_of(constraint: Constraint, leaves: Sequence[Leaf]) -> tuple[Leaf, Given, str] | None:
-    """Return the leaf, the number and the sign of a constraint that holds one of some leaves against a number; None of any other."""
+    """Return the leaf, the number and the sign of a constraint that holds one of some leaves against a number; None for any other."""
     left, right, turned = constraint.left, constraint.right, {"<=": ">=", ">=": "<=", "==": "=="}[constraint.symbol]
     for one, other, sign in ((left, right, constraint.symbol), (right, left, turned)):
         if isinstance(one, Leaf) and isinstance(other, Given) and any(one is each for each in leaves):

@@ -1,4 +1,4 @@
-"""What there is to draw in a motion, without a drawing library: bodies, cylinders, pins, and where they are."""
+"""What is drawn of a motion, without a drawing library: bodies, cylinders, pins, and where they are."""
 
 from __future__ import annotations
 

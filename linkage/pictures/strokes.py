@@ -157,7 +157,7 @@ def playback(machine: Mechanism, count: int, column: str | None = None, *, at: A
     """Return what is played over one stroke or several together, the others held: `count` poses, there and back.
 
     `at` holds strokes at a value, or says which values those that move pass [m or rad]; without it the
-    first stroke runs over its range and the others stand in their middle. A full turn that ends where it began goes
+    first stroke runs over its range and the others are at mid-stroke. A full turn that ends where it began goes
     round. Eased, the poses stand closer at the ends, so that even frames start and stop softly. Poses out of reach are
     left out; raises AssemblyError where none is in reach.
     """

@@ -109,7 +109,7 @@ class ShownAnswer:
 
     @cached_property
     def wanted(self) -> FloatArray:
-        """The places that the task wants, shape (n, 2) [m]; none of a function."""
+        """The places that the task wants, shape (n, 2) [m]; none for a function."""
         task = self.task
         if isinstance(task, PathTask):
             return task.points

@@ -144,7 +144,7 @@ class Members:
         return tuple(name for name, point in self.points.items() if point.is_fixed)
 
     def _check_kinds(self, name: str, member: Member) -> None:
-        """Raise DefinitionError where a point, a vector or a quantity stands in the place of another kind."""
+        """Raise DefinitionError where a point, a vector or a quantity is given for another kind."""
         member.examine(self.members, self.title)
         for part in self.with_parts(name):
             for length in part.lengths():
@@ -244,7 +244,7 @@ class Members:
         return not joint.drives or any(self.moves(drive.quantity) for drive in joint.drives)
 
     def track(self, joint: Joint) -> tuple[str, ...]:
-        """Return what a joint's point slides on: the two points of a moving line, sorted, or a guide's name; empty for no slide."""
+        """Return what a joint's point slides on: the two points of a moving line, sorted, or a guide's name; empty without a slide."""
         guide = self.of_kind(Guide).get(joint.track[0]) if len(joint.track) == 1 else None
         return joint.track if guide is None or guide.Q is None else tuple(sorted(guide.points))
 

@@ -328,7 +328,7 @@ class Renaming(ABC):
 
     @abstractmethod
     def named_member(self, given: Member) -> Any:
-        """Return what stands in the place of a member that an argument is or holds."""
+        """Return what replaces a member that an argument is or holds."""
 
     def value(self, given: Any, is_word: bool) -> Any:
         """Return what an argument holds under the other names; a word is no name."""
@@ -431,7 +431,7 @@ class Renamed(Renaming):
     # -- one member ------------------------------------------------------------------------------------------
 
     def member(self, given: Member) -> Member:
-        """Return a member of the part, named or not, as it stands in the whole."""
+        """Return a member of the part, named or not, as it is in the whole."""
         known = self.memo.get(id(given))
         if known is not None:
             return known

@@ -66,7 +66,7 @@ class NumpyBlocks:
         return list(arrays(*(np.asarray(value, float) for value in design)))
 
     def _constants(self, design: Sequence[Numbers]) -> list[FloatArray]:
-        """Return the design part as it stands in a block; that of the last single design is kept."""
+        """Return the design part as a block holds it; that of the last single design is kept."""
         key = as_floats(design)
         if key is None:
             return [in_block(value, 0) for value in self.passed(design)]
@@ -149,7 +149,7 @@ def as_floats(values: Sequence[Numbers]) -> tuple[float, ...] | None:
 
 
 def in_block(value: Numbers, axis: int) -> FloatArray:
-    """Return a value as it stands in a block: a number without dimensions, or an array that varies along one axis or both."""
+    """Return a value as a block holds it: a number without dimensions, or an array that varies along one axis or both."""
     if not has_many(value):
         return np.array(value if type(value) is float else float(np.ravel(value)[0]))
     array = np.ascontiguousarray(value, float)

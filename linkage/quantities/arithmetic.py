@@ -1,4 +1,4 @@
-"""Arithmetic of what is no quantity itself and calculates with quantities: what is asked of a motion at its poses, or of a whole stroke."""
+"""Arithmetic with quantities of what is not one itself: requests at a motion's poses, measures of a whole stroke."""
 
 from __future__ import annotations
 

@@ -142,7 +142,7 @@ class Member:
         return ()
 
     def in_axes(self, axes: Any) -> Self:
-        """Return this member of a part as it stands in the machine that has the part; itself, where it speaks of no axes and no side."""
+        """Return this member of a part as the machine that has the part sees it; itself, where it has neither axes nor a side."""
         return self
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:

@@ -23,7 +23,7 @@ Spare: TypeAlias = Callable[[Motion], FloatArray] | Request
 
 
 def one_stroke(motion: Motion) -> str:
-    """Return the only stroke of a motion; DefinitionError for what is no motion, and where there are several."""
+    """Return the only stroke of a motion; DefinitionError for anything but a motion, and where there are several."""
     require_motion(motion)
     if len(motion.strokes) != 1:
         raise DefinitionError(f"{motion.plan.title}: ranges are told along one stroke, here are {len(motion.strokes)}.")
@@ -134,7 +134,7 @@ def run_along(motion: Motion) -> tuple[Run, int]:
 def run_of(machine: Mechanism, at: At = NOTHING) -> Run:
     """Return what moves: the strokes that `at` gives two values or more, else the first that it does not hold, over its range.
 
-    Several strokes run together, in straight lines from value to value. Strokes that are not given stand in their middle.
+    Several strokes run together, in straight lines from value to value. Strokes that are not given are at mid-stroke.
     DefinitionError where nothing is left to move, or where strokes that run together do not pass as many values each.
     """
     one = first_stroke(machine)
@@ -174,7 +174,7 @@ def stroke_way(machine: Mechanism, name: str, value: Any) -> tuple[float, ...]:
 
 
 def first_stroke(machine: Mechanism) -> str:
-    """Return the first stroke; DefinitionError for a structure without one, and for what is no mechanism."""
+    """Return the first stroke; DefinitionError for a structure without one, and for anything but a mechanism."""
     if not isinstance(machine, Mechanism):
         raise DefinitionError(f"{machine!r:.60} is no mechanism; give a design such as Boom(), and its strokes by at=.")
     if not machine.strokes:

@@ -106,7 +106,7 @@ PartsOf: TypeAlias = Callable[[AppliedElement, AnyMotion, Rates], Parts]
 
 
 def applied_loads(motion: AnyMotion, acting: Acting, rates: Rates, without: str = "", parts_of: PartsOf | None = None) -> AppliedLoads:
-    """Return what acts on a motion in a situation; DefinitionError for what is no force element or gives no proper force.
+    """Return what acts on a motion in a situation; DefinitionError for anything but a force element, and for a wrong force.
 
     `rates` are those of the situation at the motion's poses. An element named `without` is left out. `parts_of` reads the law of an
     element, where that is not read on arrays.
@@ -196,7 +196,7 @@ def member_title(member: TwoPinned) -> str:
 
 
 def applied_elements(plan: Plan, acting: Acting, without: str = "") -> list[AppliedElement]:
-    """Return the force elements that count in a load case; DefinitionError for what is none, and for names that no load has."""
+    """Return the force elements that count in a load case; DefinitionError for anything else, and for names that no load has."""
     load_case, present = case_of(plan, acting.case), elements_of(plan, acting.loads)
     known = dict.fromkeys(name for name, _ in [*present, *elements_of(plan, None)])
     for name in load_case.mentioned:

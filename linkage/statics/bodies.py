@@ -133,7 +133,7 @@ def slider(point: str) -> FreeBody:
 def sliding_blocks(
     plan: Plan, elements: Iterable[ForceElement], bodies: Iterable[FreeBody], sliding: Iterable[str]
 ) -> tuple[FreeBody, ...]:
-    """Return the sliding blocks that friction asks for: of pins that rub, run on one guide or slot, and join one link only."""
+    """Return the sliding blocks that friction asks for: of pins with friction that run on one guide or slot and join one link only."""
     pins = dict.fromkeys(name_of(each.point) for each in elements if isinstance(each, PinFriction))
     joined, guides = Counter(point for body in bodies for point in body.points), Counter(sliding)
     fixed = frame_points(plan)

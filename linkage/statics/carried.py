@@ -103,7 +103,7 @@ class LoadAt:
 
     @cached_property
     def supports(self) -> Mapping[str, Support]:
-        """The supports that the machine stands on as a vehicle; none of one without; DefinitionError where it cannot stand on them."""
+        """The supports that the machine stands on as a vehicle; none for one without; DefinitionError where it cannot stand on them."""
         if not frame_supports(self.plan):
             return {}
         found = vehicle_of(self.plan)

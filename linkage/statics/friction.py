@@ -266,7 +266,7 @@ class Speeds:
         return max(float(np.max(np.abs(self.spin(body)), initial=0.0)) for body in range(FRAME, len(self.structure.bodies)))
 
     def axis(self, body: int) -> tuple[str, str] | None:
-        """Return two points that turn with a body, of one that slides without turning those of what it slides on; None for no turning."""
+        """Return two points that turn with a body, or with what it slides on without turning; None if neither turns."""
         if body == FRAME or body >= len(self.structure.bodies):
             return None
         if self.structure.bodies[body].slides:

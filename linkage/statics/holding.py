@@ -352,7 +352,7 @@ def ends_way(motion: Motion, cylinder: TwoPoint, stroke: str) -> FloatArray:
 
 
 def matched(follows: FloatArray) -> tuple[int, ...] | None:
-    """Return the stroke for each line, all different, whose shares multiply to the most; later strokes where equal. None for no way."""
+    """Return the stroke for each line, all different, whose shares multiply to the most; later strokes where equal. None if none does."""
     lines, strokes = follows.shape
     ways = permutations(reversed(range(strokes)), lines) if lines <= strokes else iter(())
     worth = {way: float(np.prod([follows[i, j] for i, j in enumerate(way)])) for way in ways}
@@ -469,7 +469,7 @@ def with_levers(poses: FlatPoses, holders: Holders, what: str) -> tuple[FlatPose
 
 
 def known_levers(poses: FlatPoses, holders: Holders, way: int) -> Levers:
-    """Return the levers of lines, worked out once for the same poses of a motion, whichever load and whichever cylinder is asked."""
+    """Return the levers of lines, worked out once for the same poses of a motion, for all loads and cylinders."""
     if not isinstance(poses.motion, Motion):
         return levers_of(poses, holders, way)
     return poses.motion._once(("levers", holders.all, way, poses.good.tobytes()), lambda: levers_of(poses, holders, way))

@@ -121,13 +121,13 @@ class PinForces(Shown):
 
     @property
     def axle_loads(self) -> Mapping[str, FloatArray]:
-        """The reactions of the supports under the frame by their names, shape (...) [N]; none of a machine that does not stand on any."""
+        """The reactions of the supports under the frame by their names, shape (...) [N]; none for a machine that does not stand on any."""
         found = standing_if_any(self.motion, self._found.applied.acting)
         return {} if found is None else found.reactions
 
     @cached_property
     def _ground(self) -> tuple[AppliedLoad, ...]:
-        """What the ground puts on a vehicle's frame; nothing of a machine that stands on no supports."""
+        """What the ground puts on a vehicle's frame; nothing for a machine that stands on no supports."""
         return ground_loads(self.motion, self._found.applied.acting)
 
     @cached_property

@@ -150,7 +150,7 @@ class AnyMotion(Poses, Protocol):
 
 
 def plan_of(motion: Poses) -> Plan:
-    """Return the plan of the motion that a law of force is asked for; DefinitionError for what is no motion of a mechanism."""
+    """Return the plan of the motion that a law of force is asked for; DefinitionError for anything but a motion of a mechanism."""
     require_poses(motion)
     if not isinstance(motion.plan, Plan):
         raise DefinitionError(f"{cited(motion)} is no motion of a mechanism; give machine.sweep(...) or machine.at(...).")

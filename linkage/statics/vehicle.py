@@ -122,7 +122,7 @@ def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Suppor
 
 
 def standing_supports(motion: Motion) -> dict[str, Support]:
-    """Return the supports that a vehicle stands on under its own loads; none of a machine that does not stand on any."""
+    """Return the supports that a vehicle stands on under its own loads; none for a machine that does not stand on any."""
     return {} if standing_if_any(motion, PLAIN) is None else vehicle_of(motion.plan)
 
 
@@ -411,7 +411,7 @@ def vehicle_text(word: str, arguments: tuple[str, ...], acting: Acting) -> str:
 
 
 def at_rest_alone(plan: Plan) -> tuple[str, ...]:
-    """Return that a vehicle is asked at rest: what rubs inside it puts nothing on its supports."""
+    """Return that a vehicle is at rest: friction inside it puts nothing on its supports."""
     return (FRICTIONLESS,)
 
 

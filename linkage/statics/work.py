@@ -157,7 +157,7 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
     """Return what a two-point member carries, shape (...) [N], positive where it pushes its ends apart.
 
     Of one that holds, by virtual work on the strokes that the cylinders have taken over; with friction by equilibrium. Of one with a
-    law of its own, that. One that is not of the class stands in the place of the class's cylinder between the same points.
+    law of its own, that. One that is not of the class replaces the class's cylinder between the same points.
     The direction is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises DefinitionError for one
     that neither holds nor has a law here, SingularError where its length stands still against its drive.
     """

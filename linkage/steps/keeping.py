@@ -244,7 +244,7 @@ class Construction:
         return None
 
     def _drive(self, P: str, arrow: Arrow) -> tuple[Quantity, tuple[str, ...]] | None:
-        """Return the angle by which a stroke turns a vector, and two points of the body it is counted from, none of the frame.
+        """Return the angle by which a stroke turns a vector, and two points of the body it is counted from; none for the frame.
 
         A vector that has turned one body turns no other: bodies that move parallel are not driven twice.
         """

@@ -187,7 +187,7 @@ class OffsetLinks:
 
     `groups` are points that move as one, `sides` its distances from other points, `rods` those of them that strokes and dimensions
     give; `apex` is the far end of the base where it is the apex of a triangle. `by` are two points of the body that a drive acts from,
-    none of the frame; `angle` turns it, `length` pushes it out. Where its place is `settled` by what it hangs on, `beside` are another
+    none for the frame; `angle` turns it, `length` pushes it out. Where its place is `settled` by what it hangs on, `beside` are another
     point of its body, the vector there and that one's sign.
     """
 

@@ -302,7 +302,7 @@ def side_of(side: object, what: str) -> Side:
 
 
 def opposite(side: Side | None) -> Side | None:
-    """Return the other side; None of none."""
+    """Return the other side; None for None."""
     return None if side is None else Side(-side)
 
 

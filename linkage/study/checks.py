@@ -30,7 +30,7 @@ def check_mechanism(machine: Any) -> None:
 
 
 def check_one_design(machine: Mechanism) -> None:
-    """Raise DefinitionError for a batch of designs, and for what is no mechanism."""
+    """Raise DefinitionError for a batch of designs, and for anything but a mechanism."""
     check_mechanism(machine)
     if any(np.ndim(value) for value in machine.dimensions.values()):
         raise DefinitionError(f"{type(machine).__name__}: a study starts from one design, this is a batch; choose one of them.")
@@ -52,7 +52,7 @@ WHOLE_POSES = {1: 101, 2: 25, 3: 13, 4: 8, 5: 6, 6: 5}
 
 
 def why_not_assembled(machine: Mechanism) -> str:
-    """Return why a machine cannot be assembled over the box of its whole strokes, in one line; "" of one that can."""
+    """Return why a machine cannot be assembled over the box of its whole strokes, in one line; "" for one that can."""
     count = WHOLE_POSES.get(len(machine.strokes), 3)
     axes = [np.linspace(each.start, each.end, count) for each in machine.strokes.values()]
     try:

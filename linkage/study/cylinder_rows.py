@@ -43,7 +43,7 @@ class FittedRows:
 
 
 def fitted_rows(machine: Mechanism, vary: Any) -> FittedRows:
-    """Return the same with rows of the cylinders that `vary` names as rows of their dimensions; DefinitionError for what is none."""
+    """Return the same with rows of the cylinders that `vary` names as rows of their dimensions; DefinitionError for anything else."""
     if not isinstance(vary, Mapping):
         return FittedRows(machine, vary, {})
     elements = machine.plan.of_kind(TwoPoint)

@@ -36,7 +36,7 @@ class Designs:
 
     @classmethod
     def of(cls, machine: Mechanism, vary: Mapping[str, Any]) -> Designs:
-        """Return the designs that arrays by name make of a machine; DefinitionError for what is no dimension or cannot be one."""
+        """Return the designs that arrays by name make of a machine; DefinitionError for a wrong name or value."""
         title = machine.plan.title
         if not isinstance(vary, Mapping):
             raise DefinitionError(f"{title}: vary={vary!r:.60}: a dictionary of names and arrays is expected; Box.sample(count) makes one.")

@@ -66,7 +66,7 @@ RULES: Mapping[str, LoadRule] = MappingProxyType({each.title: each for each in (
 
 
 def rule_of(given: Any) -> LoadRule:
-    """Return the rule that is meant, by its title too; DefinitionError for what is none."""
+    """Return the rule that is meant, by its title too; DefinitionError for anything else."""
     if given is None:
         return PLAIN_RULE
     if isinstance(given, LoadRule):

@@ -29,9 +29,9 @@ Measured: TypeAlias = QuantityLike | Measure
 
 
 def number_bound(plan: Plan, quantity: Any) -> Request | None:
-    """Return a quantity bound to a plan as nodes of its program; None of what has none: a measure, a function of a motion.
+    """Return a quantity bound to a plan as nodes of its program; None for what has none: a measure, a function of a motion.
 
-    DefinitionError for what is no quantity, and for a point, which has two coordinates.
+    DefinitionError for anything but a quantity, and for a point, which has two coordinates.
     """
     if isinstance(quantity, (str, Quantity, Request)):
         return traced(plan, quantity)
@@ -51,7 +51,7 @@ def traced_number(plan: Plan, quantity: Any) -> Request:
 
 
 def measured_title(plan: Plan, quantity: Any) -> str:
-    """Return a quantity in words; DefinitionError for what is none."""
+    """Return a quantity in words; DefinitionError for anything else."""
     found = number_bound(plan, quantity)
     return str(quantity) if isinstance(quantity, Measure) else words_of(quantity) if found is None else found.sentence
 
@@ -70,7 +70,7 @@ class StudyPoses:
     def of(cls, machine: Mechanism, strokes: Mapping[str, Any], count: int) -> StudyPoses:
         """Return the poses at strokes [SI], by default `count` of them over a single stroke, at all of which a machine can be assembled.
 
-        Raises DefinitionError for no poses, AssemblyError where the machine as it is set cannot be assembled.
+        Raises DefinitionError without poses, AssemblyError where the machine as it is set cannot be assembled.
         """
         check_one_design(machine)
         every = {name: np.linspace(each.start, each.end, count) for name, each in machine.strokes.items()}
@@ -255,7 +255,7 @@ def eager(motion: Motion, quantity: Any) -> FloatArray:
 
 
 def nothing_limits(motion: Motion, quantity: Any) -> Mask | None:
-    """Return the mask of poses at which nothing limits a quantity, so that it has no value there; None of one that always has."""
+    """Return the mask of poses at which nothing limits a quantity, so that it has no value there; None for one that always has."""
     if not isinstance(quantity, Request):
         return None
     try:

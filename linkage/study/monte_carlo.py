@@ -165,7 +165,7 @@ def monte_carlo(
 
 
 def quantities_listed(plan: Plan, of: Any) -> dict[str, Measured]:
-    """Return quantities by their words, or the names they are given; DefinitionError for what is no list of them, or one name for two."""
+    """Return quantities by their words, or the names they are given; DefinitionError for a wrong list, or one name for two."""
     if isinstance(of, Mapping) and of and all(isinstance(name, str) for name in of):
         _ = [measured_title(plan, quantity) for quantity in of.values()]  # raises for what is none
         return dict(of)
@@ -179,7 +179,7 @@ def quantities_listed(plan: Plan, of: Any) -> dict[str, Measured]:
 
 
 def limits_listed(machine: Mechanism, given: Any) -> tuple[Constraint, ...]:
-    """Return conditions as constraints; DefinitionError for what is none, and for an equation, which no machine keeps."""
+    """Return conditions as constraints; DefinitionError for anything else, and for an equation, which no machine keeps."""
     found = tuple(conditions_of(given, machine))
     for each in found:
         if each.symbol == "==":
@@ -188,7 +188,7 @@ def limits_listed(machine: Mechanism, given: Any) -> tuple[Constraint, ...]:
 
 
 def percentages(given: Any) -> tuple[float, ...]:
-    """Return percentages in order; DefinitionError for what is none."""
+    """Return percentages in order; DefinitionError for anything else."""
     if not isinstance(given, (list, tuple)) or not all(is_number(each) and 0.0 <= each <= 100.0 for each in given):
         raise DefinitionError(f"percentiles={cited(given)}: percentages from 0 to 100 are expected, such as (5, 50, 95).")
     return tuple(sorted({float(each) for each in given}))

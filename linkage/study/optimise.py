@@ -447,7 +447,7 @@ class Journal:
 
 
 def entry_of(line: str) -> dict[str, Any] | None:
-    """Return what a line holds; None of a torn one."""
+    """Return what a line holds; None for a torn one."""
     try:
         found = json.loads(line)
     except ValueError:

@@ -424,7 +424,7 @@ def edge_words(problem: Problem, combination: Sequence[int], unit: FloatArray, w
 
 
 def stopped_by(problem: Problem, combination: Sequence[int], unit: FloatArray) -> str:
-    """Return why a design is none: refused, not assembled, or without a value of what is asked; "" of one that is."""
+    """Return why a design is none: refused, not assembled, or without a value of what is asked; "" for one that is."""
     try:
         machine = problem.machine_of(unit, combination)
         problem.assembled(machine)

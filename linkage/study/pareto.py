@@ -180,7 +180,7 @@ def on_front(
 
 
 def not_dominated(values: FloatArray) -> list[int]:
-    """Return the numbers of points (m, k) that no other betters in all, in the order of the first objective; equal ones once."""
+    """Return the numbers of points (m, k) that no other improves on in all, in the order of the first objective; equal ones once."""
     kept: list[int] = []
     size = np.abs(values).max(axis=0) + 1e-300
     for place in np.lexsort(values.T[::-1]):

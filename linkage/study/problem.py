@@ -96,7 +96,7 @@ def is_still(one: Range) -> bool:
 
 
 def ranges_of(machine: Mechanism, over: Any) -> dict[str, Range]:
-    """Return the part of each stroke that is looked at; DefinitionError for what is none."""
+    """Return the part of each stroke that is looked at; DefinitionError for anything else."""
     title, plan = machine.plan.title, machine.plan
     given = {} if over is None else over
     if not isinstance(given, Mapping):
@@ -722,7 +722,7 @@ class Problem:
         return machine.at(unreachable="nan", **at)
 
     def over_stroke(self, leaf: Leaf, design: Mapping[str, Numbers], count: int) -> tuple[str, FloatArray, FloatArray] | None:
-        """Return a stroke that a leaf's quantity depends on, its values (n,) and the quantity's (n,) of a design [SI]; None of a constant.
+        """Return a stroke that a leaf's quantity depends on, its values (n,) and the quantity's (n,) of a design [SI]; None for a constant.
 
         Over further strokes that value is taken which is the worst for the leaf, of others than an extreme the greatest.
         """

@@ -62,7 +62,7 @@ class PointRegion:
 
 
 def point_regions(machine: Mechanism, given: Any, circles: Mapping[str, float], variables: Sequence[Varied]) -> tuple[PointRegion, ...]:
-    """Return the regions that are given, and circles about where points stand now, by their radius; DefinitionError for what is none."""
+    """Return the regions that are given, and circles about where points stand now, by their radius; DefinitionError for anything else."""
     title, plan = machine.plan.title, machine.plan
     if given is None:
         given = {}
@@ -102,7 +102,7 @@ def point_region(machine: Mechanism, point: str, region: Region, variables: Sequ
 def drawn_inside(title: str, regions: Sequence[PointRegion], variables: Sequence[Varied], values: FloatArray, seed: int) -> FloatArray:
     """Return designs (m, n) whose points stand in their regions: those outside are drawn anew, evenly over the region.
 
-    DefinitionError where nothing of a region lies in the ranges of the variables.
+    DefinitionError where a region and the ranges of the variables have no point in common.
     """
     found = np.array(values)
     for number, each in enumerate(regions):

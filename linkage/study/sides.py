@@ -59,7 +59,7 @@ def on_sides(machine: Mechanism, sides: Mapping[str, Side]) -> Mechanism:
 
 
 def sided_now(member: Member) -> Side | None:
-    """Return the side of a step; None of what has none."""
+    """Return the side of a step; None for what has none."""
     return member.side if isinstance(member, Step) else None
 
 

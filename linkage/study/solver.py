@@ -387,7 +387,7 @@ class Local:
         return Row(owner if isinstance(owner, Constraint) else None, values + slopes[:, : self.n] @ way - loss, slopes)
 
     def _slack_column(self, constraint: Constraint) -> int | None:
-        """Return the variable by which a constraint gives way; None of one that does not."""
+        """Return the variable by which a constraint gives way; None for one that does not."""
         return next((self.width - self.slack + place for place, each in enumerate(self.elastic) if each is constraint), None)
 
     def first(self, unit: FloatArray) -> FloatArray:

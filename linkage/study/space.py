@@ -167,7 +167,7 @@ class Space:
 
 
 def known_dimension(machine: Mechanism, name: Any) -> None:
-    """Raise DefinitionError for what is no dimension of a machine."""
+    """Raise DefinitionError for anything but a dimension of a machine."""
     if not isinstance(name, str):
         raise unknown("Dimension", name, machine.plan.table.names(), where=machine.plan.title)
     if name in machine.plan.strokes:
@@ -189,7 +189,7 @@ def coordinates(plan: Plan, names: Sequence[str]) -> list[str]:
 
 
 def points_encircled(plan: Plan, names: Sequence[str]) -> list[str]:
-    """Return the names of points; DefinitionError for what is none, about which there is no circle."""
+    """Return the names of points; DefinitionError for anything else, about which there is no circle."""
     for name in names:
         if f"{name}.x" not in plan.table.spellings:
             what = f"{name}=around(radius=...): {name} is no fixed point that varies"
@@ -205,7 +205,7 @@ def owners_of(plan: Plan, name: str) -> list[tuple[str, float]]:
 
 
 def ranged(machine: Mechanism, names: Sequence[str], given: Around | tuple[Any, ...]) -> list[Varied]:
-    """Return the variables of a range; DefinitionError for what is none."""
+    """Return the variables of a range; DefinitionError for anything else."""
     plan, found = machine.plan, []
     for name in coordinates(plan, names):
         owner, sign = plan.table.spellings[name]
@@ -240,7 +240,7 @@ def size_of_machine(machine: Mechanism) -> float:
 def rows_of(
     title: str, names: Sequence[str], given: Any, owners: Sequence[tuple[str, float]]
 ) -> tuple[tuple[float, ...], ...]:
-    """Return the rows of choices, a side as its number; DefinitionError for what is none."""
+    """Return the rows of choices, a side as its number; DefinitionError for anything else."""
     width = len(owners)
     said = "write a range (low, high), a list of choices such as [0.28, 0.30], or for several names at once a list of rows"
     if not isinstance(given, (list, tuple, range, np.ndarray)) or len(given) == 0:

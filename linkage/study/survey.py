@@ -159,7 +159,7 @@ class SurveyRun:
         self.left.give_back(submission.start, submission.stop)
 
     def _error(self, what: str, error: Exception, designs: tuple[int, int] | None = None) -> StudyError:
-        """Return the error for what stops the study on the way, after keeping what there is."""
+        """Return the error for what stops the study on the way, after keeping the results so far."""
         self._stop()
         said = f"{type(error).__name__}: {error}".rstrip(": .\n")
         return StudyError(f"{self.task.machine.plan.title}: {self.state} {what} ({said}).", designs=designs)
@@ -398,7 +398,7 @@ def survey(
 
 
 def check_options(machine: Mechanism, measure: Measure, executor: Executor | None, version: str | int, progress: bool | Progress) -> None:
-    """Raise DefinitionError for what is no function to measure with, no executor, no version or no progress."""
+    """Raise DefinitionError for a wrong function, executor, version or progress."""
     if not callable(measure):
         raise DefinitionError(f"{machine.plan.title}: measure={measure!r:.60}: a function of a mechanism is expected.")
     check_executor(executor)
@@ -408,7 +408,7 @@ def check_options(machine: Mechanism, measure: Measure, executor: Executor | Non
 
 
 def check_executor(executor: Any) -> None:
-    """Raise DefinitionError for what is no executor."""
+    """Raise DefinitionError for anything but an executor."""
     if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "submit", None))):
         what = "is a class" if isinstance(executor, type) else "has no submit"
         raise DefinitionError(f"executor={executor!r:.60} {what}; give a pool of concurrent.futures or client.get_executor().")

@@ -70,7 +70,7 @@ def solutions_for(machine: Mechanism, vary: Mapping[str, Any], targets: Sequence
 
 
 def grid_size(k: int, points: int | None) -> int:
-    """Return how many points of a box of k ranges are looked at first; DefinitionError for what is no such number."""
+    """Return how many points of a box of k ranges are looked at first; DefinitionError for anything but a whole number from 1 to 2^20."""
     if points is None:
         return 1 << min(8 + 2 * k, 14) if k else 1
     if isinstance(points, bool) or not isinstance(points, int) or not 1 <= points <= 1 << 20:
@@ -95,7 +95,7 @@ class Aim:
 
     @classmethod
     def of(cls, machine: Mechanism, targets: Any) -> Aim:
-        """Return targets bound to a machine; DefinitionError for what is none, and for a pose that is not said."""
+        """Return targets bound to a machine; DefinitionError for anything else, and for a pose that is not said."""
         plan = machine.plan
         if not isinstance(targets, (list, tuple)) or not targets or not all(isinstance(each, Target) for each in targets):
             said = 'a list of targets is expected, such as [Target("tilt", 0.0, S=0.1)]'
@@ -289,7 +289,7 @@ def one_setting(values: Mapping[str, Any], place: int) -> Mapping[str, Any]:
 
 
 def best_points(grid: FloatArray, off: FloatArray) -> Mask:
-    """Return the mask of the points (m, k) of a grid to start from: the best, and those that none of their neighbours betters."""
+    """Return the mask of the points (m, k) of a grid to start from: the best, and those that none of their neighbours improves on."""
     chosen = np.zeros(len(grid), bool)
     order = np.argsort(off, kind="stable")
     chosen[order[: STARTS // 2]] = True

@@ -92,7 +92,7 @@ ToleranceLike: TypeAlias = float | tuple[float, float] | Tolerance
 def tolerances_of(plan: Plan, given: Any) -> dict[str, Tolerance]:
     """Return tolerances by the names of dimensions, a point's for each of its coordinates.
 
-    Raises DefinitionError for a name that is no dimension, for two that stand for one, and for what is no tolerance.
+    Raises DefinitionError for a name that is no dimension, for two that stand for one, and for anything but a tolerance.
     """
     if not isinstance(given, Mapping) or not given:
         raise DefinitionError(f'{plan.title}: {cited(given)}: tolerances by the names of dimensions are expected, {{"OB": 0.1 * mm}}.')
@@ -120,7 +120,7 @@ def dimension_names(plan: Plan, name: Any) -> list[str]:
 
 
 def tolerance_named(plan: Plan, name: str, value: Any) -> Tolerance:
-    """Return the tolerance of a dimension, whose name stands in the error of what is none."""
+    """Return the tolerance of a dimension; DefinitionError, with its name, for anything else."""
     try:
         return Tolerance(tuple(value) if isinstance(value, list) else value)
     except DefinitionError as error:

@@ -188,7 +188,7 @@ def working_field(
 
 
 def axis_values(given: Any, name: str, title: str) -> FloatArray:
-    """Return the places along an axis [m]; DefinitionError for what is no row of numbers."""
+    """Return the places along an axis [m]; DefinitionError for anything but a row of numbers."""
     try:
         found = np.atleast_1d(real(given))
     except (TypeError, ValueError, OverflowError):
@@ -218,7 +218,7 @@ def names_among(given: Any, what: str, known: Mapping[str, Any], title: str, exa
 
 
 def ranges_over(machine: Mechanism, over: Any, title: str) -> StrokeRanges:
-    """Return the ends between which strokes run [m or rad]; DefinitionError for what is no box of strokes."""
+    """Return the ends between which strokes run [m or rad]; DefinitionError for anything but a box of strokes."""
     if over is None:
         return DECLARED
     found = Over(**over) if isinstance(over, Mapping) and all(isinstance(name, str) for name in over) else over
@@ -252,7 +252,7 @@ class FurtherLimit:
 
     @classmethod
     def of(cls, name: str, given: Any, plan: Plan, title: str) -> FurtherLimit:
-        """Return a limit as it was given; DefinitionError for what is none."""
+        """Return a limit as it was given; DefinitionError for anything else."""
         if isinstance(given, PoseCondition):
             return cls(margin=given.margin)
         if is_number(given) and not isinstance(given, bool) and float(given) < 0.0:
@@ -583,7 +583,7 @@ class FieldSearch:
     # -- what is out of reach ------------------------------------------------------------------------------
 
     def reasons(self, reached: Mask) -> NDArray[Any]:
-        """Return why each cell is out of reach, "" of those that are not."""
+        """Return why each cell is out of reach, "" for those that are not."""
         words = np.full(reached.size, "", object)
         flat = np.zeros(reached.size, bool)
         order = np.argsort(self.y, kind="stable")[:, None] * self.x.size + np.argsort(self.x, kind="stable")  # by place ascending

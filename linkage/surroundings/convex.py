@@ -26,7 +26,7 @@ def signed_area(corners: Corners) -> float:
 
 
 def convex_pieces(corners: Corners) -> tuple[tuple[int, ...], ...]:
-    """Return convex pieces that make up a closed line, the numbers of their corners counter-clockwise; none of one that crosses itself.
+    """Return convex pieces that make up a closed line, the numbers of their corners counter-clockwise; none for one that crosses itself.
 
     Ears are cut off until a triangle is left, that with the shortest cut first; then neighbours are joined again while they stay convex,
     across the longest cut first. So the pieces do not hang on which corner is counted first, on the sense, nor on where the line stands.

@@ -238,7 +238,7 @@ def run_of_task(machine: Mechanism, task: Task) -> FloatArray:
 
 
 def places_wanted(task: Task) -> FloatArray | None:
-    """Return the places of a task, shape (2, n) [m]; None of a function, which has none."""
+    """Return the places of a task, shape (2, n) [m]; None for a function, which has none."""
     if isinstance(task, PathTask):
         return np.asarray(task.points.T)
     return np.array([task.x, task.y]) if isinstance(task, PoseTask) else None

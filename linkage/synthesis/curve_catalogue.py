@@ -101,7 +101,7 @@ class CurveCatalogue(Shown):
     def nearest(self, points: Any, count: int = 8) -> tuple[CurveMatch, ...]:
         """Return the machines whose curves are nearest to the closed curve through points (n, 2) [m], laid onto it, the nearest first.
 
-        DefinitionError for what is no closed curve.
+        DefinitionError for anything but a closed curve.
         """
         if not is_whole(count) or count < 1:
             raise DefinitionError(f"{self.kind.title}: count={cited(count)}: a whole number from 1 on is expected.")

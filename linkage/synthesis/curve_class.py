@@ -189,7 +189,7 @@ class CurveClass:
 
 
 def held_angles(machine: Mechanism, hold: Any) -> list[str]:
-    """Return the owners of the angles that stay as they are; DefinitionError for what is none."""
+    """Return the owners of the angles that stay as they are; DefinitionError for anything else."""
     entries, spellings = machine.plan.table.entries, machine.plan.table.spellings
     names = [*hold] if isinstance(hold, (tuple, list, set, frozenset)) else [hold]
     known = [spellings[each][0] for each in names if isinstance(each, str) and each in spellings]

@@ -49,7 +49,7 @@ def order_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
 
 
 def circuit_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
-    """Return where a design cannot be assembled over its stroke, and which points lie on which part of it; "" of one that can.
+    """Return where a design cannot be assembled over its stroke, and which points lie on which part of it; "" for one that can.
 
     Parts of the stroke are circuits where one step alone closes the machine; where several do they may hang together by other branches.
     """
@@ -139,7 +139,7 @@ def branch_words(fit: Fit, machine: Mechanism, at: FloatArray, base: FloatArray,
 
 
 def change_point_words(angle: float, four_bars: Sequence[FourBar]) -> list[str]:
-    """Return by how much a machine passes near a change point; none of one that keeps away."""
+    """Return by how much a machine passes near a change point; none for one that keeps away."""
     words = []
     if np.isfinite(angle) and angle < NEAR_CHANGE_POINT:
         words.append(said("it passes within {angle} of a change point", angle=show(angle, "deg", 3)))

@@ -106,7 +106,7 @@ class ExactMachine(Shown):
 
     `strokes` (n,) [rad] are those at which it comes to the points, NaN on another branch. `error` is what its links are off in length at
     the points, at the most [m], `transmission` the least transmission angle over the stroke [rad]. `kind` is its Grashof class. `why`
-    says in words why it is no answer, "" of one that runs. `machine` runs in any case: over the points of the branch with most of them.
+    says in words why it is no answer, "" for one that runs. `machine` runs in any case: over the points of the branch with most of them.
     """
 
     name: str
@@ -370,7 +370,7 @@ def stroke_ends(piece: DrivenPiece, strokes: FloatArray, asked: CouplerTask) -> 
 
 
 def why_not(parts: Sequence[tuple[int, bool, int]], circuit: npt.NDArray[np.int_], asked: CouplerTask, *, ordered: bool) -> str:
-    """Return why a machine is no answer, in words; "" of one that is. `parts` are the ways, sides and turns of the points."""
+    """Return why a machine is no answer, in words; "" for one that is. `parts` are the ways, sides and turns of the points."""
     circuits = [*dict.fromkeys(circuit.tolist())]
     if len(circuits) > 1:
         groups = [point_numbers(circuit == each) for each in circuits]

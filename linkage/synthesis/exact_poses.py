@@ -76,7 +76,7 @@ def burmester(poses: Any, region: Any = None, *, in_order: bool = True) -> Burme
 
 
 def checked_poses(poses: Any) -> FloatArray:
-    """Return poses (n, 3); DefinitionError for what is none."""
+    """Return poses (n, 3); DefinitionError for anything else."""
     given = np.stack([poses.x, poses.y, poses.angle], axis=1) if isinstance(poses, PoseTask) else poses
     rows = table_of("burmester", "poses", given, 3)
     if not 3 <= len(rows) <= 5:
@@ -143,7 +143,7 @@ class Burmester(Shown):
     """The links that guide a body through `poses` (n, 3), and the machines of all pairs of them.
 
     `circle_curve` and `centre_curve` are the branches of the two cubics of four poses, (2, m) each [m], points of the same place belong
-    together; none of other numbers of poses. `links` are all of five poses, of fewer those picked in the `region` of the fixed pivots.
+    together; none for other numbers of poses. `links` are all of five poses, of fewer those picked in the `region` of the fixed pivots.
     """
 
     poses: FloatArray

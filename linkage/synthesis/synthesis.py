@@ -289,7 +289,7 @@ def is_one_design(one: FloatArray, other: FloatArray, error: float, known: float
 
 
 def told_error(error: float, exact: float) -> float:
-    """Return an error to three digits, 0 of an exact fit."""
+    """Return an error to three digits, 0 for an exact fit."""
     return 0.0 if error <= exact else float(f"{error:.2e}")
 
 

@@ -112,7 +112,7 @@ def synthesise(
     others go one quarter after the other to the class of which the least error, of an answer or a miss, promises most, four times less
     after each quarter that bettered nothing, until the budget of all is spent or an answer is exact. `solutions` are ranked over all
     classes, of the same error those of fewer links first; `table` compares the classes. `vary`, `subject_to`, `regions`, `rank`, `over`
-    and the task's `of` may be dictionaries by class, `vary={FourBar: {...}}`. Where `vary` says nothing of a class, the machine is brought
+    and the task's `of` may be dictionaries by class, `vary={FourBar: {...}}`. Where `vary` leaves a class out, the machine is brought
     to the task's size s, and all varies that moves its point: lengths from 0.05 to 5 s, angles by a turn, fixed points by 5 s to either
     side of the task's middle. For a function s is the machine's longest length.
 
@@ -186,7 +186,7 @@ def facts_of_search(search: TaskSearch) -> dict[str, Any]:
 def catalogue_for(
     problem: Problem, task: Task, timing: Timing, timed: Any, starts: Any, executor: Executor | None, progress: Any
 ) -> CurveCatalogue:
-    """Return the catalogue from which a search begins; DefinitionError for what is no closed path, or a catalogue of another class."""
+    """Return the catalogue from which a search begins; DefinitionError for anything but a closed path, or a catalogue of another class."""
     machine, title = problem.machine, problem.plan.title
     if not (isinstance(task, PathTask) and task.closed and timed is False and timing.turn):
         closed = 'path=PathTask(points, of="P", closed=True), timed=False, over the whole turn of a crank'
@@ -496,7 +496,7 @@ class TaskSearch:
     # -- the judge -----------------------------------------------------------------------------------------
 
     def judged(self, ends: Sequence[Ends]) -> tuple[tuple[SynthesisedMachine, ...], tuple[Miss, ...]]:
-        """Return the distinct answers, the best first, and the best of what is none."""
+        """Return the distinct answers, the best first, and the best designs that are no answers."""
         every = [(float(each.error[k]), each, k) for each in ends for k in range(len(each.at)) if np.isfinite(each.error[k])]
         every.sort(key=lambda one: one[0])
         solutions: list[SynthesisedMachine] = []
@@ -553,7 +553,7 @@ class TaskSearch:
         return told_error(each.error, exact_error(self.rows)), each.error if np.isnan(each.ranked) else each.ranked
 
     def why_not(self, machine: Mechanism, ends: Ends, k: int) -> str:
-        """Return why a design is no answer, in words; "" of one that is, by the judge."""
+        """Return why a design is no answer, in words; "" for one that is, by the judge."""
         fit, at, base = ends.fit, ends.at[k], ends.base[k]
         circuits = circuit_words(fit, at, base)
         if circuits:

@@ -249,7 +249,7 @@ def timed_strokes(what: str, given: Any, count: int) -> FloatArray | None:
 
 
 def check_point(machine: Mechanism, name: Any) -> None:
-    """Raise DefinitionError for what is no point of a machine that moves."""
+    """Raise DefinitionError for anything but a point of a machine that moves."""
     if not isinstance(name, str) or name not in machine.plan.points or name not in machine.plan.moving:
         known = ", ".join(machine.plan.moving)
         raise DefinitionError(f"{machine.plan.title}: of={cited(name)}: a point that moves is expected, one of {known}.")

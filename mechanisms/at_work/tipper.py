@@ -1,4 +1,4 @@
-"""A tipper with a scissor hoist (Marrel's) under its body: a class III group, for no two circles give its pins. Figures: illustrative."""
+"""A tipper with a scissor hoist (Marrel's) under its body: a class III group, solved by iteration. Figures: illustrative."""
 
 from __future__ import annotations
 

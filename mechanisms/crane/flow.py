@@ -96,7 +96,7 @@ def design_crane(
 ) -> CraneDesign:
     """Return a crane for a duty, by default the source's: skeleton, boom drive, arm drive, each from what the stage before found.
 
-    `skeleton`, `boom` or `arm` stand in the place of a stage's result; `scheme` is that of the arm's drive, "a" to "d" of fig. 2.13, of
+    `skeleton`, `boom` or `arm` replace a stage's result; `scheme` is that of the arm's drive, "a" to "d" of fig. 2.13, of
     which c and d want an arm that folds little, such as Duty(psi_0=60 * deg). `cylinders` are those the drives are chosen from; `reading`
     and `cab` go to `design_skeleton`. DefinitionError, with all reasons, where no cylinder serves a drive.
     """
@@ -123,7 +123,7 @@ def with_drives(skeleton: CraneSkeleton, boom: BoomDrive, arm: DrivenArm) -> Cra
     """Return the whole crane of a skeleton, a boom drive and an arm drive, all of one design.
 
     The telescope's cylinder is as long as the telescope asks; its bore is that of the shipped crane. DefinitionError for an arm drive
-    of none of the four schemes.
+    of another than the four schemes.
     """
     made, count = next(((crane, count) for drive, crane, count in CRANES if isinstance(arm, drive)), (None, 0))
     if made is None:

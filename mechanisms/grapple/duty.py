@@ -103,7 +103,7 @@ class Duty:
 
 
 def sizes_of(given: Any) -> list[CylinderSize]:
-    """Return cylinder sizes from rows of bore and rod [m]; DefinitionError for what is none."""
+    """Return cylinder sizes from rows of bore and rod [m]; DefinitionError for anything else."""
     try:
         rows = [(float(bore), float(rod)) for bore, rod in given]
     except (TypeError, ValueError):
@@ -125,7 +125,7 @@ def strokes_of(given: Any) -> tuple[float, ...]:
 
 
 def box_of(given: Any) -> tuple[float, float, float, float]:
-    """Return the room for the pin E [m]; DefinitionError for what is none."""
+    """Return the room for the pin E [m]; DefinitionError for anything else."""
     try:
         left, right, low, high = (float(each) for each in given)
     except (TypeError, ValueError):

@@ -65,7 +65,7 @@ def stroke_of(motion: Motion, height: float) -> float:
 
 
 def require_header(motion: Motion) -> None:
-    """Raise DefinitionError for what is no motion of a balanced header."""
+    """Raise DefinitionError for anything but a motion of a balanced header."""
     require_motion(motion)
     if "follows" not in motion.inputs or "h" not in motion.strokes:
         raise DefinitionError(f"{motion.plan.title} is no balanced header; give a motion of a HeaderBalancer.")

@@ -15,6 +15,24 @@ EXAMPLE = re.compile(r"^[ \t]*>>>.*(?:\n(?![ \t]*$).*)*", re.MULTILINE)
 ITEM = re.compile(r"^\s*(?:[-*]|\d+\.)\s+")
 END = re.compile(r"(?<=[.!?])[\"')*_]*\s+(?=[\"'(*_]*[A-Z0-9])")
 WORD = re.compile(r"[^\W_][\w'.,/-]*")
+RIDDLES = {
+    r"what is no\b": "anything but a",
+    r"\bfor no (?!further|longer|more)": "without a",
+    r"\b(None|nothing|empty) of (an?|what|one|several)\b|(?<!and )\bnone of (an?|what|one|several)\b": "None for a",
+    r"\bstands? in (the|its|their|whose) (place|middle)\b": "replaces; is at mid-stroke",
+    r"\bwhat stood\b": "an existing file",
+    r"\brubs?\b|what rubs": "has friction",
+    r"\b(what there is|which are which|whichever)\b": "say which",
+    r"\bbetters\b": "improves",
+    r"\b(oil|gas|pressures?|bar|MPa) (that )?stands?\b|\bno pressure stands\b": "the side holds",
+    r"\btaken up (again|from|where)\b|state before they": "resumed; the old version",
+    r"\blies? below all others\b|leaves? (it )?nothing of\b": "say what happens",
+    r"\bheld against the pump, for\b": "No relief valve is declared, so",
+    r"\bfunctions? (that|which) stands? in\b": "nested function",
+    r"\bstands? in \[": "is in",
+    r"\b(shelf|pace|tenants?)\b": "the field's word",
+}
+"""Words that have to be read twice, and what to say in their place."""
 
 
 def paragraphs(text):
@@ -41,6 +59,14 @@ def docstrings(source):
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and not getattr(node, "name", "").startswith("_"):
             yield EXAMPLE.sub("", ast.get_docstring(node) or "")
+
+
+def riddles(text):
+    """Yield the words of a text that have to be read twice, with what to say; code says what it likes."""
+    plain = " ".join(re.sub(r"`[^`\n]*`", "X", FENCES.sub("\n", text)).split())
+    for pattern, better in RIDDLES.items():
+        for found in re.finditer(pattern, plain, re.IGNORECASE):
+            yield f"{plain[max(found.start() - 40, 0) : found.end() + 20]}: {better}"
 
 
 def mean_length(*texts):

@@ -8,7 +8,7 @@ import pytest
 
 from hydraulics import capacity, reserve, thrust
 from linkage import clearance, condition, drive_force, gap, pin_force, ratio, transmission, y
-from linkage.sent import function_again, sent
+from linkage.pickling import function_again, picklable
 from linkage.study.tolerances import sigma
 from mechanisms.three_point_hitch import ThreePointHitch
 
@@ -45,14 +45,14 @@ def outer(factor):
 
 def test_a_function_deep_inside_is_made_again():
     function = outer(3)(4)
-    again = pickle.loads(pickle.dumps(sent(function)))
+    again = pickle.loads(pickle.dumps(picklable(function)))
     assert again(5) == function(5) == 34 and again(5, times=1) == 19
-    both = pickle.loads(pickle.dumps(sent(partial(outer(2)(1), 7, times=1))))
+    both = pickle.loads(pickle.dumps(picklable(partial(outer(2)(1), 7, times=1))))
     assert both() == 15
-    assert sent(len) is len and sent(5) == 5
-    assert function_again.__module__ == "linkage.sent"
+    assert picklable(len) is len and picklable(5) == 5
+    assert function_again.__module__ == "linkage.pickling"
 
 
 def test_a_function_that_nobody_finds_again_stays_as_it_is():
     function = eval("lambda: 1")
-    assert sent(function) is function
+    assert picklable(function) is function

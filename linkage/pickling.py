@@ -1,4 +1,4 @@
-"""Objects that hold functions which stand in other functions, as pickle sends them to another process."""
+"""Objects that hold nested functions, in a form that pickle can send to another process."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ INSIDE = ".<locals>."
 @final
 @dataclass(frozen=True, eq=False)
 class InnerFunction:
-    """A function that stands in another one, by where it is written and what it reads from around it; unpickled it is the function."""
+    """A nested function, by where it is written and what it reads from around it; unpickled it is the function."""
 
     module: str
     outer: str
@@ -36,7 +36,7 @@ class InnerFunction:
 def function_again(
     module: str, outer: str, place: tuple[int, ...], defaults: Any, by_name: dict[str, Any] | None, cells: tuple[Any, ...]
 ) -> FunctionType:
-    """Return a function that stands in another one of a module."""
+    """Return a function that is nested in a function of a module."""
     code = code_of(module, outer)
     for each in place:
         code = code.co_consts[each]
@@ -55,10 +55,11 @@ def code_of(module: str, outer: str) -> Any:
     return unwrap(found).__code__
 
 
-def sent(value: Any) -> Any:
-    """Return a value as pickle can send it: an inner function by its place, of a partial too; others as they are."""
+def picklable(value: Any) -> Any:
+    """Return a value that pickle can write: a nested function by its place, in a partial too; others as they are."""
     if isinstance(value, partial):
-        return partial(sent(value.func), *map(sent, value.args), **{name: sent(each) for name, each in value.keywords.items()})
+        named = {name: picklable(each) for name, each in value.keywords.items()}
+        return partial(picklable(value.func), *map(picklable, value.args), **named)
     if not isinstance(value, FunctionType) or INSIDE not in value.__qualname__:
         return value
     outer = value.__qualname__.partition(INSIDE)[0]
@@ -68,7 +69,7 @@ def sent(value: Any) -> Any:
         place = None
     if place is None:
         return value
-    cells = tuple(sent(cell.cell_contents) for cell in value.__closure__ or ())
+    cells = tuple(picklable(cell.cell_contents) for cell in value.__closure__ or ())
     return InnerFunction(value.__module__, outer, place, value.__defaults__, value.__kwdefaults__, cells)
 
 

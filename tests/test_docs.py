@@ -32,6 +32,8 @@ DRAWN = {
 PACKAGES = ("linkage", "hydraulics", "mechanisms")
 LONGEST_MESSAGE = 32
 """The words that one sentence of a message may have: more than that nobody reads beside a machine."""
+LONGEST_SENTENCE = 36
+"""The words that one sentence of a page may have: one with more has to be read twice."""
 WIDE = 100
 """The characters of code that the column has room for."""
 
@@ -46,6 +48,7 @@ def test_what_a_page_links_is_there(page):
 def test_sentences_are_short(page):
     text = page.read_text(encoding="utf-8")
     assert mean_length(text) <= LONGEST_MEAN, [sentence for count, sentence in sentences(text) if count > 2 * LONGEST_MEAN]
+    assert [sentence for count, sentence in sentences(text) if count > LONGEST_SENTENCE] == []
 
 
 def sources():

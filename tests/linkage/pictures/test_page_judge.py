@@ -8,11 +8,12 @@ import pytest
 
 from hydraulics import Cylinder, LiftCircuit
 from linkage import Dimension, LoadCase, Over, Stroke
+from linkage.language import language
 from linkage.motion import HasVerdicts, live_text
 from linkage.pictures.browser_data import PageRequests, page_data
 from linkage.pictures.browser_file import page_part
 from linkage.reports import is_column
-from linkage.units import bar, mm
+from linkage.units import SYSTEMS, bar, mm, unit_system
 from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
 from mechanisms.mower_lift import MowerLift
@@ -212,3 +213,43 @@ def test_a_live_reserve_is_near_that_of_the_delivered_verdict():
     verdict = next(each for each in Grab().verdicts() if getattr(each, "rule", "") == "lifting pump")
     assert said["found"][place]["value"] == pytest.approx(verdict.answer.value, rel=1e-3)
     assert said["found"][place]["case"] == verdict.answer.case == "shock"
+
+
+def delivered(data, name, system):
+    """Return the lines of delivered verdicts that a page shows in a language and a system of units, "" for the delivered one."""
+    said = []
+    for k, (_, heading, sentence, *russian) in enumerate(data["verdicts"]):
+        others = data["verdictsIn"][system][k] if system else 0
+        english, in_russian = (sentence, russian[1:]) if others == 0 else (others[0], others[1:])
+        if name == "ru":
+            heading, english = (russian or [heading])[0], (in_russian or [english])[0]
+        said.append((heading, english))
+    return said
+
+
+def told(machine, name, system):
+    """Return the headings and sentences of a machine's verdicts."""
+    with language(name), unit_system(system or None):
+        return [(getattr(each, "heading", ""), getattr(each, "sentence", str(each))) for each in machine.verdicts()]
+
+
+def check_delivered(machine):
+    """Assert that a page has a machine's verdicts word for word, in both languages and all systems of units."""
+    requests = PageRequests(machine, 11, at={})
+    data = page_data(requests, live_text(machine.plan, requests.by_name, name="engine"))
+    for name in ("en", "ru"):
+        for system in ("", *SYSTEMS):
+            assert delivered(data, name, system) == told(machine, name, system)
+
+
+@pytest.mark.parametrize("name", ("mower_lift", "log_splitter", "lifting_arm"))
+def test_delivered_verdicts_are_pythons_word_for_word(name):
+    for design in near(MACHINES[name], 5, 2):
+        check_delivered(MACHINES[name](**design))
+
+
+@SLOW
+@pytest.mark.parametrize("name", MACHINES)
+def test_delivered_verdicts_of_all_machines_are_pythons_word_for_word(name):
+    for design in near(MACHINES[name], 17, 4):
+        check_delivered(MACHINES[name](**design))

@@ -197,7 +197,7 @@ def over_data(over: Any, motion: Motion, rows: Mapping[tuple[str, int], int]) ->
     found = {"name": over.name, "shape": over.shape, "lost": int(over.lost == ALLOWED)}
     values = {name: np.broadcast_to(np.asarray(value, float), motion._stroke_shape).ravel() for name, value in motion.strokes.items()}
     if over.shape == "box":
-        values = {name: box_ends(over.strokes.get(name), value) for name, value in values.items()}
+        values = {name: ends_as_given(over.strokes.get(name), value) for name, value in values.items()}
     listed = []
     for name, value in values.items():
         held = not isinstance(over.strokes.get(name), tuple)
@@ -206,7 +206,7 @@ def over_data(over: Any, motion: Motion, rows: Mapping[tuple[str, int], int]) ->
     return found | {"ends" if over.shape == "box" else "places": listed}
 
 
-def box_ends(given: Any, values: FloatArray) -> FloatArray:
+def ends_as_given(given: Any, values: FloatArray) -> FloatArray:
     """Return the two ends of a stroke in a box, in the order in which they are given where one of them is a number."""
     ends = np.array([values.min(), values.max()])
     numbers = [float(each) if is_number(each) else None for each in given] if isinstance(given, tuple) else []

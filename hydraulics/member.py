@@ -554,8 +554,8 @@ class Cylinder(BarrelAndRod, Ram):
     drawn in, `stroke` how far it comes out [m], design variables as well where they are given; `mounting` and `safety` are for buckling.
     It holds what the mechanism needs, in the place of the drive of one stroke; one whose line gives its pressure has that force instead.
 
-    With a `barrel_mass` or a `rod_mass` [kg], of one cylinder, and with points OnBarrel or OnRod it is two bodies, `lift.barrel` on A and
-    `lift.piston_rod` on B, which slide in each other: both as long as it is closed, their masses in the middle.
+    With a `barrel_mass` or a `rod_mass` [kg], of one cylinder, and with points OnBarrel or OnRod it is two bodies that slide in each other.
+    These are `lift.barrel` on A and `lift.piston_rod` on B, both as long as it is closed, their masses in the middle.
     """
 
     A: Reference

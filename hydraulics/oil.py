@@ -640,8 +640,8 @@ class OilLine(PumpLine, GasLine):
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return between which two thrusts it lets one of its cylinders stand [N].
 
-        A held line as its pump lifts or its valve holds, one whose pressure is given that alone, a closed one from where it runs empty to
-        where its relief valve opens; unbounded where a closed line has both sides of it.
+        A held line has what its pump lifts or its valve holds, one with a given pressure that alone. A closed one goes from where it runs
+        empty to where its relief valve opens; it is unbounded if it has both sides.
         """
         members, ram = motion.plan.members, the_cylinder(motion, cylinder)
         kind = self.kind_open(members)

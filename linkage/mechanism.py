@@ -302,10 +302,10 @@ class Mechanism(Shown, metaclass=MechanismType):
         With several strokes each is named: `sweep(S1=101, S2=0.15)`, an int is a count, a float a value; two
         counts give a grid. Raises AssemblyError where it cannot be assembled, unless `unreachable="nan"`.
 
-        Of one design along one stroke the whole way is looked at, however few the poses: AssemblyError for a stretch between two
-        poses that cannot be assembled, SingularError for a change point. A stretch narrower than 1e-6 of the stroke may be told as a
-        change point, a clearance of less than 1e-12 of the links as none, and what lies within 1e-7 of the stroke next to its ends is
-        not passed. `motion.interruptions` lists them where NaN is asked for; batches and several strokes are not looked at so.
+        Of one design along one stroke the whole way is looked at, however few the poses: AssemblyError for a stretch between two poses that
+        cannot be assembled, SingularError for a change point. A stretch narrower than 1e-6 of the stroke may be reported as a change point,
+        a clearance of less than 1e-12 of the links as none. What lies within 1e-7 of the stroke next to its ends is not passed. With
+        `unreachable="nan"`, `motion.interruptions` lists them. Batches and several strokes are not searched in this way.
         """
         return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
 

@@ -55,11 +55,11 @@ class MowerLift(Mechanism):
     With other loads beside the section's weight (a subclass with `ballast = Weight(G, mass=500)`) all of them count, in
     the place of P I stands what the rod carries. The rod's diameter is not printed, 45 mm is illustrative.
 
-    The source contradicts itself about G at S = 0.55 m: the input says (1.07, -0.37) m from O; a remark says that the
-    x axis passes through G (G_y = 0); the printed table says G = (1.739, 0.013) m, which is (1.087, -0.317) m from O.
-    The input agrees with a lever angle DELFI = 126.665 deg, the tables are computed with 129.5 deg. Here are the
-    tables: BOG = 129.5 deg + atan(-0.37 / 1.07). The other reading is MowerLift(BOG=DELFI_OF_INPUT + BELOW). The verdict
-    stands either way: kz = 0.963 at S = 0.55 m, short up to S = 0.5660 m, as printed; 0.978, short up to 0.5604 m, else.
+    The source contradicts itself about G at S = 0.55 m. The input says (1.07, -0.37) m from O. A remark says that the x axis passes through
+    G (G_y = 0). The printed table says G = (1.739, 0.013) m, which is (1.087, -0.317) m from O. The input agrees with a lever angle DELFI =
+    126.665 deg, the tables are computed with 129.5 deg. Here are the tables: BOG = 129.5 deg + atan(-0.37 / 1.07). The other reading is
+    MowerLift(BOG=DELFI_OF_INPUT + BELOW). The verdict stands either way: kz = 0.963 at S = 0.55 m, short up to S = 0.5660 m, as printed;
+    0.978, short up to 0.5604 m, else.
     """
 
     S = Stroke(0.55, 0.80)  # distance of the cylinder's pins, m

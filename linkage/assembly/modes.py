@@ -124,8 +124,8 @@ def written_lines(
 ) -> dict[str, str]:
     """Return the lines that are different where some members are: their own, and those of sketch positions that go with them.
 
-    A pin of a parts list has a new rough place; where it is drawn, so that lengths are measured from it, its step is written instead,
-    and where it is of a group, which is no step, the links with these lengths.
+    A pin of a parts list has a new rough place. If it is drawn, so that lengths are measured from it, its step is written instead. A pin of
+    a group has no step: the links with these lengths are written.
     """
     if not changed:
         return {}

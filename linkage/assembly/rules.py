@@ -1,9 +1,9 @@
 """The rules by which a group is followed from place to place: on floats, on arrays, and on the nodes of a program.
 
-A step is taken where Newton's method converges so near to the place predicted from the last two that no other solution lies
-between, on the same side of every singular pose, and the distance from these has not shrunk to less than half; else it is made
-smaller. Two branches lie apart, against the group's size, by about as much as the pose stands clear of a singular one, so that steps
-become small in proportion where branches cross or end, and a way comes to an end there to 1e-6 of that clearance.
+A step is taken on three conditions; else it is made smaller. Newton's method converges so near to the place predicted from the last two
+that no other solution lies between. It stays on the same side of every singular pose. The distance from these has not shrunk to less than
+half. Two branches are apart, relative to the group's size, by about the clearance of the pose from a singular one. So steps become small in
+proportion where branches cross or end, and a way ends there to 1e-6 of that clearance.
 
 `choose(a, b, x, y)` is x where a <= b, else y; a truth is 1 or 0. NaN is never less than anything.
 """

@@ -74,14 +74,13 @@ def report(
     The same inputs give the same bytes. Tables and curves run along one stroke. What is judged is over all that the machine runs, its
     `overs` or those of `over`.
 
-    `number`, `revision`, `date`, `client` and who `prepared`, `checked` and `approved` it stand in the title block; what is left out is an
-    empty line to write on. `title_block` adds rows to those below it, `{"Order": "4711"}`. `language` ("en", "ru") is the one that holds
-    already unless named. `units` are "si", "bar-mm", "kgf" or "us": those that hold already, else the system of the machine's own numbers,
-    so that each kind of number has one unit. `case` names one load case; without it all are looked at, or `acting` says loads, case and
-    direction in one. `at` holds strokes or says between which values one runs [m or rad], as for `animate`; `count` is the number of rows
-    of the tables, `columns` the results shown, `trace` the points whose paths are drawn, `limits` as `plot` takes them. An existing
-    file is replaced whole. Raises DefinitionError for a batch of designs, another kind of file or an unknown name, AssemblyError where no
-    pose is in reach.
+    The title block shows `number`, `revision`, `date`, `client` and who `prepared`, `checked` and `approved` it; what is left out is an
+    empty line to write on. `title_block` adds rows below it, `{"Order": "4711"}`. `language` is "en" or "ru", by default the current one.
+    `units` are "si", "bar-mm", "kgf" or "us", by default the current ones, else the system of the machine's own numbers. Each kind of
+    number has one unit. `case` names one load case, by default all count; `acting` says loads, case and direction in one. `at` holds
+    strokes, or gives the values between which one runs [m or rad], as for `animate`. `count` is the number of rows of the tables, `columns`
+    are the results shown, `trace` the points whose paths are drawn. `limits` are as for `plot`. An existing file is replaced whole. Raises
+    DefinitionError for a batch of designs, another kind of file or an unknown name, AssemblyError where no pose is in reach.
     """
     check_name(path)
     place = Path(path)

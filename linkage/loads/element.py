@@ -30,8 +30,8 @@ Kind = TypeVar("Kind", bound=Member)
 class Load:
     """A force [N], shape (2, ...), that acts at a point; the rest of its shape broadcasts against the motion's.
 
-    At a pin that several bodies share it acts on the body that carries the pin (the frame, else the one declared
-    first), unless `on` names two points of the body that is meant, or a two-point element by its name.
+    At a pin that several bodies share it acts on the body that carries the pin: the frame, else the one declared first. `on` names another
+    body by two of its points, or a two-point element by its name.
     """
 
     point: str

@@ -1,7 +1,7 @@
 """A path of places followed on one branch: the strokes of each place, from those of the place before, and why it ends where it ends.
 
-From place to place steps of Newton go from where the last places lead to; where they do not settle quickly, or come to a pose on the
-other side of one at which the slopes lose a rank, the way between two places is divided.
+From place to place steps of Newton begin where the last places lead to. The way between two places is divided if they do not settle
+quickly, or if a pose where the slopes lose a rank lies between.
 """
 
 from __future__ import annotations

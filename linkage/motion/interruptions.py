@@ -1,9 +1,9 @@
 """The way between poses along one stroke: where a loop comes to its dead point there, and where it cannot be assembled.
 
-Every loop tells how far it is from its dead point: the squared sine of the angle between its links, which is negative where they
-do not reach, or the sine of the angle between its guides. A function of the stroke, it is looked at on a grid of its own, whatever
-poses were asked for; an interval is dismissed where the lower of its ends stands clear of twice what the function bends there, and
-else divided by eight, down to 1e-9 of the way.
+Every loop tells how far it is from its dead point: the squared sine of the angle between its links, which is negative where they do not
+reach, or the sine of the angle between its guides. It is a function of the stroke, on a grid of its own that does not depend on the poses.
+An interval is dismissed if the lower of its ends is above twice what the function bends there. Else it is divided by eight, down to 1e-9 of
+the way.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Strokes of many places at once: all branches of each, from one grid of the strokes, by steps of Newton in all rows together.
 
-What is asked of one place is `places.py`'s; here the places are a grid of x and y, so that a cell of strokes is laid over those that it
-may give by looking up its bounds in rows and columns. Strokes that are left over are spare: they stand at some values each.
+`places.py` answers for one place. Here the places are a grid of x and y. So a cell of strokes is laid over the places that it may give, by
+looking up its bounds in rows and columns. Strokes that are left over are spare: they stand at some values each.
 """
 
 from __future__ import annotations

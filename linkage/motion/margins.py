@@ -1,7 +1,7 @@
 """How clear each loop stays of its dead point over all that a motion covers: below zero it cannot be assembled there.
 
-A loop's margin is a smooth function of the strokes, wherever it is assembled or not, so that its least value is found by the search for
-extremes, and with it a part of the strokes that is out of reach and far narrower than any grid is fine.
+A loop's margin is a smooth function of the strokes, whether it is assembled or not. So the search for extremes finds its least value, and
+with it a part of the strokes out of reach that is far narrower than any grid.
 """
 
 from __future__ import annotations

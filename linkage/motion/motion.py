@@ -389,9 +389,9 @@ class Motion(Shown):
     def limits(self) -> Limits:
         """Return, for every stroke, how far it can go and what stops it; printed as sentences.
 
-        Reachable intervals, dead points and the steps that stop there, change points, least transmission angles; and, for the `box` of
-        all declared strokes, what is lost in it, and how clear each loop stays of its dead point, with the place.
-        One design at a time; other strokes are held at this motion's first values.
+        These are reachable intervals, dead points and the steps that stop there, change points, and least transmission angles. For the
+        `box` of all declared strokes they say what is lost in it, and how clear each loop stays of its dead point, with the place. One
+        design at a time; other strokes are held at this motion's first values.
         """
         return type(self)._limits_of(self)
 

@@ -1,7 +1,7 @@
 """Strokes from places: all that give some targets, on the exact slopes from a grid of strokes; where none does, how far off the nearest is.
 
-A grid of the strokes is looked at first. Steps of Levenberg and Marquardt go from every cell of it in which all targets may be met, by
-their values at its corners and how these bend; where two branches come close to each other, on from the other side of each as well.
+A grid of the strokes is looked at first. Steps of Levenberg and Marquardt start in every cell in which all targets may be met, by their
+values at its corners and how these bend. Where two branches come close to each other, they start from the other side of each as well.
 """
 
 from __future__ import annotations

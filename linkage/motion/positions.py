@@ -78,10 +78,10 @@ class StrokeRows(np.ndarray[Any, np.dtype[np.float64]]):
 class Positions:
     """The strokes that give some targets: all branches within the ends of the strokes, ascending by the first stroke.
 
-    `strokes` [m or rad] has one row a branch, those that are held included, and so have `condition`, the condition number of the targets
-    by the strokes in their natural sizes, which is infinite at a dead point, and `misses`, by how much each target is exceeded [SI].
-    `met` is whether there is a branch. Where there is none `nearest` is the row of the pose within the ends at which least is missing, None
-    where nothing can be assembled, `misses` has its one row, and `sentence` says which stroke would be past which end, by how much.
+    `strokes` [m or rad] has one row for each branch, with the strokes that are held. `condition` is the condition number of the targets by
+    the strokes in their natural sizes, infinite at a dead point. `misses` is by how much each target is exceeded [SI]. `met` is whether
+    there is a branch. Without one, `nearest` is the row of the pose within the ends at which least is missing, None if nothing can be
+    assembled. `misses` then has its one row, and `sentence` says which stroke would be past which end, by how much.
     """
 
     strokes: StrokeRows

@@ -70,10 +70,10 @@ def offsets(
 ) -> dict[str, FloatArray]:
     """Return where each name stands, from its point, shape (2,) each, in the unit of `font`.
 
-    One offset serves all `poses`; where there are several it stays short, so that each name keeps to its pin.
-    `clouds` are the points to keep clear at each [m]; `scale` is that unit per metre and `gap` the distance from the point's centre at
-    which a label may begin; the names in `minor` are smaller, those in `letters` are written so. Crowded points choose first; then each
-    chooses again, some rounds long, as the others stand.
+    One offset serves all `poses`; with several it stays short, so that each name keeps to its pin. `clouds` are the points to keep clear at
+    each [m]. `scale` is that unit per metre. `gap` is the distance from the point's centre at which a label may begin. The names in `minor`
+    are smaller, those in `letters` are written so. Crowded points choose first; then each chooses again, some rounds long, as the others
+    stand.
     """
     far = max(gap, 0.9 * font) if len(poses) > 1 else np.inf
     taken = [cloud * scale for cloud in clouds]

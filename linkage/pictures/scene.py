@@ -170,10 +170,10 @@ class Plate:
 class DrawnMark:
     """Lines that some points carry, in axes at the first of them [m]: along the direction of the last two, and to its left.
 
-    Of one point, or of none, the axes have the frame's directions. Lines stretch with the distance of the two points as their rows say,
-    and move with the piston where there is a cylinder. `level` is the layer above that of plates, `width` a line's in outlines, `ink` a
-    colour of the style; `hatched` are short lines, shape (m, 2, 2); `under` is the path of a picture, its corners from the lower left one,
-    and how opaque it is. A writer of pictures draws marks and knows no kinds of members.
+    Of one point, or of none, the axes have the frame's directions. Lines stretch with the distance of the two points as their rows say, and
+    move with the piston where there is a cylinder. `level` is the layer above that of plates, `width` a line's in outlines, `ink` a colour
+    of the style. `hatched` are short lines, shape (m, 2, 2). `under` is the path of a picture, its corners from the lower left one, and how
+    opaque it is. A writer of pictures draws marks and knows no kinds of members.
     """
 
     name: str

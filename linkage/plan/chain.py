@@ -1,7 +1,7 @@
 """The kinematic chain of a mechanism: its bodies and the pairs between them, each of one freedom.
 
-A cylinder is two bodies, barrel and rod, that slide in each other; a pin that runs on a guide or in a slot is a sliding block with a pin;
-an arm that is turned and pushed out by strokes has a carriage at its root. So every pair is a pin or a slide, and 3 (n - 1) - 2 j counts
+A cylinder is two bodies, barrel and rod, that slide in each other. A pin that runs on a guide or in a slot is a sliding block with a pin.
+An arm that is turned and pushed out by strokes has a carriage at its root. So every pair is a pin or a slide, and 3 (n - 1) - 2 j counts
 all of them.
 """
 

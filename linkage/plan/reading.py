@@ -209,10 +209,9 @@ class Reading(Where):
 class ArrayReading(Reading):
     """The eager evaluation on NumPy arrays: a dead point is reached to rounding, and every loop tells how near it is.
 
-    `sines` holds, for each step that closes a loop, the sine of the angle between its links (NaN where it fails);
-    `rounding` how much larger the numbers are whose difference closes the loop than its own links; `spans`, for each member that takes a
-    direction between points, their least distance over the machine's size; `outside`, for each that asks a table for what it does not
-    have, the words for it.
+    For each step that closes a loop, `sines` holds the sine of the angle between its links, NaN where it fails. `rounding` holds how much
+    larger the numbers are whose difference closes the loop than its own links. For each member that takes a direction between points,
+    `spans` holds their least distance over the machine's size. For each that leaves the range of a table, `outside` holds the words for it.
     """
 
     ROUNDING = 8 * np.finfo(float).eps

@@ -94,11 +94,10 @@ QUICKEST = RunOptions()
 class Kernel:
     """Some nodes of a program as a function of designs and poses.
 
-    `kernel(inputs)` takes a float or an array (designs,) for every dimension and a float or an array (poses,)
-    or (designs, poses) for every stroke and solved coordinate, and returns values of shape (outputs, designs, poses);
-    NaN where a pose cannot be assembled. `out` of that shape takes the values; `size` says how many designs and poses
-    are meant where not all inputs are needed.
-    A guard is a node that is watched: whether it is above zero at all poses. NaN, out of reach, is not.
+    `kernel(inputs)` takes a float or an array (designs,) for every dimension, and a float or an array (poses,) or (designs, poses) for
+    every stroke and solved coordinate. It returns values of shape (outputs, designs, poses); NaN where a pose cannot be assembled. `out` of
+    that shape takes the values. `size` says how many designs and poses are meant where not all inputs are needed. A guard is a node that is
+    watched: whether it is above zero at all poses. NaN, out of reach, is not.
     """
 
     def __init__(self, outputs: Sequence[Node], guards: Sequence[Node] = ()) -> None:

@@ -24,9 +24,9 @@ Role: TypeAlias = Literal["body", "runner", "slider", "guide", "own"]
 class JointSide:
     """One of the two bodies of a joint, by the points or the guide that belong to it.
 
-    "body" is that of its points; of a single point the one that carries the pin, of none the frame. "runner" is the one that runs on the
-    joint's track at the point. "slider" is one of its own at the point, which moves without turning. "guide" is the one that carries a
-    guide. "own" is the member itself, such as a spring.
+    The "body" is that of its points; for a single point the one that carries the pin, without points the frame. The "runner" is the one
+    that runs on the joint's track at the point. The "slider" is one of its own at the point, which moves without turning. The "guide" is
+    the one that carries a guide. The word "own" is the member itself, such as a spring.
     """
 
     points: tuple[str, ...] = ()

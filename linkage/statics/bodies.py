@@ -60,9 +60,9 @@ class SlidingPair:
 class Strut:
     """A straight two-point member P -> Q: a driven length, a cylinder that holds, or a member whose thrust a law gives.
 
-    `quantity` is the driven length [m], None where the points alone tell it; `far` are the points on Q's side; `host` the body that
-    it is together with the points measured along it, if any; `pair` the two bodies that it is, where it is two; `line` what it holds
-    with; `known` its thrust where a law gives it, so that it drives nothing.
+    `quantity` is the driven length [m], None if the points alone give it. `far` are the points on Q's side. `host` is the body that it
+    forms with the points measured along it, if any. `pair` are its two bodies, if it has two. `line` is what it holds with. `known` is its
+    thrust if a law gives it, so that it drives nothing.
     """
 
     name: str

@@ -1,11 +1,11 @@
 """The equilibrium as a program: all joint forces of many poses from one kernel, friction included.
 
-The equations of equilibrium are written on the nodes of a program and eliminated once, as for a single pin force; what acts comes in
-as inputs, so that every load case and direction asks the same kernel. Friction enters as one input a joint: its couple or its force
-along the guide. The joint forces are linear in these. A kernel of a few outputs adds up how much the frictions make each other grow:
-where that is a contraction, a second one, of the forces that press the joints, is asked until they stay; elsewhere a third gives their
-derivatives, and the frictions are found on arrays. A last one gives everything. Where a pose has no value by the program, or what it
-takes for granted does not hold, the same equations are read on arrays, which tell in words why.
+The equations of equilibrium are written on the nodes of a program and eliminated once, as for a single pin force; what acts comes in as
+inputs, so that every load case and direction asks the same kernel. Friction enters as one input a joint: its couple or its force along the
+guide. The joint forces are linear in these. A kernel of a few outputs adds up how much the frictions make each other grow. Where that is a
+contraction, a second kernel, of the forces that press the joints, runs until they stay. Elsewhere a third gives their derivatives, and the
+frictions are found on arrays. A last one gives everything. Where a pose has no value by the program, or what it takes for granted does not
+hold, the same equations are read on arrays, which tell in words why.
 """
 
 from __future__ import annotations

@@ -3,8 +3,9 @@
 Every line of declared cylinders that no element feeds takes over one stroke; the drive it replaces carries nothing. Strokes that
 are left over keep the drive of their step. Which line takes which stroke is told by how its length follows them at some poses.
 
-Where a cylinder's length stands still against its drive, or those of several follow the strokes alike, no thrust balances the loads:
-such poses are refused like any other singular one, by the condition of the levers beside the speed at which the cylinders' ends part.
+If a cylinder's length does not change with its drive, or those of several follow the strokes alike, no thrust balances the loads. Such
+poses are refused like any other singular one. What decides is the condition of the levers beside the speed at which the cylinders' ends
+part.
 """
 
 from __future__ import annotations

@@ -64,10 +64,10 @@ class LawRequest(Request):
     None where it may change. `mover` is the cylinder in whose directions it is judged, else these are the strokes'; `directions(plan)`
     are those in which it is, all where there is friction unless it says so; `cases_in(plan, case)` whether it is in a load case.
 
-    The rest is asked for where a request has something of its own to say: `examine(plan)` raises DefinitionError where a plan has nothing
-    of the kind, `measured_in(plan)` says what it measures there, `pieces_in(request, plan)` its smooth pieces, `unlimited_in(motion,
-    acting)` the mask of poses where it has no bound, and `look_up(request, motion)` what it is in the plan of a traced motion.
-    `column` names the column of a table that it is, whose gaps alone it has.
+    The rest is for requests that have something of their own to say. `examine(plan)` raises DefinitionError if a plan has nothing of the
+    kind. `measured_in(plan)` says what it measures there, `pieces_in(request, plan)` its smooth pieces. `unlimited_in(motion, acting)` is
+    the mask of poses where it has no bound. `look_up(request, motion)` is the request in the plan of a traced motion. `column` names the
+    column of a table that it is, whose gaps alone it has.
     """
 
     formula: Callable[..., FloatArray]

@@ -37,10 +37,10 @@ GRID, ZOOMS, CLOSER = np.linspace(-1.0, 1.0, 9), 5, 0.3
 class Climb:
     """Poses whose spare strokes go to where most is carried; the first `solved` strokes of each are solved for.
 
-    `moved` gives poses (m, n, k) with the spare strokes at some values (m, n, s), and the load of each limiter there (limiters, m, n),
-    NaN where there is none; `order` is that in which the strokes of each stand (n, k). `base` are the best poses found and `load` theirs
-    [N]; `centre` (n, k) is where each stands now, maybe a little past an end, `worth` what that counts, `room` how far around it is
-    looked, in shares of the spare strokes' ranges (n,).
+    `moved` gives poses (m, n, k) with the spare strokes at some values (m, n, s), and the load of each limiter there (limiters, m, n), NaN
+    without one. `order` (n, k) is the order of the strokes of each. `base` are the best poses found and `load` theirs [N]. `centre` (n, k)
+    is where each is now, maybe a little past an end, and `worth` what that counts. `room` (n,) is how far around it the search looks, in
+    shares of the spare strokes' ranges.
     """
 
     moved: Callable[[PlacePoses, Index, FloatArray], tuple[FloatArray, FloatArray]]

@@ -41,8 +41,8 @@ MEMORY = 1 << 28
 class Band:
     """A quantity over the strokes, shapes (...), of machines with tolerances; `unit` is the one it is shown in.
 
-    `nominal` is that of the machine as it is set; `mean`, `sigma` and `percentiles`, by their percentage, are over the designs that have
-    a value there, `share` of all; `low` and `high` are the worst case with every deviation within its limits.
+    `nominal` is that of the machine as it is set. `mean`, `sigma` and `percentiles`, by their percentage, are over the designs that have a
+    value there, which are `share` of all. `low` and `high` are the worst case with every deviation within its limits.
     """
 
     quantity: str

@@ -1,8 +1,8 @@
 """Several objectives: the front of designs of which none is better in all, by NSGA-II (extra `pareto`), each then made exact.
 
-The genetic search finds where the front is; a local search with exact derivatives then makes the first objective as good as it can be
-with the others held at what they are, so that its points stand on the front and not near it.
-Source: K. Deb et al., A fast and elitist multiobjective genetic algorithm: NSGA-II, IEEE Trans. Evol. Comp. 6 (2002) 182-197.
+The genetic search finds where the front is. A local search with exact derivatives then improves the first objective as far as it goes, with
+the others held. So its points are on the front and not near it. Source: K. Deb et al., A fast and elitist multiobjective genetic algorithm:
+NSGA-II, IEEE Trans. Evol. Comp. 6 (2002) 182-197.
 """
 
 from __future__ import annotations

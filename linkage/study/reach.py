@@ -129,8 +129,8 @@ class LevelLines:
     def ends(self, height: FloatArray, good: FloatArray, bad: FloatArray, start: PlacePoses, turn: Index) -> FloatArray:
         """Return how far lines are reached from `good` towards `bad` (m,) [m]; it begins at poses of the good places.
 
-        At the border of all that is reached strokes stand at ends: from where a way ends it goes on with those that do in the place of
-        the spare ones, and it begins with such poses where there are some.
+        At the border of all that is reached, strokes are at their ends. From where a way ends it goes on with those strokes instead of the
+        spare ones. It begins with such poses if there are some.
         """
         reached = good
         fits = self.standing(start.unit)[turn, np.arange(len(turn))]

@@ -72,11 +72,11 @@ def settings_for(
     thousandth of the range may be missed. Settings that cannot be assembled over the whole stroke are no answer. `unit` is the
     quantity's in the sentence.
 
-    Of several dimensions and targets, `settings_for(hitch, {"MK": (0.5, 1.3), "M": [(0.22, 1.05), (0.22, 0.95)]}, targets)` with a list of
-    targets such as `Target("tilt", 0.0, S=0.1)` returns all `Solutions` in the box that are found from `points` of it, for every choice,
-    or the nearest setting with what is missing of each target. There are at least as many targets as ranges, DefinitionError for fewer.
-    Ranges may be any number: the search goes on from the best of at most 16,384 points, by exact derivatives. For a path, a function or
-    poses of a body `synthesise` is quicker, and finds their strokes too.
+    Several dimensions and targets: `settings_for(hitch, {"MK": (0.5, 1.3), "M": [(0.22, 1.05), (0.22, 0.95)]}, targets)` takes a list of
+    targets such as `Target("tilt", 0.0, S=0.1)`. It returns all `Solutions` in the box that are found from `points` of it, for every
+    choice. Without one it returns the nearest setting, with what is missing of each target. There are at least as many targets as ranges,
+    DefinitionError for fewer. Ranges may be any number: the search goes on from the best of at most 16,384 points, by exact derivatives.
+    For a path, a function or poses of a body `synthesise` is quicker, and finds their strokes too.
     """
     if isinstance(name, Mapping):
         single = [*(["between"] if between is not None else []), *(["unit"] if unit else []), *strokes]

@@ -2,8 +2,8 @@
 
 A least or greatest value over the stroke becomes a variable of its own, held below or above every row, where the condition or the objective
 gains from its being so; elsewhere the row that stands worst counts by itself. A step onto designs that cannot be assembled sees how much
-the links are short there, and of all else the last good design's straight lines; where that does not tell why, a loss that grows with the
-way, so that the solver turns back.
+the links are short there, and for all else the last good design's straight lines. If that does not say why, it sees a loss that grows with
+the way, so that the solver turns back.
 """
 
 from __future__ import annotations

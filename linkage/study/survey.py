@@ -371,12 +371,11 @@ def survey(
     returns numbers or truth values for each of them, arrays (designs,) by name; what it returns for a design must not depend on
     the others.
 
-    `executor` is anything with `submit`: a pool of `concurrent.futures`, `distributed.Client(...).get_executor()`; without one
-    this process does the work. Batches go out that take some tenths of a second, a few for each worker. A batch whose worker was lost
-    is sent again. With `folder` finished batches are kept there, and the same call goes on where another one stopped.
-    A folder knows `measure` by its source text, that of the functions of its module which it names, and the values they read;
-    `version` is yours to count up when something changes that lies deeper, and is needed for a lambda.
-    `progress=True` shows a bar on stderr; a function is called with (done, total) designs.
+    `executor` is anything with `submit`: a pool of `concurrent.futures`, `distributed.Client(...).get_executor()`; without one this process
+    does the work. Batches go out that take some tenths of a second, a few for each worker. A batch whose worker was lost is sent again.
+    With `folder` finished batches are kept there, and the same call goes on where another one stopped. A folder knows `measure` by its
+    source text, by that of the functions of its module which it names, and by the values they read. Count up `version` when something
+    changes that lies deeper; a lambda needs it. `progress=True` shows a bar on stderr; a function is called with (done, total) designs.
 
     The results are the same to the last bit whoever does the work, on processors of one kind with the same libraries and
     OMP_NUM_THREADS. Designs are measured `piece` at a time, by default 64 to 2048, by their number alone. All go on one back

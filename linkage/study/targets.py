@@ -29,7 +29,7 @@ from .measured import StudyPoses, traced_number
 class Solutions:
     """All settings of several dimensions that give the targets, or the nearest one; `sentence` says so.
 
-    `settings` are values [SI] by name; `met` is whether they give every target, of a machine that is assembled over its whole stroke;
+    `settings` are values [SI] by name. `met` is whether they give every target, with a machine that is assembled over its whole stroke.
     `misses` are, by settings, how far each target is missed [SI], zero to rounding where they are met. Where `is_family` they are some of
     infinitely many.
     """

@@ -175,10 +175,9 @@ class Inversion(Shown):
     def machine(self, crank: int | None = None, coupler: int | None = None) -> Mechanism:
         """Return a machine of it: a crank that turns fully, and a point P of a coupler; each of its dimensions may be set, or vary.
 
-        `crank` is the link on the frame that is driven, `coupler` the link that carries P; by default the first of `cranks` from which
-        dyads alone place the others, if there is one, and the link farthest from it that is not on the frame. The sizes are those of a
-        drawing that was looked for at random, with a short crank, and is far from any dead point. DefinitionError for a link that cannot
-        be either.
+        `crank` is the link on the frame that is driven, by default the first of `cranks` from which dyads alone place the others. `coupler`
+        is the link that carries P, by default the link farthest from the crank that is not on the frame. The sizes are those of a drawing
+        that was looked for at random, with a short crank, and is far from any dead point. DefinitionError for a link that cannot be either.
         """
         form, frame = self.chain.form, self.frame - 1
         on_frame = self._on(frame)

@@ -260,8 +260,8 @@ class Pivoted:
 @final
 @dataclass(frozen=True)
 class CouplerTask:
-    """What is asked of a machine beside its pins: the coupler point's places (n,), the directions of its body or none, the driven
-    angles that are given or none, the follower's zero angle or none [rad], and whether the points are to be passed in order.
+    """The task of a machine beside its pins. It has the coupler point's places (n,), and the directions of its body, the driven angles and
+    the follower's zero angle [rad], or None for each of these. It also says whether the points are to be passed in order.
     """
 
     points: ComplexArray

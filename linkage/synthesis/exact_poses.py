@@ -286,8 +286,8 @@ class PosedBody:
     def loops(self) -> tuple[CurveLoop, ...]:
         """Return the loops of circle and centre points, by the compatibility linkage.
 
-        A link W + Z from the centre to the body goes with W (e^ib - 1) + Z (e^ia - 1) = d at every pose: its three rows are dependent,
-        which is a four-bar of the determinants' minors that closes, D0 + D1 e^ib1 + D2 e^ib2 + D3 e^ib3 = 0.
+        A link W + Z from the centre to the body goes with W (e^ib - 1) + Z (e^ia - 1) = d at every pose. So its three rows are dependent: a
+        four-bar of the determinants' minors closes, D0 + D1 e^ib1 + D2 e^ib2 + D3 e^ib3 = 0.
         """
         minors, _ = self.minors_in_order()
         one, two, three = abs(minors)

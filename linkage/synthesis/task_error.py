@@ -93,9 +93,9 @@ def squares_near(
 ) -> Squares:
     """Return the squared misses at strokes (n,). Where a point `slides`, what lies along its path there does not count.
 
-    Of a miss v where the path goes along t that leaves v^2 - (v t)^2 / t^2, the sum of the squares of their minors over t^2: the squared
-    distance from the path, with its first derivatives, where v is across the path. A point whose v is not, as at the end of a stroke, does
-    not slide.
+    Of a miss v where the path goes along t, that leaves v^2 - (v t)^2 / t^2, the sum of the squares of their minors over t^2. It is the
+    squared distance from the path, with its first derivatives, where v is across the path. A point whose v is not, as at the end of a
+    stroke, does not slide.
     """
     speeds = [float(weight) * ratio(quantity, stroke) for quantity, weight in zip(rows.quantities, rows.weights, strict=True)]
     found = []

@@ -93,9 +93,9 @@ def synthesise(
     """Return the machines that do a task, the best first: `synthesise(bar, path=PathTask(points, of="P"), vary={"OA": (0.02, 0.06), ...})`.
 
     The task is a `path` of a point, a `function` of the stroke, or poses of a body, its `motion`; `vary`, `subject_to`, `regions` and
-    `case` are those of `optimise`. `timed=True`: the task says the stroke of every point; `timed=False`: each point's stroke is an unknown
-    of its own; "steps": the points lie at equal steps of the stroke, of a crank over one turn from an unknown first one on, to either side.
-    By default points with strokes are timed. `over` holds other strokes, or looks at a part of this one.
+    `case` are those of `optimise`. With `timed=True` the task says the stroke of every point. With `timed=False` each point's stroke is an
+    unknown of its own. With "steps" the points lie at equal steps of the stroke, of a crank over one turn from an unknown first one on, to
+    either side. By default points with strokes are timed. `over` holds other strokes, or looks at a part of this one.
 
     From some thousand designs spread over the box, those that run over the whole stroke are laid onto the task, shifted, turned and scaled
     in closed form where the dimensions allow. From the best `starts` of them all go on at once by the method of Levenberg and Marquardt
@@ -108,12 +108,12 @@ def synthesise(
     curves of `curve_catalogue(machine, of)`, or of one that is given, in place of a population; one that is not there is made first.
 
     Instead of one machine there may be a list of classes or designs, `synthesise([FourBar, SliderCrank], ...)`, or none: then it is all
-    installed ones that name a point of a coupler, `Featured(coupler="P")`, and need no iteration. Each begins a quarter of `starts`; the
-    others go one quarter after the other to the class of which the least error, of an answer or a miss, promises most, four times less
-    after each quarter that bettered nothing, until the budget of all is spent or an answer is exact. `solutions` are ranked over all
-    classes, of the same error those of fewer links first; `table` compares the classes. `vary`, `subject_to`, `regions`, `rank`, `over`
-    and the task's `of` may be dictionaries by class, `vary={FourBar: {...}}`. Where `vary` leaves a class out, the machine is brought
-    to the task's size s, and all varies that moves its point: lengths from 0.05 to 5 s, angles by a turn, fixed points by 5 s to either
+    installed ones that name a point of a coupler, `Featured(coupler="P")`, and need no iteration. Each begins a quarter of `starts`. The
+    other quarters go one by one to the class whose least error, of an answer or a miss, promises most. After each quarter without an
+    improvement that promise counts four times less. It ends when the budget of all is spent or an answer is exact. `solutions` are ranked
+    over all classes, of the same error those of fewer links first; `table` compares the classes. `vary`, `subject_to`, `regions`, `rank`,
+    `over` and the task's `of` may be dictionaries by class, `vary={FourBar: {...}}`. If `vary` leaves a class out, the machine is brought
+    to the task's size s, and all varies that moves its point. Lengths go from 0.05 to 5 s, angles by a turn, fixed points by 5 s to either
     side of the task's middle. For a function s is the machine's longest length.
 
     Raises DefinitionError for what cannot be asked, or a folder of another task. Where no machine that runs was found, `solutions` are

@@ -214,8 +214,8 @@ class AngledBellCrankArmDrive(BellCrankArmDrive):
 class DirectArmDrive(DrivenArm):
     """Cylinder AB under the boom turns the arm without a four-bar, its growth opens it: fig. 2.13 c, by the boom's formulas (2.30).
 
-    A lies r_2 from P towards the boom's root and r_1 below it; B r_3 along the arm and r_4 on its inner side: with phi = 180 deg - psi
-    it is the boom's drive, column and boom in the place of boom and arm.
+    A lies r_2 from P towards the boom's root and r_1 below it; B r_3 along the arm and r_4 on its inner side. With phi = 180 deg - psi it
+    is the boom's drive, with column and boom instead of boom and arm.
     """
 
     shut: ClassVar[str] = "psi_0"

@@ -35,9 +35,9 @@ def clipped(value: Operand, low: Operand | None, high: Operand | None = None) ->
 class DriveDuty:
     """The lengths, angles and moments that boom drive and arm drive are made for; by default those of the source's examples 2 and 3.
 
-    l_c, l_p, l_t, h_0 are the lengths of boom, arm, telescope stroke and column, b_0 and b_c the heights of column and boom [m]. phi_0 to
-    phi_k is the boom's angle from the upward vertical, psi_0 to psi_k the one between boom and arm [rad]. The bounds of moments [N m]:
-    K_B of sin(phi) for the boom, K_A for the arm with its telescope out, K_A1 with it in.
+    l_c, l_p, l_t, h_0 are the lengths of boom, arm, telescope stroke and column, b_0 and b_c the heights of column and boom [m]. The boom's
+    angle from the upward vertical goes from phi_0 to phi_k, the one between boom and arm from psi_0 to psi_k [rad]. The bounds of moments
+    [N m]: K_B of sin(phi) for the boom, K_A for the arm with its telescope out, K_A1 with it in.
     """
 
     l_c: float = 4.454601406907623

@@ -131,8 +131,8 @@ class DirectCraneAbove(DirectCrane):
 class ChainCrane(Crane):
     """The telescope's cylinder pushes its first section, chains draw the second, which runs twice the cylinder's way (figure 2.2).
 
-    Cylinder RD moves the first section DZ; `chain` runs from X on the arm over a sheave at D to the end Y of the second section and draws
-    it out, `back` from K over a sheave at Z to Y and draws it in. The sheaves stand as pins along the arm; where is illustrative.
+    Cylinder RD moves the first section DZ. `chain` runs from X on the arm over a sheave at D to the end Y of the second section and draws
+    it out. `back` runs from K over a sheave at Z to Y and draws it in. The sheaves stand as pins along the arm; where is illustrative.
     """
 
     chain_bore, chain_rod = Dimension(90 * mm, unit="mm"), Dimension(56 * mm, unit="mm")

@@ -60,9 +60,9 @@ CLOSE = 1e-6
 class CraneSkeleton(Mechanism):
     """Boom OJ, arm JK and telescope KT, turned and pushed by their strokes, on a column whose top is O.
 
-    The origin is the foot of the column's axis on the ground, x away from it, y up. phi, psi and t are what the drives do: boom angle from
-    the upward vertical, inner angle of boom and arm, telescope out. The members' heights b and masses W follow from the
-    regressions (2.5)-(2.9), of cranes of 23.5 to 185 kN m; W_m is the mass's measure (2.4) that a skeleton is chosen by.
+    The origin is the foot of the column's axis on the ground, x away from it, y up. The drives move phi, psi and t: boom angle from the
+    upward vertical, inner angle of boom and arm, telescope out. The members' heights b and masses W follow from the regressions
+    (2.5)-(2.9), of cranes of 23.5 to 185 kN m; W_m is the mass's measure (2.4) that a skeleton is chosen by.
     """
 
     phi = Stroke(15 * deg, 100 * deg)                     # boom, from the upward vertical

@@ -42,11 +42,11 @@ from .report import crosshead_verdicts, grapple_columns, grapple_verdicts
 class Grapple(Mechanism):
     """Cylinder EC turns the lever AOC, whose end A presses the stem against the housing at T; the right-hand lever of the two.
 
-    The section across the stem; the origin is the centre of the largest stem D_0, y up to the housing, where all stems rest on T.
-    theta is the lever's angle from where it holds D_0: opening_angle when open, 0 at D_0, -closing_angle at the smallest stem d_0.
-    O lies at equal distances from both places of A and by hinge_gap off the largest stem; C on AO produced; E where the closed
-    cylinder reaches the open lever and the extended one the closed lever: of the two such places the one on `side_E` of the way of C
-    (1 left, -1 right). The efficiency is the source's n; pressures are gauge; everything is of one lever.
+    The section across the stem; the origin is the centre of the largest stem D_0, y up to the housing, where all stems rest on T. The
+    lever's angle theta counts from where it holds D_0: opening_angle when open, 0 at D_0, -closing_angle at the smallest stem d_0. O lies
+    at equal distances from both places of A and by hinge_gap off the largest stem. C lies on AO produced. E lies where the closed cylinder
+    reaches the open lever and the extended one the closed lever. Of the two such places it is the one on `side_E` of the way of C (1 left,
+    -1 right). The efficiency is the source's n; pressures are gauge; everything is of one lever.
 
     `gripping` is where it holds stems, D_0 and smaller; on the rest of its way, `travelling`, there is no stem, the case `empty`.
 

@@ -40,6 +40,11 @@ def read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return view
 
 
+def frozen(given: Any) -> npt.NDArray[np.float64]:
+    """Return a read-only copy of numbers as floats."""
+    return read_only(np.array(given, float))
+
+
 def unmasked(value: object) -> Any:
     """Return a masked array of numbers as floats with NaN in the places that are masked; anything else as it is."""
     if isinstance(value, np.ma.MaskedArray) and value.dtype.kind in "fiu":

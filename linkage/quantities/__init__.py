@@ -37,5 +37,6 @@ from .quantity import (
     quantity,
     real,
     ref,
+    signed_terms,
     spelled,
 )

@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 import operator
 from abc import abstractmethod
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, NoReturn, TypeAlias, TypeGuard, final
+from typing import Any, NoReturn, TypeAlias, TypeGuard, cast, final
 
 import numpy as np
 
@@ -380,6 +380,19 @@ class Negative(Quantity):
 
     def __str__(self) -> str:
         return self.text()
+
+
+def signed_terms(given: Quantity, members: Mapping[str, Member], sign: float = 1.0) -> Iterator[tuple[float, Quantity]]:
+    """Yield the terms of a sum with their signs, names looked up among the members of a class."""
+    if isinstance(given, Ref):
+        yield from signed_terms(cast(Quantity, members[given.target]), members, sign)
+    elif isinstance(given, Sum):
+        yield from signed_terms(given.a, members, sign)
+        yield from signed_terms(given.b, members, sign)
+    elif isinstance(given, Negative):
+        yield from signed_terms(given.a, members, -sign)
+    else:
+        yield sign, given
 
 
 @final

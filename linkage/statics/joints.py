@@ -16,7 +16,7 @@ from ..errors import DefinitionError, known_name, unknown
 from ..loads import ForceElement, Load
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import FRAME_SIDE, Angle, Joint, JointSide, Negative, Quantity, Ref, Sum, body_name, joined_names, name_of
+from ..quantities import FRAME_SIDE, Angle, Joint, JointSide, Quantity, body_name, joined_names, name_of, signed_terms
 from ..steps import Guide, Link, Point
 from .applied import AppliedThrust
 from .bodies import FRAME, FRAME_NAME, SlidingPair, Strut, frame_points, free_bodies, refuse_driven, sliding_blocks
@@ -186,7 +186,8 @@ class Structure:
             if drive.along in contact.holds and drive.along:
                 parts = [(1.0, drive.quantity)]
                 if drive.along == "c" and contact.joint is not None and contact.joint.by == FRAME_SIDE:
-                    parts = [(sign, term) for sign, term in signed_terms(self.plan, drive.quantity) if not follows_points(self.plan, term)]
+                    terms = signed_terms(drive.quantity, self.plan.members)
+                    parts = [(sign, term) for sign, term in terms if not follows_points(self.plan, term)]
                 yield from ((term, drive.along, drive.sign * sign) for sign, term in parts)
 
     # -- who owns what -------------------------------------------------------------------------------------
@@ -339,7 +340,7 @@ def measured_from(plan: Plan, joint: Joint, owner: str) -> tuple[str, str] | Non
     for drive in joint.drives:
         if drive.along != "c":
             continue
-        moving = [(sign, term) for sign, term in signed_terms(plan, drive.quantity) if follows_points(plan, term)]
+        moving = [(sign, term) for sign, term in signed_terms(drive.quantity, plan.members) if follows_points(plan, term)]
         if not moving:
             continue
         (sign, term), *others = moving
@@ -350,21 +351,6 @@ def measured_from(plan: Plan, joint: Joint, owner: str) -> tuple[str, str] | Non
             )
         return name_of(term.P), name_of(term.Q)
     return None
-
-
-def signed_terms(plan: Plan, quantity: Quantity, sign: float = 1.0) -> Iterator[tuple[float, Quantity]]:
-    """Yield the terms of a sum with their signs, names resolved."""
-    if isinstance(quantity, Ref):
-        member = plan.members[quantity.target]
-        assert isinstance(member, Quantity)
-        yield from signed_terms(plan, member, sign)
-    elif isinstance(quantity, Sum):
-        yield from signed_terms(plan, quantity.a, sign)
-        yield from signed_terms(plan, quantity.b, sign)
-    elif isinstance(quantity, Negative):
-        yield from signed_terms(plan, quantity.a, -sign)
-    else:
-        yield sign, quantity
 
 
 def follows_points(plan: Plan, quantity: Quantity) -> bool:

@@ -8,7 +8,7 @@ A machine of a row is of a subclass whose stroke has that range, so that whateve
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias, final
 
@@ -16,8 +16,7 @@ from ..errors import DefinitionError, cited
 from ..loads import TwoPoint
 from ..mechanism import Mechanism, declared
 from ..plan import Plan, Reading
-from ..quantities import Dimension, Member, Stroke, Variable, name_of
-from ..quantities.quantity import Negative, Ref, Sum
+from ..quantities import Dimension, Member, Stroke, Variable, name_of, quantity, signed_terms
 from ..steps import Drawn
 
 BASE = "_class_before_rows"
@@ -124,7 +123,7 @@ def length_of(machine: Mechanism, name: str) -> tuple[str, list[tuple[str, float
     plan = machine.plan
     ends = plan.of_kind(TwoPoint)[name].ends
     length = next((bar.length for bar in plan.cylinders if {bar.P, bar.Q} == set(ends)), None)
-    terms = [] if length is None else [*terms_of(plan, length, 1.0)]
+    terms = [] if length is None else [*signed_terms(quantity(length), plan.members)]
     strokes = [(sign, each.name) for sign, each in terms if isinstance(each, Stroke)]
     if len(strokes) != 1 or strokes[0][0] != 1.0:
         label = "".join(ends)
@@ -138,19 +137,6 @@ def length_of(machine: Mechanism, name: str) -> tuple[str, list[tuple[str, float
             value = sign * float(reading.value(each))
             others.append((own if sign == 1.0 and own in plan.table.spellings else "", value))
     return strokes[0][1], others
-
-
-def terms_of(plan: Plan, given: Any, sign: float) -> Iterator[tuple[float, Any]]:
-    """Yield the terms of a sum with their signs, through the members it goes by."""
-    if isinstance(given, (str, Ref)):
-        given = plan.members[given if isinstance(given, str) else given.target]
-    if isinstance(given, Sum):
-        yield from terms_of(plan, given.a, sign)
-        yield from terms_of(plan, given.b, sign)
-    elif isinstance(given, Negative):
-        yield from terms_of(plan, given.a, -sign)
-    else:
-        yield sign, given
 
 
 # Classes of rows.

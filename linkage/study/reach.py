@@ -9,7 +9,7 @@ from typing import TypeAlias, final
 
 import numpy as np
 
-from ..frozen import read_only
+from ..frozen import frozen
 from ..motion.line import Index
 from ..motion.many_places import ManyPlaces, PlacePoses
 from ..plan import Mask
@@ -56,7 +56,7 @@ class Reach:
             panels = halves
         ordered = sorted(known)
         spans = tuple((k, left, right) for k, height in enumerate(ordered) for left, right in known[height])
-        return cls(read_only(np.array(ordered)), spans, is_single, float(area))
+        return cls(frozen(ordered), spans, is_single, float(area))
 
     @property
     def border(self) -> FloatArray:
@@ -67,7 +67,7 @@ class Reach:
         joined = [sorted(one + other) for one, other in pairwise(ends)]
         pieces = [pair for row in joined for pair in zip(row[::2], row[1::2], strict=True)]
         found = [[(across, self.heights[line]) for across, line in pair] for pair in pieces]
-        return read_only(np.array(found, float).reshape(-1, 2, 2))
+        return frozen(found).reshape(-1, 2, 2)
 
 
 Spans: TypeAlias = list[tuple[float, float]]

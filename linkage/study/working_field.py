@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DefinitionError, cited, known_name, unwarned
-from ..frozen import FrozenDict, read_only, refuses_changes
+from ..frozen import FrozenDict, frozen, read_only, refuses_changes
 from ..language import noted, said
 from ..loads import Case, ForceElement, Weight
 from ..mechanism import Mechanism
@@ -198,7 +198,7 @@ def axis_values(given: Any, name: str, title: str) -> FloatArray:
         raise DefinitionError(f"{title}: {name}={cited(given)}: {what}, such as {name}=np.linspace(1, 6, 14).")
     if np.unique(found).size < found.size:
         raise DefinitionError(f"{title}: {name}={cited(given)}: a place stands in it twice; give each once.")
-    return read_only(np.array(found, float))
+    return frozen(found)
 
 
 def pull_direction(along: Any, title: str) -> tuple[float, float]:

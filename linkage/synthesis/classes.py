@@ -9,7 +9,6 @@ from typing import Any, final
 
 import numpy as np
 
-from .. import plugins
 from ..errors import DefinitionError, cited
 from ..language import said_of
 from ..mechanism import Mechanism
@@ -18,6 +17,7 @@ from ..study.checks import check_one_design
 from ..study.optimise import check_counts
 from ..study.space import size_of_machine
 from ..study.survey import check_progress, progress_told
+from .exact import REGISTERED
 from .synthesis import MISSES, Synthesis, SynthesisedMachine, is_one_design, links_of, told_error
 from .tasks import PathTask, PoseTask, Task, of_class, task_named_in, task_of
 
@@ -98,12 +98,8 @@ def designs_of_classes(given: Any) -> list[Mechanism]:
 def shipped_machines() -> list[Mechanism]:
     """Return the designs of the installed machines that name a point of a coupler and need no iteration, those of few links first."""
     found: dict[type[Mechanism], Mechanism] = {}
-    for name, entry in plugins.entry_points(plugins.MACHINES).items():
-        try:
-            kind = plugins.guarded(entry.load, name)
-        except DefinitionError:  # one that cannot be loaded hides no other
-            continue
-        if isinstance(kind, type) and issubclass(kind, Mechanism) and "featured" in vars(kind):
+    for kind in REGISTERED.loaded()[0].values():  # one that cannot be loaded hides no other
+        if "featured" in vars(kind):
             machine = kind()
             if machine.featured().coupler and not machine.plan.groups:
                 found[kind] = machine

@@ -12,7 +12,6 @@ import numpy as np
 
 from ..disk import Place, replacing_text
 from ..errors import DefinitionError, StudyError, cited
-from ..frozen import read_only
 from ..language import said, said_of
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
@@ -477,8 +476,3 @@ def rounded_machine(found: Synthesis, answer: SynthesisedMachine, to: float, ang
     most, before = (show(each, unit, 4) for each in (float(far.max()), answer.most))
     sentence = said("{settings}: at most {most} off, unrounded {before}.", settings=settings, most=most, before=before)
     return RoundedMachine(machine, float(error[place]), float(far.max()), sentence)
-
-
-def frozen(array: Any) -> FloatArray:
-    """Return a read-only copy."""
-    return read_only(np.array(array, float))

@@ -12,10 +12,11 @@ from ..errors import DefinitionError
 from ..mechanism import Mechanism
 from ..motion import ratio
 from ..motion.measures import Measure, at, least
+from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import ref
 from ..study.checks import check_one_design
-from ..study.problem import is_still, ranges_of
+from ..study.problem import Range, is_still, ranges_of
 from .tasks import Task, TaskRows, table_of
 
 Squares: TypeAlias = tuple[Measure, ...]
@@ -47,7 +48,9 @@ def point_errors(
     `[each**0.5 <= 0.5 * mm for each in point_errors(...)]` are conditions: no point is missed by more.
     """
     check_one_design(machine)
-    rows, (stroke, held) = task.rows(machine), moving_and_held(machine, over)
+    rows, ranges = task.rows(machine), ranges_of(machine, over)
+    stroke = moving_stroke(machine.plan, ranges)
+    held = {name: float(one.low) for name, one in ranges.items() if name != stroke}
     if strokes is not None:
         given = table_of(f"{machine.plan.title}: the error of a task", "strokes", strokes, 0)
         if len(given) != rows.count:
@@ -59,14 +62,13 @@ def point_errors(
     return tuple(least(squared_sum(misses_at(machine, rows, place))) for place in range(rows.count))
 
 
-def moving_and_held(machine: Mechanism, over: Mapping[str, Any] | None) -> tuple[str, dict[str, float]]:
-    """Return the one stroke that moves and the values of the others [SI]; DefinitionError where several move."""
-    ranges = ranges_of(machine, over)
+def moving_stroke(plan: Plan, ranges: Mapping[str, Range]) -> str:
+    """Return the one stroke that moves, of the ranges of all; DefinitionError where several move."""
     moving = [name for name, one in ranges.items() if not is_still(one)]
     if len(moving) != 1:
         held = ", ".join(f'"{name}": value' for name in moving[1:]) or "..."
-        raise DefinitionError(f"{machine.plan.title}: a task runs along one stroke; hold the others, over={{{held}}}.")
-    return moving[0], {name: float(one.low) for name, one in ranges.items() if name != moving[0]}
+        raise DefinitionError(f"{plan.title}: a task runs along one stroke; hold the others, over={{{held}}}.")
+    return moving[0]
 
 
 def misses_at(machine: Mechanism, rows: TaskRows, place: int) -> list[Any]:

@@ -11,6 +11,7 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError, LinkageError, cited
+from ..frozen import frozen
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
@@ -23,7 +24,7 @@ from ..study.checks import check_one_design
 from ..study.cylinder_rows import fitted_rows
 from ..study.designs import Array
 from ..study.optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
-from ..study.problem import Problem, end_words, is_still
+from ..study.problem import Problem, end_words
 from ..study.space import FAR, Space, size_of_machine
 from ..study.survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
 from ..units import show
@@ -40,13 +41,13 @@ from .synthesis import (
     SynthesisedMachine,
     beyond_travel_words,
     exact_error,
-    frozen,
     is_one_design,
     machine_words,
     misses_of,
     poorest_transmission,
     told_error,
 )
+from .task_error import moving_stroke
 from .task_work import RACE, STEPS, Combination, DescentWork, LayWork, LookWork, PolishWork, RaceWork, SearchRows, Stages, Through
 from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, task_named_in, task_of, timed_as
 
@@ -146,7 +147,7 @@ def synthesise(
     constraints = pieces_in_cases(asked, cases, machine.judge(over))
     problem = Problem(machine, [Given(0.0)], constraints, space, 1.0, over)
     problem.count.limit = limit
-    timing = Timing.of(problem, moving_stroke(problem), timed, rows.count)
+    timing = Timing.of(problem, searched_stroke(problem), timed, rows.count)
     check_unit_of_points(machine, rows, space)
     if timing.stroke not in fitted.travels:  # rows of cylinders have ranges of their own
         check_timed(problem, timing, task.at if timed is True else None)
@@ -224,15 +225,12 @@ def check_timed(problem: Problem, timing: Timing, at: FloatArray | None) -> None
         raise DefinitionError(f"{problem.plan.title}: {where}; give a stroke within it, or another over={{...}}.")
 
 
-def moving_stroke(problem: Problem) -> str:
+def searched_stroke(problem: Problem) -> str:
     """Return the one stroke along which a task runs; DefinitionError where several move, or its ends follow the design."""
-    moving = [name for name, one in problem.ranges.items() if not is_still(one)]
-    if len(moving) != 1:
-        held = ", ".join(f'"{name}": value' for name in moving[1:]) or "..."
-        raise DefinitionError(f"{problem.plan.title}: a task runs along one stroke; hold the others, over={{{held}}}.")
-    if problem.ranges[moving[0]].follows and not problem.ranges[moving[0]].is_travel:
-        raise DefinitionError(f"{problem.plan.title}: over={{{moving[0]!r}: ...}}: a synthesis looks at a range of numbers.")
-    return moving[0]
+    moving = moving_stroke(problem.plan, problem.ranges)
+    if problem.ranges[moving].follows and not problem.ranges[moving].is_travel:
+        raise DefinitionError(f"{problem.plan.title}: over={{{moving!r}: ...}}: a synthesis looks at a range of numbers.")
+    return moving
 
 
 @final

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, cited
-from ..frozen import read_only, refuses_changes
+from ..frozen import frozen, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..motion.kinds import measure_of
 from ..plan import Mask
@@ -218,7 +218,7 @@ def table_of(what: str, name: str, given: Any, width: int) -> FloatArray:
     if found.shape != shape or not found.size or not np.isfinite(found).all():
         rows = f"pairs (x, y), shape (n, {width})" if width else "numbers in a row, shape (n,)"
         raise DefinitionError(f"{what}: {name}={cited(given)}: finite {rows}, are expected, in SI.")
-    return read_only(np.array(found, float))
+    return frozen(found)
 
 
 def rows_of_values(what: str, given: Any, count: int) -> list[FloatArray]:

@@ -705,6 +705,8 @@ class Judge:
         start = {name: stroke.start for name, stroke in self.plan.strokes.items()}
         strokes = at_values(start | dict(leaf.strokes), self.plan)
         motion = Motion(self.plan, self.designs, strokes, "nan")
+        if not behind and not motion.reached.all():  # it is the same wherever the machine stands
+            motion = self.pose or motion
         with np.errstate(all="ignore"):
             values, unlimited = Asked(place, [row]).values(motion)
         value = np.asarray(values[0])

@@ -16,11 +16,22 @@ from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
 from ..motion import Condition, HasVerdicts, LiveText, Motion, Request, RequestLike, least, most, speakers
 from ..motion.judge import measures_of
-from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, conditions_of
+from ..motion.measures import (
+    At,
+    CombinedMeasure,
+    Constraint,
+    Given,
+    Integral,
+    Leaf,
+    Measure,
+    conditions_of,
+    dimension_value,
+)
 from ..motion.over import ALLOWED
 from ..motion.requests import NodeRequest, bound
 from ..plan import Plan
-from ..program import Node
+from ..program import FloatArray, Node
+from ..quantities import is_number, quantity
 from ..reports import is_column
 from ..units import display_unit, factor, shown_in
 from .curves import limit_of, typeset
@@ -51,6 +62,7 @@ class LiveQuestions:
         self.machine, self.judge = machine, machine.judge(over)
         self.by_name: dict[str, RequestLike] = {}
         self.only = [self.rows_of_conditions(place.over.only) for place in self.judge.places]
+        self.ends = [self.rows_of_ends(place.over.strokes) for place in self.judge.places]
         self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Any]]]] = []
         with unwarned():
             for rule, condition in self.conditions().items():
@@ -112,15 +124,27 @@ class LiveQuestions:
             names.append(name)
         return names
 
+    def rows_of_ends(self, strokes: Mapping[str, Any]) -> dict[tuple[str, int], str]:
+        """Return the rows of the ends and places that follow the design, by their strokes and places among them."""
+        spellings, names = self.machine.plan.table.spellings, {}
+        for name, given in strokes.items():
+            for k, each in enumerate(given if isinstance(given, tuple) else (given,)):
+                if not is_number(each):
+                    names[name, k] = f"judge {len(self.by_name)} end"
+                    owned = isinstance(each, str) and each in spellings
+                    self.by_name[names[name, k]] = dimension_value(*spellings[each]) if owned else quantity(each)
+        return names
+
     # -- as data -----------------------------------------------------------------------------------------
 
     def data(self, live: LiveText) -> dict[str, Any]:
         """Return what `judge.js` reads: the overs, the questions that the program can answer, and the greatest number of poses."""
-        can_look = all(name in live.rows for names in self.only for name in names)
+        can_look = all(name in live.rows for names in (*self.only, *(ends.values() for ends in self.ends)) for name in names)
         asked = [self.question(live, *each) for each in self.asked] if can_look else []
         overs = [
-            over_data(place.over, place.motion) | {"only": [live.rows[name][0] for name in names if name in live.rows]}
-            for place, names in zip(self.judge.places, self.only, strict=True)
+            over_data(place.over, place.motion, {key: live.rows[name][0] for key, name in ends.items() if name in live.rows})
+            | {"only": [live.rows[name][0] for name in names if name in live.rows]}
+            for place, names, ends in zip(self.judge.places, self.only, self.ends, strict=True)
         ]
         return {"overs": overs, "questions": [each for each in asked if each], "most": MOST}
 
@@ -165,10 +189,25 @@ def tree(measure: Measure, leaves: list[Leaf]) -> Any:
     return {"leaf": next(place for place, each in enumerate(leaves) if each is measure)}
 
 
-def over_data(over: Any, motion: Motion) -> dict[str, Any]:
-    """Return an `Over` as data: the ends of a box, or the places of a path or of poses, stroke by stroke [m or rad]."""
-    values = {name: np.asarray(value, float) for name, value in motion.strokes.items()}
-    found: dict[str, Any] = {"name": over.name, "shape": over.shape, "lost": int(over.lost == ALLOWED)}
+def over_data(over: Any, motion: Motion, rows: Mapping[tuple[str, int], int]) -> dict[str, Any]:
+    """Return an `Over` as data: the ends of a box, or the places of a path or of poses, stroke by stroke [m or rad].
+
+    What follows the design is a row of the program, with the value of the delivered one: [row, value].
+    """
+    found = {"name": over.name, "shape": over.shape, "lost": int(over.lost == ALLOWED)}
+    values = {name: np.broadcast_to(np.asarray(value, float), motion._stroke_shape).ravel() for name, value in motion.strokes.items()}
     if over.shape == "box":
-        return found | {"ends": [[float(value.min()), float(value.max())] for value in values.values()]}
-    return found | {"places": [np.broadcast_to(value, motion._stroke_shape).ravel().tolist() for value in values.values()]}
+        values = {name: ends_as_given(over.strokes.get(name), value) for name, value in values.items()}
+    listed = []
+    for name, value in values.items():
+        held = not isinstance(over.strokes.get(name), tuple)
+        keys = [(name, 0 if held else k) for k in range(len(value))]
+        listed.append([[rows[key], number] if key in rows else number for key, number in zip(keys, value.tolist(), strict=True)])
+    return found | {"ends" if over.shape == "box" else "places": listed}
+
+
+def ends_as_given(given: Any, values: FloatArray) -> FloatArray:
+    """Return the two ends of a stroke in a box, in the order in which they are given where one of them is a number."""
+    ends = np.array([values.min(), values.max()])
+    numbers = [float(each) if is_number(each) else None for each in given] if isinstance(given, tuple) else []
+    return ends[::-1] if numbers and (numbers[0] == ends[1] or numbers[1] == ends[0]) else ends

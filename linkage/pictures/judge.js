@@ -1,9 +1,26 @@
 /* Questions of a design over all that the machine runs: on a grid, then by stencils about the worst; no more poses than `most` in all.
    What has no value counts as Python's judge counts it: lost, unlimited, outside, or nothing left. */
-const judging = (engine, { overs, questions, most }) => {
+const judging = (engine, { overs: given, questions, most }) => {
   const { abs, max, min, floor } = Math, isNumber = Number.isFinite, MET = 1e-9;
+  /* The ends and places of each `Over` as a design has them: [row, value] follows it, as the program says, and is the value as delivered. */
+  const delivered = (each) => (Array.isArray(each) ? each[1] : each), every = (over, act) => (over.places || over.ends).map((list) => list.map(act));
+  const follows = given.some((over) => every(over, Array.isArray).flat().some(Boolean));
+  const held = (over, act) => {
+    const found = every(over, act);
+    return over.places ? { ...over, places: found } : { ...over, ends: found.map(([a, b]) => [min(a, b), max(a, b)]) };
+  };
+  const spans = (vector) => {
+    if (!follows || !vector) return given.map((over) => held(over, delivered));
+    const { values } = engine.sweep(vector, every(given[0], delivered).map(([value]) => [value]));
+    return given.map((over) => held(over, (each) => (Array.isArray(each) && isNumber(values[each[0]][0]) ? values[each[0]][0] : delivered(each))));
+  };
+  let overs, axes;
+  const laid = (vector) => {
+    overs = spans(vector);
+    axes = overs.map(({ shape, ends, places }) => (shape === "box" ? ends.flatMap(([a, b], k) => (a < b ? [[a, b, k]] : [])) : shape === "path" && places[0].length > 1 ? [[0, places[0].length - 1, 0]] : []));
+  };
+  laid();
   const operations = { "+": (a, b) => a + b, "-": (a, b) => a - b, "*": (a, b) => a * b, "/": (a, b) => a / b, "**": (a, b) => a ** b };
-  const axes = overs.map(({ shape, ends, places }) => (shape === "box" ? ends.flatMap(([a, b], k) => (a < b ? [[a, b, k]] : [])) : shape === "path" && places[0].length > 1 ? [[0, places[0].length - 1, 0]] : []));
   /* The strokes at a place: of a box its running strokes, of a path the share of its legs, of poses their number. */
   const strokesAt = (o, u) => {
     const { shape, ends, places } = overs[o];
@@ -19,6 +36,7 @@ const judging = (engine, { overs, questions, most }) => {
     return axes[o].reduce((list, [a, b], j) => list.flatMap((u) => Array.from({ length: counts[j] + 1 }, (_, i) => [...u, i === counts[j] ? b : a + ((b - a) * i) / counts[j]])), [[]]);
   };
   const ask = (vector, wanted, refines) => {
+    laid(vector);
     let n = wanted, count = 0;
     while (n > 2 && size(n) > most) n--;
     const look = (o, list) => {
@@ -87,5 +105,5 @@ const judging = (engine, { overs, questions, most }) => {
     }
     return { n, count, lost, found };
   };
-  return { ask, size };
+  return { ask, size, spans };
 };

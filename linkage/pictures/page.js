@@ -1,7 +1,9 @@
 const { strokes, units } = data;
+/* The questions of the verdicts, asked of the present design over all that the machine runs: coarsely while it changes, finer when it is still. */
+const asking = judging(engine, data.judge), DRAGGING = 9, STILL = 17;
 /* The paths that a machine declares run as strokes of their own, unless the page is of a path. */
-if (!strokes.some((each) => each.path)) for (const { shape, name, places: ways } of data.judge.overs) {
-  if (shape === "path" && name && ways[0].length > 1) strokes.push({ name, start: 1, end: ways[0].length, at: 1, unit: "", factor: 1, turn: 0, path: { ...ways } });
+if (!strokes.some((each) => each.path)) for (const [over, { shape, name, places: ways }] of asking.spans().entries()) {
+  if (shape === "path" && name && ways[0].length > 1) strokes.push({ name, start: 1, end: ways[0].length, at: 1, unit: "", factor: 1, turn: 0, path: { ...ways }, over });
 }
 /* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
 const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], row: row < 0 ? undefined : row, ru, values, why }));
@@ -18,7 +20,13 @@ let present = [...original], stands = firstStand(), runs = data.run, showsForces
 let chosen = [...data.shown], column = data.column, second = -1;
 
 const vector = (design) => order.map((i) => design[i]);
+/* Lay the paths where a design has their places. */
+function laid(design) {
+  const ways = strokes.filter((each) => each.over !== undefined), spans = ways.length ? asking.spans(vector(design)) : [];
+  for (const each of ways) each.path = { ...spans[each.over].places };
+}
 function sweep(design, at, run) {
+  laid(design);
   const { start, end } = strokes[run];
   const along = Float64Array.from({ length: COUNT }, (_, i) => (i === COUNT - 1 ? end : start + ((end - start) * i) / (COUNT - 1)));
   const poses = Array.from(along, (value) => followed(at.map((stands, k) => (k === run ? value : stands)), run));
@@ -35,7 +43,7 @@ function followed(at, run = runs) {
   }
   return found;
 }
-const single = (design, at) => engine.sweep(vector(design), followed(at).slice(0, own.length).map((value) => [value]));
+const single = (design, at) => { laid(design); return engine.sweep(vector(design), followed(at).slice(0, own.length).map((value) => [value])); };
 const titled = (each) => (each.name === "along the path" ? say("place") : each.name);
 const isChanged = () => dims.some((each, i) => present[i] !== each.value);
 const isDriven = (k) => k === runs || k in (strokes[runs].path || {});
@@ -322,8 +330,6 @@ function extremes(values) {
   };
   return { low: peak(low), high: peak(high) };
 }
-/* The questions of the verdicts, asked of the present design over all that the machine runs: coarsely while it changes, finer when it is still. */
-const asking = judging(engine, data.judge), DRAGGING = 9, STILL = 17;
 let known = { key: "" };
 function asked(n) {
   const design = vector(present), key = `${n} ${design.join()}`;

@@ -341,7 +341,7 @@ class LiftingCylinder:
 
     @property
     def way_back(self) -> str:
-        """The direction in which it goes back, told at the ends of the strokes."""
+        """The direction in which it goes back, by the ends of the strokes."""
         return self.ram.way_back(self.judge.motion, Acting(self.judge.acting.loads))
 
     def stuck(self, back: LawRequest) -> str:

@@ -244,7 +244,7 @@ class PumpLine(LiftLine):
             return [Verdict("lifting", False, " ".join(str(error).split()))]
 
     def unit_in(self, judge: Judge) -> str:
-        """Return the unit in which its pressures are told: that of the dimension which its pump's pressure follows, else bar."""
+        """Return the unit in which its pressures are shown: that of the dimension which its pump's pressure follows, else bar."""
         pressure = self.pump_pressure(judge.plan)
         given = judge.plan.members.get(pressure) if isinstance(pressure, str) else pressure
         return str(getattr(given, "unit", "")) or "bar"

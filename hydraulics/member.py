@@ -1073,7 +1073,7 @@ class Circuit(ForceElement, HasVerdicts):
         return tuple(each for each in found if isinstance(each, Ram))
 
     def gauges_of(self, cylinder: Ram) -> dict[str, Reading]:
-        """Return what it tells of one of its cylinders on a live page: the `most` pressure it may have [Pa], its `reserve`."""
+        """Return what it says of one of its cylinders on a live page: the `most` pressure it may have [Pa], its `reserve`."""
         return {}
 
     @abstractmethod

@@ -50,10 +50,9 @@ USUAL_SETTING = 1.3
 class HoldingValve(LineValve):
     """A counterbalance valve: `valve = HoldingValve(lifting, pilot=other, setting=210 * bar, ratio=4)`.
 
-    It holds what is in `line`, the loaded side's, and is opened by the pressure of that and by the one of `pilot`, the line of the other
-    side, which counts `ratio` times: p + ratio p_pilot = `setting` [Pa gauge]. While the load is lowered the pump pushes through the
-    pilot line, whatever that is on while it lifts. In a class setting and ratio are design variables, `valve.setting`, `valve.ratio`. It
-    puts no force on the machine.
+    It holds the oil in `line`, that of the loaded side. The pressure in `line` opens it, and `ratio` times that in `pilot`, the line of the
+    other side: p + ratio p_pilot = `setting` [Pa gauge]. While the load is lowered the pump pushes through the pilot line, whatever that is
+    on while it lifts. In a class setting and ratio are design variables, `valve.setting`, `valve.ratio`. It puts no force on the machine.
     """
 
     line: Reference

@@ -83,7 +83,7 @@ def settings_of(texts: list[str]) -> Callable[[type[Mechanism]], Mapping[str, An
 
 @contextmanager
 def study_progress(title: str, *, asked: bool) -> Iterator[ProgressLike | bool]:
-    """Yield what is told how far a study is: a bar on a terminal, where it is asked for lines elsewhere."""
+    """Yield the function that reports how far a study is: a bar on a terminal, where it is asked for lines elsewhere."""
     with progress_bar(title) as bar:
         yield bar or (say_progress if asked else False)
 

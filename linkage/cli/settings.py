@@ -172,9 +172,9 @@ def motion_at(
 ) -> Motion:
     """Return the motion that a table shows: at strokes such as `S=0.6,650mm`, else along the machine's run at `count` poses.
 
-    The run is the path that `overs` or the machine's own `Over` give, where that is one; else the first stroke that is not held, from
-    its start to its end, at steps of `every` where that is said. Strokes that are not given are at mid-stroke. Several that are
-    given more than one value make a grid. Places that cannot be assembled are gaps, and one remark says so.
+    The run is the path of `overs` or of the machine's own `Over`, if that is a path. Else it is the first stroke that is not held, from its
+    start to its end, at steps of `every` if given. Strokes that are not given are at mid-stroke. Several that are given more than one value
+    make a grid. Places that cannot be assembled are gaps, and one remark says so.
     """
     given = dict(stroke_values(machine.plan, text) for text in texts)
     along = None if given else declared_path(machine, overs)

@@ -33,7 +33,7 @@ _HEADING = re.compile(r"(?P<name>[^\[(,/]*?)\s*(?:[\[(,/]\s*(?P<unit>[^\])]*?)\s
 @final
 @dataclass(frozen=True)
 class PointColumn:
-    """A column of wanted values: its names, the first of which is told, what it measures, and whether it may be missing."""
+    """A column of wanted values: its names, the first of which messages use, what it measures, and whether it may be missing."""
 
     names: tuple[str, ...]
     measures: str

@@ -136,7 +136,7 @@ class Conditioning:
 
     @property
     def doubtful(self) -> Mask:
-        """The poses where the result holds, with an error that has to be told."""
+        """The poses where the result holds, with an error that is reported."""
         mask: Mask = self.error > self.doubt
         for name, cond in self.conditions.items():
             if name in self.steep:
@@ -171,7 +171,7 @@ class Conditioning:
 def conditioning(plan: Plan, reading: ArrayReading, steep: set[str], names: set[str], error: FloatArray, doubt: float) -> Conditioning:
     """Return how far poses are from singular ones for a result built from some members, whose relative error (n,) is known.
 
-    `steep` are the members that it is differentiated through, `doubt` is the error from which on it has to be told.
+    `steep` are the members that it is differentiated through, `doubt` is the error above which it is reported.
     """
     moving = {name: span for name, span in reading.spans.items() if not name or (name in names and plan.moves(plan.members[name]))}
     spans = {name: np.broadcast_to(span, error.shape) for name, span in moving.items()}

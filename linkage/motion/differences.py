@@ -1,7 +1,7 @@
 """Numerical differentiation, as in the papers: differences of positions at shifted strokes.
 
-Two-sided differences where both neighbours can be reached, one-sided ones where not; the step is chosen at
-every pose by comparing extrapolated estimates (Richardson), and what is lost is told.
+Two-sided differences where both neighbours can be reached, one-sided ones where not; the step is chosen at every pose by comparing
+extrapolated estimates (Richardson), and what is lost is reported.
 """
 
 from __future__ import annotations

@@ -155,7 +155,7 @@ def at_few_poses(
 class BulkProgram:
     """The kernel of some requests: `parts`, the first row and the rows of each; `angles` of those that follow them, by their place.
 
-    `may_fail`: there may be poses without a value that no guard tells of.
+    `may_fail`: there may be poses without a value that no guard reports.
     """
 
     kernel: Kernel

@@ -1,8 +1,9 @@
 """The judge: questions about a machine, asked over all that it runs, in every load case and movement that occurs, on both sides.
 
 A question is split into smooth pieces: a quantity in one load case, in one movement, on one side of a cylinder. Each piece is looked for by
-itself over every `Over`; the worst one is the answer and is named. What has no value is told by the one who gives none: lost where the
-machine cannot be assembled or a law gives no number, unlimited where a law has no bound there, outside where a condition leaves it out.
+itself over every `Over`; the worst one is the answer and is named. What has no value gets its meaning from the one that gives none: lost
+where the machine cannot be assembled or a law gives no number, unlimited where a law has no bound there, outside where a condition leaves
+it out.
 """
 
 from __future__ import annotations
@@ -578,7 +579,7 @@ class Judge:
 
     @property
     def way(self) -> Motion | None:
-        """The motion of its one way, a stroke or a path, along which parts can be told; None where there are several, or a box."""
+        """The motion of its one way, a stroke or a path, along which parts can be named; None where there are several, or a box."""
         motion = self.motion
         return motion if len(self.places) == 1 and len(motion._stroke_shape) <= 1 and self.places[0].over.shape != "poses" else None
 

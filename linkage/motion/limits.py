@@ -101,7 +101,7 @@ class Limits(FrozenDict[str, StrokeLimits], Shown):
 @refuses_changes
 @dataclass(frozen=True)
 class BoxLimits:
-    """What is told of several strokes together, over the box of their ranges, which `title` says, or over what was asked for.
+    """The limits of several strokes together, over the box of their ranges, which `title` says, or over the given `Over`s.
 
     `lost` is the share of it that cannot be assembled, `deepest` the place [m or rad] where most is missing, `why` what is missing there;
     a part narrower than the grid has the share 0 and a place. `margins` say how clear each loop stays of its dead point.

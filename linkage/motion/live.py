@@ -84,7 +84,7 @@ def live_program(plan: Plan, requests: tuple[Request, ...]) -> LiveProgram:
 @final
 @dataclass(frozen=True)
 class LiveProgram:
-    """The text that declares `sweep`, what else is told beside it, and the dimensions in their order."""
+    """The text that declares `sweep`, what else is declared beside it, and the dimensions in their order."""
 
     text: str
     said: str

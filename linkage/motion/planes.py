@@ -38,10 +38,10 @@ class Planes(HasVerdicts):
     """Which bodies lie in one plane, plane by plane across the machine: `planes = Planes("OBC AB", "CD EDF", width=60 * mm)`.
 
     A body goes by its points, its Link, its cylinder or spring, an outline by its name; one may stand in several planes, and what is not
-    named lies in all. `width` [m] is the sum of the half widths of two bars, a design variable by the name `planes.width`; plates count
-    as their points' convex hull, a body with closed outlines on it as these. Its verdict is the `clearance`: the least gap over all that
-    the machine runs, of bodies in a common plane that share no pin (of two that share one, of their outlines), and of pins that pass
-    through a plane.
+    named lies in all. `width` [m] is the sum of the half widths of two bars, a design variable by the name `planes.width`; plates count as
+    their points' convex hull, a body with closed outlines on it as these. Its verdict is the `clearance`, the least gap over all that the
+    machine runs. It counts bodies in a common plane that share no pin, the outlines of two that share one, and pins that pass through a
+    plane.
     """
 
     kind = "planes"

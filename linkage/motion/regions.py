@@ -5,7 +5,7 @@
     |      |     |
     +------+     +
 
-Whether a point is in a polygon is told by how often a ray from it crosses the border: corners of a polygon may point inwards.
+Whether a point is in a polygon is decided by how often a ray from it crosses the border: corners of a polygon may point inwards.
 Source: J. O'Rourke, Computational geometry in C (1998), 7.4.2.
 """
 

@@ -62,7 +62,7 @@ def greatest(motion: Motion, f: Function) -> Extremum:
     `f(motion)` is asked again, of motions with the same designs at strokes in between. Its shape is (...) as the motion's, or (k, ...) for
     k quantities at once, NaN where it has no value. It may have kinks, jumps and gaps. The value is right to 1e-6 of its range, the place
     to 1e-4 of the stroke, for every bump from 1/2000 of the range wide, and the same from however many poses. Where it jumps the larger
-    side counts. Where it grows beyond bounds up to a pose that is refused or out of reach it is infinite, and told as `unbounded`.
+    side counts. Where it grows beyond bounds up to a pose that is refused or out of reach it is infinite, and reported as `unbounded`.
     Poses out of reach are passed over, whatever the motion was asked for with.
 
     Over a box of several strokes what is higher than all else is found if it holds a box of a share of each stroke: 1/128 of two, 1/32 of
@@ -294,7 +294,7 @@ def require_function(motion: Any, f: Any) -> None:
 def values_of(f: Function, motion: Motion, *, everywhere: bool = False) -> FloatArray:
     """Return what a function gives at every pose, shape (..., *motion.shape); NaN out of reach, unless it is asked for `everywhere`.
 
-    Nearness to a dead point is not told.
+    Nearness to a dead point is not reported.
     """
     with unwarned(), np.errstate(all="ignore"), told(f"{motion.plan.title}: a function of a motion"):
         found = np.asarray(f(motion), float)

@@ -62,7 +62,7 @@ class Target:
         return self.within or {"length": 1.0 * mm, "angle": 0.1 * deg}.get(kind, 1e-3 * abs(value) or 1e-3)
 
     def shown_in(self, plan: Plan) -> str:
-        """Return the unit that it is told in."""
+        """Return the unit that it is shown in."""
         return self.unit or display_unit(measure_of(plan, self.quantity), "mm")
 
 

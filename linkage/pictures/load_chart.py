@@ -37,7 +37,7 @@ class ChartText:
 
     @property
     def is_weight(self) -> bool:
-        """Whether the load hangs, so that it is told as a mass."""
+        """Whether the load hangs, so that it is shown as a mass."""
         return self.field.along == (0.0, 1.0)
 
     @property

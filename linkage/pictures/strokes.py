@@ -60,7 +60,7 @@ class StrokeAxis:
 
     @property
     def is_turning(self) -> bool:
-        """Whether it goes through so many degrees that these are told in thirds of a right angle."""
+        """Whether it goes through so many degrees that its axis has ticks at thirds of a right angle."""
         return self.unit == "deg" and float(np.ptp(self.values)) >= 90.0
 
 

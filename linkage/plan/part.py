@@ -92,7 +92,7 @@ class Part(Member):
         self._check_given()
 
     def _check_words(self, said: Mapping[str, bool]) -> None:
-        """Raise DefinitionError for a word of `Part` that is a name in the machine, too: which of them is meant cannot be told."""
+        """Raise DefinitionError for a word of `Part` that is a name in the machine, too: it is unclear which of them is meant."""
         for word in said:
             if said[word] and word in self.plan.members:
                 kind = self.plan.members[word].kind

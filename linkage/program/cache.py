@@ -62,7 +62,7 @@ def is_trusted(folder: Path) -> bool:
 @final
 @dataclass
 class CompiledFile:
-    """The text of one program in its file, and what was compiled of it: beside the file, in folders that `take` is told."""
+    """The text of one program in its file, and what was compiled of it: beside the file, in folders that `take` is given."""
 
     file: Path
     folders: list[Path] = field(default_factory=list)

@@ -40,7 +40,7 @@ def pays_compiled(work: float, ready: bool, text: Callable[[], str]) -> bool:
 
 
 def compiled_loop(text: str, name: str, arguments: Callable[[Any], Sequence[Any]]) -> Callable[..., Any]:
-    """Return a function of a text compiled for arguments, which are told in the types of Numba; kept on disk."""
+    """Return a function of a text compiled for arguments, which are given as types of Numba; kept on disk."""
     try:
         from numba import njit, types
     except ImportError:

@@ -183,7 +183,7 @@ def claim(value: Any, name: str) -> None:
 
 
 def is_traced(value: Any) -> bool:
-    """Return whether a value is a number of a law that is being traced: it has no value yet; what has none later is told then."""
+    """Return whether a value is a number of a law that is being traced: it has no value yet; what has none later is reported then."""
     return isinstance(value, Traced)
 
 

@@ -67,7 +67,7 @@ def slips(structure: Structure, poses: FlatPoses) -> Iterator[Slip]:
 
 
 def slips_in(contact: Contact, system: System, speeds: Speeds, stroke: str) -> Iterator[Slip]:
-    """Yield what one joint lets slip by a stroke; where a drive along a curve of the frame is told by its point, nothing."""
+    """Yield what one joint lets slip by a stroke; where a drive along a curve of the frame follows its point, nothing."""
     poses, drives = system.poses, list(system.structure.drives(contact))
     place = acting_place(contact, poses)
     on, by = (speeds.material(body, place, contact) for body in (contact.on, contact.by))

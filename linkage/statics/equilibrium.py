@@ -247,7 +247,7 @@ class System:
         return stroke == quantity.name or stroke in plan.reaches(quantity)
 
     def ratio(self, quantity: Quantity, stroke: str) -> FloatArray:
-        """Return how a driven quantity follows a stroke, shape (n,); of a distance it is told by its points."""
+        """Return how a driven quantity follows a stroke, shape (n,); for a distance it follows from its points."""
         if isinstance(quantity, Distance):
             return self.poses.growth(name_of(quantity.P), name_of(quantity.Q), stroke)
         return self.poses.ratio(quantity, stroke)

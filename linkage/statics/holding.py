@@ -1,7 +1,7 @@
 """Who holds the strokes: the steps that drive them, or cylinders that are declared in their place; and the levers they hold with.
 
-Every line of declared cylinders that no element feeds takes over one stroke; the drive it replaces carries nothing. Strokes that
-are left over keep the drive of their step. Which line takes which stroke is told by how its length follows them at some poses.
+Every line of declared cylinders that no element feeds takes over one stroke; the drive it replaces carries nothing. Strokes that are left
+over keep the drive of their step. Which line takes which stroke follows from how its length depends on them at some poses.
 
 If a cylinder's length does not change with its drive, or those of several follow the strokes alike, no thrust balances the loads. Such
 poses are refused like any other singular one. What decides is the condition of the levers beside the speed at which the cylinders' ends

@@ -64,7 +64,7 @@ class Contact:
 
     @property
     def is_curve(self) -> bool:
-        """Whether its point is driven along a line of the frame that is no guide's: its way is told by the point itself.
+        """Whether its point is driven along a line of the frame that is no guide's: its way follows from the point itself.
 
         An arm's joint stands where its length is counted from, and that point stays.
         """

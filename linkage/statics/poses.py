@@ -86,7 +86,7 @@ class FlatPoses:
         return self._at[point]
 
     def ratio(self, target: Reference, drive: str) -> FloatArray:
-        """Return the ratio of a point (2, n) or a quantity (n,); what is near singular has been told already."""
+        """Return the ratio of a point (2, n) or a quantity (n,); what is near singular has been reported already."""
         with unwarned():
             return self.flattened(self.motion.ratio(target, wrt=drive))
 

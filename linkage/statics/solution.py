@@ -241,7 +241,7 @@ class Equilibrium:
 
     @cached_property
     def sample(self) -> FloatArray:
-        """The equations at three poses, by which their rank is told."""
+        """The equations at three poses, which give their rank."""
         n = len(self.A)
         return self.A[sorted({0, n // 3, (2 * n) // 3, n - 1})]
 

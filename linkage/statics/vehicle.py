@@ -357,7 +357,7 @@ def outer(order: FloatArray, across: list[FloatArray], levers: list[FloatArray],
 def bare_loads(motion: Motion, supports: Mapping[str, Support]) -> Mapping[str, float]:
     """Return what the weights of the frame alone put on each support [N], of one design; DefinitionError where that stands on nothing.
 
-    It is the same at all poses; of a batch, and where no pose is reached, nothing is told.
+    It is the same at all poses; of a batch, and where no pose is reached, there are none.
     """
     plan = motion.plan
     if motion._design_shape or not motion.reached.any():

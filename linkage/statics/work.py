@@ -114,7 +114,7 @@ def work_gap(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, Float
 
 
 def without_held(applied: AppliedLoads, holders: Holders) -> AppliedLoads:
-    """Return what acts without what laws put on members that hold: what these carry in all is told by the strokes they hold."""
+    """Return what acts without what laws put on members that hold: what these carry in all follows from the strokes they hold."""
     return replace(applied, thrusts=tuple(each for each in applied.thrusts if not any(same(each.member, one) for one in holders.cylinders)))
 
 
@@ -134,7 +134,7 @@ def work_misses(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, Fl
 def without_work(found: PoseForces) -> tuple[Mask, str]:
     """Return the poses (n,) at which a drive's force by equilibrium is not that by virtual work, and what disagrees in words.
 
-    Poses near singular ones lose as much as they are said to. With friction nothing is told.
+    Poses near singular ones lose as much as they are said to. With friction it says nothing.
     """
     poses, applied, lost, words = found.poses, found.applied, np.zeros(found.poses.count, bool), ""
     if applied.frictions:

@@ -30,7 +30,7 @@ class LoadRule:
     """Factors of the load by what limits it: `LoadRule("works rule", hydraulic=0.9, tipping=0.7)`.
 
     `hydraulic` of what each cylinder carries, `tipping` and `slipping` of what the supports do, `pressure` of the pump's pressure with
-    which cylinders lift, not of what holds. Each is above 0 and not above 1. `remark` is told beside it in a legend.
+    which cylinders lift, not of what holds. Each is above 0 and not above 1. `remark` is written beside it in a legend.
     """
 
     title: str

@@ -195,7 +195,7 @@ def real_numbers(found: Any) -> FloatArray:
 
 
 def quantity_values(motion: Motion, quantity: QuantityLike, *, endless: bool = False) -> FloatArray:
-    """Return a quantity at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study.
+    """Return a quantity at every pose of a motion, NaN where it has no value; the study reports nearness to a dead point.
 
     An infinite one is none, unless it may be `endless`.
     """

@@ -138,8 +138,10 @@ def optimise(
     """Return the best design of a machine: `optimise(hitch, maximise=least(capacity("lift", "G")), vary={"OB": (0.27, 0.33)})`.
 
     What is to be least or greatest is one number of a design: `least(q)`, `most(q)`, `integral(q)`, `at(q, S=...)` of a quantity q (an
-    output, `drive_force()`, `pin_force("O")`, ...) and arithmetic of them; `subject_to` are comparisons of such, `most(abs(ref("tilt"))) <=
-    8 * deg`. They hold over the whole stroke, between the poses too; that every pose is assembled is always kept.
+    output, `drive_force()`, `pin_force("O")`, ...) and arithmetic of them. `subject_to` are comparisons of such,
+    `most(abs(ref("tilt"))) <=
+    8 * deg`. They hold over the whole stroke, between the poses too; that every pose is assembled is always
+    kept.
 
     `vary` says what may change: `"OB": (low, high)` [SI], with a third number in steps; `"M": around(60 * mm)`, of a point both
     coordinates; a list of choices; and for several names at once rows of a catalogue, `("lift.bore", "lift.rod"): [(0.1, 0.056), ...]`.
@@ -164,8 +166,8 @@ def optimise(
     no value. Lengths, angles, forces and pressures neither add nor compare. What limits the result is said: conditions, ends of ranges,
     and where the machine itself allows no more.
 
-    Raises DefinitionError for what cannot be asked, StudyError where no design can be assembled over the whole stroke, and its
-    InfeasibleError, with the conflict, the least relaxation and what one condition alone would have to give, where none keeps all.
+    Raises DefinitionError for what cannot be asked, and StudyError if no design can be assembled over the whole stroke. Its
+    InfeasibleError, if none keeps all, has the conflict, the least relaxation and what one condition alone would have to give.
     """
     check_one_design(machine)
     title = machine.plan.title

@@ -69,7 +69,7 @@ class Front(Shown):
 
 
 def front(problem: Problem, seed: int, solver: str, tell: Progress) -> Front:
-    """Return the front of a problem's objectives, each to be least; those whose sign was changed are told with their own."""
+    """Return the front of a problem's objectives, each to be least; those whose sign was changed are shown with their own."""
     from_pymoo()
     coarse, found = problem.with_counts(COARSE), []
     combinations = [*problem.space.combinations()]

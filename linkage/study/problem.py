@@ -86,7 +86,7 @@ class Range:
 
 
 def end_words(end: Any) -> Any:
-    """Return an end of a range as it is told: a number, or a quantity in words."""
+    """Return an end of a range as it is shown: a number, or a quantity in words."""
     return end if is_number(end) else words_of(end)
 
 

@@ -49,7 +49,7 @@ class SampleProgram:
 
     `angles` are those along which any of its numbers goes on from pose to pose. `slopes` are the derivatives alone with their own angles,
     for poses at which the requests have to be looked at closely; None where there are no derivatives. `may_fail` says whether a request may
-    be without a value though no guard tells of it.
+    be without a value though no guard reports it.
     """
 
     requests: tuple[Request, ...]

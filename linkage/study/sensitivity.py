@@ -51,7 +51,7 @@ class Effect:
 
     @property
     def length(self) -> float:
-        """The greatest change, real or told by the gradient [SI]."""
+        """The greatest change, real or by the gradient [SI]."""
         return float(np.fmax.reduce(np.abs([self.low, self.high, self.linear_low, self.linear_high])))
 
 

@@ -268,7 +268,7 @@ Progress: TypeAlias = Callable[[int, int], object]
 
 
 def check_progress(progress: object) -> None:
-    """Raise DefinitionError for what says neither whether progress is shown nor what is told of it."""
+    """Raise DefinitionError for anything but True, False or a function."""
     if not isinstance(progress, bool) and (not callable(progress) or isinstance(progress, type)):
         raise DefinitionError(f"progress={cited(progress)}: say True for a bar, or give a function of (done, total) designs.")
     if callable(progress):
@@ -283,7 +283,7 @@ def check_progress(progress: object) -> None:
 
 @contextmanager
 def progress_told(progress: bool | Progress, title: str) -> Iterator[Progress]:
-    """Yield what is told how far a study is: the function given, a bar where it is True, nothing where it is False."""
+    """Yield the function that reports how far a study is: the function given, a bar where it is True, nothing where it is False."""
     if callable(progress):
         yield progress
     elif not progress:

@@ -140,7 +140,7 @@ class Aim:
         return f"{request} = {show(float(each.value) if value is None else value, self.unit_of_target(place))} at {at}"
 
     def unit_of_target(self, place: int) -> str:
-        """Return the unit that a target is told in."""
+        """Return the unit that a target is shown in."""
         return self.targets[place].shown_in(self.machine.plan)
 
 

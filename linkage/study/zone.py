@@ -61,10 +61,9 @@ def zone(
 
     `vary` are ranges and choices as in `Box.of`; `over`, which elsewhere says where strokes run, is refused.
 
-    The quantity is a named output, or a function of a motion that gives a number
-    for each pose. Strokes as in `machine.at`, by default 51 poses over a single one. The search is deterministic. Settings
-    that cannot be assembled, or where the quantity has no value, are left out, counted and told in `remarks`. Angles are taken
-    within 180 deg of those of the machine as it is set.
+    The quantity is a named output, or a function of a motion that gives a number for each pose. Strokes as in `machine.at`, by default 51
+    poses over a single one. The search is deterministic. Settings that cannot be assembled, or where the quantity has no value, are left
+    out, counted and reported in `remarks`. Angles are taken within 180 deg of those of the machine as it is set.
     """
     check_one_design(machine)
     check_vary(machine, "zone", over)

@@ -131,7 +131,7 @@ def duty_of_options(options: Namespace) -> Duty:
 
 
 def bare_skeleton(options: Namespace) -> CraneSkeleton:
-    """Return the skeleton that the options mean, its search told."""
+    """Return the skeleton of the options, and report its search."""
     if options.machine:
         raise DefinitionError(f"{options.machine} has its skeleton already; leave its name out to search one.")
     cab = parse(options.cab, "length") if options.cab else None

@@ -194,7 +194,7 @@ def design_boom_drive(
     `objective` is "area", what is given over what is asked integrated over the angle (2.33); "ratio", its greatest M_g / M_l (2.32); or
     "difference", (2.32) read as the greatest M_g - M_l. Kept are both ends of the cylinder (2.31), M_g >= M_l (2.34), S up to the
     longest stroke, `lowest_pin` l <= r_2 <= h_0 (2.37), r_3_min <= r_3 <= l_c. `clearance` is how (2.35) is read, "b/2 + D" or
-    "(b + D)/2". `starts` and `seed` are those of `optimise`. Infeasible sizes are told in words, not raised.
+    "(b + D)/2". `starts` and `seed` are those of `optimise`. Infeasible sizes are reported in words, not raised.
     """
     duty, cylinders = duty or DriveDuty(), cylinders or DriveCylinders()
     one_word("objective", objective, ("area", "ratio", "difference"))
@@ -392,7 +392,7 @@ def design_arm_drive(
     `scheme` is that of fig. 2.13: "a" over a lever and a coupler, "b" over a bell crank, "c" straight from under the boom, "d" from above.
     `objective` is "weight", the steel of (2.60), or "area", M_g2 - M_l2 integrated over the angle; `most_area` [N m rad] bounds the second
     while the first is least. `rules` are the conditions (2.61) to (2.65), `bounds` those of the lengths [m] and of alpha_20 [rad], by
-    default the scheme's. `starts` and `seed` are those of `optimise`. Infeasible sizes are told in words, not raised.
+    default the scheme's. `starts` and `seed` are those of `optimise`. Infeasible sizes are reported in words, not raised.
     """
     duty, cylinders, rules = duty or DriveDuty(), cylinders or DriveCylinders(), rules or ArmRules()
     one_word("objective", objective, ("weight", "area"))

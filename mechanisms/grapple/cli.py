@@ -68,7 +68,7 @@ def named_grapple(options: Namespace) -> Grapple:
 
 
 def designed_grapple(options: Namespace) -> Grapple:
-    """Return the grapple designed for the duty that the options mean, its search told."""
+    """Return the grapple designed for the duty of the options, and report its search."""
     if options.machine != "grapple":
         raise DefinitionError(f"{options.machine} is designed already; leave --design out, or the name.")
     names, given = tuple(each.name for each in fields(Duty) if isinstance(each.default, float)), dict[str, Any]()

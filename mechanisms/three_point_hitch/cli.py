@@ -79,7 +79,7 @@ def hitch_of(options: Namespace) -> ThreePointHitch:
 
 
 def zone_table(machine: ThreePointHitch, over: Motion) -> list[Column]:
-    """Return the table of the zones, what they leave out told."""
+    """Return the table of the zones, and report what they leave out."""
     capacity, tilt = capacity_zone(machine, S=over.strokes["S"]), tilt_zone(machine, S=over.strokes["S"])
     for remark in dict.fromkeys((*capacity.remarks, *tilt.remarks)):
         print(f"{remark}\n")

@@ -30,6 +30,7 @@ RIDDLES = {
     r"\bheld against the pump, for\b": "No relief valve is declared, so",
     r"\bfunctions? (that|which) stands? in\b": "nested function",
     r"\bstands? in \[": "is in",
+    r"(?<!you )(?<!it )\b(is|are|be|been) told\b(?! apart)|\btells? of\b": "is reported",
     r"\b(shelf|pace|tenants?)\b": "the field's word",
 }
 """Words that have to be read twice, and what to say in their place."""

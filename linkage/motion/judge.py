@@ -1,9 +1,8 @@
 """The judge: questions about a machine, asked over all that it runs, in every load case and movement that occurs, on both sides.
 
 A question is split into smooth pieces: a quantity in one load case, in one movement, on one side of a cylinder. Each piece is looked for by
-itself over every `Over`; the worst one is the answer and is named. What has no value gets its meaning from the one that gives none: lost
-where the machine cannot be assembled or a law gives no number, unlimited where a law has no bound there, outside where a condition leaves
-it out.
+itself over every `Over`; the worst one is the answer and is named. A missing value has one of three meanings. It is lost where the machine
+cannot be assembled or a law gives no number, unlimited where a law has no bound, outside where a condition leaves it out.
 """
 
 from __future__ import annotations

@@ -4,9 +4,12 @@ import json
 import re
 import subprocess
 import sys
+import threading
+from functools import partial
 from html.parser import HTMLParser
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from urllib.parse import unquote, urldefrag
+from urllib.parse import quote, unquote, urldefrag
 
 import numpy as np
 import pytest
@@ -15,7 +18,7 @@ from matplotlib.image import imread
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 sys.path.insert(0, str(DOCS))
-from made import drawn, examples, gallery  # noqa: E402
+from made import drawn, examples, gallery, searches  # noqa: E402
 
 from tests.tools.catalogues import messages  # noqa: E402
 from tests.tools.prose import LONGEST_MEAN, docstrings, mean_length, riddles, sentences  # noqa: E402
@@ -87,33 +90,13 @@ def test_sentences_are_counted_without_code_and_formulas():
     assert [count for count, _ in sentences(text)] == [5, 3, 2]
 
 
-SEARCHES = {
-    "collision": "planes", "undo": "page", "excavator": "excavator", "two cylinders": "cylinders", "cannot be reached": "reach",
-    "load case": "load_case", "friction": "friction", "gas spring": "gas_spring", "telescope": "telescope", "sketch": "sketch",
-    "dxf": "sketch", "redesign": "redesign", "catalogue": "redesign", "vector": "vectors", "rope": "rope", "pulley": "rope",
-    "axle load": "axle_loads", "tipping": "axle_loads", "load chart": "chart", "bucket": "machine_of_parts", "side of a dyad": "side",
-    "holding valve": "holding_valve", "regenerative": "regenerative", "barrel": "barrel_and_rod", "file": "files", "units": "units",
-    "own columns": "columns", "notebook": "notebook", "report": "export", "drawing": "export", "level lift": "places",
-    "grading path": "places", "duty": "duty", "force element": "element", "damper": "gas_spring", "slope": "load_case",
-    "pin forces": "forces", "accumulator": "hydraulics", "missing millimetres": "reach", "live page": "page", "pressure": "hydraulics",
-    "transfer ratio": "theory", "tolerance": "studies", "optimise": "studies", "synthesis": "exact_synthesis",
-    "three-point hitch": "three_point_hitch", "relief valve": "hydraulics", "nitrogen": "hydraulics", "check valve": "holding_valve",
-    "counterbalance valve": "holding_valve", "leak": "holding_valve", "drift": "holding_valve", "stability": "axle_loads",
-    "wheel load": "axle_loads", "wheel loader": "machines_at_work", "payload": "chart", "fatigue": "duty", "interference": "planes",
-    "clearance": "planes", "winch": "rope", "weight of cylinder": "barrel_and_rod", "header": "header_balancer",
-    "dead point": "reach", "mobility": "parts", "degrees of freedom": "parts", "assur group": "parts", "coupler curve": "closed_curve",
-    "four-bar": "closed_curve", "six-bar": "studies", "instant centre": "forces", "velocity": "forces", "free body": "forces",
-    "virtual work": "theory", "slider crank": "conventions", "singular": "reliability", "accuracy": "reliability", "error": "reliability",
-    "exception": "reference", "api": "reference", "install": "index", "dataframe": "columns", "numpy array": "bulk",
-    "broadcasting": "bulk", "numba": "bulk", "javascript": "bulk", "gradient": "bulk", "multiprocessing": "studies", "jupyter": "notebook",
-    "plugin": "extending", "matplotlib": "export", "sympy": "equations", "latex": "equations", "speed": "performance", "toml": "files",
-    "csv": "export", "excel": "export", "pdf": "export", "save picture": "export", "gif": "page", "animation": "page", "zoom": "page",
-    "copy design": "page", "wrong side": "side", "mirror": "machine_of_parts", "inches": "units", "change language": "units",
-    "translation": "units_and_languages", "monte carlo": "studies", "sensitivity": "studies", "pareto": "studies",
-}  # fmt: skip
-"""What a reader types, and the page that answers it."""
 FOUND = 3
 """Among so many pages it is."""
+
+
+def named(page):
+    """Return the name of a page as its links have it."""
+    return page.with_suffix("").relative_to(DOCS if page.is_relative_to(DOCS) else ROOT).as_posix()
 
 
 def found_by(words):
@@ -128,13 +111,23 @@ def found_by(words):
         title = sum(15 for stem in stems if stem in (headings or [""])[0])
         heads = sum(5 for stem in stems for heading in headings[1:] if stem in heading)
         counts = sum(min(len(re.findall(rf"\b{re.escape(stem)}", text)), 10) for stem in stems)
-        ranked.append((title + min(heads, 12) + counts, page.stem))
+        ranked.append((title + min(heads, 12) + counts, named(page)))
     return [name for _, name in sorted(ranked, key=lambda each: (-each[0], each[1]))]
 
 
-@pytest.mark.parametrize("words", SEARCHES)
-def test_a_page_is_found_by_the_word_its_reader_types(words):
-    assert SEARCHES[words] in found_by(words)[:FOUND]
+SEARCHES = [pytest.param(words, page, id=words) for page, listed in searches.WORDS.items() for words in listed]
+
+
+@pytest.mark.parametrize(("words", "page"), SEARCHES)
+def test_a_page_is_found_by_the_word_its_reader_types(words, page):
+    """By its title, headings and text alone; the built pages have an index of these words besides."""
+    assert page in found_by(words)[:FOUND]
+
+
+def test_a_page_has_its_words_in_the_index():
+    title, _, entries, *rest = searches.indexed("howto/duty", "# A duty\n\nText.\n").splitlines()
+    assert title == "# A duty" and entries == "```{index} ! duty, ! fatigue" and rest == ["```", "", "Text."]
+    assert searches.indexed("howto/none", "# None\n") == "# None\n"
 
 
 def listed(page):
@@ -262,7 +255,19 @@ def test_docstrings_stand_for_themselves():
 
     lines = ["Take *args and `a*b` of | ref_ here.", "", "* a bullet", "  x * y"]
     api.as_restructured(None, "function", "f", None, None, lines)
+    several = ["The `Over`s: `on` is there `at=0`."]
+    api.as_restructured(None, "function", "f", None, None, several)
+    assert several == [r"The `Over`\ s: `on` is there `at=0`."]
     assert lines == [r"Take \*args and `a*b` of \| ref\_ here.", "", "* a bullet", r"  x \* y"]
+
+
+def test_arguments_that_no_source_has_are_written():
+    from made import api
+
+    from linkage import draw, standing
+
+    assert api.written_arguments(standing) == "(motion, loads=None, *, case=None, direction=None, rates=None, acting=None)"
+    assert api.written_arguments(draw) == ""
 
 
 def test_formulas_of_the_theory_are_set():
@@ -370,3 +375,31 @@ def test_the_built_pages_fit_their_screen(built):
                 faults.append((path.name, "page", ""))
         browser.close()
     assert faults == []
+
+
+RESULTS = "[...document.querySelectorAll('#search-results ul.search > li > a')].map(each => each.getAttribute('href'))"
+
+
+@pytest.mark.slow
+def test_the_search_of_the_built_pages_finds_them(built):
+    """By each word that is listed, and by words of no list: the pages' titles come before what is generated."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="a browser opens the pages by playwright")
+    if not Path("/usr/bin/chromium").exists():
+        pytest.skip("Debian's chromium is not installed")
+    handler = partial(SimpleHTTPRequestHandler, directory=built)
+    wanted = {words: page for page, listed in searches.WORDS.items() for words in listed}
+    wanted |= {"struts": "howto/two_struts", "shut lines": "howto/holding_valve", "a dwell": "howto/dwell", "sign convention": "conventions"}
+    missed = {}
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server, playwright.sync_playwright() as driver:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        browser = driver.chromium.launch(executable_path="/usr/bin/chromium", args=["--no-sandbox", "--disable-gpu", "--disable-quic"])
+        tab = browser.new_page()
+        for words, page in wanted.items():
+            tab.goto(f"http://127.0.0.1:{server.server_port}/search.html?q={quote(words)}")
+            tab.wait_for_selector("#search-results p.search-summary:has-text('finished')")
+            found = [re.split(r"\.html", each)[0] for each in tab.evaluate(RESULTS)]
+            if page not in list(dict.fromkeys(found))[:FOUND]:
+                missed[words] = found[:FOUND]
+        browser.close()
+        server.shutdown()
+    assert missed == {}

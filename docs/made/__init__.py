@@ -14,7 +14,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-from . import api, commands, drawn, examples, formulas, gallery, machines, notebook
+from . import api, commands, drawn, examples, formulas, gallery, machines, notebook, searches
 
 HERE = Path(__file__).parents[1]
 GENERATED = HERE / "_generated"
@@ -65,13 +65,13 @@ def drawing_pages() -> Iterator[str]:
 
 
 def show_examples(app: Any, page: str, source: list[str]) -> None:
-    """Put behind each block of examples what it drew, and pictures made by this build in the place of those that are kept."""
+    """Put behind each block of examples what it drew, its words behind the title, and pictures of this build for those that are kept."""
     found = json.loads((GENERATED / "examples.json").read_text(encoding="utf-8"))
     text = examples.with_results(source[0], found.get(page, {}))
     if "/" not in page:
         made = {path.name for path in (GENERATED / "images").iterdir()}
         text = drawn.IMAGE.sub(lambda each: f"](/_generated/images/{each[1]})" if each[1] in made else each[0], text)
-    source[0] = text
+    source[0] = searches.indexed(page, text)
 
 
 def put_paths(app: Any, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:

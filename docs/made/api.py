@@ -64,7 +64,7 @@ def make(folder: Path) -> None:
         pages.append(module.replace(".", "_"))
         (folder / f"{pages[-1]}.md").write_text("\n".join(text), encoding="utf-8")
     listed = "\n".join(pages)
-    more = "Two of them, a design and a motion, are also told on {doc}`/reference`."
+    more = "Two of them, a design and a motion, are also described on {doc}`/reference`."
     head = f"# Reference of all names\n\nThe public names with what their docstrings say. {more}"
     (folder / "index.md").write_text(f"{head}\n\n```{{toctree}}\n:maxdepth: 2\n\n{listed}\n```\n", encoding="utf-8")
 
@@ -96,12 +96,24 @@ def entries(module: str, names: Sequence[str]) -> Iterator[str]:
             shown = "" if issubclass(thing, (Member, BaseException)) else "\n   :members:"
             yield f"```{{eval-rst}}\n.. autoclass:: {module}.{name}{shown}\n```\n"
         elif name not in values:
-            yield f"```{{eval-rst}}\n.. autofunction:: {module}.{name}\n```\n"
+            yield f"```{{eval-rst}}\n.. autofunction:: {module}.{name}{written_arguments(thing)}\n```\n"
     numbers = [name for name in values if isinstance(getattr(door, name), float)]
     if numbers:
         yield "\n".join(["| name | in SI |", "| --- | --- |", *(f"| `{name}` | {getattr(door, name):.10g} |" for name in numbers), ""])
     for name in (name for name in values if name not in numbers):
         yield f"`{name}`\n: {inspect.cleandoc(type(getattr(door, name)).__doc__ or '').partition(chr(10))[0]}\n"
+
+
+def written_arguments(function: Any) -> str:
+    """Return the arguments of a function whose signature names more than its source does, by values; "" for any other one."""
+    if not inspect.isfunction(function):
+        return ""
+    given, code = inspect.signature(function), inspect.unwrap(function).__code__
+    variable = bool(code.co_flags & inspect.CO_VARARGS) + bool(code.co_flags & inspect.CO_VARKEYWORDS)
+    if len(given.parameters) <= code.co_argcount + code.co_kwonlyargcount + variable:
+        return ""
+    plain_ones = [each.replace(annotation=inspect.Parameter.empty) for each in given.parameters.values()]
+    return str(inspect.Signature(plain_ones))
 
 
 INLINE = re.compile(r"(``[^`]*``|`[^`]*`)")
@@ -111,7 +123,9 @@ def as_restructured(app: Any, what: str, name: str, thing: Any, options: Any, li
     """Let a docstring, which is plain text with `code`, be read as what it says: signs of markup stand for themselves."""
     text = "\n".join(lines)
     parts = INLINE.split(text)
-    lines[:] = re.sub(r"(`[^`\n]*`)(?=\w)", r"\1\\ ", "".join(part if part.startswith("`") else plain(part) for part in parts)).splitlines()
+    parts = [part if part.startswith("`") else plain(part) for part in parts]
+    joints = ["\\ " if part.startswith("`") and re.match(r"\w", after) else "" for part, after in zip(parts, [*parts[1:], ""], strict=True)]
+    lines[:] = "".join(part + joint for part, joint in zip(parts, joints, strict=True)).splitlines()
 
 
 def plain(text: str) -> str:

@@ -388,7 +388,7 @@ def test_the_search_of_the_built_pages_finds_them(built):
         pytest.skip("Debian's chromium is not installed")
     handler = partial(SimpleHTTPRequestHandler, directory=built)
     wanted = {words: page for page, listed in searches.WORDS.items() for words in listed}
-    wanted |= {"struts": "howto/two_struts", "shut lines": "howto/holding_valve", "a dwell": "howto/dwell", "sign convention": "conventions"}
+    wanted |= {"struts": "howto/two_struts", "shut lines": "howto/holding_valve", "sign convention": "conventions"}
     missed = {}
     with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server, playwright.sync_playwright() as driver:
         threading.Thread(target=server.serve_forever, daemon=True).start()

@@ -132,8 +132,8 @@ def met_words(places: Places, found: Found, condition: FloatArray, wanted: Float
     if condition[worst] > WARN:
         size = "" if np.isfinite(condition[worst]) else said("infinite")
         near = said(
-            "At {strokes} it is at the border of what the strokes reach, next to a dead point of the drive (condition {condition}), "
-            "and hardly tells where they stand.",
+            "At {strokes} it is at the border of what the strokes reach, next to a dead point of the drive (condition {condition}): "
+            "the strokes are known only roughly there.",
             strokes=strokes[worst], condition=size or f"{condition[worst]:.1e}",
         )  # fmt: skip
         text += f" {near}"

@@ -86,7 +86,7 @@ def closing_words(layer: ArrowLayer, body: str) -> str:
         value = significant(force / layer.factor)
         return said("The ground holds the frame: what is left over, {force}, is the sum of all loads.", force=f"{value} {layer.sign}")
     parts = force / layer.largest, abs(moment) / (layer.largest * (arm or 1.0))
-    return said("The forces balance, and their moments, to {share} of the largest.", share=f"{max(*parts, 1e-17):.0e}")
+    return said("Forces and moments balance to {share} of the largest.", share=f"{max(*parts, 1e-17):.0e}")
 
 
 def free_page(box: Bounds) -> tuple[Figure, Axes, Axes]:

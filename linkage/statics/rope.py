@@ -384,7 +384,7 @@ def slack_sentence(value: float, place: str) -> str:
 def wrap_sentence(value: float, place: str) -> str:
     """Return whether a rope stays on a pulley, in words, by the least angle over which it lies there [rad]."""
     if value >= 0.0:
-        return said("it lies on it over at least {angle}, {place}.", angle=show(value, "deg", 4), place=place)
+        return said("the rope lies on it over at least {angle}, {place}.", angle=show(value, "deg", 4), place=place)
     return said("it leaves the pulley {place}; move the pulley, or let it turn the other way around it.", place=place)
 
 

@@ -577,7 +577,7 @@ class FieldSearch:
             names = ", ".join(self.many.places.free[self.many.solved :])
             found.append(said("{names} where most is carried", names=names))
         if self.rule.tipping < 1.0 and TIPPING not in self.names:
-            found.append(said("tipping is not looked at, for the machine stands on no supports"))
+            found.append(said("tipping is not judged: the machine has no supports"))
         return tuple(found)
 
     # -- what is out of reach ------------------------------------------------------------------------------

@@ -102,10 +102,10 @@ class WorstMovement:
         asked, where = show(self.greatest, "kNm", ".2f"), self.least.where
         if self.short:
             lacking = show(-low, "kNm", ".2f")
-            says = said("of up to {asked} asked {missing} are missing {where}", asked=asked, missing=lacking, where=where)
+            says = said("the load takes up to {asked}: {missing} are missing {where}", asked=asked, missing=lacking, where=where)
         else:
             spare = show(max(low, 0.0), "kNm", ".2f")
-            says = said("of up to {asked} asked {spare} are over {where}", asked=asked, spare=spare, where=where)
+            says = said("the load takes up to {asked}: at least {spare} to spare {where}", asked=asked, spare=spare, where=where)
         beside = said(", at most {most} {where}", most=show(high, "kNm", ".2f"), where=self.most.where) if high > 0.0 else ""
         remedy = said("; take a larger bore or a longer lever") if self.short else ""
         heading = said("moment {movement}", movement=translated(self.movement.name))

@@ -586,7 +586,7 @@ def by_rule(machine, motion=None):
 
 def test_verdicts_of_the_boom():
     found = by_rule(BoomDrive(), BoomDrive().working())
-    lifting = "of up to 157.17 kNm asked 0.00 kNm are over at phi = 99.93 deg, at most 20.28 kNm at phi = 58.28 deg."
+    lifting = "the load takes up to 157.17 kNm: at least 0.00 kNm to spare at phi = 99.93 deg, at most 20.28 kNm at phi = 58.28 deg."
     assert found["moment lifting"] == f"ok   moment lifting: {lifting}"
     assert found["length"] == "ok   length: AB goes from 1285.1 to 2170.1 mm, the cylinder is 1285.1 mm long closed and 2170.1 mm open."
     assert found["lever"] == "ok   lever: at least 412.5 mm, at phi = 15.00 deg."
@@ -594,7 +594,7 @@ def test_verdicts_of_the_boom():
     assert [each.rule for each in found.values() if not each] == ["buckling"]  # which the source leaves out
     weak = BoomDrive(D=0.11, d=0.063)
     found = by_rule(weak, weak.working(3))
-    missing = "of up to 157.17 kNm asked 34.93 kNm are missing at phi = 99.93 deg; take a larger bore"
+    missing = "the load takes up to 157.17 kNm: 34.93 kNm are missing at phi = 99.93 deg; take a larger bore"
     assert found["moment lifting"].startswith(f"FAIL moment lifting: {missing}")
     says = "AB goes from 1285.1 to 2170.1 mm, the cylinder is 1261.1 mm long closed and 2146.1 mm open; 24.0 mm are missing open"
     assert found["length"].startswith(f"FAIL length: {says}")

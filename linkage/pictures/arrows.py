@@ -185,7 +185,13 @@ def draw_turning(ax: Axes, turn: TurningArrow, size: float, level: float) -> Flo
 
 # Values at the arrows, where they cover nothing.
 
-FAR_OUT = (1.0, 1.8, 3.0, 4.5)
+FAR_OUT = (1.0, 1.8, 3.0, 4.5, 7.0, 10.0, 14.0, 19.0)
+LED = 4
+"""The place in FAR_OUT from which a thin line leads to what a value stands for."""
+LEADING = 10.0
+"""What such a line costs, in covered points."""
+AGAIN = 3
+"""How often values that cover others choose again."""
 AROUND = np.radians(np.arange(0.0, 360.0, 22.5))
 CLEAR = 1.5  # pixels kept free around a value
 
@@ -218,6 +224,44 @@ def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
     return found
 
 
+@final
+class PlacedWording:
+    """A text that is written, the spots it may stand at, shape (n, 2) [pixels], and which of them it has chosen."""
+
+    def __init__(self, text: Text, anchor: FloatArray, half: FloatArray, spots: FloatArray) -> None:
+        self.text, self.anchor, self.half, self.spots = text, anchor, half, spots
+        self.place = -1
+
+    @property
+    def is_placed(self) -> bool:
+        """Whether it has chosen a spot."""
+        return self.place >= 0
+
+    @property
+    def box(self) -> FloatArray:
+        """What it covers [pixels]: left, bottom, right, top."""
+        spot = self.spots[self.place]
+        return np.concatenate([spot - self.half, spot + self.half])
+
+    def choose(self, boxes: Sequence[FloatArray], points: FloatArray, inside: object) -> None:
+        """Choose the spot that covers least."""
+        costs = spot_costs(self.spots, self.half, np.array(boxes).reshape(-1, 4), points, inside)
+        is_led = np.arange(len(costs)) >= LED * len(AROUND)
+        self.place = int(np.argmin(costs + 0.04 * np.arange(len(costs)) + LEADING * is_led))
+
+    def write(self, ax: Axes) -> None:
+        """Put the text where it has chosen, with a line that leads to what it stands for where that is far."""
+        back = ax.transData.inverted()
+        x, y = back.transform(self.spots[self.place]).tolist()
+        self.text.set_position((x, y))
+        if self.place >= LED * len(AROUND):
+            nearest = np.clip(self.anchor, self.box[:2], self.box[2:])
+            ends = back.transform(np.array([nearest, self.anchor]))
+            line = Line2D(*ends.T, color=self.text.get_color(), linewidth=0.6, zorder=19.5)
+            line.set_gid(f"leader of {self.text.get_gid()}")
+            ax.add_line(line)
+
+
 def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font: float = style.SMALL) -> list[Text]:
     """Write texts near their places so that they cover neither each other, nor what is written already, nor `covered` points [m]."""
     figure = ax.figure.figure
@@ -228,7 +272,7 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font
     taken = [text.get_window_extent(renderer) for text in ax.texts if text.get_visible() and text.get_text()]
     boxes = [np.array([each.x0, each.y0, each.x1, each.y1]) for each in taken]
     points = ax.transData.transform(covered) if covered.size else np.empty((0, 2))
-    written = []
+    chosen: list[PlacedWording] = []
     for each in sorted(texts, key=lambda text: -crowding(points, ax.transData.transform(text.at))):
         text = ax.text(
             0.0, 0.0, each.text, fontsize=font, color=each.colour, ha="center", va="center", zorder=20.0, clip_on=False,
@@ -238,14 +282,14 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font
         extent = text.get_window_extent(renderer)
         half = 0.5 * np.array([extent.width, extent.height]) + CLEAR
         anchor = np.asarray(ax.transData.transform(each.at))
-        spots = [anchor + spot for spot in spots_around(half, each.way, 0.5 * extent.height)]
-        costs = [spot_cost(spot, half, boxes, points, inside) + 0.04 * rank for rank, spot in enumerate(spots)]
-        best = spots[int(np.argmin(costs))]
-        x, y = ax.transData.inverted().transform(best).tolist()
-        text.set_position((x, y))
-        boxes.append(np.concatenate([best - half, best + half]))
-        written.append(text)
-    return written
+        chosen.append(PlacedWording(text, anchor, half, anchor + spots_around(half, each.way, 0.5 * extent.height)))
+    for _ in range(AGAIN):
+        for each in chosen:
+            others = [*boxes, *(other.box for other in chosen if other is not each and other.is_placed)]
+            each.choose(others, points, inside)
+    for each in chosen:
+        each.write(ax)
+    return [each.text for each in chosen]
 
 
 def renderer_of(figure: Figure) -> Any:
@@ -259,22 +303,22 @@ def crowding(points: FloatArray, at: FloatArray) -> float:
     return float(np.count_nonzero(np.hypot(*(points - at).T) < 40.0)) if points.size else 0.0
 
 
-def spots_around(half: FloatArray, way: FloatArray, gap: float) -> list[FloatArray]:
-    """Return the offsets [pixels] at which a text of that half size may stand, those along the way and near first."""
+def spots_around(half: FloatArray, way: FloatArray, gap: float) -> FloatArray:
+    """Return the offsets [pixels], shape (n, 2), at which a text of that half size may stand, those along the way and near first."""
     start = float(np.arctan2(way[1], way[0]))
     turned = sorted(AROUND, key=lambda angle: abs(np.angle(np.exp(1j * (angle - start)))))
     ways = [np.array([np.cos(angle), np.sin(angle)]) for angle in turned]
-    return [far * gap * each + half * np.clip(np.sqrt(2.0) * each, -1.0, 1.0) for far, each in product(FAR_OUT, ways)]
+    return np.array([far * gap * each + half * np.clip(np.sqrt(2.0) * each, -1.0, 1.0) for far, each in product(FAR_OUT, ways)])
 
 
-def spot_cost(spot: FloatArray, half: FloatArray, boxes: Sequence[FloatArray], points: FloatArray, inside: object) -> float:
-    """Return how much a text at a spot would cover: other texts above all, then points; and what hangs over the sheet's edge."""
-    low, high = spot - half, spot + half
-    over = sum(1 for box in boxes if (low < box[2:]).all() and (box[:2] < high).all())
-    covered = np.count_nonzero(((points > low) & (points < high)).all(axis=1)) if points.size else 0
+def spot_costs(spots: FloatArray, half: FloatArray, boxes: FloatArray, points: FloatArray, inside: object) -> FloatArray:
+    """Return how much a text at each spot would cover: other texts above all, then points; and what hangs over the sheet's edge."""
+    low, high = (spots - half)[:, None], (spots + half)[:, None]
+    over = ((low < boxes[:, 2:]) & (boxes[:, :2] < high)).all(axis=2).sum(axis=1)
+    covered = ((points > low) & (points < high)).all(axis=2).sum(axis=1)
     x0, y0, x1, y1 = (getattr(inside, name) for name in ("x0", "y0", "x1", "y1"))
-    outside = low[0] < x0 or high[0] > x1 or low[1] < y0 or high[1] > y1
-    return float(40.0 * over + 1.0 * covered + 90.0 * outside)
+    outside = ((low < (x0, y0)) | (high > (x1, y1))).any(axis=(1, 2))
+    return np.asarray(40.0 * over + 1.0 * covered + 90.0 * outside)
 
 
 # The bar that says the scale, and what colours mean.

@@ -90,7 +90,8 @@ class Drawing:
         minor = self.scene.minor
         names = [name for name in self.scene.places if name not in self.scene.inner and (all_points or name not in minor)]
         letters = self.scene.letters
-        spots = offsets(names, poses, clouds, scale, gap, font, minor=minor, letters=letters)
+        sheet = (*self.ax.get_xlim(), *self.ax.get_ylim())
+        spots = offsets(names, poses, clouds, scale, gap, font, minor=minor, letters=letters, sheet=sheet)
         for name, spot in spots.items():
             self.parts.append(LabelPart(self.ax, name, spot, gap, self.look, name in minor, font, letters.get(name, name)))
         if letters:

@@ -13,7 +13,7 @@ from matplotlib.patheffects import withStroke
 from ..plan import Mask
 from ..program import FloatArray
 from . import style
-from .scene import Places
+from .scene import Bounds, Places
 from .style import Look
 from .symbols import MovingPart
 
@@ -27,6 +27,8 @@ TOGETHER = 0.7
 """Points nearer to each other than so many times the nearest distance of a label stand on one pin."""
 OVERLAP, STRAY = 400.0, 150.0
 """What it costs to cover another label, and to stand nearer to another point than to the own one, in covered points."""
+NO_EDGE: Bounds = (-np.inf, np.inf, -np.inf, np.inf)
+"""A sheet without edges."""
 ROUNDS = 4
 MINOR = 0.75
 """The size of the letters of a point of a construction, as a share of the others'."""
@@ -67,20 +69,25 @@ def offsets(
     font: float = style.LABEL,
     minor: Collection[str] = (),
     letters: Mapping[str, str] = MappingProxyType({}),
+    sheet: Bounds = NO_EDGE,
 ) -> dict[str, FloatArray]:
     """Return where each name stands, from its point, shape (2,) each, in the unit of `font`.
 
     One offset serves all `poses`; with several it stays short, so that each name keeps to its pin. `clouds` are the points to keep clear at
     each [m]. `scale` is that unit per metre. `gap` is the distance from the point's centre at which a label may begin. The names in `minor`
-    are smaller, those in `letters` are written so. Crowded points choose first; then each chooses again, some rounds long, as the others
-    stand.
+    are smaller, those in `letters` are written so. None hangs over the edge of the `sheet` [m] where another place is free. Crowded points
+    choose first. Then each chooses again, some rounds long, as the others stand.
     """
     far = max(gap, 0.9 * font) if len(poses) > 1 else np.inf
     taken = [cloud * scale for cloud in clouds]
     anchors = {name: np.array([at[name] for at in poses]).reshape(-1, 2) * scale for name in names}
     halves = {name: half_of(letters.get(name, name), font * (MINOR if name in minor else 1.0)) for name in names}
     tried = {name: candidates(halves[name], gap, far) for name in names}
-    alone = {name: own_costs(name, tried[name], halves[name], anchors, taken, gap) for name in names}
+    edges = np.array(sheet) * scale
+    alone = {
+        name: own_costs(name, tried[name], halves[name], anchors, taken, gap) + over_edge(tried[name], halves[name], anchors[name], edges)
+        for name in names
+    }
     spots: dict[str, FloatArray] = {}
     order = sorted(names, key=lambda each: -float(np.median(alone[each])))
     for _ in range(ROUNDS):
@@ -126,6 +133,15 @@ def own_costs(
                 beside = distance_to_box(place - spots, half)
                 costs = costs + STRAY / poses * (beside < 1.05 * away) + 4.0 / poses * (beside < 0.8 * gap)
     return costs
+
+
+def over_edge(spots: FloatArray, half: FloatArray, anchors: FloatArray, edges: FloatArray) -> FloatArray:
+    """Return what it costs a label at each of its places to hang over the edges of the sheet, shape (c,)."""
+    places = anchors[:, None] + spots
+    low, high = places - half, places + half
+    with np.errstate(invalid="ignore"):
+        out = ((low < edges[[0, 2]]) | (high > edges[[1, 3]])).any(axis=2)
+    return np.asarray(OVERLAP * out.mean(axis=0))
 
 
 def distance_to_box(away: FloatArray, half: FloatArray) -> FloatArray:

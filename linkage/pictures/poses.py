@@ -18,6 +18,7 @@ from ..program import FloatArray
 from ..quantities import is_whole, real
 from ..reports import Run, first_stroke, stroke_middles
 from . import style
+from .arrows import grown
 from .drawing import Drawing, mechanism
 from .free_body import draw_free_body
 from .gap_marks import worst_strokes
@@ -25,12 +26,15 @@ from .layout import cloud, surrounding_points
 from .overlays import NO_OVERLAYS, Overlays
 from .paper import empty_page, legend_row, remark, write_title
 from .pose_choice import telling_angles
-from .scene import Scene
+from .scene import Bounds, Scene
 from .strokes import is_turn, stroke_words, unreached_words
 from .style import FAINT, STRONG
 
 MANY = 1_000_000
 """Poses of a path: more do not fit into a picture."""
+
+FILLED = 1.0 / 3.0
+"""The sheet holds the whole travel where what is drawn fills so much of its width and height; else it holds what is drawn."""
 
 
 def draw_machine(
@@ -91,8 +95,11 @@ def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, o
     whole, last = Scene(swept), Scene(shown).reached[-1]
     if overlays.forces is not None and overlays.forces.body:
         return draw_free_body(shown, last, overlays.forces)
-    laid = overlays.over(shown, last, whole.box()) if overlays else None
-    figure, ax = empty_page(laid.box(whole.size) if laid else whole.box())
+    paths = np.concatenate([np.empty((0, 2)), *(whole.places[name].T for name in path)])
+    drawn = grown(Scene(shown, swept).box(), paths[np.isfinite(paths).all(axis=1)], 3.0 * whole.size)
+    sheet = whole.box() if filled(drawn, whole.box()) >= FILLED else drawn
+    laid = overlays.over(shown, last, sheet) if overlays else None
+    figure, ax = empty_page(laid.box(whole.size) if laid else sheet)
     for name in path:
         trace(
             ax,
@@ -108,6 +115,12 @@ def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, o
     write_heading(figure, ax, shown, moving)
     remark(figure, ax, unreached_words(swept, moving[0]) if len(moving) == 1 else unreached_on_the_way(swept))
     return figure
+
+
+def filled(box: Bounds, sheet: Bounds) -> float:
+    """Return which share of a sheet's width or height a box fills, the smaller of the two."""
+    (left, right, bottom, top), (x0, x1, y0, y1) = box, sheet
+    return min((right - left) / (x1 - x0), (top - bottom) / (y1 - y0))
 
 
 def draw_laid_over(motion: Motion, swept: Motion, pose: int, overlays: Overlays) -> Figure:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import DefinitionError, cited
 from ..loads import ForceElement, Glyph, Halves, TwoPoint
-from ..motion import Motion, require_motion
+from ..motion import Motion, Over, require_motion
 from ..plan import member_sides
 from ..program import FloatArray
 from ..quantities import Joint, Quantity, Where, is_whole, joined_names, needs
@@ -340,8 +340,17 @@ class Scene:
 
     @cached_property
     def inner(self) -> frozenset[str]:
-        """The points that members of two bodies hold for themselves; they are not drawn."""
-        return frozenset(point for _, halves in self._halves for point in halves.points)
+        """The points that are not drawn: those that members of two bodies hold for themselves, and idle ones."""
+        return self.idle.union(point for _, halves in self._halves for point in halves.points)
+
+    @cached_property
+    def idle(self) -> frozenset[str]:
+        """The fixed points from which numbers alone are taken, such as a place to be reached: nothing is joined to them."""
+        plan = self.motion.plan
+        numbers = [each for each in plan.members.values() if isinstance(each, (Quantity, Over))]
+        joined = {name for each in plan.members.values() if each not in numbers for name in needs(each)}
+        asked = {name for each in numbers for name in needs(each)} - joined
+        return frozenset(name for name in plan.points if name in asked and name not in plan.moving)
 
     def _between(self, P: str, Q: str) -> float:
         """Return the distance of two points of one body [m]; 0 where no pose is reached."""
@@ -707,7 +716,8 @@ class Scene:
     @cached_property
     def extent(self) -> Bounds:
         """The least and greatest x and y of all points over all poses [m]."""
-        every = np.concatenate([np.empty((2, 0)), *self.places.values(), *map(self._swept, self.contours)], axis=1)
+        places = [place for name, place in self.places.items() if name not in self.idle]
+        every = np.concatenate([np.empty((2, 0)), *places, *map(self._swept, self.contours)], axis=1)
         every = every[:, np.isfinite(every).all(axis=0)]
         if not every.size:
             raise DefinitionError(f"{self.motion.plan.title}: there is nothing to draw, no point stands anywhere.")

@@ -45,6 +45,8 @@ from linkage.pictures.symbols import hatched
 from mechanisms.classics.inverted_slider_crank import InvertedSliderCrank
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.slider_crank import SliderCrank
+from mechanisms.crane import ArmDrive
+from mechanisms.crane import Crane as ShippedCrane
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 
@@ -333,6 +335,18 @@ def test_scales_are_equal_and_hold_every_pose(cls):
     for name in motion.plan.points:
         x, y = motion[name][:, motion.reached]
         assert left < x.min() and x.max() < right and bottom < y.min() and y.max() < top
+
+
+def test_a_sheet_that_would_be_mostly_empty_holds_what_is_drawn():
+    (low, high), (left, right) = draw(ArmDrive()).axes[0].get_ylim(), draw(ArmDrive()).axes[0].get_xlim()
+    travel = ArmDrive().sweep(41)["T"][1]
+    assert low > travel.min() + 1.0 and high - low < 0.4 * (right - left)
+    assert draw(ArmDrive(), path=["T"]).axes[0].get_ylim()[0] < travel.min()
+
+
+def test_a_place_from_which_numbers_alone_are_taken_is_not_drawn():
+    scene = Scene(ShippedCrane().at(phi=[0.5, 1.0], psi=1.5, t=1.0))
+    assert scene.idle == {"F"} and "F" not in {*scene.dots, *scene.pins} and scene.extent[1] < 9.9
 
 
 def legend(figure):

@@ -15,7 +15,8 @@ from ..quantities import is_number
 class Featured:
     """The column of results that a machine is about, the points whose paths are drawn, and limits of columns by their names.
 
-    A limit is `(value [SI], text)` or `(value, text, "below")`: the side that fails, above unless said. `coupler` is the point of a
+    A limit is `(value [SI], text)` or `(value, text, "below")`: the side that fails, above unless said. Its text stands on that side and
+    says what fails there, or what the line is. `coupler` is the point of a
     coupler, which a synthesis brings along a path where no other one is said. What is left out is chosen from the results: the last column
     that changes, no path, no limit.
     """

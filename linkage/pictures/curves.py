@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import ceil, sqrt
+from textwrap import wrap
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,6 +26,8 @@ from .strokes import StrokeAxis, column_shown, frame_count
 
 PANEL = (4.6, 3.0)
 """The size of a panel with its share of the margins [inch]."""
+LETTERS_AN_INCH = 8.0
+"""How many letters of a heading an inch has room for."""
 
 
 def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
@@ -41,6 +44,7 @@ def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], *, limi
         raise DefinitionError(f"{motion.plan.title}: there is no column to draw over {along.name}; name a result, not a stroke.")
     figure, cells = panel_grid(len(shown))
     title = motion.plan.heading + (" " + said("at {place}", place=along.held) if along.held else "")
+    title = "\n".join(wrap(title, int(LETTERS_AN_INCH * float(figure.get_figwidth()))))
     figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
     for ax, column in zip(cells, shown, strict=True):
         panel(ax, motion, column, given.get(column.name))
@@ -169,7 +173,8 @@ def axis_range(column: Column, limit: Limit | None = None) -> tuple[float, float
     low, high = low - air, high + air
     if limit is None:
         return low, high
-    value, beyond = limit.drawn(column), 0.1 * (high - low)
+    value = limit.drawn(column)
+    beyond = 0.1 * (max(high, value) - min(low, value))
     return min(low, value - beyond), max(high, value + beyond)
 
 

@@ -154,7 +154,7 @@ class Grapple(Mechanism):
 
     def featured(self) -> Featured:
         """Return the moment given over the one that the stem takes, which holds it from 1 on, and the path of the lever's end A."""
-        return Featured("M_g/M_1", ["A"], {"M_g/M_1": (1.0, said("holds the stem"), "below")})
+        return Featured("M_g/M_1", ["A"], {"M_g/M_1": (1.0, said("too weak for the stem"), "below")})
 
     def rules(self, motion: Motion) -> list[str]:
         """Return what an engineer should know: moment over the stems, way past the hinge, opening, stroke, E, the cylinder's size."""

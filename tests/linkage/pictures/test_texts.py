@@ -8,7 +8,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
-from linkage import draw
+from linkage import draw, plot
 from tests.linkage.motion.in_node import elsewhere
 
 SHIPPED = {point.name: point for point in entry_points(group="hydrolinkage.machines")}
@@ -23,7 +23,7 @@ def boxes(figure):
     figure.draw(renderer)
     texts = [*figure.texts]
     for ax in figure.axes:
-        inside = [*ax.texts, ax.title, ax.xaxis.label, ax.yaxis.label]
+        inside = [*(each for each in ax.get_children() if isinstance(each, Text)), ax.xaxis.label, ax.yaxis.label]
         spans = [(axis, sorted(axis.get_view_interval())) for axis in (ax.xaxis, ax.yaxis)]
         ticks = [tick.label1 for axis, (low, high) in spans for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
         legend = ax.get_legend()
@@ -43,8 +43,8 @@ def check_texts(figure):
 
 
 def check_machine(machine):
-    for forces in (False, True):
-        figure = draw(machine, forces=forces)
+    for make in (lambda: draw(machine), lambda: draw(machine, forces=True), lambda: plot(machine)):
+        figure = make()
         check_texts(figure)
         plt.close(figure)
 

@@ -284,12 +284,12 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font
         anchor = np.asarray(ax.transData.transform(each.at))
         chosen.append(PlacedWording(text, anchor, half, anchor + spots_around(half, each.way, 0.5 * extent.height)))
     for _ in range(AGAIN):
-        for each in chosen:
-            others = [*boxes, *(other.box for other in chosen if other is not each and other.is_placed)]
-            each.choose(others, points, inside)
-    for each in chosen:
-        each.write(ax)
-    return [each.text for each in chosen]
+        for one in chosen:
+            others = [*boxes, *(other.box for other in chosen if other is not one and other.is_placed)]
+            one.choose(others, points, inside)
+    for one in chosen:
+        one.write(ax)
+    return [one.text for one in chosen]
 
 
 def renderer_of(figure: Figure) -> Any:

@@ -97,7 +97,7 @@ def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, o
         return draw_free_body(shown, last, overlays.forces)
     paths = np.concatenate([np.empty((0, 2)), *(whole.places[name].T for name in path)])
     drawn = grown(Scene(shown, swept).box(), paths[np.isfinite(paths).all(axis=1)], 3.0 * whole.size)
-    sheet = whole.box() if filled(drawn, whole.box()) >= FILLED else drawn
+    sheet = whole.box() if share_filled(drawn, whole.box()) >= FILLED else drawn
     laid = overlays.over(shown, last, sheet) if overlays else None
     figure, ax = empty_page(laid.box(whole.size) if laid else sheet)
     for name in path:
@@ -117,7 +117,7 @@ def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, o
     return figure
 
 
-def filled(box: Bounds, sheet: Bounds) -> float:
+def share_filled(box: Bounds, sheet: Bounds) -> float:
     """Return which share of a sheet's width or height a box fills, the smaller of the two."""
     (left, right, bottom, top), (x0, x1, y0, y1) = box, sheet
     return min((right - left) / (x1 - x0), (top - bottom) / (y1 - y0))

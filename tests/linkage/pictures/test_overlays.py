@@ -155,7 +155,7 @@ def test_the_free_body_of_a_vehicle_closes():
         drawn = arrows(figure, "polygon ")
         size = max(np.hypot(*vector) for _, vector in drawn.values())
         assert np.hypot(*sum(vector for _, vector in drawn.values())) <= 1e-12 * size
-        assert any("The forces balance" in text.get_text() for text in figure.findobj(Text))
+        assert any("Forces and moments balance" in text.get_text() for text in figure.findobj(Text))
 
 
 def test_force_of_the_hitch_by_hand():

@@ -101,7 +101,10 @@ def circuit_of(machine: Mechanism, ram: Ram, options: Namespace) -> LiftCircuit:
     if options.pressure is not None:
         if options.circuit is not None:
             raise DefinitionError("--pressure and --circuit both say what feeds the cylinder; give one of them.")
-        return LiftCircuit(ram.name, pressure=si_value(options.pressure, "pressure", "--pressure"))
+        pressure = si_value(options.pressure, "pressure", "--pressure")
+        if pressure < 0.0:
+            raise DefinitionError(f"--pressure {options.pressure}: it is negative; give zero or more.")
+        return LiftCircuit(ram.name, pressure=pressure)
     circuits = {name: each for name, each in plan.of_kind(LiftCircuit).items() if any(same(ram, one) for one in each.members(plan.members))}
     if options.circuit is not None:
         return circuits[known_name("LiftCircuit", options.circuit, circuits, f"{plan.title} with {ram.name}")]

@@ -57,8 +57,6 @@ def guarded(load: Callable[[], T], what: str) -> T:
     """Return what is loaded; whatever goes wrong in a user's module becomes a DefinitionError with its line."""
     try:
         return load()
-    except FileNotFoundError as error:
-        raise DefinitionError(f"{what}: {error.strerror or error}.") from error
     except SyntaxError as error:
         raise DefinitionError(f"{what} cannot be loaded: {error.filename}, line {error.lineno}: {error.msg}.") from error
     except LinkageError as error:

@@ -6,7 +6,7 @@ from argparse import ArgumentParser, Namespace
 from typing import final
 
 from ..synthesis.curve_catalogue import curve_catalogue
-from .command import Command, machine_arguments, pose_count
+from .command import Command, machine_arguments, whole_number
 from .machines import find
 from .optimise import study_progress
 from .settings import design
@@ -25,7 +25,7 @@ class CatalogueCommand(Command):
         machine_arguments(parser)
         parser.add_argument("--of", metavar="P", help="the point (default: the first whose path pictures show)")
         parser.add_argument("--hold", metavar="BAP", action="append", default=[], help="an angle that stays as it is; repeatable")
-        parser.add_argument("--count", metavar="N", type=pose_count, default=COUNT, help=f"curves (default {COUNT})")
+        parser.add_argument("--count", metavar="N", type=whole_number, default=COUNT, help=f"curves (default {COUNT})")
         parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the sequence of designs (default 0)")
         parser.add_argument("--progress", action="store_true", help="say how far it is where stderr is no terminal, too")
 

@@ -76,20 +76,20 @@ def path_argument(parser: ArgumentParser) -> None:
 
 def run_arguments(parser: ArgumentParser, count: int, what: str) -> None:
     """Declare the arguments that choose what runs, and at how many poses."""
-    parser.add_argument("--count", metavar="N", type=pose_count, default=count, help=f"{what} (default {count})")
+    parser.add_argument("--count", metavar="N", type=whole_number, default=count, help=f"{what} (default {count})")
     parser.add_argument(
         "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
-        help="hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, others stand in their middle",
+        help="hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, the others are held at mid-stroke",
     )  # fmt: skip
 
 
 def motion_arguments(parser: ArgumentParser, count: int) -> None:
     """Declare the arguments that choose the poses."""
-    parser.add_argument("--count", metavar="N", type=pose_count, default=count, help=f"poses over the stroke (default {count})")
+    parser.add_argument("--count", metavar="N", type=whole_number, default=count, help=f"poses over the stroke (default {count})")
     parser.add_argument(
         "--at", dest="strokes", metavar="S=0.6,650mm", action="append", default=[],
-        help="these values of a stroke instead; repeatable. Without it the machine's path runs, else the first stroke, the others stand in "
-        "their middle",
+        help="these values of a stroke instead; repeatable. Without it the machine's path runs, else the first stroke; others are held at "
+        "mid-stroke",
     )  # fmt: skip
 
 
@@ -98,7 +98,7 @@ def every_argument(parser: ArgumentParser) -> None:
     parser.add_argument("--every", metavar="25mm", help="a row every so much of the stroke that runs, instead of --count rows")
 
 
-def pose_count(text: str) -> int:
+def whole_number(text: str) -> int:
     """Return a count of at least 1; ArgumentTypeError for anything else."""
     try:
         count = int(text)

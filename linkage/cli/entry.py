@@ -13,6 +13,7 @@ from importlib.metadata import EntryPoint, PackageNotFoundError, version
 from typing import Any, NoReturn, TextIO, cast, final
 
 from .. import plugins
+from ..disk import check_place, reason, spoken
 from ..errors import DefinitionError, FileError, LinkageError, SingularWarning, unknown
 from ..language import ENGLISH, language, languages
 from ..units import SYSTEMS, unit_system
@@ -113,7 +114,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     except OSError as error:
-        return fail(f"{error.filename}: {error.strerror}." if error.filename else str(error))
+        return fail(f"{spoken(error.filename)}: {reason(error)}." if error.filename else str(error))
     except MemoryError:
         return fail("not enough memory for so many poses; lower --count.")
     except SystemExit as leaving:  # argparse, after --help and --version
@@ -127,6 +128,7 @@ def execute(arguments: list[str]) -> int:
     if arguments and not arguments[0].startswith("-"):
         (command,) = commands
         options = parsed(command, arguments[1:])
+        check_table(options)
         with lasting_output(names_file(options)) as output, unit_system(options.units), language(options.language):
             code = int(command.run(options))
             return PIPE_CLOSED if output.broken else code
@@ -192,6 +194,13 @@ FILES = ("output", "csv", "folder", "file", "pictures")
 def names_file(options: Namespace) -> bool:
     """Return whether a command writes into files beside what it says."""
     return any(getattr(options, name, None) not in (None, "-") for name in FILES)
+
+
+def check_table(options: Namespace) -> None:
+    """Raise FileError where the table that a command writes cannot go: before the work, of which nothing would be left."""
+    csv = getattr(options, "csv", None)
+    if csv not in (None, "-"):
+        check_place(csv)
 
 
 @final

@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import plugins
 from ..disk import check_place
-from .command import Command, default_path, machine_arguments, pose_count
+from .command import Command, default_path, machine_arguments, whole_number
 from .machines import find
 from .settings import design, stroke_values, tell_gaps
 
@@ -29,13 +29,13 @@ class ExportCommand(Command):
         parser.add_argument("-o", "--output", metavar="FILE", help=f"{', '.join(f'.{name}' for name in OWN_FORMATS)} (default: NAME.xlsx)")
         formats = ", ".join([*OWN_FORMATS, *plugins.entry_points(plugins.EXPORTERS)])
         parser.add_argument("--format", metavar="NAME", help=f"{formats}: one of them, whatever the file's name ends in")
-        parser.add_argument("--count", metavar="N", type=pose_count, default=101, help="poses over the stroke (default 101)")
+        parser.add_argument("--count", metavar="N", type=whole_number, default=101, help="poses over the stroke (default 101)")
         parser.add_argument(
             "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
             help="hold a stroke at a value; in a workbook the one with two values runs between them: S=0.1,650mm; in a drawing each value "
             "is a pose on layers of its own; repeatable",
         )  # fmt: skip
-        parser.add_argument("--poses", metavar="N", type=pose_count, help="a drawing of so many poses over the first stroke")
+        parser.add_argument("--poses", metavar="N", type=whole_number, help="a drawing of so many poses over the first stroke")
         parser.add_argument("--path", metavar="G", action="append", default=[], help="draw this point's path; repeatable")
 
     def run(self, options: Namespace) -> int:

@@ -9,6 +9,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeVar
 
+from ..disk import read
 from ..errors import DefinitionError, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism, declared
@@ -33,6 +34,7 @@ def find(text: str) -> type[Mechanism]:
         return load(text)
     place, name = split(text)
     if place.endswith(".py"):
+        read(place, most=0)  # a file that is not there is named in words
         return of_module(guarded(lambda: module_of_file(place), place), name, place)
     if name:
         if "" not in sys.path and str(Path.cwd()) not in sys.path:

@@ -115,6 +115,8 @@ class NewCommand(Command):
             raise DefinitionError(f"{options.name!r} gives no name of a class; take letters and digits, no digit first, such as loader.")
         own = given if is_file else Path(f"{'_'.join(words).lower()}.py")
         path = own if options.output is None else Path(options.output)
+        if given.suffix and not is_file:
+            raise DefinitionError(f"{given}: a machine's file ends in one of {', '.join(TEMPLATES)}, which chooses the form.")
         if path.suffix.lower() not in TEMPLATES:
             raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(TEMPLATES)}, which chooses the form.")
         check_place(path)

@@ -7,10 +7,9 @@ from typing import final
 
 from ..errors import DefinitionError
 from ..plan import Plan, plan_measure
-from ..units import parse
 from .command import Command, machine_arguments, picture, run_arguments
 from .machines import find
-from .settings import design, motion_along, over_argument, overs_of, stroke_values, with_overs
+from .settings import design, motion_along, over_argument, overs_of, si_value, stroke_values, with_overs
 
 SUFFIXES = (".html",)
 
@@ -56,7 +55,7 @@ def slider_range(plan: Plan, text: str) -> tuple[str, tuple[float, float] | None
     if not equals:
         return name, None
     owner = plan.table.spellings.get(name, ("", 1))[0]
-    values = [parse(each, plan_measure(plan, owner) if owner else "") for each in ends.split(",")]
+    values = [si_value(each, plan_measure(plan, owner) if owner else "", f"--vary {name}") for each in ends.split(",")]
     if len(values) != 2:
         raise DefinitionError(f"--vary {text}: the least and the greatest value are expected, --vary {name or 'OB'}=280mm,340mm.")
     return name, (values[0], values[1])

@@ -17,9 +17,9 @@ from .command import (
     path_argument,
     picture,
     picture_argument,
-    pose_count,
     progress_bar,
     run_arguments,
+    whole_number,
 )
 from .machines import find
 from .settings import (
@@ -53,7 +53,7 @@ class DrawCommand(Command):
             help="at these values of a stroke, the last one bold (default: both ends of the first stroke); repeatable",
         )  # fmt: skip
         path_argument(parser)
-        parser.add_argument("--count", metavar="N", type=pose_count, default=101, help="poses along a path (default 101)")
+        parser.add_argument("--count", metavar="N", type=whole_number, default=101, help="poses along a path (default 101)")
         forces = parser.add_argument_group("over the machine, at one pose")
         forces.add_argument("--forces", action="store_true", help="the forces in all pins, and the loads")
         forces.add_argument("--on", metavar="BODY", help="all forces on this body, drawn alone, and their polygon")

@@ -8,7 +8,7 @@ from typing import final
 
 from ..disk import check_place
 from ..errors import DefinitionError
-from .command import Command, machine_arguments, motion_arguments, path_argument
+from .command import Command, machine_arguments, motion_arguments, path_argument, whole_number
 from .machines import find
 from .settings import design, over_argument, overs_of, pair, stroke_values
 
@@ -34,7 +34,7 @@ class ReportCommand(Command):
         path_argument(parser)
         over_argument(parser)
         parser.add_argument("--case", metavar="CASE", help="this load case alone, plain: the machine's own loads (default: all)")
-        parser.add_argument("--start", metavar="N", type=int, default=1, help="the first equation's number (default 1)")
+        parser.add_argument("--start", metavar="N", type=whole_number, default=1, help="the first equation's number (default 1)")
         block = parser.add_argument_group("title block", "what is left out is an empty line to write on")
         for name, example in TITLE.items():
             block.add_argument(f"--{name}", metavar=example, default="")

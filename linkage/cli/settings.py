@@ -380,7 +380,10 @@ def parse_limit(text: str, columns: Sequence[Column]) -> tuple[str, tuple[float,
     units = {column.name: column.unit for column in columns}
     unit = units[known_name("Column", name, units, "--limit")]
     side, words = LIMITS[sign]
-    return name, (si_value(value, UNITS[unit][1] if unit else "", f"--limit {name}"), f"{words} {value}", side)
+    limit = si_value(value, UNITS[unit][1] if unit else "", f"--limit {name}")
+    if not unit and value[-1].isalpha():
+        raise DefinitionError(f"--limit {name}: {value!r} has a unit, and the column has none; give a number alone.")
+    return name, (limit, f"{words} {value}", side)
 
 
 def traced_points(machine: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ from ..mechanism import Mechanism
 from ..plan import strokes_text, written_out
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
-from .command import Command, lined_up, machine_arguments, picture, picture_argument
+from .command import Command, lined_up, machine_arguments, picture, picture_argument, whole_number
 from .machines import find
 from .settings import check_argument, design, judged_code, over_argument, overs_of, stroke_values
 
@@ -33,7 +33,7 @@ class ShowCommand(Command):
         check_argument(parser)
         group = parser.add_argument_group("equations")
         group.add_argument("--equations", action="store_true", help="the vector equations too, numbered")
-        group.add_argument("--start", metavar="N", type=int, help="the first equation's number (default 1)")
+        group.add_argument("--start", metavar="N", type=whole_number, help="the first equation's number (default 1)")
         group.add_argument("--ratio", metavar="G", action="append", help="the derivatives of a point or an output too; repeatable")
         group.add_argument("--wrt", metavar="S", help="the stroke of these derivatives, where there are several")
         group.add_argument("--forces", action="store_true", help="the loads, the driving forces, what cylinders and circuits have")
@@ -74,6 +74,8 @@ def check_asked(options: Namespace) -> None:
     named = [name for name, value in given.items() if value not in (None, False, [])]
     if named and not options.equations:
         raise DefinitionError(f"{named[0]} says how equations are printed; say --equations too.")
+    if options.wrt is not None and not options.ratio:
+        raise DefinitionError(f"--wrt {options.wrt}: it is the stroke of --ratio; say --ratio too, such as --ratio G.")
     if options.latex and (options.numbers or options.strokes):
         raise DefinitionError("--latex prints symbols, not numbers; leave out --numbers and --at, or --latex.")
 

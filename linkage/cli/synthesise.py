@@ -13,7 +13,7 @@ from ..files import save
 from ..files.synthesis_file import read_synthesis
 from ..synthesis import Synthesis
 from ..units import deg, mm
-from .command import Command
+from .command import Command, whole_number
 from .optimise import NOT_FEASIBLE, finder, settings_of, study_arguments, study_progress
 
 ANSWERS = 3
@@ -34,7 +34,7 @@ class SynthesiseCommand(Command):
         parser.add_argument("--csv", metavar="FILE", help="write a row for each machine found")
         parser.add_argument("--pictures", metavar="FOLDER", help="write a picture of the best machines beside the task there")
         parser.add_argument("--page", metavar="FILE.html", help="write the live page of the best machine")
-        parser.add_argument("--answers", metavar="N", type=int, default=ANSWERS, help=f"machines in the picture (default {ANSWERS})")
+        parser.add_argument("--answers", metavar="N", type=whole_number, default=ANSWERS, help=f"machines drawn (default {ANSWERS})")
 
     def run(self, options: Namespace) -> int:
         asked = read_synthesis(options.file, finder(options.trust), settings_of(options.settings))

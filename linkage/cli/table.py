@@ -11,7 +11,7 @@ from shutil import get_terminal_size
 from typing import TextIO, final
 
 from ..disk import replacing_text
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over
 from ..reports import is_loaded, rich_tables, text_table, write_csv
@@ -48,7 +48,7 @@ class TableCommand(Command):
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
         parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help=COLUMNS)
-        parser.add_argument("--columns", dest="listed", metavar="I,kz", action="append", default=[], help="the same, parted by commas")
+        parser.add_argument("--columns", dest="listed", metavar="I,kz", action="append", default=[], help="the same, separated by commas")
         csv_argument(parser)
         motion_arguments(parser, 11)
         every_argument(parser)
@@ -66,7 +66,7 @@ class TableCommand(Command):
         acting, overs = acting_of(machine, options), overs_of(machine, options.over)
         poses, over = motion_at(machine, options.strokes, options.count, options.every, overs), judged_over(machine, options)
         strokes = list(poses.strokes)
-        asked = [*options.columns, *(name for text in options.listed for name in parted(text))]
+        asked = [*options.columns, *(name for text in options.listed for name in column_names(text))]
         names = asked or (strokes if options.ratio else [])  # ratios alone stand beside their strokes
         columns = columns_picked(machine, poses, names, strokes, plain_value(acting))
         columns += ratio_columns(machine, poses, options.ratio, options.wrt)
@@ -84,9 +84,12 @@ class TableCommand(Command):
         return judged_code(verdicts, options)
 
 
-def parted(text: str) -> list[str]:
-    """Return the names that commas part; a comma between parentheses parts nothing, as in `reserve(lift, share=0.9)`."""
-    return [name.strip() for name in re.split(r",(?![^()]*\))", text) if name.strip()]
+def column_names(text: str) -> list[str]:
+    """Return the names that commas separate; one between parentheses belongs to its name, `reserve(lift, share=0.9)`."""
+    names = [name.strip() for name in re.split(r",(?![^()]*\))", text) if name.strip()]
+    if not names:
+        raise DefinitionError(f"--columns {cited(text)}: name at least one column, such as --columns thrust,pressure.")
+    return names
 
 
 def ratio_arguments(parser: ArgumentParser) -> None:

@@ -121,17 +121,22 @@ def triangle_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) 
     others = [index for index in range(3) if index != longest]
     gap = float(missing[worst])
     return (
-        f"{' + '.join(labels[index] for index in others)} = {values[others, worst].sum():.4g} m is {gap / mm:.3g} mm short of "
+        f"{' + '.join(labels[index] for index in others)} = {values[others, worst].sum():.4g} m is {length_text(gap)} short of "
         f"{labels[longest]} = {values[longest, worst]:.4g} m. {remedy(plan, name, labels, longest, values[:, worst], reading)}",
         gap,
     )
+
+
+def length_text(length: float) -> str:
+    """Return a length [m] in millimetres, in metres from 1 m on."""
+    return f"{length / mm:.3g} mm" if length < 1.0 else f"{length:.3g} m"
 
 
 def shortage_words(plan: Members, member: Member, reading: ArrayReading) -> tuple[str, float]:
     """Return what is too short, at the worst pose, and by how much [m]."""
     words, gaps = member.shortage(reading) if isinstance(member, Point) else ("it has no value", float("nan"))
     gap = float(np.max(gaps))
-    missing = "" if np.isnan(gap) else f": {gap / mm:.3g} mm are missing"
+    missing = "" if np.isnan(gap) else f": {length_text(gap)} are missing"
     start = "Shorten the stroke or change" if plan.moves(member) else "Change"
     return f"{words}{missing}. {start} a dimension.", gap
 

@@ -15,11 +15,10 @@ from linkage import Column, DefinitionError
 from linkage.cli.chart import print_chart
 from linkage.cli.command import Command, progress_bar
 from linkage.cli.machines import find
-from linkage.cli.settings import design
+from linkage.cli.settings import design, pair, si_value
 from linkage.cli.table import csv_argument, write_table
 from linkage.disk import check_place, in_words
 from linkage.errors import unknown
-from linkage.units import parse
 
 from . import DRIVE_FIGURES, FIGURES, crane_figure, drive_figure
 from .arm_drive import DrivenArm
@@ -68,16 +67,17 @@ class DesignedCrane(Command):
         )
 
     def run(self, options: Namespace) -> int:
+        if options.skeleton or options.cab:
+            for name, given in {"--pictures": options.pictures, "--pins": options.pins, "--csv": options.csv}.items():
+                if given:
+                    raise DefinitionError(f"{name} is of a whole crane; leave --skeleton and --cab out.")
+            print_skeleton(bare_skeleton(options))
+            return 0
         folder = Path(options.pictures) if options.pictures else None
         if folder is not None:
             with in_words(folder):
                 folder.mkdir(parents=True, exist_ok=True)
             check_place(folder / "map.png")
-        if options.skeleton or options.cab:
-            if folder is not None:
-                raise DefinitionError("--pictures shows a whole crane: leave --skeleton and --cab out.")
-            print_skeleton(bare_skeleton(options))
-            return 0
         drive = named_drive(options)
         if drive is not None:
             print_drive(drive, options)
@@ -121,12 +121,10 @@ def duty_of_options(options: Namespace) -> Duty:
     """Return the duty that the options mean."""
     names, given = [each.name for each in fields(Duty)], {}
     for text in options.settings:
-        name, equals, value = text.partition("=")
+        name, value = pair(text, "--set", "L=8.5m")
         if name not in names:
             raise unknown("Number of the duty", name, names)
-        if not equals:
-            raise DefinitionError(f"--set {text}: write a name and a value, such as L=8.5m.")
-        given[name] = parse(value, KINDS.get(name, "length"))
+        given[name] = si_value(value, KINDS.get(name, "length"), f"--set {name}")
     return Duty(**given)
 
 
@@ -134,7 +132,7 @@ def bare_skeleton(options: Namespace) -> CraneSkeleton:
     """Return the skeleton of the options, and report its search."""
     if options.machine:
         raise DefinitionError(f"{options.machine} has its skeleton already; leave its name out to search one.")
-    cab = parse(options.cab, "length") if options.cab else None
+    cab = si_value(options.cab, "length", "--cab") if options.cab else None
     with progress_bar("skeleton") as progress:
         found = design_skeleton(duty_of_options(options), reading=options.reading, cab=cab, progress=progress or False)
     print(f"{found}\n")

@@ -69,6 +69,8 @@ def charge_for(motion: Motion, wanted: float) -> float:
     """
     if not is_number(wanted):
         raise DefinitionError(f"wanted={cited(wanted)}: one reaction of all shoes is expected, in N.")
+    if wanted < 0.0:
+        raise DefinitionError(f"A reaction of {show(wanted, 'kgf', 4)} would pull at the ground; ask for zero or more.")
     balance = HeaderState(at_horizon(motion))
     pressure = float(balance.cylinder.sized(balance.motion).pressure_for(balance.thrust_without_line(pressed=wanted))[0])
     if pressure < 0.0:

@@ -6,7 +6,7 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
 from linkage import DefinitionError, Motion
-from linkage.cli.command import Command, figure_path, machine_arguments, picture_argument, pose_count
+from linkage.cli.command import Command, figure_path, machine_arguments, picture_argument, whole_number
 from linkage.cli.machines import find_like
 from linkage.cli.settings import parsed_setting
 from linkage.cli.table import csv_argument, write_table
@@ -38,7 +38,7 @@ class Balance(Command):
         parser.add_argument("--pressure", metavar="40kgf_cm2", help="charge pressure of the line at the horizon, gauge")
         parser.add_argument("--reaction", metavar="300kgf", help="charge for this reaction of all shoes at the horizon instead")
         parser.add_argument("--table", action="store_true", help="charge pressures for each header and wanted reaction instead")
-        parser.add_argument("--count", metavar="N", type=pose_count, default=13, help="poses over the following range (default 13)")
+        parser.add_argument("--count", metavar="N", type=whole_number, default=13, help="poses over the following range (default 13)")
         csv_argument(parser)
         parser.add_argument("--measured", metavar="FILE", help='compare with measured values: columns "R_y, mm", "F_R up, kgf"')
         picture_argument(parser, "the figure")

@@ -69,14 +69,18 @@ def check_magnitude(name: str, values: tuple[float, ...], plan: Plan) -> None:
         if low <= value <= high:
             continue
         if stroke_unit(plan, name) == "rad":
-            beyond = max(low - value, value - high) / TURN
-            if beyond > (FEW if is_round(value) else MANY):
+            if is_in_degrees(value, max(low - value, value - high)):
                 said = f"{name} = {value:.6g} is an angle in radians, {value / TURN:.3g} turns"
                 remedy = f"write {value:.6g} * deg if these are degrees, or declare the stroke as long as that"
                 raise DefinitionError(f"{plan.title}: {said}, and the stroke is {low:.6g} to {high:.6g} rad; {remedy}.")
         elif abs(value) >= 1.0 and abs(value) > FAR * max(abs(low), abs(high)):
             remedy = f"write {value:.6g} * mm if these are millimetres, or declare the stroke as long as that"
             raise DefinitionError(f"{plan.title}: {name} = {value:.6g} m, and the stroke is {low:.6g} to {high:.6g} m; {remedy}.")
+
+
+def is_in_degrees(value: float, beyond: float) -> bool:
+    """Return whether an angle lies so far [rad] beyond where it may be that degrees were meant."""
+    return beyond / TURN > (FEW if is_round(value) else MANY)
 
 
 def is_round(value: float) -> bool:

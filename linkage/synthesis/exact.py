@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from math import acos, pi
 from typing import Any, TypeAlias, final
@@ -118,8 +118,8 @@ class ExactMachine(Shown):
     is_ordered: bool
     turns_fully: bool
     side: Side
-    members: Mapping[str, Member] = field(repr=False)
-    dimensions: Mapping[str, Any] = field(repr=False)
+    members: Mapping[str, Member]
+    dimensions: Mapping[str, Any]
 
     @cached_property
     def machine(self) -> Mechanism:
@@ -146,6 +146,8 @@ class ExactMachine(Shown):
 
     def __str__(self) -> str:
         return self.sentence
+
+    __repr__ = __str__
 
 
 def exact_variant(name: str, side: int, members: Mapping[str, Member], dimensions: Mapping[str, Any]) -> Mechanism:

@@ -10,15 +10,17 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, StudyError, cited
 from ..language import said
 from ..program import FloatArray
 from ..quantities import is_number
 from .exact import ComplexArray, CouplerTask, ExactMachine, ExactSynthesis, Pivoted, exact_synthesis, is_without_links, judged
-from .tasks import table_of
+from .tasks import check_radians, table_of
 
 FREE = ("crank", "follower")
 REAL = 1e-6
+RANK = 1e-13
+"""Of the largest singular value of the equations: where the least is less, they are not independent."""
 LARGEST = 1e6
 """Links that are so many times longer than the frame are none."""
 
@@ -31,9 +33,10 @@ def freudenstein(pairs: Any, *, free: str = "follower", ground: float = 1.0) -> 
     as in the pairs: the frame OC is turned so that phi is the direction of OA, and `psi0` [rad] is where CB stands at psi = 0. `ground`
     is the length of the frame [m].
 
-    At most one machine of three pairs, two of four, three of five. DefinitionError for pairs that cannot be asked.
+    At most one machine of three pairs, two of four, three of five. DefinitionError for pairs that cannot be asked, StudyError for those
+    of every parallelogram.
     """
-    rows = table_of("freudenstein", "pairs", pairs, 2)
+    rows = table_of("freudenstein", "pairs", pairs, 2, "pairs (phi, psi)")
     if not 3 <= len(rows) <= 5:
         raise DefinitionError(f"freudenstein: {len(rows)} pairs; three to five of them decide a four-bar, more go with synthesise(...).")
     if free not in FREE:
@@ -41,6 +44,7 @@ def freudenstein(pairs: Any, *, free: str = "follower", ground: float = 1.0) -> 
     if not (is_number(ground) and ground > 0.0):
         raise DefinitionError(f"freudenstein(ground={cited(ground)}): a length above zero is expected, in m.")
     for name, column in zip(("phi", "psi"), rows.T, strict=True):
+        check_radians("freudenstein", name, column)
         check_differing(name, column)
     freed = FREE if len(rows) == 5 else (free,) if len(rows) == 4 else ()
     p, s = np.exp(1j * rows.T)
@@ -77,8 +81,11 @@ def links(p: ComplexArray, s: ComplexArray, freed: Sequence[str]) -> list[tuple[
     u, v = "crank" in freed, "follower" in freed
     kept = [0, *([1] if u else []), 2, *([3] if v else []), 4, *([5] if u or v else [])]
     left = len(kept) - len(rows)
+    _, sizes, every = np.linalg.svd(rows[:, kept])
+    if sizes[-1] < RANK * sizes[0]:
+        raise StudyError("freudenstein: phi and psi turn alike, as in every parallelogram; let one of the pairs differ from that.")
     basis = np.zeros((6, left))
-    basis[kept] = np.linalg.svd(rows[:, kept])[2][-left:].T
+    basis[kept] = every[-left:].T
     found = []
     for share in lines_in(basis, u, v):
         U, V, W = (complex(*(basis[k : k + 2] @ share)) for k in (0, 2, 4))

@@ -49,6 +49,10 @@ def five_point(pivots: Any, points: Any, *, in_order: bool = True) -> ExactSynth
     ends, targets = complex_rows("pivots", pivots, 2), complex_rows("points", points, POINTS)
     a, b = ends
     own = (targets - a) / (b - a)
+    for k, far in enumerate((abs(own), abs(own - 1.0))):
+        if np.ptp(far) < 1e-9 * far.max():
+            where = f"({ends[k].real:g}, {ends[k].imag:g})"
+            raise DefinitionError(f"five_point: the points lie on a circle about the pivot {where}: one crank does it; move one of them.")
     every = solutions_of(own, own.conj())
     found: list[ExactMachine] = []
     for z in real_ones(every, own):

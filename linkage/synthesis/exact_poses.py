@@ -16,7 +16,7 @@ from typing import Any, final
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import DefinitionError, StudyError
+from ..errors import DefinitionError, StudyError, cited
 from ..frozen import read_only
 from ..language import said
 from ..mechanism import Mechanism
@@ -38,7 +38,7 @@ from .exact import (
     judged,
 )
 from .exact_functions import real_roots
-from .tasks import PoseTask, table_of
+from .tasks import PoseTask, check_radians, table_of
 
 LOOP = 2880
 """Points of a loop of the curves of four poses."""
@@ -49,6 +49,10 @@ AROUND = 2.0
 STRAIGHT = 1e-12
 """Of their extent: places that are less off a line lie on it."""
 FIVE = 1e-9
+FARTHEST = 1e6
+"""Of their extent: a link that is farther away is none."""
+NO_MINOR = 1e-12
+"""Of the greatest minor: one that is less is none."""
 NOWHERE = complex(float("nan"), float("nan"))
 
 
@@ -78,7 +82,8 @@ def burmester(poses: Any, region: Any = None, *, in_order: bool = True) -> Burme
 def checked_poses(poses: Any) -> FloatArray:
     """Return poses (n, 3); DefinitionError for anything else."""
     given = np.stack([poses.x, poses.y, poses.angle], axis=1) if isinstance(poses, PoseTask) else poses
-    rows = table_of("burmester", "poses", given, 3)
+    rows = table_of("burmester", "poses", given, 3, "rows (x, y, angle)")
+    check_radians("burmester", "angle", rows[:, 2])
     if not 3 <= len(rows) <= 5:
         raise DefinitionError(f"burmester: {len(rows)} poses; three to five of them decide the links, more go with synthesise(...).")
     places, turned = rows[:, :2] @ np.array([1.0, 1.0j]), np.exp(1j * rows[:, 2])
@@ -88,7 +93,19 @@ def checked_poses(poses: Any) -> FloatArray:
             raise DefinitionError(f"burmester: poses {one + 1} and {other + 1} are the same; give poses that differ.")
     if abs(turned - turned[0]).max() < 1e-9:
         raise DefinitionError("burmester: the poses do not turn, so that every point of the body moves alike; let the angles differ.")
+    check_pole(places, turned / turned[0])
     return rows
+
+
+def check_pole(places: ComplexArray, turned: ComplexArray) -> None:
+    """Raise DefinitionError where one pin guides a body through all its places (n,), of directions from the first one (n,)."""
+    far = int(np.argmax(abs(turned - 1.0)))
+    pole = (places[far] - turned[far] * places[0]) / (1.0 - turned[far])
+    off = abs(places - pole - turned * (places[0] - pole)).max()
+    if off <= 1e-9 * max(abs(places[0] - pole), abs(places - places.mean()).max()):
+        size = max(abs(places[0] - pole), abs(pole))
+        x, y = (show(round(each / size, 9) * size if size else each, "mm", 4) for each in (pole.real, pole.imag))
+        raise DefinitionError(f"burmester: the poses turn about one place, ({x}, {y}): a pin there guides the body; move one of them.")
 
 
 @final
@@ -104,7 +121,7 @@ class GuidingLink(Shown):
     centre: FloatArray
     direction: float
     places: FloatArray
-    pivoted: Pivoted = field(repr=False)
+    pivoted: Pivoted
 
     @classmethod
     def of(cls, places: ComplexArray, centre: complex, direction: float = float("nan")) -> GuidingLink:
@@ -135,6 +152,8 @@ class GuidingLink(Shown):
 
     def __str__(self) -> str:
         return self.sentence
+
+    __repr__ = __str__
 
 
 @final
@@ -203,7 +222,10 @@ class Burmester(Shown):
         if (point is None) == (centre is None):
             raise DefinitionError("link(...): say a circle point, link(point=(x, y)), or a centre point, link(centre=(x, y)).")
         name, given = ("point", point) if centre is None else ("centre", centre)
-        place = complex(*table_of("burmester", name, given, 0)[:2])
+        row = table_of("burmester", name, given, 0)
+        if len(row) != 2:
+            raise DefinitionError(f"burmester: {name}={cited(given)}: x and y [m] are expected.")
+        place = complex(*row)
         if len(self.poses) == 3:
             return self.body.link_at(place) if centre is None else self.body.link_about(place)
         if len(self.poses) == 4:
@@ -255,8 +277,8 @@ class PosedBody:
         """The extent of the places [m]; of poses about one place, 1."""
         return float(abs(self.z - self.z.mean()).max()) or 1.0
 
-    def places_of(self, point: complex) -> ComplexArray:
-        """Return the places (n,) of the body's point that is at a place in the first pose."""
+    def places_of(self, point: complex | ComplexArray) -> ComplexArray:
+        """Return the places (n,) of the body's point that is at a place in the first pose; (m, n) of places (m, 1)."""
         return np.asarray(self.z + self.turned * (point - self.z[0]))
 
     def link_at(self, point: complex) -> GuidingLink:
@@ -289,17 +311,27 @@ class PosedBody:
         A link W + Z from the centre to the body goes with W (e^ib - 1) + Z (e^ia - 1) = d at every pose. So its three rows are dependent: a
         four-bar of the determinants' minors closes, D0 + D1 e^ib1 + D2 e^ib2 + D3 e^ib3 = 0.
         """
+        minors = self.minors()
+        sizes = abs(np.array([minors.sum(), *minors]))
+        first, second, *_ = np.argsort(sizes, kind="stable")
+        if sizes[second] < NO_MINOR * sizes.max() or not sizes.max() > 0.0:
+            raise StudyError("burmester: three and three of these four poses share a pole, and a curve is none; move one of them.")
+        if first and sizes[first] < NO_MINOR * sizes.max():  # the other three share a pole, or are parallel: the curves come apart
+            return PosedBody(np.roll(self.rows, -first, axis=0)).own_loops(self)
+        return self.own_loops(self)
+
+    def own_loops(self, seen: PosedBody) -> tuple[CurveLoop, ...]:
+        """Return the loops that guide the body, their points as in the first pose of the body as it is `seen`."""
         minors, _ = self.minors_in_order()
         one, two, three = abs(minors)
-        if two < 1e-12 * one or not one > 0.0:
-            raise StudyError("burmester: of these four poses three share a pole, and a curve is none; move one of them.")
         fixed = -minors.sum()
-        if abs(fixed) > 0.0:
+        if abs(fixed) > NO_MINOR * one:
             low, high = ((far**2 - abs(fixed) ** 2 - one**2) / (2.0 * abs(fixed) * one) for far in (abs(two - three), two + three))
             ways = angles_of_reach(low, high, float(np.angle(fixed) - np.angle(minors[0])))
         else:
-            ways = angles_of_reach(-1.0, 1.0, 0.0)
-        return tuple(CurveLoop(self, way, side) for way in ways for side in ((1.0, -1.0) if way.fully else (1.0,)))
+            ways = [DrivenPiece(0.0, TURN, True)]  # a triangle, in any direction
+        every = [CurveLoop(self, seen, way, side) for way in ways for side in ((1.0, -1.0) if way.fully else (1.0,))]
+        return tuple(each for each in every if each.guides)
 
     def minors_in_order(self) -> tuple[ComplexArray, npt.NDArray[np.intp]]:
         """Return the minors, the greatest first, and their order."""
@@ -315,8 +347,9 @@ class PosedBody:
     def dyads(self, beta: FloatArray) -> tuple[ComplexArray, ComplexArray]:
         """Return circle points and centre points (m,) of links that turn by angles (3, m) [rad]."""
         W, Z = self.least_squares(np.exp(1j * beta) - 1.0)
-        point = self.z[0] - Z
-        return point, point - W
+        known = np.isfinite(W) & np.isfinite(Z)
+        point = self.z[0] - np.where(known, Z, NOWHERE)
+        return point, point - np.where(known, W, NOWHERE)
 
     def least_squares(self, first: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
         """Return W and Z (m,) of W first (3, m) + Z (e^ia - 1) = d."""
@@ -329,7 +362,7 @@ class PosedBody:
             return np.asarray((ra * bb - ab * rb) / determinant), np.asarray((aa * rb - ab.conj() * ra) / determinant)
 
     def slider(self) -> GuidingLink | None:
-        """Return the link of four poses that slides, its centre at infinity; None where that has no place.
+        """Return the link that slides, its centre at infinity; None where that has no place. Of five poses it is that of the first four.
 
         An endlessly long crank turns by endlessly small angles, in proportions that let the compatibility linkage close: D b = 0.
         """
@@ -337,9 +370,9 @@ class PosedBody:
         share = np.cross(minors.real, minors.imag)
         if not abs(share).max() > 0.0:
             return None
-        _, Z = self.least_squares((share / abs(share).max())[:, None] + 0j)
+        _, Z = PosedBody(self.rows[:4]).least_squares((share / abs(share).max())[:, None] + 0j)
         places = self.places_of(complex(self.z[0] - Z[0]))
-        if not np.isfinite(places).all() or abs(places - self.z.mean()).max() > 1e6 * self.size:
+        if not np.isfinite(places).all() or abs(places - self.z.mean()).max() > FARTHEST * self.size:
             return None
         link = GuidingLink.of(places, NOWHERE, line_through(places))
         return link if link.pivoted.error < 1e-9 * max(abs(places - places.mean()).max(), self.size) else None
@@ -419,15 +452,19 @@ def exact_link(state: FloatArray, z: ComplexArray, T: ComplexArray) -> tuple[com
             break
     w, m = complex(*state[:2]), complex(*state[2:])
     far: FloatArray = np.abs(z + T * w - m)
-    return (w, m) if np.isfinite(state).all() and np.ptp(far) < FIVE * 1e-3 * max(far.max(), 1.0) else None
+    return (w, m) if abs(state).max() < FARTHEST and np.ptp(far) < FIVE * 1e-3 * max(far.max(), 1.0) else None
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class CurveLoop:
-    """A loop of the curves of four poses: the compatibility linkage driven along its `way`, on one `side` where it turns fully."""
+    """A loop of the curves of four poses: the compatibility linkage driven along its `way`, on one `side` where it turns fully.
+
+    Its points are those of the first pose of the body as it is `seen`, whose poses may stand in another order.
+    """
 
     body: PosedBody
+    seen: PosedBody
     way: DrivenPiece
     side: float
 
@@ -441,7 +478,18 @@ class CurveLoop:
             driven, side = middle - half * np.cos(s), np.where(np.sin(s) < 0.0, -1.0, 1.0)
         beta = np.empty((3, *np.shape(s)))
         beta[order] = closed_angles(minors, -minors.sum(), driven, side)
-        return self.body.dyads(beta)
+        point, centre = self.body.dyads(beta)
+        turned = np.exp(1j * (self.seen.rows[0, 2] - self.body.rows[0, 2]))
+        return self.seen.z[0] + (point - self.body.z[0]) * turned, centre
+
+    @property
+    def guides(self) -> bool:
+        """Whether its links guide the body; of parallel poses one loop is at infinity."""
+        point, centre = (each[:: LOOP // 48] for each in self.at(STEPS_OF_LOOP))
+        with np.errstate(invalid="ignore"):
+            far = abs(self.seen.places_of(point[:, None]) - centre[:, None])
+            near = far.max(axis=1) < FARTHEST * self.seen.size
+        return bool(near.any() and np.median(np.ptp(far[near], axis=1)) < 1e-6 * self.seen.size)
 
     def nearest(self, place: complex, which: int) -> tuple[float, float]:
         """Return how far the loop's circle point (0) or centre point (1) is off a place, where it comes nearest, and s there [rad]."""
@@ -497,16 +545,17 @@ def links_picked(
 ) -> list[GuidingLink]:
     """Return the links: of five poses all, of four along the curves, of three on a grid, those with their centre in the region."""
     count = len(body.rows)
+    slider = None if count == 3 else body.slider()
+    sliding = [] if slider is None else [slider]
     if count == 5:
         every = body.burmester_points()
-        return [each for each in every if region is None or lies_within(np.array([each.pivoted.centre]), region)[0]]
+        every = [each for each in every if region is None or lies_within(np.array([each.pivoted.centre]), region)[0]]
+        return [*every, *sliding]
     if count == 3:
-        centres = () if region is None else grid_in(region)
+        centres = () if region is None else grid_in(region, around_poses(body))
         return [link for link in (body.link_or_none(complex(each)) for each in centres) if link is not None]
     border = around_poses(body) if region is None else region
-    found = [GuidingLink.of(body.places_of(point), centre) for point, centre in places_along(curves, border, body.size)]
-    slider = body.slider()
-    return [*found, *([slider] if slider is not None else [])]
+    return [*(GuidingLink.of(body.places_of(point), centre) for point, centre in places_along(curves, border, body.size)), *sliding]
 
 
 def around_poses(body: PosedBody) -> Region:
@@ -529,9 +578,9 @@ def places_along(curves: Sequence[tuple[ComplexArray, ComplexArray]], region: Re
     return [(complex(points[k]), complex(centres[k])) for k in dict.fromkeys(places.tolist())]
 
 
-def grid_in(region: Region) -> ComplexArray:
-    """Return places on a grid within a polygon (m,)."""
-    low, high = region.box
+def grid_in(region: Region, about: Region) -> ComplexArray:
+    """Return places on a grid within a region (m,), `about` the poses where it has no end."""
+    low, high = np.where(np.isfinite(region.box), region.box, about.box)
     x, y = (low[k] + (high[k] - low[k]) * (np.arange(GRID) + 0.5) / GRID for k in (0, 1))
     every = (x[:, None] + 1j * y[None, :]).ravel()
     return np.asarray(every[lies_within(every, region)])

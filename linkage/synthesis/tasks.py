@@ -13,6 +13,7 @@ from ..errors import DefinitionError, cited
 from ..frozen import frozen, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..motion.kinds import measure_of
+from ..motion.strokes import TURN, is_in_degrees
 from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import angle, is_number, real, x, y
@@ -133,6 +134,7 @@ class FunctionTask:
         quantities = (task_named_in(machine, self).of, *(each for each, _ in self.others))
         turns = np.array([float(measure_of(machine.plan, each) == "angle") for each in quantities])
         wanted = np.stack([self.values, *(row for _, row in self.others)])
+        check_radians(f"FunctionTask(of={cited(self.of)})", "values", wanted[turns > 0.0].ravel())
         return TaskRows(quantities, read_only(wanted), 1.0 / self.within, turns, False)
 
 
@@ -159,6 +161,7 @@ class PoseTask:
         if len({len(each) for each in parts.values()}) > 1:
             sizes = ", ".join(f"{name} {len(each)}" for name, each in parts.items())
             raise DefinitionError(f"{what}: x, y and angle are to have one length; theirs are {sizes}.")
+        check_radians(what, "angle", parts["angle"])
         if length is not None and not (is_number(length) and length > 0.0):
             raise DefinitionError(f"{what}: length={cited(length)}: a length above zero is expected, in m.")
         for each in of.values() if is_by_class(of) else [of]:
@@ -208,7 +211,7 @@ def of_class(given: Any, kind: type[Mechanism]) -> Any:
     return next((given[each] for each in kind.__mro__ if each in given), None) if is_by_class(given) else given
 
 
-def table_of(what: str, name: str, given: Any, width: int) -> FloatArray:
+def table_of(what: str, name: str, given: Any, width: int, row: str = "pairs (x, y)") -> FloatArray:
     """Return finite numbers (n,), or (n, width) where there is a width, a copy; DefinitionError for anything else."""
     try:
         found = real(given)
@@ -216,9 +219,17 @@ def table_of(what: str, name: str, given: Any, width: int) -> FloatArray:
         found = np.empty(())
     shape = (found.shape[0] if found.ndim else 0, *((width,) if width else ()))
     if found.shape != shape or not found.size or not np.isfinite(found).all():
-        rows = f"pairs (x, y), shape (n, {width})" if width else "numbers in a row, shape (n,)"
+        rows = f"{row}, shape (n, {width})" if width else "numbers in a row, shape (n,)"
         raise DefinitionError(f"{what}: {name}={cited(given)}: finite {rows}, are expected, in SI.")
     return frozen(found)
+
+
+def check_radians(what: str, name: str, angles: FloatArray) -> None:
+    """Raise DefinitionError for an angle of so many turns that degrees were meant."""
+    for value in angles.tolist():
+        if is_in_degrees(value, abs(value)):
+            text = f"{what}: {name}: {value:.6g} is an angle in radians, {value / TURN:.3g} turns"
+            raise DefinitionError(f"{text}; write {value:.6g} * deg if these are degrees, or take whole turns off.")
 
 
 def rows_of_values(what: str, given: Any, count: int) -> list[FloatArray]:

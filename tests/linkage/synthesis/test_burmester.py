@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 from scipy.optimize import root
 
 from linkage import DefinitionError, Outline, PoseTask, StudyError, burmester, draw, outside
+from mechanisms.classics.slider_crank import SliderCrank
 from tests.linkage.synthesis.exact_tasks import bar_at, lengths
 
 POSES = [(0.0, 0.0, 0.0), (0.15, 0.05, -0.35), (0.27, 0.02, -0.80), (0.33, -0.10, -1.25)]
@@ -165,6 +166,54 @@ def test_a_bar_is_found_from_five_poses_of_its_coupler(seed):
         runs_through(each, poses_of(bar, phi))
 
 
+def test_a_slider_crank_is_found_from_five_poses_of_its_coupler():
+    machine = SliderCrank()
+    pose = machine.at(phi=[0.3, 1.0, 1.9, 2.6, 3.5])
+    poses = np.stack([*pose["P"], pose.angle("A", "B")], axis=1)
+    found = burmester(poses)
+    (slider,) = [link for link in found.links if link.slides]
+    assert_allclose(slider.places.T, pose["B"], rtol=0, atol=1e-12)
+    assert len(found.links) == 4  # the crank and two more turn
+    (own,) = [each for each in found.solutions if each.name == "slider_crank" and abs(each.machine["OA"] - machine["OA"]) < 1e-12]
+    assert own.turns_fully and abs(own.machine["AB"] - machine["AB"]) < 1e-12
+    runs_through(own, poses)
+
+
+def test_a_place_on_a_line_slides_in_all_five_poses():
+    poses = [(0, 0, 0), (0.1, 0, 0.1), (0.2, 0, 0.4), (0.3, 0, 1.0), (0.4, 0, 1.5)]
+    found = burmester(poses)
+    assert any(link.slides and abs(link.point).max() < 1e-12 for link in found.links)
+    assert all(link.slides or link.length < 1e3 for link in found.links)
+    assert len(found.synthesis.all) == 1
+
+
+@pytest.mark.parametrize("first", range(4))
+@pytest.mark.parametrize(("poses", "loops"), [
+    ([(0, 0, 0), (0.1, 0.02, 0), (0.2, 0.1, 0), (0.3, 0, 1.2)], 1),
+    ([(0.1, 0, 0.2), (0.1, 0, 0.4), (0.1, 0, 0.7), (0.3, 0, 1.2)], 2),
+], ids=["parallel", "one pole"])  # fmt: skip
+def test_three_of_four_poses_that_are_parallel_or_share_a_pole(poses, loops, first):
+    """Their curves come apart: of parallel poses all links are as long as the radius of the circle through their three places."""
+    poses = np.roll(poses, first, axis=0)
+    found = burmester(poses, in_order=False)
+    assert len(found.centre_curve) == loops and len(found.links) > 10
+    body = poses[:, :2] @ np.array([1.0, 1.0j]), np.exp(1j * (poses[:, 2] - poses[0, 2]))
+    for link in found.links:
+        places = body[0] + body[1] * (complex(*link.point) - body[0][0])
+        far = abs(places - complex(*link.centre)) if not link.slides else np.ones(1)
+        assert np.ptp(far) < 1e-9 * max(far.max(), 1.0)
+        if loops == 1 and not link.slides:
+            a, b, c = (abs(one - other) for one, other in combinations([0.0, 0.1 + 0.02j, 0.2 + 0.1j], 2))
+            half = 0.5 * (a + b + c)
+            assert_allclose(link.length, a * b * c / (4.0 * np.sqrt(half * (half - a) * (half - b) * (half - c))), rtol=1e-9)
+
+
+def test_a_region_without_end_is_looked_at_about_the_poses():
+    found = burmester(POSES[:3], outside(Outline.circle((0.1, -0.25), 0.12)))
+    far = np.array([np.hypot(*(link.centre - [0.1, -0.25])) for link in found.links])
+    assert len(far) > 10 and far.min() >= 0.12 and far.max() < 2.0
+
+
 def test_no_link_of_five_poses_is_missed_that_a_search_finds():
     poses = next(each for each in (random_poses(seed, 5) for seed in range(99)) if len(burmester(each).links) == 4)
     z, turned = poses[:, :2] @ np.array([1.0, 1.0j]), np.exp(1j * poses[:, 2])
@@ -215,7 +264,9 @@ def test_the_picture_has_both_curves_the_poses_and_the_region():
         ([*POSES[:3], POSES[0]], None, "poses 1 and 4 are the same"),
         ([(0, 0, 0), (1, 0, 0), (0, 1, 0)], None, "do not turn"),
         (POSES, [(0, 0), (1, 1)], "burmester.region="),
-        ([(0, 0), (1, 1), (2, 0)], None, "finite pairs"),
+        ([(0, 0), (1, 1), (2, 0)], None, "finite rows .x, y, angle."),
+        ([(0, 0, 0), (0.1, 0.05, 20), (0.2, 0.02, 45)], None, "20 is an angle in radians, 3.18 turns; write 20 . deg"),
+        ([(0.1, 0, 0), (0, 0.1, np.pi / 2), (-0.1, 0, np.pi)], None, "turn about one place, .-?0 mm, -?0 mm.: a pin there"),
     ],
 )
 def test_poses_that_cannot_be_asked(poses, region, message):
@@ -227,6 +278,8 @@ def test_links_that_cannot_be_asked():
     found = burmester(POSES, BELOW)
     with pytest.raises(DefinitionError, match="say a circle point"):
         found.link()
+    with pytest.raises(DefinitionError, match="x and y"):
+        found.link(point=(0.1,))
     with pytest.raises(DefinitionError, match="share a pin"):
         found.four_bar(found.links[0], found.links[0])
     (slider,) = [link for link in found.links if link.slides]

@@ -126,6 +126,7 @@ def test_a_found_machine_goes_through_pickle():
         ([(0, 0), (1, 0)], LINE[:4], "5 places"),
         ([(0, 0), (1, 0)], [*LINE[:4], LINE[0]], "two of the points"),
         ([(0, 0), (1, 0)], [*LINE[:4], (np.nan, 0)], "finite pairs"),
+        ([(0, 0), (2, 0)], [(3, 0), (1, 0), (2, 1), (2, -1), (2.6, 0.8)], "circle about the pivot .2, 0.: one crank does it"),
     ],
 )
 def test_five_points_that_cannot_be_asked(pivots, points, message):
@@ -215,12 +216,20 @@ def test_no_function_machine_is_missed_that_a_search_finds(count, free, zeros):
         ([(0.1, 0.2), (0.3, 0.2), (0.5, 0.2)], {}, "two values of psi are the same"),
         ([(0.1, 0.2), (0.3, 0.4), (0.5, 0.7)], {"free": "coupler"}, '"crank" or "follower"'),
         ([(0.1, 0.2), (0.3, 0.4), (0.5, 0.7)], {"ground": 0.0}, "above zero"),
-        ([0.1, 0.2, 0.3], {}, "finite pairs"),
+        ([0.1, 0.2, 0.3], {}, "finite pairs .phi, psi."),
+        ([(20, 35), (35, 45), (50, 60)], {}, "phi: 20 is an angle in radians, 3.18 turns; write 20 . deg"),
     ],
 )
 def test_pairs_that_cannot_be_asked(pairs, options, message):
     with pytest.raises(DefinitionError, match=message):
         freudenstein(pairs, **options)
+
+
+@pytest.mark.parametrize("zero", [0.0, 0.4])
+@pytest.mark.parametrize("count", [4, 5])
+def test_pairs_of_every_parallelogram_are_told(count, zero):
+    with pytest.raises(StudyError, match="as in every parallelogram"):
+        freudenstein([(phi, phi + zero) for phi in (0.1, 0.2, 0.4, 0.6, 0.9)[:count]])
 
 
 def test_points_on_two_circuits_are_told():

@@ -23,7 +23,7 @@ from linkage.language import said
 from linkage.loads import AT_REST, Acting, Declared, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, Tie, require_poses
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
-from linkage.motion import Judge, Motion, least, most
+from linkage.motion import Judge, Motion, MotionFunction, least, most
 from linkage.plan import ArrayReading
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, quantity
@@ -95,7 +95,7 @@ class GasLine(Circuit):
             return self.pressure(motion)
 
         try:
-            low, high = judge.answers([least(pressure), most(pressure)])
+            low, high = judge.answers([each(MotionFunction(pressure, "pressure")) for each in (least, most)])
             block = self.accumulators(judge.motion)
         except DefinitionError as error:
             return [Verdict("line", False, " ".join(str(error).split()))]

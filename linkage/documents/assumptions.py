@@ -24,7 +24,7 @@ def assumptions_section(subject: ReportSubject) -> Section:
         said("Assumptions"),
         (
             ListBlock(tuple(assumed(subject))),
-            Paragraph(said("Not looked at:")),
+            Paragraph(said("Not looked at, but for what a rule above judges:")),
             ListBlock(tuple(left_open(subject))),
         ),
     )
@@ -42,14 +42,18 @@ def assumed(subject: ReportSubject) -> Iterator[str]:
     if counted:
         yield said("Cylinders side by side count together: {names}.", names=", ".join(counted))
     yield friction_words(subject)
-    weights = [name for name, each in elements.items() if isinstance(each, (Weight, LinkMass))]
-    if weights:
+    if weights := with_weight(subject):
         yield said(
             "Gravity is {g} m/s², downwards. Only these have weight: {names}; the other members are without mass.",
             g=f"{g0:.6g}", names=", ".join(weights),
         )  # fmt: skip
     if any(isinstance(each, TwoPoint) and "bore" in each.numbers for each in elements.values()):
         yield said("Pressures are gauge pressures. Oil does not yield, and pressure is the same everywhere on a line.")
+
+
+def with_weight(subject: ReportSubject) -> list[str]:
+    """Return the names of what has weight."""
+    return [name for name, each in subject.machine.plan.of_kind(ForceElement).items() if isinstance(each, (Weight, LinkMass))]
 
 
 def friction_words(subject: ReportSubject) -> str:
@@ -109,7 +113,7 @@ def standards_section(subject: ReportSubject, verdicts: Iterable[str]) -> Sectio
     for name, note in subject.notes.items():
         cite(note, said("source of {name}", name=name))
     cite(subject.machine.__doc__ or "", said("description of the machine"))
-    if has_loads(subject.machine):
+    if with_weight(subject):
         uses.setdefault(GRAVITY, []).append(said("standard acceleration of gravity"))
     blocks: tuple[Block, ...] = (Paragraph(said("No rule and no input of this report cites a standard.")),)
     if uses:

@@ -106,7 +106,7 @@ def loops_closed(motion: Motion) -> Iterator[Check]:
         worst = max(worst, largest_finite(np.hypot(*np.sum(vectors, axis=0))))
         longest = max(longest, *(largest_finite(np.hypot(*each)) for each in vectors))
     if loops:
-        what = said("given lengths in the directions of the links, summed round {n} closed loops", n=len(loops))
+        what = said("given lengths in the directions of the links, summed round the closed loops: {n} of them", n=len(loops))
         yield Check(said("loops closed"), what, worst / (longest or 1.0), EXACT)
 
 

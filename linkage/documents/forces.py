@@ -155,6 +155,8 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     """Yield what pins carry where the machine runs against a stop and a cylinder has the relief valve's pressure; nothing without one."""
     held = blocked_cylinders(subject)
     if not held:
+        if any("bore" in each.numbers for each in subject.machine.plan.of_kind(TwoPoint).values()):
+            yield Paragraph(said("No cylinder has a pump or a relief valve: there are no pin forces at the relief pressure."))
         return
     point = stopped_point(subject)
     try:
@@ -169,8 +171,8 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     yield Paragraph(
         said(
             "At the relief pressure: a stop holds {point} in either direction. One cylinder after the other presses and the others hold, "
-            "until the first relief valve opens. The machine's own loads act too. Thrusts at which the valves open, {unit}: {thrusts}. "
-            "This table looks at {count} poses over all that the machine runs.",
+            "until the first relief valve opens. Where no relief valve is declared, the pump's pressure is the highest. The machine's own "
+            "loads act too. Greatest thrusts, {unit}: {thrusts}. This table looks at {count} poses over all that the machine runs.",
             point=point, unit=unit_sign("kN"), thrusts=pressures, count=sum(int(place.reached.sum()) for place in judged_poses(subject)),
         )
     )  # fmt: skip
@@ -183,7 +185,7 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     )  # fmt: skip
     heads = (
         said("pin"), said("joint"), said("on body"), said("from body"), said("F, {unit}", unit=unit_sign("kN")), said("member"),
-        said("valve of"), said("strokes"),
+        said("at the limit"), said("strokes"),
     )  # fmt: skip
     yield TableBlock(said("Largest pin forces at the relief pressure, against a stop"), heads, cells, "llllrllm")
 

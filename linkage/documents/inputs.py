@@ -63,7 +63,15 @@ def dimensions(ax: Axes, motion: Motion) -> None:
 
 def own_words(machine: Mechanism) -> Iterator[Paragraph]:
     """Yield the paragraphs of the machine's own words, after the first line, which is the subtitle."""
-    yield from (Paragraph(translated(each).replace("`", "")) for each in own_paragraphs(type(machine))[1:])
+    yield from (Paragraph(plain_words(translated(each))) for each in own_paragraphs(type(machine))[1:])
+
+
+MARKED = re.compile(r"`+|(?<![\w*])\*(?=[^\s*])|(?<=[^\s*])\*(?![\w*])")
+
+
+def plain_words(text: str) -> str:
+    """Return a text without the marks of code and of emphasis; a product keeps its sign."""
+    return MARKED.sub("", text)
 
 
 def own_paragraphs(machine: type[Mechanism]) -> list[str]:
@@ -106,7 +114,8 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
     return TableBlock(said("Dimensions"), heads, tuple(rows), "llrllm")
 
 
-PARAMETER = re.compile(r"(?<![\w.])(\w+)=(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?)(?![\w.])")
+PARAMETER = re.compile(r"(?<![\w.])(\w+)=(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?)(?=[,)])")
+"""A number by itself; one in an expression keeps its SI, as the names beside it have no unit there."""
 
 
 def with_units(element: ForceElement, text: str) -> str:
@@ -143,7 +152,7 @@ def definition_section(machine: Mechanism) -> Section:
     return Section(
         said("Definition of the mechanism"),
         (
-            Paragraph(said("In the order in which the positions are worked out; lengths in m, angles as marked.")),
+            Paragraph(said("In the order in which the positions are worked out; lengths in m, angles in rad where no deg is marked.")),
             TableBlock(said("Members"), heads, rows, "lm"),
             TableBlock(said("Rigid bodies"), (said("No."), said("points")), bodies, "lm"),
             Paragraph(count),

@@ -28,9 +28,12 @@ from ..units import UNITS, factor, show, unit_sign
 from .content import Block, Cell, Illustration, Paragraph, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit
 from .run import ReportSubject
+from .setting import width
 
 HALF = 3.25
 """The width of a curve [inch]; two stand beside each other."""
+CURVE_ROOM = (0.72, 0.12, 0.46, 0.32)
+"""The room beside a curve's axes [inch: left, right, bottom, top]."""
 LETTERS = 100
 """Letters of a table's row, so that it fits across a page."""
 KINDS = (noted("pin"), noted("guide"), noted("slot"), noted("driven point"), noted("crank's drive"), noted("slider"), noted("telescope"))
@@ -99,7 +102,10 @@ def results_section(subject: ReportSubject, names: Sequence[str] | None, first: 
     same = one_curve([first, *drawn], whole, limits)
     drawn = [name for name in drawn if name in same]
     first = next(name for name in same if first in (name, *same[name]))
-    drawn = [name for name in same if name != first]
+    still = [name for name in same if name not in (first, *limits) and is_constant(whole[name])] if subject.run.held else []
+    if still:
+        blocks.append(Paragraph(said("The same all along this run, and not drawn: {names}.", names=", ".join(map(heading_of, still)))))
+    drawn = [name for name in same if name not in (first, *still)]
     beyond = wider_answers(subject, {name: whole[name] for name in [first, *drawn]}, limits)
     along, over = ", ".join(subject.run.ways), subject.words(dict(subject.run.held))
     for name in [first, *drawn]:
@@ -113,7 +119,8 @@ def results_section(subject: ReportSubject, names: Sequence[str] | None, first: 
         caption += beyond_words(further, whole[name]) if further else ""
         size = (WIDE, 2.6) if name == first else (HALF, 2.15)
         paint = partial(draw_column, motion=subject.curve, column=whole[name], bound=bound, beyond=further)
-        blocks.append(Illustration(f"curve_{safe(name)}", caption, size, (0.62, 0.12, 0.46, 0.32 if bound is None else 0.48), paint))
+        room = (*CURVE_ROOM[:3], CURVE_ROOM[3] if bound is None else 0.48)
+        blocks.append(Illustration(f"curve_{safe(name)}", caption, size, room, paint))
     return Section(said("Results"), tuple(blocks))
 
 
@@ -140,6 +147,13 @@ def same_curve(one: Column, other: Column) -> bool:
 
 CLOSE = 1e-9
 """Of the greatest value: columns that differ by no more are one curve."""
+
+
+def is_constant(column: Column) -> bool:
+    """Return whether a column has one value all along."""
+    values = np.asarray(column.values, float)
+    finite = values[np.isfinite(values)]
+    return bool(finite.size) and float(np.ptp(finite)) <= CLOSE * float(np.max(np.abs(finite)))
 
 
 def curve_columns(subject: ReportSubject) -> dict[str, Column]:
@@ -203,11 +217,18 @@ def beyond_words(answers: Sequence[Answer], column: Column) -> str:
 def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None, beyond: Sequence[Answer]) -> None:
     """Draw a column over the stroke with its limit, and lines for what lies beyond it elsewhere."""
     panel(ax, motion, column, bound)
-    if bound is not None:  # its words stand above the curve, under the heading
-        ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=TITLE, fontweight="bold", color=INK, pad=19)
+    heading = ax.get_title(loc="left")
+    room = 72.0 * ax.bbox.width / ax.figure.dpi
+    size = min(TITLE, HEADING_SHARE * room / width(heading, 1.0, "bold"))
+    pad = 9.0 if bound is None else 19.0  # a limit's words stand above the curve, under the heading
+    ax.set_title(heading, loc="left", fontsize=size, fontweight="bold", color=INK, pad=pad)
     for each in beyond:
         if np.isfinite(each.value):
             mark_beyond(ax, float(each.value) / factor(column.shown_unit), amount_text(each, column), isinstance(each.question, Least))
+
+
+HEADING_SHARE = 0.97
+"""Of the width of a curve's axes: what its heading takes at the most, as letters on a screen are wider than printed ones."""
 
 
 def mark_beyond(ax: Axes, value: float, text: str, is_least: bool) -> None:

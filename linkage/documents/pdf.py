@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from io import BytesIO
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any, final
 
@@ -137,6 +138,11 @@ class Flow:
         self.y += height
         return start
 
+    def keep(self, height: float) -> None:
+        """Begin a new page if something of a height does not fit on this one."""
+        self.take(height)
+        self.y -= height
+
     def put(self, *ink: Ink) -> None:
         """Draw on the page."""
         self.pages[-1].ink += ink
@@ -176,12 +182,14 @@ class Flow:
         top = self.y
         shares = (0.25, 0.15, 0.2, 0.4)
         edges = [LEFT + ROOM * sum(shares[:place]) for place in range(len(shares) + 1)]
-        for (name, value), left, right in zip(block.entries, edges, edges[1:], strict=False):
+        fields = [filled_lines(value, ROOM * share - 8.0, TEXT, "bold") for (_, value), share in zip(block.entries, shares, strict=True)]
+        below = top + 13.0 + LINE * max(2, *map(len, fields))
+        for (name, _), lines, left, right in zip(block.entries, fields, edges, edges[1:], strict=False):
             self.put(GlyphRun(left + 4.0, top + 8.5, name, SMALL, "regular", MUTED))
-            for line, text in enumerate(filled_lines(value, right - left - 8.0, TEXT, "bold")[:2]):
-                self.put(GlyphRun(left + 4.0, top + 20.0 + 10.5 * line, text, TEXT, "bold", INK))
-            self.put(InkLine(((right, top), (right, top + 34.0)), 0.4, RULE))
-        y, names = top + 34.0, (0.14, 0.36, 0.18, 0.32)
+            for line, text in enumerate(lines):
+                self.put(GlyphRun(left + 4.0, top + 20.0 + LINE * line, text, TEXT, "bold", INK))
+            self.put(InkLine(((right, top), (right, below)), 0.4, RULE))
+        y, names = below, (0.14, 0.36, 0.18, 0.32)
         starts = [LEFT + ROOM * sum(names[:place]) for place in range(len(names) + 1)]
         for x, text in zip(starts, block.columns, strict=False):
             self.put(GlyphRun(x + 4.0, y + 9.0, text, SMALL, "regular", MUTED))
@@ -189,11 +197,13 @@ class Flow:
         for what, name in block.signatures:
             self.put(InkLine(((LEFT, y), (LEFT + ROOM, y)), 0.4, RULE))
             self.put(GlyphRun(starts[0] + 4.0, y + 12.5, what, SMALL, "regular", MUTED))
-            self.put(GlyphRun(starts[1] + 4.0, y + 12.5, filled_lines(name, ROOM * names[1] - 8.0, TEXT)[0], TEXT, "regular", INK))
-            y += 18.0
+            lines = filled_lines(name, ROOM * names[1] - 8.0, TEXT)
+            for line, text in enumerate(lines):
+                self.put(GlyphRun(starts[1] + 4.0, y + 12.5 + LINE * line, text, TEXT, "regular", INK))
+            y += 7.5 + LINE * len(lines)
         for x in starts[1:-1]:
-            self.put(InkLine(((x, top + 34.0), (x, y)), 0.4, RULE))
-        self.put(InkLine(((LEFT, top + 34.0), (LEFT + ROOM, top + 34.0)), 0.9, INK))
+            self.put(InkLine(((x, below), (x, y)), 0.4, RULE))
+        self.put(InkLine(((LEFT, below), (LEFT + ROOM, below)), 0.9, INK))
         self.put(InkLine(((LEFT, top), (LEFT + ROOM, top), (LEFT + ROOM, y), (LEFT, y), (LEFT, top)), 1.1, INK))
         self.y = y + 8.0
 
@@ -204,13 +214,14 @@ class Flow:
         room = 30.0 + first.size[1] * INCH if isinstance(first, Illustration) else 70.0  # a title goes with what it is the title of
         if isinstance(first, Paragraph) and section.blocks[1:] and isinstance(section.blocks[1], TableBlock):
             room += 1.38 * TEXT * len(filled_lines(first.text, ROOM, TEXT)) + 20.0
-        self.take(room)
-        self.y -= room
+        self.keep(room)
         y = self.take(22.0)
         self.put(GlyphRun(LEFT, y + 12.0, f"{number}. {section.title}", 11.5, "bold", INK))
         self.put(InkLine(((LEFT, y + 16.5), (WIDE - RIGHT, y + 16.5)), 0.9, INK))
         waiting: list[Illustration] = []
-        for block in section.blocks:
+        for block, following in zip_longest(section.blocks, section.blocks[1:]):
+            if isinstance(block, Paragraph) and isinstance(following, (ListBlock, TableBlock)):
+                self.keep(1.38 * TEXT * len(filled_lines(block.text, ROOM, TEXT)) + FOLLOWING)
             if isinstance(block, Illustration) and block.size[0] * INCH < 0.55 * ROOM:
                 waiting.append(block)
                 if len(waiting) < 2:
@@ -325,6 +336,10 @@ class Flow:
         self.put(InkLine(((LEFT, y + high), (x, y + high)), 0.35, RULE))
 
 
+FOLLOWING = 60.0
+"""The room that a list or a table needs under the words before it."""
+LINE = 10.5
+"""From line to line in the title block."""
 INDENT, FURTHER = 30.0, 14.0
 """How far in an equation begins, and how much further its next lines."""
 

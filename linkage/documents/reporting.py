@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -17,13 +17,25 @@ from ..language import current_language, heading_of, said, said_of, translated
 from ..language import language as spoken
 from ..loads import PLAIN_CASE, Acting, situation_of
 from ..mechanism import Mechanism
-from ..motion import Answer, Constraint, Leaf, least, most, places_text, stroke_display_unit
+from ..motion import (
+    Answer,
+    Column,
+    Constraint,
+    Leaf,
+    MotionFunction,
+    Request,
+    least,
+    most,
+    places_text,
+    stroke_display_unit,
+)
+from ..motion.kinds import measure_of
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
 from ..pictures.strokes import column_among
 from ..quantities import Dimension
 from ..reports import NOTHING, At, is_column
-from ..units import current_system, show, shown_number, unit_system
+from ..units import current_system, display_unit, show, shown_number, unit_sign, unit_system
 from ..verdict import Verdict
 from .assumptions import assumptions_section, standards_section
 from .calculation import calculated, calculation_section, has_loads
@@ -32,9 +44,9 @@ from .content import Block, Cell, Document, ListBlock, Mark, Paragraph, Section,
 from .fingerprint import DIGITS, fingerprint, own_version
 from .forces import forces_section
 from .html import write_html
-from .inputs import definition_section, inputs_section, own_paragraphs
+from .inputs import definition_section, inputs_section, own_paragraphs, plain_words
 from .markdown import write_markdown
-from .outcome import curve_columns, limits_section, members_sections, results_section, sketch_section
+from .outcome import amount_text, curve_columns, limits_section, members_sections, results_section, sketch_section
 from .pdf import write_pdf
 from .run import ReportSubject
 from .title import TitleBlock
@@ -163,7 +175,7 @@ def composed(
         definition_section(machine),
     )
     whole = tuple(each for each in sections if each is not None)
-    words = cited_numbers(translated(own_paragraphs(type(machine))[0]))
+    words = cited_numbers(plain_words(translated(own_paragraphs(type(machine))[0])))
     return Document(machine.plan.heading, words, block, facts(subject, title_block, mark), mark, whole, current_language())
 
 
@@ -271,8 +283,8 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[Any]])
     domain = Paragraph(said("Judged over {domain}, in all load cases and directions of motion that occur there.", domain=subject.domain))
     heads = (said("rule"), said("result"), said("what was found"))
     table = TableBlock(said("Rules, over all that the machine runs"), heads, tuple(map(verdict_row, found)), "llm")
-    places = [(each.heading, each.ok, each.answer) for each in judged if isinstance(each.answer, Answer)]
-    worst = worst_places([*places, *((name, each.ok, each) for name, each in limited)])
+    places = [(each.heading, each.ok, each.answer, None) for each in judged if isinstance(each.answer, Answer)]
+    worst = worst_places(subject, [*places, *limited])
     return Section(title, (domain, table, *([worst] if worst is not None else []))), rules_mark(judged), found
 
 
@@ -305,8 +317,13 @@ MOST_PLACES = 10
 """Rows of the table of the worst places."""
 
 
-def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> list[tuple[str, Answer]]:
+JudgedRow: TypeAlias = tuple[str, "bool | None", Answer, "Column | None"]
+"""A rule by its name, whether it is kept, its answer, and the column that it bounds."""
+
+
+def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> list[JudgedRow]:
     """Return what the judge says of the limits of columns, by their headings; of those that it can be asked of."""
+    columns = curve_columns(subject)
     asked = {}
     for name, given in limits.items():
         quantity, limit = subject.quantities.get(name), limit_of(given)
@@ -318,19 +335,44 @@ def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -
     if own and plain and len(plain) < len(subject.judge.places):  # a table's own column is under the machine's own loads
         judge = subject.machine.judge(plain, subject.judge.acting).lost_allowed()
         answers |= zip(own, judge.answers([asked[name] for name in own]), strict=True)
-    return [(heading_of(name), each) for name, each in answers.items()]
+    return [(heading_of(name), each.ok, each, columns.get(name)) for name, each in answers.items()]
 
 
-def worst_places(answers: Sequence[tuple[str, bool | None, Answer]]) -> TableBlock | None:
-    """Return the table of the worst places of some rules, those that are not kept first, then by how far the limit is used."""
+def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> TableBlock | None:
+    """Return the table of the worst places of some rules, those that are not kept first, then by how far the limit is used.
+
+    A limit that is kept and not used at all has no worst place.
+    """
     known = [each for each in answers if each[2].strokes and not np.isnan(each[2].value)]
-    ranked = sorted(known, key=lambda each: (each[1] is not False, -used(each[2])))
+    near = [each for each in known if each[1] is False or not isinstance(each[2].question, Constraint) or used(each[2]) > 0.0]
+    ranked = sorted(near, key=lambda each: (each[1] is not False, -used(each[2])))
     rows = tuple(
-        (rule, verdict_mark(ok), each.amount, each.situation or "–", places_text(each.strokes, each.units))
-        for rule, ok, each in ranked[:MOST_PLACES]
-    )
-    heads = (said("rule"), said("result"), said("value"), said("situation"), said("strokes"))
-    return TableBlock(said("The worst places"), heads, rows, "llrmm") if rows else None
+        (
+            rule, verdict_mark(ok), value_cell(subject, each, column), share_cell(used(each)), each.situation or "–",
+            places_text(each.strokes, each.units),
+        )
+        for rule, ok, each, column in ranked[:MOST_PLACES]
+    )  # fmt: skip
+    heads = (said("rule"), said("result"), said("value"), said("limit used"), said("situation"), said("strokes"))
+    return TableBlock(said("The worst places"), heads, rows, "llrrmm") if rows else None
+
+
+def value_cell(subject: ReportSubject, answer: Answer, column: Column | None) -> str:
+    """Return an answer's value with its unit, of a limit as its column has it; a dash where nothing says what it measures."""
+    if column is not None:
+        return f"{amount_text(answer, column)} {unit_sign(column.unit)}".strip()
+    measure = answer.question.left if isinstance(answer.question, Constraint) else answer.question
+    kind, quantity = answer.measures or measure_of(subject.machine.plan, measure), getattr(measure, "quantity", None)
+    if answer.unbounded:
+        return answer.amount
+    if not kind and not (isinstance(quantity, Request) and not isinstance(quantity, MotionFunction)):
+        return "–"
+    return show(float(answer.value), display_unit(kind, "mm"), 4)
+
+
+def share_cell(share: float) -> str:
+    """Return how far a limit is used, as a percentage; a dash where that is no share."""
+    return f"{100.0 * share:.0f} %" if 0.0 < share < np.inf else "–"
 
 
 def used(answer: Answer) -> float:
@@ -338,9 +380,11 @@ def used(answer: Answer) -> float:
     question = answer.question
     if not isinstance(question, Constraint) or question.right.leaves:
         return 0.0
-    value, limit = abs(float(answer.value)), abs(float(question.right.of(nothing_asked)))
-    of, by = (value, limit) if question.symbol == "<=" else (limit, value)
-    return np.inf if of > 0.0 and by == 0.0 else 0.0 if of == 0.0 else of / by if np.isfinite(by) else 0.0
+    value, limit = float(answer.value), float(question.right.of(nothing_asked))
+    if limit == 0.0:
+        return np.inf if answer.ok is False else 0.0
+    of, by = map(abs, (value, limit) if question.symbol == "<=" else (limit, value))
+    return np.inf if of > 0.0 and by == 0.0 else of / by if np.isfinite(by) else 0.0
 
 
 def nothing_asked(leaf: Leaf) -> float:

@@ -163,9 +163,10 @@ class ReportSubject:
             return [pin_forces_under(self.table, each) for each in self.judge.actings(drive_force())]
 
     def case_words(self, name: str) -> str:
-        """Return what a load case is called."""
+        """Return what a load case is called, with its name where sentences name it by another one."""
         known = self.machine.plan.of_kind(LoadCase).get(name, self.judge.acting.case)
-        return known.label if isinstance(known, LoadCase) else said("own loads") if name == PLAIN_CASE else name
+        label = known.label if isinstance(known, LoadCase) else said("own loads") if name == PLAIN_CASE else name
+        return label if label == name or len(self.judge.cases) == 1 else f"{label} ({name})"
 
 
 def member_tables(machine: Mechanism, motion: Motion) -> Iterator[tuple[str, Column]]:

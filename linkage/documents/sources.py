@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import ast
 import inspect
+import re
 import tokenize
 from io import StringIO
 from textwrap import dedent
 
 from ..language import translated
 from ..mechanism import Mechanism
+from ..plan import Plan, plan_measure
+from ..quantities import Dimension
 
 
 def notes_of(machine: type[Mechanism]) -> dict[str, str]:
@@ -18,7 +21,23 @@ def notes_of(machine: type[Mechanism]) -> dict[str, str]:
     for cls in reversed(machine.__mro__):
         if issubclass(cls, Mechanism) and cls is not Mechanism:
             found |= comments_in(cls)
-    return {name: translated(text) for name, text in found.items() if name in machine.plan.members}
+    kept = {name: translated(text) for name, text in found.items() if name in machine.plan.members}
+    return {name: text if is_without_unit(machine.plan, name) else without_unit(text) for name, text in kept.items()}
+
+
+SHOWN = ("m", "mm", "cm", "rad", "deg", "kg")
+"""The units of a source's numbers that a report shows in units of its own."""
+
+
+def without_unit(note: str) -> str:
+    """Return a note without the unit at its end: `cylinder stroke, m`."""
+    return re.sub(rf"(?:^|, )(?:{'|'.join((*SHOWN, *map(translated, SHOWN)))})$", "", note)
+
+
+def is_without_unit(plan: Plan, name: str) -> bool:
+    """Return whether nothing but its note says what a number of the design measures."""
+    member = plan.members[name]
+    return isinstance(member, Dimension) and not member.unit and not plan_measure(plan, name)
 
 
 def comments_in(cls: type) -> dict[str, str]:

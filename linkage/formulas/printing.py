@@ -158,7 +158,7 @@ class Latex(LatexPrinter):  # type: ignore[misc]
         return self.words.get(f"{expr.parent.name}.{axis}") or rf"{self._print(expr.parent)}_{{{axis}}}"
 
     def _print_Float(self, expr: Any) -> str:
-        return plain_number(float(expr), 12)
+        return number_latex(plain_number(float(expr), 12))
 
     def _print_Add(self, expr: Any, order: Any = None) -> str:
         return signed_sum([self._print(each) for each in reading_order(expr.args)])

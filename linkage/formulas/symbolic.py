@@ -101,8 +101,9 @@ def input_units(plan: Plan) -> dict[str, Unit]:
     units = {name: ANGLE if stroke_unit(plan, name) == "rad" else LENGTH for name in plan.strokes}
     for name, entry in plan.table.entries.items():
         used = ANGLE if name in plan.turning else LENGTH if name in lengths else NUMBER
-        own = entry.unit and (UNITS[entry.unit][0] != 1.0 or UNITS[entry.unit][1] not in ("length", "angle"))
-        units[name] = Unit(named=entry.unit) if own else KINDS.get(entry.kind, used)
+        factor, kind = UNITS[entry.unit] if entry.unit else (1.0, "")
+        own = entry.unit and kind != "angle" and (factor != 1.0 or kind != "length")
+        units[name] = Unit(named=entry.unit) if own else ANGLE if kind == "angle" else KINDS.get(entry.kind, used)
     return units
 
 

@@ -656,6 +656,7 @@ class MotionFunction(Request):
     """A function of a motion that hangs on the motion alone, as something to ask for: what it was asked of a design is known again."""
 
     function: Callable[[Any], Any]
+    measures: str = ""
 
     def identity(self, plan: Plan) -> Hashable:
         return "function", self.function

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -180,15 +181,17 @@ def given_dimensions(motion: Motion, at: Places, pose: int) -> Iterator[tuple[tu
             yield (P, Q), at[corner], dimension_text(motion, quantity, "deg", pose)
 
 
+ADDED = re.compile(r"^-?\d+(?:\.\d*)?(?= [-+] )|(?<= [-+] )\d+(?:\.\d*)?$")
+"""A number that a formula adds: it is shown in the unit of the drawing, as all lengths are."""
+
+
 def dimension_text(motion: Motion, quantity: Quantity, unit: str, pose: int) -> str:
     """Return a dimension as a drawing has it: its number without the unit of lengths, or the formula that follows a stroke."""
-    strokes = motion.plan.of_kind(Stroke)
+    strokes, sign = motion.plan.of_kind(Stroke), "°" if unit == "deg" else ""
     if motion.plan.terms(quantity) & strokes.keys():
-        return spelled(quantity)
+        return ADDED.sub(lambda found: shown_number(float(found[0]), unit, 5) + sign, spelled(quantity))
     value = float(np.broadcast_to(motion.value(quantity), motion.shape).ravel()[pose])
-    if unit == "deg":
-        return f"{shown_number(abs(value), unit, 5)}°"
-    return shown_number(value, unit, 5)
+    return shown_number(abs(value) if sign else value, unit, 5) + sign
 
 
 def line_choices(text: str, P: FloatArray, Q: FloatArray, letter: float) -> Iterator[LengthLine]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import DefinitionError, SingularError, known_name, unknown
 from ..language import said
-from ..loads import Acting, ActingKeywords, Loads, situation_of, takes_situation
+from ..loads import PLAIN_CASE, Acting, ActingKeywords, Loads, situation_of, takes_situation
 from ..motion import Motion, require_motion, stroke_unit
 from ..motion.limits import where_words
 from ..motion.requests import stroke_of
@@ -19,7 +19,7 @@ from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import Reference, name_of
 from ..shown import Shown
-from ..units import kN
+from ..units import kN, show
 from .agreement import check_joints
 from .applied import AppliedLoad, AppliedLoads, applied_loads, motion_in_case, rates_in
 from .bodies import FRAME_NAME
@@ -352,7 +352,7 @@ def lift_off_words(found: PoseForces) -> list[str]:
             bodies = f"{structure.name(contact.on)} from {structure.name(contact.by)}"
             words.append(
                 f"{contact.owner} lifts off ({contact.kind}, {bodies}) {where_words(poses.plan, mask, poses.motion.strokes)}: there the "
-                f"contact would have to pull, with up to {-float(np.nanmin(push)):.6g} N. Press it on with a spring or a weight."
+                f"contact would have to pull, with up to {show(-float(np.nanmin(push)), 'N', 6)}. Press it on with a spring or a weight."
             )
     return words
 
@@ -365,7 +365,7 @@ def slack_words(found: PoseForces) -> list[str]:
         if mask.any():
             words.append(
                 f"{name} goes slack {where_words(poses.plan, mask, poses.motion.strokes)}: there it would have to push, with up to "
-                f"{-float(np.nanmin(tension)):.6g} N, and the constraint is not kept. Hang more weight on it, or take a rod."
+                f"{show(-float(np.nanmin(tension)), 'N', 6)}, and the constraint is not kept. Hang more weight on it, or take a rod."
             )
     return words
 
@@ -386,8 +386,10 @@ def self_locking_words(found: PoseForces) -> list[str]:
 
 
 def at_rest_words(applied: AppliedLoads) -> list[str]:
-    """Return the words for what gives nothing: no loads at all, dampers without rates."""
+    """Return the words for what gives nothing: no loads at all, or none in a load case, dampers without rates."""
     if not applied.loads and not applied.thrusts:
+        if applied.acting.case not in (None, PLAIN_CASE):
+            return [said("No load acts in the load case {case}: all forces there are zero.", case=applied.case)]
         return [said("no load acts, so that all forces are zero; declare one in the class, such as load = Weight(G, mass=1200).")]
     if not applied.at_rest:
         return []

@@ -30,7 +30,7 @@ class BoomDrive(Mechanism):
     S = Dimension(0.8850545905614509, unit="mm")  # stroke of the cylinder
     p = Dimension(22 * MPa, unit="bar")  # gauge
     n = Dimension(0.95)  # efficiency
-    f_0 = Dimension(200 * mm, unit="mm")  # closed length less stroke, of a bore of none
+    f_0 = Dimension(200 * mm, unit="mm")  # closed length less stroke, for a bore of zero
     f_1 = Dimension(1.6)  # and by how much of the bore it grows
     l = S + f_0 + f_1 * D  # length of the closed cylinder
     lifts = 0.25 * np.pi * p * n * D**2  # what it gives, F p n, N

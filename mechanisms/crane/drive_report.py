@@ -13,7 +13,7 @@ import numpy as np
 
 from linkage import Column, DefinitionError, Featured, Motion, least, most, ratio
 from linkage.language import noted, said, translated
-from linkage.motion import Answer, Judge, Question
+from linkage.motion import Answer, Judge, MotionFunction, Question
 from linkage.program import FloatArray
 from linkage.units import show
 from linkage.verdict import Verdict
@@ -133,7 +133,7 @@ def drive_verdicts(motion: Motion) -> list[str]:
 def lever_verdict(motion: Motion) -> Verdict:
     """Return the least lever of the cylinder about the driven joint; not above zero past a dead point."""
     sense = np.sign(np.ravel(motion.ratio("length"))[0])
-    (found,) = answers_over(motion, [least(lambda each: sense * each.ratio("length"))])
+    (found,) = answers_over(motion, [least(MotionFunction(lambda each: sense * each.ratio("length"), "length"))])
     beyond = "" if found.value > 0.0 else said("; the cylinder passes its dead point: move its pins")
     text = said("at least {lever}, {where}", lever=show(float(found.value), "mm", ".1f"), where=found.where)
     return Verdict("lever", bool(found.value > 0.0), f"{text}{beyond}.", answer=found)

@@ -10,7 +10,7 @@ import numpy as np
 from hydraulics import LiftCircuit
 from linkage import Column, DefinitionError, Force, Motion, least, most, pin_force, ref
 from linkage.language import said
-from linkage.motion import Answer, Judge, Question, require_motion
+from linkage.motion import Answer, Judge, MotionFunction, Question, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import is_whole
 from linkage.units import show, shown_number
@@ -179,7 +179,7 @@ def moment_verdict(motion: Motion) -> Verdict:
 
 def passing_verdict(motion: Motion) -> Verdict:
     """Return whether the cylinder passes the hinge's bush on its whole way. (2.93)"""
-    (found,) = answers_over(travelling(motion), [least(lambda each: GrappleState(each).H)])
+    (found,) = answers_over(travelling(motion), [least(MotionFunction(lambda each: GrappleState(each).H, "length"))])
     room, needed = float(found.value), float(motion.inputs["bush"] + motion.inputs["rod"] / 2.0)
     text = said(
         "the cylinder's line passes the hinge at {room} at the least, at theta = {theta}; bush and rod need {needed}.",

@@ -104,8 +104,8 @@ def tipping_slope(motion: Motion) -> FloatArray:
 
 def balance_verdict(judge: Judge) -> Verdict:
     """Return whether the front axle keeps its least share of the tractor's weight, with the tipping limits."""
-    asked = [least(MotionFunction(each)) for each in (front_axle, tipping_mass, largest_mass, tipping_slope)]
-    worst, tips, largest, slope = judge.answers(asked)
+    asked = [MotionFunction(front_axle, "force"), *map(MotionFunction, (tipping_mass, largest_mass, tipping_slope))]
+    worst, tips, largest, slope = judge.answers([*map(least, asked)])
     load, given = float(worst.value), judge.motion.inputs
     share, needed = load / (float(given["vehicle_mass"]) * g0), float(given["least_front"])
     height = show(float(judge.there(worst).y("F")), "mm", ".0f")

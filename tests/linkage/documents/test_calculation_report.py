@@ -46,7 +46,7 @@ from linkage.formulas.typeset import BoxRow, Fraction, Script, boxes, breakable
 from linkage.language import language
 from linkage.motion import Column, places_text
 from linkage.reports import results, run_of
-from linkage.units import bar, mm
+from linkage.units import bar, display_unit, mm, show
 from linkage.verdict import Verdict
 from mechanisms.classics.jansen import Jansen
 from mechanisms.classics.scotch_yoke import ScotchYoke
@@ -215,7 +215,7 @@ def test_units_are_those_of_the_system():
 
 def test_load_cases_are_looked_at_alone_or_all(tmp_path):
     both = report_document(Lifter())
-    assert dict(both.facts)["Load cases"] == "own loads, twice"
+    assert dict(both.facts)["Load cases"] == "own loads (plain), twice (double)"
     (grid,) = grids(both, "least", "unit")
     (whole,) = (row for row in grid.rows if row[0] == "S")
     assert "in the case plain" in whole[3] and "in the case double" in whole[5]
@@ -311,10 +311,15 @@ def test_worst_places_are_those_of_the_answers(grab):
     (grid,) = grids(grab, "situation", "strokes")
     answers = {each.heading: each for each in Grab().verdicts() if isinstance(each, Verdict) and each.answer is not None}
     assert 0 < len(grid.rows) <= 10
-    for rule, mark, value, _, strokes in grid.rows:
+    for rule, mark, value, share, _, strokes in grid.rows:
+        answer = answers[rule].answer
         assert mark.ok is answers[rule].ok
-        assert value == answers[rule].answer.amount
-        assert strokes == places_text(answers[rule].answer.strokes, {"S": "m", "T": "m"})
+        assert value == show(float(answer.value), display_unit(answer.measures, "mm"), 4)
+        assert strokes == places_text(answer.strokes, {"S": "m", "T": "m"})
+        if rule.startswith("lifting"):  # its limit is a reserve of one
+            assert share == f"{100.0 / answer.value:.0f} %"
+        elif rule.startswith("buckling"):
+            assert share == f"{100.0 * answer.value:.0f} %"
     order = [row[1].ok is not False for row in grid.rows]
     assert order == sorted(order)
 

@@ -1,7 +1,8 @@
 """What a checking engineer looks for: who signs, what stands where, what is assumed, what pins carry; and that nothing is cut."""
 
 import re
-from functools import cache
+from dataclasses import replace
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -13,26 +14,29 @@ from scipy.optimize import brentq
 from hydraulics import Cylinder, LiftCircuit
 from linkage import RIGHT, DefinitionError, Dyad, Force, Ground, LoadCase, Mechanism, OnLink, Stroke, Weight, max_table, pin_forces, report
 from linkage.cli import main
+from linkage.cli.listing import registered
+from linkage.cli.machines import find
 from linkage.documents import report_document
 from linkage.documents.breaking import LONGEST, MATH, formula_pieces
 from linkage.documents.content import Illustration, ListBlock, TableBlock
 from linkage.documents.forces import Stop, blocked_cylinders, worst_blocked
 from linkage.documents.html import html_text
 from linkage.documents.markdown import markdown
-from linkage.documents.pdf import BOTTOM, HIGH, LEFT, TOP, WIDE, Flow, pdf
+from linkage.documents.outcome import CURVE_ROOM, HALF, draw_column
+from linkage.documents.pdf import BOTTOM, HIGH, LEFT, TOP, WIDE, Flow, Page, pdf
 from linkage.documents.pdf import RIGHT as RIGHT_EDGE
 from linkage.documents.pictures import painted
 from linkage.documents.reporting import NUMBER, cited_numbers, own_system, speaking
 from linkage.documents.run import ReportSubject
 from linkage.documents.setting import GlyphRun, set_formula, width
-from linkage.documents.title import TitleBlock
+from linkage.documents.title import FIELDS, TitleBlock
 from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes
+from linkage.motion import Column
 from linkage.statics import elements_of
 from linkage.units import bar, mm
 from mechanisms.crane import Crane
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.shipped import MACHINES
 
 
 class Loader(Mechanism):
@@ -52,10 +56,10 @@ class Loader(Mechanism):
 
 
 @cache
-def shown(cls=Loader):
-    """Return a document in the system of units of the machine's own numbers, as `report` writes it, and its subject."""
+def shown(cls=Loader, language="en"):
+    """Return a document in the system of units of the machine's own numbers, as `report` writes it."""
     machine = cls()
-    with speaking("en", own_system(machine)):
+    with speaking(language, own_system(machine)):
         return report_document(machine, count=3)
 
 
@@ -198,7 +202,7 @@ def test_no_curve_is_drawn_twice():
 
 
 def test_every_load_case_has_its_pins():
-    for case, title in (("plain", "own loads"), ("shock", "with shock")):
+    for case, title in (("plain", "own loads (plain)"), ("shock", "with shock (shock)")):
         (grid,) = (each for each in blocks(report_document(Loader(), count=3), TableBlock) if each.caption.endswith(f"load case {title}"))
         rows = max_table(pin_forces(Loader().sweep(101), case=None if case == "plain" else case))
         shown_forces = {(row[0], row[2], row[3]): float(row[4]) for row in grid.rows}
@@ -290,19 +294,38 @@ def test_what_fits_is_not_broken():
     assert formula_pieces(box, LONGEST, MATH) == [box]
 
 
-def beyond_the_paper(document):
-    """Return the texts of a document's pages, and of the pictures on them, that lie beyond the margins."""
-    found = []
-    for number, page in enumerate(Flow(document).pages, 1):
-        runs = [each for each in page.ink if isinstance(each, GlyphRun)]
-        for each in runs:
-            right = each.x + width(each.text, each.size, each.face)
-            inside = each.x >= LEFT - 0.5 and right <= WIDE - RIGHT_EDGE + 0.5 and TOP - 6.0 <= each.y <= HIGH - BOTTOM + 4.0
-            found += [] if inside else [(number, each.text)]
-        with speaking("en", "bar-mm"):
-            for picture, _, _ in page.pictures:
-                found += [(number, picture.name, text) for text in beyond_the_picture(picture)]
-    return found
+def cut_in(cls, language):
+    """Return the texts that are cut in a machine's report as PDF, on its pages and in the pictures on them, or that cover others."""
+    with speaking(language, own_system(cls())):
+        pages = Flow(shown(cls, language)).pages
+        pictures = [(picture.name, text) for page in pages for picture, _, _ in page.pictures for text in beyond_the_picture(picture)]
+    return [*(each for page in pages for each in (*beyond_the_margins(page), *covering_texts(page))), *pictures]
+
+
+def runs_of(page):
+    """Return the texts of a page with their boxes (left, right, top, bottom) [points]."""
+    runs = [each for each in page.ink if isinstance(each, GlyphRun) and each.text.strip()]
+    return runs, np.array([(each.x, each.x + width(each.text, each.size, each.face), each.y - 0.6 * each.size, each.y) for each in runs])
+
+
+def beyond_the_margins(page):
+    """Return the texts of a page that lie beyond its margins."""
+    runs, boxes_drawn = runs_of(page)
+    inside = [
+        left >= LEFT - 0.5 and right <= WIDE - RIGHT_EDGE + 0.5 and TOP - 6.0 <= foot <= HIGH - BOTTOM + 4.0
+        for left, right, _, foot in boxes_drawn
+    ]  # fmt: skip
+    return [each.text for each, is_inside in zip(runs, inside, strict=True) if not is_inside]
+
+
+def covering_texts(page):
+    """Return the pairs of texts of a page that lie on each other."""
+    runs, boxes_drawn = runs_of(page)
+    left, right, top, foot = boxes_drawn.T
+    across = np.minimum(right, right[:, None]) - np.maximum(left, left[:, None])
+    down = np.minimum(foot, foot[:, None]) - np.maximum(top, top[:, None])
+    pairs = np.argwhere(np.triu((across > 0.8) & (down > 0.8), 1))
+    return [(runs[one].text, runs[other].text) for one, other in pairs]
 
 
 def beyond_the_picture(picture):
@@ -325,19 +348,39 @@ def beyond_the_picture(picture):
     return [text for text, box in boxes_drawn if min(box.x0, box.y0, wide - box.x1, high - box.y1) < -1.0]
 
 
-DAILY = ("three_point_hitch", "jansen")
+DAILY = {("three_point_hitch", "en"), ("jansen", "en"), ("mower_lift", "ru")}
+EDGES = [(name, language) for name in sorted(registered()) for language in ("en", "ru")]
 
 
-@pytest.mark.parametrize("name", [name if name in DAILY else pytest.param(name, marks=pytest.mark.slow) for name in MACHINES])
-def test_nothing_is_cut_at_the_papers_edge(name):
-    machine = MACHINES[name]
-    if machine.plan.strokes:
-        assert not beyond_the_paper(shown(machine))
+@pytest.mark.parametrize(("name", "language"), [each if each in DAILY else pytest.param(*each, marks=pytest.mark.slow) for each in EDGES])
+def test_nothing_is_cut_at_the_papers_edge(name, language):
+    assert not cut_in(find(name), language)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["excavator", "forwarder", "wheel_loader", "telehandler", "spreader_tractor", "tail_lift"])
-def test_nothing_of_a_machine_at_work_is_cut(name):
-    from linkage.cli.machines import find
+def test_what_is_cut_is_found():
+    """The readers of edges see a text beyond the margin, one on another, and one that a picture's edge cuts."""
+    def put(x, y, text):
+        return GlyphRun(x, y, text, 8.8, "regular")
 
-    assert not beyond_the_paper(shown(find(name)))
+    inside = put(LEFT, 100.0, "inside")
+    page = Page([put(WIDE - RIGHT_EDGE - 10.0, 100.0, "beyond"), put(LEFT, HIGH - 20.0, "below"), inside])
+    assert beyond_the_margins(page) == ["beyond", "below"]
+    assert covering_texts(Page([inside, put(LEFT + 5.0, 100.0, "on it")])) == [("inside", "on it")] and not covering_texts(Page([inside]))
+    heading = "a heading that is much too long for it"
+    picture = Illustration("cut", "", (2.0, 2.0), (0.1, 0.1, 0.1, 0.1), lambda ax: ax.set_title(heading))
+    assert heading in beyond_the_picture(picture)
+
+
+def test_a_long_heading_of_a_curve_fits_its_picture():
+    column = Column("усилие на штоке crane.extend_right", np.linspace(-4.6, -4.0, 11), "kN")
+    size, room = (HALF, 2.15), CURVE_ROOM
+    paint = partial(draw_column, motion=Loader().sweep(11), column=column, bound=None, beyond=())
+    assert not beyond_the_picture(Illustration("curve", "", size, room, paint))
+
+
+def test_no_text_of_a_title_block_is_lost():
+    long = {name: f"{name} " + "Forestry and Construction Machines of the North " * 3 for name in FIELDS}
+    page = Flow(replace(shown(), block=TitleBlock(**long))).pages[0]
+    put = "".join(each.text for each in page.ink if isinstance(each, GlyphRun)).replace(" ", "")
+    assert all(text.replace(" ", "")[-40:] in put for text in long.values())
+    assert not beyond_the_margins(page) and not covering_texts(page)

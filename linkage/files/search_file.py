@@ -12,6 +12,7 @@ M = "within 60 mm"
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,13 +20,17 @@ from typing import Any, final
 
 from ..errors import DefinitionError
 from ..mechanism import Mechanism
+from ..motion.regions import outside
+from ..quantities import is_number
 from ..study import Optimum
 from ..study.optimise import METHODS as SEARCH_METHODS
 from ..study.optimise import SOLVERS, optimise
 from ..study.optimum import COARSEST
 from ..study.pareto import Front
+from ..study.regions import point_regions
 from ..study.space import size_of_machine
 from ..study.survey import Progress
+from ..surroundings import Outline
 from .criterion import condition_said, measure_said
 from .names import shortened
 from .study_file import (
@@ -43,8 +48,8 @@ from .study_file import (
 )
 
 SEARCH_KEYS = (
-    "minimise", "maximise", "vary", "subject_to", "case", "over", "robust", "sigmas", "method", "solver", "starts", "seed", "limit",
-    "folder", "round", "outputs",
+    "minimise", "maximise", "vary", "subject_to", "regions", "case", "over", "robust", "sigmas", "method", "solver", "starts", "seed",
+    "limit", "folder", "round", "outputs",
 )  # fmt: skip
 SEARCH_OUTPUTS: Mapping[str, tuple[str, ...]] = {
     "table": (".csv",),
@@ -54,6 +59,12 @@ SEARCH_OUTPUTS: Mapping[str, tuple[str, ...]] = {
     "machine": (".toml", ".json"),
 }
 ROUND_KEYS = {"to": "length", "angle": "angle"}
+REGION_WORDS = (
+    'corners [["0 mm", "0 mm"], ["90 mm", "0 mm"], ["90 mm", "60 mm"]], an outline "plate", "outside(wheel)", '
+    '{ at = ["10 mm", "0 mm"], radius = "50 mm" }, { outside = ... }, or a list of these'
+)
+_NUMBER = re.compile(r"\s*[-+.\d]")
+_OUTSIDE = re.compile(r"\s*outside\s*\(\s*(?P<outline>[^()]+?)\s*\)\s*\Z")
 
 
 @final
@@ -91,6 +102,7 @@ def read_search(
     several = sum(len(each) for each in objectives.values()) > 1
     arguments["subject_to"] = conditions_listed(head, data.get("subject_to", []), over)
     arguments["vary"] = vary_said(head, data.get("vary", {}))
+    arguments["regions"] = regions_said(head, data.get("regions", {}))
     readers: Mapping[str, Callable[[Any], Any]] = {
         "case": lambda given: case_said(head, given),
         "method": word_said(SEARCH_METHODS),
@@ -142,6 +154,42 @@ def conditions_listed(head: StudyHead, given: object, over: Mapping[str, Any] | 
         with head.faults.at(*key, "subject_to", str(number)):
             found.append(condition_said(text, head.machine, over))
     return found
+
+
+def regions_said(head: StudyHead, given: object, *key: str) -> dict[str, Any]:
+    """Return the regions of points as `optimise` takes them; mistakes are noted behind a key, each under its point."""
+    found: dict[str, Any] = {}
+    with head.faults.at(*key, "regions"):
+        if not isinstance(given, Mapping):
+            raise DefinitionError(f'{shortened(given)}: a region for each point is expected, such as regions = {{ C = "plate" }}.')
+        for point, shapes in given.items():
+            with head.faults.at(*key, "regions", point):
+                region = shape_said(shapes)
+                point_regions(head.machine, {point: region}, {}, ())
+                found[point] = region
+    return found
+
+
+def shape_said(given: object) -> Any:
+    """Return a shape, or the shapes of a list: corners, an outline's name, a circle, `outside(...)` of an outline, or outside of any."""
+    if isinstance(given, str):
+        forbidden = _OUTSIDE.match(given)
+        return given if forbidden is None else outside(forbidden.group("outline"))
+    if isinstance(given, Mapping) and set(given) == {"outside"}:
+        return outside(shape_said(given["outside"]))
+    if isinstance(given, Mapping) and set(given) == {"at", "radius"} and is_corner(given["at"]):
+        x, y = (amount_said(each, "length") for each in given["at"])
+        return Outline.circle((x, y), amount_said(given["radius"], "length"))
+    if isinstance(given, list) and given and all(map(is_corner, given)):
+        return [tuple(amount_said(each, "length") for each in corner) for corner in given]
+    if isinstance(given, list) and given:
+        return [shape_said(each) for each in given]
+    raise DefinitionError(f"{shortened(given)} is no region; write {REGION_WORDS}.")
+
+
+def is_corner(given: object) -> bool:
+    """Return whether this is a pair of coordinates, as numbers or with their units."""
+    return isinstance(given, list) and len(given) == 2 and all(is_number(each) or _NUMBER.match(str(each)) for each in given)
 
 
 def rounding_said(head: StudyHead, given: object, *key: str) -> dict[str, float] | None:

@@ -32,7 +32,7 @@ from ..synthesis.tasks import Task
 from .criterion import measure_said, quantity_said
 from .names import shortened
 from .points import PointColumn, points_said, units_said
-from .search_file import conditions_listed, rounding_said
+from .search_file import conditions_listed, regions_said, rounding_said
 from .study_file import PICTURE_SUFFIXES, FindMachine, StudyHead, amount_said, case_said, count_said, outputs_said, over_said, vary_said
 
 SECTION = "synthesis"
@@ -41,7 +41,9 @@ TASK_KEYS: Mapping[str, tuple[str, ...]] = {
     "function": ("of", "points", "unit"),
     "motion": ("of", "points", "unit", "in_order", "length"),
 }
-SYNTHESIS_KEYS = (*TASK_KEYS, "vary", "subject_to", "timed", "rank", "case", "over", "starts", "seed", "limit", "folder", "round")
+SYNTHESIS_KEYS = (
+    *TASK_KEYS, "vary", "subject_to", "regions", "timed", "rank", "case", "over", "starts", "seed", "limit", "folder", "round",
+)  # fmt: skip
 SYNTHESIS_OUTPUTS: Mapping[str, tuple[str, ...]] = {
     "table": (".csv",),
     "drawing": PICTURE_SUFFIXES,
@@ -112,20 +114,23 @@ def varied_and_kept(head: StudyHead, given: Mapping[str, Any], over: Mapping[str
     Of several machines these are tables by the machines' names, or one thing for all; what `vary` leaves out the search chooses.
     """
     if not head.machines:
-        found = {key: read(head, given.get(key, {} if key == "vary" else []), over) for key, read in BY_CLASS.items() if key != "rank"}
+        every = {key: read for key, read in BY_CLASS.items() if key != "rank"}
+        found = {key: read(head, given.get(key, [] if key == "subject_to" else {}), over) for key, read in every.items()}
         return found | ({"rank": rank_said(head, given["rank"], over)} if "rank" in given else {})
     several: dict[str, dict[type[Mechanism], Any]] = {}
     for key, read in BY_CLASS.items():
-        for name, said in by_machine(head, given.get(key, {})).items():
+        for name, said in by_machine(head, given.get(key, {}), is_of_points=key == "regions").items():
             with head.faults.at(SECTION, key):
                 machine = head.machines[known_name("Machine", name, head.machines)]
                 several.setdefault(key, {})[type(machine)] = read(replace(head, machine=machine), said, over)
     return dict(several)
 
 
-def by_machine(head: StudyHead, given: object) -> Mapping[Any, Any]:
-    """Return what is said by the machines' names, the same of each where it is no table."""
-    return given if isinstance(given, Mapping) else dict.fromkeys(head.machines, given)
+def by_machine(head: StudyHead, given: object, *, is_of_points: bool = False) -> Mapping[Any, Any]:
+    """Return what is said by the machines' names, the same of each where it is no table, or one by points with another name in it."""
+    if not isinstance(given, Mapping) or (is_of_points and not set(given) <= set(head.machines)):
+        return dict.fromkeys(head.machines, given)
+    return given
 
 
 def rank_said(head: StudyHead, given: object, over: Mapping[str, Any] | None) -> Any:
@@ -139,6 +144,7 @@ def rank_said(head: StudyHead, given: object, over: Mapping[str, Any] | None) ->
 BY_CLASS: Mapping[str, Callable[[StudyHead, Any, Any], Any]] = {
     "vary": lambda head, given, over: vary_said(head, given, SECTION),
     "subject_to": lambda head, given, over: conditions_listed(head, given, over, SECTION),
+    "regions": lambda head, given, over: regions_said(head, given, SECTION),
     "rank": rank_said,
 }
 """What may be said class by class, and what reads it."""

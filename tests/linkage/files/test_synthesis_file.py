@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from linkage import FileError, FunctionTask, PathTask, PoseTask, deg, mm
+from linkage import FileError, FunctionTask, Outline, PathTask, PoseTask, deg, mm, outside
 from linkage.cli.optimise import finder
 from linkage.files.points import PointColumn, points_said, units_said
 from linkage.files.synthesis_file import read_synthesis
+from linkage.motion.regions import region_of
 
 HEAD = """machine = "four_bar"
 [synthesis]
@@ -101,6 +102,24 @@ def test_several_machines_are_told_class_by_class(tmp_path):
         read_synthesis(tmp_path / "task.toml", finder([]))
 
 
+REGIONS = """
+[synthesis.regions]
+C = [[["50 mm", "-30 mm"], [0.15, "-3 cm"], ["150 mm", 0.06]], { outside = { at = ["100 mm", 0], radius = "25 mm" } }]
+"""
+
+
+def test_regions_are_those_of_a_call(tmp_path):
+    task = 'path = { of = "P", points = [[30, 60], [15, 70], [0, 72]], unit = "mm" }\n'
+    corners, wheel = [(0.05, -0.03), (0.15, -0.03), (0.15, 0.06)], Outline.circle((0.1, 0.0), 0.025)
+    said = read(tmp_path, task + REGIONS).arguments["regions"]["C"]
+    given, wanted = (region_of(each, "C") for each in (said, [corners, outside(wheel)]))
+    assert_allclose(given.within[0].corners, wanted.within[0].corners, rtol=1e-15)
+    assert given.without == wanted.without
+    (tmp_path / "task.toml").write_text(SEVERAL.replace("[synthesis.vary", REGIONS.replace("C =", "O =") + "[synthesis.vary"), encoding="utf-8")
+    of_each = read_synthesis(tmp_path / "task.toml", finder([])).arguments["regions"]
+    assert len(of_each) == 2 and all(set(each) == {"O"} for each in of_each.values())
+
+
 def test_a_function_and_poses(tmp_path):
     (tmp_path / "psi.csv").write_text("phi [deg], psi [deg]\n30, 100\n60, 110\n", encoding="utf-8")
     found = read(tmp_path, 'function = { of = "psi", points = "psi.csv" }\nover = { phi = "30 to 60 deg" }').arguments
@@ -144,6 +163,11 @@ seed = 3
         ('path = { of = "P", points = [[1, 2]], color = 3 }', "Key 'color' is unknown"),
         ('path = { of = "P", points = [[1, 2]] }\ntimed = "later"', "synthesis.timed: 'later': true, false or \"steps\""),
         ('path = { of = "P", points = [[1, 2]] }\nsubject_to = ["most(psi) > 2"]', "synthesis.subject_to.1"),
+        ('path = { of = "P", points = [[1, 2]] }\nregions = { Q = "plate" }', "synthesis.regions.Q: Point 'Q' is unknown"),
+        ('path = { of = "P", points = [[1, 2]] }\nregions = { C = "outside(weel)" }', "there is no outline weel; it has no outlines"),
+        ('path = { of = "P", points = [[1, 2]] }\nregions = { C = { at = [0, "1 deg"], radius = 1 } }', "'1 deg' is an angle"),
+        ('path = { of = "P", points = [[1, 2]] }\nregions = { C = 3 }', "regions.C: 3 is no region; write corners"),
+        ('path = { of = "P", points = [[1, 2]] }\nregions = "plate"', "regions: 'plate': a region for each point"),
         ('path = { of = "P", points = [[1, 2]] }\nfaster = true', "Key 'faster' is unknown"),
         ('function = { of = "nothing", points = [[1, 2]] }', "synthesis.function.of: "),
         ('motion = { of = "A", points = [[1, 2, 3]] }', "two points of the body expected"),

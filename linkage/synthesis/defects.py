@@ -72,16 +72,18 @@ def circuit_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
     lost = said("it cannot be assembled between {where}", where=where)
     if len(groups) < 2:
         return lost
-    parts = [point_ranges(each) for each in groups.values()]
     if is_of_circuits(fit):
-        if len(parts) == 2:
-            told = said("points {first} lie on the one circuit, {second} on the other", first=parts[0], second=parts[1])
-        else:
-            told = ", ".join(said("points {points} lie on circuit {number}", points=each, number=k) for k, each in enumerate(parts, 1))
-    else:
-        numbered = [said("points {points} lie on part {number} of its motion", points=each, number=k) for k, each in enumerate(parts, 1)]
-        told = ", ".join(numbered)
+        return f"{lost}; {points_on_circuits([*groups.values()])}"
+    parts = [points_lie(each) for each in groups.values()]
+    told = ", ".join(said("{points} on part {number} of its motion", points=each, number=k) for k, each in enumerate(parts, 1))
     return f"{lost}; {told}"
+
+
+def points_on_circuits(groups: Sequence[Sequence[int]]) -> str:
+    """Return which points lie on which circuit, in words."""
+    if len(groups) == 2:
+        return said("{points} on the one circuit, {others} on the other", points=points_lie(groups[0]), others=point_ranges(groups[1]))
+    return ", ".join(said("{points} on circuit {number}", points=points_lie(each), number=k) for k, each in enumerate(groups, 1))
 
 
 def is_of_circuits(fit: Fit) -> bool:
@@ -133,8 +135,8 @@ def branch_words(fit: Fit, machine: Mechanism, at: FloatArray, base: FloatArray,
             there = np.linalg.norm(fit.rows.off(values)[0], axis=0)
         lie = [int(k) + 1 for k in away if there[k] < NEARER * far[k]]
         if lie:
-            words = {"points": point_ranges(lie), "name": f"{name}{ENDING}", "side": other}
-            return said("points {points} lie on the other branch, {name} = {side}", **words)
+            words = {"points": points_lie(lie), "name": f"{name}{ENDING}", "side": other}
+            return said("{points} on the other branch, {name} = {side}", **words)
     return ""
 
 
@@ -147,6 +149,12 @@ def change_point_words(angle: float, four_bars: Sequence[FourBar]) -> list[str]:
         if abs(each.margin) < NEAR_GRASHOF * max(each.lengths):
             words.append(said("its Grashof margin is {margin}", margin=show(each.margin, "mm", 3)))
     return words
+
+
+def points_lie(points: Sequence[int]) -> str:
+    """Return which points lie somewhere, the beginning of a sentence: `points 1-4, 7 lie`."""
+    numbers = point_ranges(points)
+    return said("point {number} lies", number=numbers) if len(points) == 1 else said("points {numbers} lie", numbers=numbers)
 
 
 def point_ranges(points: Sequence[int]) -> str:

@@ -30,7 +30,7 @@ from ..steps import Guide
 from ..study.sides import class_on_sides
 from ..units import show
 from ..vectors import LEFT, RIGHT, Side
-from .defects import point_ranges
+from .defects import point_ranges, points_on_circuits
 from .synthesis import TOLD
 
 ComplexArray: TypeAlias = npt.NDArray[np.complex128]
@@ -375,8 +375,7 @@ def why_not(parts: Sequence[tuple[int, bool, int]], circuit: npt.NDArray[np.int_
     """Return why a machine is no answer, in words; "" for one that is. `parts` are the ways, sides and turns of the points."""
     circuits = [*dict.fromkeys(circuit.tolist())]
     if len(circuits) > 1:
-        groups = [point_numbers(circuit == each) for each in circuits]
-        return ", ".join(said("points {points} lie on circuit {number}", points=each, number=k) for k, each in enumerate(groups, 1))
+        return points_on_circuits([(np.flatnonzero(circuit == each) + 1).tolist() for each in circuits])
     branches = [*dict.fromkeys(parts)]
     if len(branches) > 1:
         some, others = (point_numbers(np.array([each == branch for each in parts])) for branch in branches[:2])

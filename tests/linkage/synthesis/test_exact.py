@@ -238,6 +238,6 @@ def test_points_on_two_circuits_are_told():
     phi = np.radians([20.0, 60.0, 110.0])
     mirrored = [each if k < 2 else -bar.at(phi=-phi[k])["psi"] for k, each in enumerate(bar.at(phi=phi)["psi"])]
     found = freudenstein(np.stack([phi, mirrored], axis=1))
-    assert not found.solutions and found.misses[0].why == "points 1-2 lie on circuit 1, points 3 lie on circuit 2"
+    assert not found.solutions and found.misses[0].why == "points 1-2 lie on the one circuit, 3 on the other"
     assert_allclose(lengths(found.misses[0].machine), [0.3, 0.9, 0.8], rtol=1e-9)
     assert found.misses[0].machine.strokes["phi"].end == pytest.approx(60 * deg)

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import FunctionTask, PathTask, PoseTask, deg, mm, synthesise
-from linkage.synthesis.defects import connected_parts, lost_stretches, point_ranges
+from linkage.synthesis.defects import connected_parts, lost_stretches, point_ranges, points_on_circuits
 from mechanisms.classics.four_bar import FourBar
 from tests.linkage.synthesis.synthesis_tasks import Bar, OtherBar, places
 
@@ -48,6 +48,11 @@ def test_points_on_two_circuits_are_told():
     told = [tuple(map(float, each)) for each in re.findall(r"phi = ([\d.]+) deg and ([\d.]+) deg", found.misses[0].why)]
     gaps = np.array(lost_stretches(runs, closed=True)) * 0.5
     assert_allclose(sorted(told), sorted(map(tuple, gaps)), rtol=0, atol=1.0)
+
+
+def test_one_point_lies_and_several_lie():
+    assert points_on_circuits([[1], [2, 3, 4]]) == "point 1 lies on the one circuit, 2-4 on the other"
+    assert points_on_circuits([[1, 3], [2], [4]]) == "points 1, 3 lie on circuit 1, point 2 lies on circuit 2, point 4 lies on circuit 3"
 
 
 def test_points_on_two_branches_are_told():

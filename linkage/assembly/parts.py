@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import permutations
 from typing import Any, final
@@ -17,12 +17,15 @@ from ..steps import Dyad, Guide, GuideCross, Link, OnLink, Pin, PinSlotDyad, Sli
 
 @final
 class Shape:
-    """What is known of a link's shape. Lengths in m, angles in rad."""
+    """What is known of a link's shape, from its own labels and those of links of the same body. Lengths in m, angles in rad."""
 
-    def __init__(self, link: Link, pins: Mapping[str, Pin], placed: set[str], place: Callable[[str], tuple[float, float]]) -> None:
+    def __init__(
+        self, link: Link, links: Iterable[Link], pins: Mapping[str, Pin], placed: set[str], place: Callable[[str], tuple[float, float]]
+    ) -> None:
         self.points = link.point_names
         self.pins, self.placed, self.place = pins, placed, place
-        self.labels = {name: quantity(value) for name, value in link.labels.items()}
+        bodied = [link, *(each for each in links if len({*each.point_names} & {*self.points}) > 1)]
+        self.labels = {name: quantity(value) for each in reversed(bodied) for name, value in each.labels.items()}
 
     def given(self, *points: str) -> tuple[str, Quantity] | None:
         """Return the label of a distance (two points) or an angle (three points) as it is spelled, if it is given."""
@@ -109,7 +112,7 @@ class Parts:
     shapes: dict[str, Shape] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.shapes = {name: Shape(link, self.pins, self.placed, self.place) for name, link in self.links.items()}
+        self.shapes = {name: Shape(link, self.links.values(), self.pins, self.placed, self.place) for name, link in self.links.items()}
 
     def loose(self, link: Link) -> list[str]:
         """Return a link's points that are not placed."""

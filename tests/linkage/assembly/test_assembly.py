@@ -332,3 +332,18 @@ def test_a_drawn_machine_says_where_it_runs_in_its_cases():
         returning = Over(cases=["empty"])
 
     assert [each.cases for each in Drawn().overs] == [("empty",)]
+
+
+def test_links_of_one_body_say_its_lengths_together():
+    class Head(Mechanism):
+        tilt = Stroke(0.0, 0.30)
+        E, B = Ground(1.0, 0.75), Ground(2.0, 0.9)
+        K, H = Pin(near=(2.4, 1.3)), Pin(near=(2.15, 0.5))
+        head = Link("B H", BH=0.42)
+        lug = Link("B K H", BK=0.45, HK=0.80)
+        ram = Link("E K", EK=1.05 + tilt)
+
+    motion = Head(BH=0.5).sweep(11)
+    for label, length in (("BH", 0.5), ("BK", 0.45), ("HK", 0.8)):
+        assert_allclose(motion.distance(*label), length, rtol=1e-12)
+    assert Head().mobility == 1 and len(Head().links) == 2

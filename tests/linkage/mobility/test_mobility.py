@@ -170,7 +170,7 @@ def test_a_sketch_out_of_reach_is_said_in_words():
         A = Crank(O, OA=1, angle=phi)
         B = Dyad(A, C, AB=1, CB=1, side=LEFT)
 
-    with pytest.raises(AssemblyError, match=r"Short: B cannot be assembled at phi = 60 deg: AB \+ CB = 2 m is 1\.61e\+03 mm short of AC"):
+    with pytest.raises(AssemblyError, match=r"Short: B cannot be assembled at phi = 60 deg: AB \+ CB = 2 m is 1\.61 m short of AC"):
         _ = Short().mobility
 
 

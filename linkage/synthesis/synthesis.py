@@ -271,7 +271,7 @@ class Synthesis(Shown):
 
 def answer_cell(value: Any) -> str:
     """Return what stands in a cell: a number to its last digit, nothing for none, a side by its word."""
-    return str(value) if isinstance(value, Side) else "" if value != value else repr(float(value))
+    return str(value) if isinstance(value, (Side, int)) else "" if value != value else repr(float(value))
 # Which answers are one, and which is the better one.
 
 

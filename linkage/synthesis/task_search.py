@@ -10,7 +10,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, LinkageError, cited
+from ..errors import DefinitionError, LinkageError, cited, unwarned
 from ..frozen import frozen
 from ..language import said
 from ..mechanism import Mechanism
@@ -23,6 +23,7 @@ from ..study.checkpoint import Checkpoint, digest, facts_as_json, facts_of_machi
 from ..study.checks import check_one_design
 from ..study.cylinder_rows import fitted_rows
 from ..study.designs import Array
+from ..study.measured import traced_number
 from ..study.optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
 from ..study.problem import Problem, end_words
 from ..study.space import FAR, Space, size_of_machine
@@ -149,13 +150,14 @@ def synthesise(
     problem.count.limit = limit
     timing = Timing.of(problem, searched_stroke(problem), timed, rows.count)
     check_unit_of_points(machine, rows, space)
+    check_moved(problem, rows, timing.stroke)
     if timing.stroke not in fitted.travels:  # rows of cylinders have ranges of their own
         check_timed(problem, timing, task.at if timed is True else None)
     catalogue = catalogue_for(problem, task, timing, timed, starts, executor, progress) if catalogued else None
     many = starts if isinstance(starts, int) else STARTS
     search = TaskSearch(problem, task, rows, timing, timed, ranks, held, over, many, seed, catalogue)
     checkpoint = None if folder is None else Checkpoint.of(folder, facts_of_search(search))
-    with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):
+    with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"), unwarned():  # an answer says how near it passes
         return search.run(Stages(executor or LocalExecutor(), checkpoint, tell, search.total))
 
 
@@ -210,6 +212,16 @@ def check_unit_of_points(machine: Mechanism, rows: TaskRows, space: Space) -> No
     if far > 5.0 * FAR * size:  # a path may be out of reach, and is told so
         told = f"points as far as {far:.6g} m from the origin, where no length is above {size:.6g} m"
         raise DefinitionError(f"{machine.plan.title}: {told}; points are in m, write np.array(points) * mm if these are millimetres.")
+
+
+def check_moved(problem: Problem, rows: TaskRows, stroke: str) -> None:
+    """Raise DefinitionError for a quantity that stands still while the stroke runs."""
+    plan = problem.plan
+    for each in rows.quantities:
+        names = traced_number(plan, each).names(plan)
+        if stroke not in plan.reaches(*names):
+            told = f"{words_of(each)} does not move with {stroke}, the stroke of this task"
+            raise DefinitionError(f"{plan.title}: {told}; ask for what moves, or let another stroke run, over={{...}}.")
 
 
 def check_timed(problem: Problem, timing: Timing, at: FloatArray | None) -> None:

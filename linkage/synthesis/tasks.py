@@ -174,10 +174,17 @@ class PoseTask:
         first, second = task_named_in(machine, self).of.split()
         for each in (first, second):
             check_point(machine, each)
+        if not any({first, second} <= {*body.points} for body in machine.plan.chain.bodies):
+            known = ", ".join(" ".join(body.points) for body in machine.plan.chain.bodies if body.kind == "body")
+            raise DefinitionError(f"{machine.plan.title}: {first} and {second} are not of one body; the bodies that move are {known}.")
         length = self.length
         if length is None:
             pose = machine.at(unreachable="nan", **machine.plan.sketch_strokes)
-            length = float(np.nanmax(pose.distance(first, second)))
+            far = pose.distance(first, second)
+            if np.isnan(far).all():
+                told = f"the distance of {first} and {second} is unknown where the machine is drawn, as it cannot be assembled there"
+                raise DefinitionError(f"{machine.plan.title}: {told}; say PoseTask(..., length=...), in m.")
+            length = float(np.nanmax(far))
         weights = np.array([1.0, 1.0, length if length > 0.0 else 1.0])
         wanted = np.array([self.x, self.y, self.angle])
         return TaskRows((x(first), y(first), angle(first, second)), wanted, weights, np.array([0.0, 0.0, 1.0]), False)
@@ -220,8 +227,17 @@ def table_of(what: str, name: str, given: Any, width: int, row: str = "pairs (x,
     shape = (found.shape[0] if found.ndim else 0, *((width,) if width else ()))
     if found.shape != shape or not found.size or not np.isfinite(found).all():
         rows = f"{row}, shape (n, {width})" if width else "numbers in a row, shape (n,)"
-        raise DefinitionError(f"{what}: {name}={cited(given)}: finite {rows}, are expected, in SI.")
+        raise DefinitionError(f"{what}: {name}={cited(given)}: finite {rows}, are expected, in SI{wrong_words(name, found, width)}.")
     return frozen(found)
+
+
+def wrong_words(name: str, found: FloatArray, width: int) -> str:
+    """Return what is wrong with a table of numbers, and how it is written right; "" where it is none at all."""
+    if found.ndim == (2 if width else 1) and found.size and not np.isfinite(found).all():
+        return f"; number {int(np.argmin(np.isfinite(found.reshape(len(found), -1)).all(axis=1))) + 1} is not finite"
+    if width and found.ndim == 2 and found.shape[0] == width:
+        return f"; these have shape {found.shape}, write np.transpose({name})"
+    return f"; write a single one as [{tuple(found.tolist())}]" if width and found.shape == (width,) else ""
 
 
 def check_radians(what: str, name: str, angles: FloatArray) -> None:
@@ -251,7 +267,7 @@ def rows_of_values(what: str, given: Any, count: int) -> list[FloatArray]:
 
 def timed_strokes(what: str, given: Any, count: int) -> FloatArray | None:
     """Return the strokes of timed points (n,); DefinitionError where they are not as many as the points."""
-    if given is None:
+    if given is None and what != "FunctionTask":
         return None
     found = table_of(what, "at" if what != "FunctionTask" else "strokes", given, 0)
     if len(found) != count:

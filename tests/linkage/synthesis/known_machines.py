@@ -13,6 +13,7 @@ from linkage import (
     Crank,
     Dimension,
     Dyad,
+    FunctionTask,
     Ground,
     Link,
     Mechanism,
@@ -20,11 +21,13 @@ from linkage import (
     PathTask,
     Pin,
     PinSlotDyad,
+    PoseTask,
     Stroke,
     deg,
     drawn,
     mm,
     synthesise,
+    x,
 )
 from mechanisms.classics.klann import Klann
 from mechanisms.classics.slider_crank import SliderCrank
@@ -365,3 +368,97 @@ def along_stroke(known, machine, poses=POSES):
 def runs(known, machine):
     """Return whether a machine closes at 5,001 poses of its stroke, by the evaluator of its own."""
     return bool(np.isfinite(along_stroke(known, machine)).all())
+
+
+# Machines that cannot run over their whole stroke.
+
+
+def open_loop(random, frame, crank, coupler, follower, *, scale=1.0):
+    """Return lengths of a four-bar loop that does not close where the crank points away from the far pivot."""
+    turned = frame * random.uniform(0.8, 1.2) * scale
+    rest, share = (frame + turned) * random.uniform(0.8, 0.9), random.uniform(0.4, 0.6)
+    return {crank: turned, coupler: rest * share, follower: rest * (1.0 - share)}
+
+
+def far_apart(frame, crank, coupler, follower):
+    """Return by how much the best lengths of a box are too short where the crank points away from the far pivot [m]."""
+    return lambda low, high: frame + low[crank] - high[coupler] - high[follower]
+
+
+@dataclass(frozen=True)
+class Stuck:
+    """Lengths with which a class does not run, of random numbers; by how much a box of them fails at the best; the points of a body."""
+
+    lengths: Callable[[Any], dict[str, float]]
+    short: Callable[[Mapping[str, float], Mapping[str, float]], float]
+    body: str
+
+
+STEPHENSON = float(np.hypot(*(StephensonOne().dimensions[f"C.{axis}"] - StephensonOne().dimensions[f"O.{axis}"] for axis in "xy")))
+OM = abs(complex(1.599, 0.75) - complex(1.009, 0.574))
+STUCK = {
+    "four-bar": Stuck(lambda random: open_loop(random, 0.03, "OA", "AB", "CB"), far_apart(0.03, "OA", "AB", "CB"), "A P"),
+    "slider-crank": Stuck(
+        lambda random: {"OA": 0.05, "AB": 0.05 * random.uniform(0.7, 0.9)}, lambda low, high: low["OA"] - high["AB"], "A P"
+    ),
+    "inverted slider-crank": Stuck(
+        lambda random: {"OA": 0.1 * random.uniform(0.98, 1.02), "e": 0.02},
+        lambda low, high: low["e"] - max(abs(low["OA"] - 0.1), abs(high["OA"] - 0.1)), "A P",
+    ),
+    "Watt": Stuck(lambda random: open_loop(random, 0.1, "OA", "AB", "CB"), far_apart(0.1, "OA", "AB", "CB"), "D F"),
+    "Stephenson": Stuck(lambda random: open_loop(random, STEPHENSON, "OA", "AB", "CB"), far_apart(STEPHENSON, "OA", "AB", "CB"), "D F"),
+    "Klann, of parts": Stuck(lambda random: open_loop(random, OM, "OA", "AB", "MB"), far_apart(OM, "OA", "AB", "MB"), "K F"),
+    "a tailgate of a user's own": Stuck(
+        lambda random: {"OB": random.uniform(0.13, 0.18)}, lambda low, high: 0.67 - abs(complex(0.15, 0.45)) - high["OB"], "D P"
+    ),
+}  # fmt: skip
+"""Classes of which random lengths reach a part of the stroke only, by the triangle's inequality."""
+
+
+@dataclass(frozen=True)
+class StuckTask:
+    """A task that a machine does which does not run, how it is timed, the box about that machine, and by how much all of it fails [m]."""
+
+    known: Known
+    machine: Mechanism
+    task: Any
+    timed: Any
+    box: Mapping[str, tuple[float, float]]
+    short: float
+
+    def found(self, **options):
+        """Return what a synthesis finds for the task."""
+        return synthesise(self.machine, vary=dict(self.box), timed=self.timed, **self.task, **options)
+
+
+LEVER = 0.1
+"""The length [m] with which an angle of a pose counts."""
+ASKED = ("timed", "untimed", "closed", "function", "poses")
+
+
+def task_without_answer(seed):
+    """Return a task of a class, each asked in all ways by turns, which a machine does at some strokes that cannot go on to all others."""
+    random, names = np.random.default_rng(seed), [*STUCK]
+    name, asked = names[seed % len(names)], ASKED[seed // len(names) % len(ASKED)]
+    known, stuck = CLASSES[name], STUCK[name]
+    stroke, ends = known.stroke()
+    while True:
+        own = {each: known.kind()[each] * random.uniform(0.9, 1.1) for each in known.box if "." not in each}
+        machine = known.kind(**(own | stuck.lengths(random)))
+        reached = np.flatnonzero(np.isfinite(along_stroke(known, machine, 721)))
+        if len(reached) > 72:
+            break
+    box = {each: (value - 0.03 * abs(value), value + 0.03 * abs(value)) for each in own if (value := machine[each])}
+    low, high = ({each: end[k] for each, end in box.items()} for k in (0, 1))
+    at = np.linspace(*ends, 721)[np.sort(random.choice(reached, 9, replace=False))]
+    pose, turns = machine.at(unreachable="nan", **{stroke: at}), abs(ends[1] - ends[0] - 2 * pi) < 1e-9
+    task: dict[str, Any]
+    if asked == "function":
+        task = {"function": FunctionTask(at, pose.x(known.of), of=x(known.of))}
+    elif asked == "poses":
+        first, second = stuck.body.split()
+        task = {"motion": PoseTask(*pose[first], pose.angle(first, second), of=stuck.body, at=at, length=LEVER)}
+    else:
+        task = {"path": PathTask(pose[known.of].T, of=known.of, at=at if asked == "timed" else None, closed=asked == "closed" and turns)}
+    timed = {"untimed": False, "closed": False if turns else "steps"}.get(asked, True)
+    return StuckTask(known, machine, task, timed, box, stuck.short(low, high))

@@ -25,6 +25,7 @@ from linkage.study.problem import Problem
 from linkage.study.space import Space
 from linkage.synthesis.fit import Fit, Timing
 from mechanisms.classics.four_bar import FourBar
+from mechanisms.classics.klann import Klann
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks import bench_synthesis
 from tests.linkage.synthesis import synthesis_tasks as papers
@@ -211,6 +212,9 @@ def test_a_table_and_a_drawing(tmp_path):
         ({"path": PathTask([(0, 1)], of="P"), "timed": "step"}, "is expected"),
         ({"path": PathTask([(0, 1)], of="P"), "rank": "OA"}, "one number of a design"),
         ({"function": FunctionTask([0.1], [0.2], of="psi"), "timed": False}, "leave it out"),
+        ({"function": FunctionTask([0.1], [0.2], of=distance("O", "C"))}, r"distance\(O, C\) does not move with phi"),
+        ({"motion": PoseTask([0.1], [0.2], [0.3], of="A O")}, "of='O': a point that moves is expected"),
+        ({"path": PathTask([(0, 1)], of="P"), "over": {"phi": 0.3}}, "holds all of them; leave one of phi out"),
     ],
 )
 def test_what_cannot_be_asked_is_said(given, words):
@@ -222,7 +226,10 @@ def test_what_cannot_be_asked_is_said(given, words):
     ("make", "words"),
     [
         (lambda: PathTask([1.0, 2.0], of="P"), "pairs"),
-        (lambda: PathTask([(0.0, np.nan)], of="P"), "finite"),
+        (lambda: PathTask([(0.0, 1.0), (0.0, np.nan)], of="P"), "finite .* number 2 is not finite"),
+        (lambda: PathTask(np.zeros((2, 5)), of="P"), r"these have shape \(2, 5\), write np.transpose\(points\)"),
+        (lambda: PathTask((0.1, 0.2), of="P"), r"write a single one as \[\(0.1, 0.2\)\]"),
+        (lambda: FunctionTask(None, [0.2], of="psi"), "strokes=None"),
         (lambda: PathTask([(0, 1), (0, 2)], of="P", at=[0.1]), "1 strokes for 2 points"),
         (lambda: PoseTask([0], [1], [1, 2], of="A B"), "one length"),
         (lambda: PoseTask([0], [1], [1], of="A"), "two points"),
@@ -234,6 +241,14 @@ def test_what_cannot_be_asked_is_said(given, words):
 def test_a_task_that_is_none_is_refused(make, words):
     with pytest.raises(DefinitionError, match=words):
         make()
+
+
+def test_poses_are_of_one_body_whose_length_is_known():
+    klann = Klann()
+    with pytest.raises(DefinitionError, match="B and H are not of one body; the bodies that move are O A, M B, A B K, N H, K H F"):
+        synthesise(klann, motion=PoseTask([1.0], [1.0], [0.1], of="B H"), vary={"OA": (0.3, 0.5)})
+    with pytest.raises(DefinitionError, match=r"the distance of A and P is unknown .* say PoseTask\(..., length=...\)"):
+        PoseTask([0.0], [0.0], [0.0], of="A P").rows(FourBar(CB=0.01))
 
 
 def bar_task(count, **task):

@@ -20,6 +20,8 @@ DOCS = ROOT / "docs"
 sys.path.insert(0, str(DOCS))
 from made import drawn, examples, gallery, searches  # noqa: E402
 
+from linkage.cli.entry import BUILT_IN  # noqa: E402
+from linkage.plugins import COMMANDS, entry_points  # noqa: E402
 from tests.tools.catalogues import messages  # noqa: E402
 from tests.tools.prose import LONGEST_MEAN, docstrings, mean_length, riddles, sentences  # noqa: E402
 
@@ -245,7 +247,7 @@ def test_commands_tell_of_themselves(tmp_path):
 
     commands.make(tmp_path / "commands.md")
     text = (tmp_path / "commands.md").read_text(encoding="utf-8")
-    assert {"list", "show", "table", "plot", "page", "export", "report", "capacity"} <= set(re.findall(r"^## (\w+)$", text, re.MULTILINE))
+    assert re.findall(r"^## (\w+)$", text, re.MULTILINE) == [*BUILT_IN, *sorted(entry_points(COMMANDS))]
     assert text.count("usage: hydrolinkage") == text.count("\n## ") + 1
     assert max(map(len, code_lines(text))) <= WIDE
 

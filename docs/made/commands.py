@@ -48,7 +48,7 @@ def names_in(overview: str) -> list[str]:
     inside = re.search(r"\{([\w,\s]+)\}", overview)
     if inside:
         return [name.strip() for name in inside[1].split(",")]
-    return list(dict.fromkeys(re.findall(r"^    (\w+) {2,}\S", overview, re.MULTILINE)))
+    return list(dict.fromkeys(re.findall(r"^    (\w+)(?: {2,}\S|$)", overview, re.MULTILINE)))
 
 
 def block(text: str) -> str:

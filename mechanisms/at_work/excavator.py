@@ -123,7 +123,7 @@ class HookExcavator(Mechanism):
 
 
 class Excavator(HookExcavator):
-    """The same machine with the bucket in the hook's place: a part exchanged, its cylinder tool.ram and its stroke added.
+    """The hook excavator with a bucket in place of the hook: one part is exchanged, which brings its cylinder tool.ram and its stroke.
 
     It runs from place to place of two ways, straight in its strokes. `grading` draws the teeth in along the ground, against the soil;
     `loading` curls the full bucket and lifts it over a truck's side.

@@ -72,7 +72,7 @@ class SpreaderTractor(Mechanism):
 
 
 class PloughTractor(SpreaderTractor):
-    """The same tractor with the plough in the spreader's place: a part exchanged.
+    """The spreader's tractor with a plough in place of the spreader: one part is exchanged.
 
     `working` holds it in the ground, against the draught, `lifting` takes it out at the headland.
     """

@@ -8,14 +8,15 @@
     '0…250 мм'
 
 Catalogues are gettext's: `locale/ru/LC_MESSAGES/linkage.mo` beside this file, made from the `.po` of the same name. Another package
-brings its own with one line, `add_catalogue("machines", Path(__file__).parent / "locale")`. Messages of errors stay English, and so do
-the names of members. Decimals have a point in every language: what is printed can be read again, by this program and by others.
+brings its own with one line, `add_catalogue("machines", Path(__file__).parent / "locale")`; `add_texts` adds a few texts. Messages of
+errors stay English, and so do the names of members. Decimals have a point in every language: what is printed can be read again, by this
+program and by others.
 """
 
 from __future__ import annotations
 
 import gettext
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import lru_cache
@@ -27,6 +28,7 @@ ENGLISH = "en"
 
 _LANGUAGE = ContextVar("language", default=ENGLISH)
 _CATALOGUES: dict[str, Path] = {}
+_TEXTS: dict[str, dict[str, str]] = {}
 
 
 def add_catalogue(domain: str, folder: str | Path) -> None:
@@ -36,6 +38,17 @@ def add_catalogue(domain: str, folder: str | Path) -> None:
         raise DefinitionError(f"{where}: no */LC_MESSAGES/{domain}.mo is there; compile the catalogue, or mend the folder.")
     _CATALOGUES[domain] = where
     _catalogue.cache_clear()
+
+
+def add_texts(name: str, texts: Mapping[str, str]) -> None:
+    """Let English texts be said in another language as a mapping has them, before the catalogues; DefinitionError for none of them.
+
+    `hydrolinkage report` and pages say what `own_texts(Machine)` lists so: its name, prose and notes.
+    """
+    known_name("Language", name, languages(), where="add_texts(...)")
+    if not isinstance(texts, Mapping) or not all(isinstance(each, str) and each for pair in texts.items() for each in pair):
+        raise DefinitionError(f'add_texts("{name}", {cited(texts)}): pairs of text are expected, {{"My loader": "Мой погрузчик"}}.')
+    _TEXTS.setdefault(name, {}).update(texts)
 
 
 def languages() -> list[str]:
@@ -73,7 +86,9 @@ def _catalogue(name: str) -> gettext.NullTranslations:
 def translated(text: str) -> str:
     """Return a text in the language that is spoken, as it is where no catalogue has it."""
     name = _LANGUAGE.get()
-    return text if name == ENGLISH or not text else _catalogue(name).gettext(text)
+    if name == ENGLISH or not text:
+        return text
+    return _TEXTS.get(name, {}).get(text) or _catalogue(name).gettext(text)
 
 
 def said(template: str, /, **values: object) -> str:

@@ -30,8 +30,9 @@ SHOWN = ("m", "mm", "cm", "rad", "deg", "kg")
 
 
 def without_unit(note: str) -> str:
-    """Return a note without the unit at its end: `cylinder stroke, m`."""
-    return re.sub(rf"(?:^|, )(?:{'|'.join((*SHOWN, *map(translated, SHOWN)))})$", "", note)
+    """Return a note without a unit in front or at its end: `cylinder stroke, m`."""
+    units = "|".join((*SHOWN, *map(translated, SHOWN)))
+    return re.sub(rf"^(?:{units})(?:, |$)|, (?:{units})$", "", note)
 
 
 def is_without_unit(plan: Plan, name: str) -> bool:

@@ -8,7 +8,17 @@ import pytest
 
 import hydraulics  # noqa: F401  its catalogue joins
 from linkage import Column, DefinitionError, Verdict
-from linkage.language import add_catalogue, current_language, heading_of, language, languages, said, said_of
+from linkage.language import (
+    add_catalogue,
+    add_texts,
+    current_language,
+    heading_of,
+    language,
+    languages,
+    said,
+    said_of,
+    translated,
+)
 from linkage.units import show
 from tests.tools.catalogues import BELOW, Entry, Message, catalogue_faults, compiled, entries, entry_faults, messages
 
@@ -133,3 +143,14 @@ def test_a_catalogue_is_read_with_its_marks(tmp_path: Path):
     head, counted = entries(text)
     assert head.translations == ["a\nb"] and counted.fuzzy and counted.message == Message("one", "many")
     assert counted.translations == ["х", "у", "ц"]
+
+
+def test_texts_of_ones_own_are_said_before_the_catalogues(monkeypatch):
+    monkeypatch.setattr("linkage.language._TEXTS", {})
+    add_texts("ru", {"My loader": "Мой погрузчик", "pin": "палец"})
+    assert translated("My loader") == "My loader"
+    with language("ru"):
+        assert [translated("My loader"), translated("pin")] == ["Мой погрузчик", "палец"]
+    for name, texts, words in (("xx", {}, "xx"), ("ru", {"a": 1}, "pairs of text"), ("ru", {"a": ""}, "pairs"), ("ru", "a", "pairs")):
+        with pytest.raises(DefinitionError, match=words):
+            add_texts(name, texts)

@@ -23,6 +23,7 @@ ROOT = Path(__file__).parents[2]
 BELOW = {"linkage": (), "hydraulics": ("linkage",), "mechanisms": ("linkage", "hydraulics")}
 LANGUAGES = ("ru",)
 OF_PAPERS = ("mower_lift", "three_point_hitch", "header_balancer", "crane", "boom_drive", "arm_drive", "grapple")
+AT_WORK = tuple(name for name in registered() if find(name).__module__.startswith("mechanisms.at_work"))
 """The machines whose own words, names, prose and notes, belong into a catalogue; those of others may."""
 
 # -- what the source says ----------------------------------------------------------------------------------
@@ -74,7 +75,7 @@ def source_messages(package: str) -> dict[Message, str]:
         for each in messages(path, file.read_text(encoding="utf-8")):
             found.setdefault(each, each.where)
     if package == "mechanisms":
-        found |= {each: each.where for each in own_messages(OF_PAPERS) if each not in found}
+        found |= {each: each.where for each in own_messages((*OF_PAPERS, *AT_WORK)) if each not in found}
     return found
 
 

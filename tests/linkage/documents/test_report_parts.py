@@ -12,7 +12,23 @@ from matplotlib.text import Text
 from scipy.optimize import brentq
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import RIGHT, DefinitionError, Dyad, Force, Ground, LoadCase, Mechanism, OnLink, Stroke, Weight, max_table, pin_forces, report
+from linkage import (
+    RIGHT,
+    Crank,
+    DefinitionError,
+    Dimension,
+    Dyad,
+    Force,
+    Ground,
+    LoadCase,
+    Mechanism,
+    OnLink,
+    Stroke,
+    Weight,
+    max_table,
+    pin_forces,
+    report,
+)
 from linkage.cli import main
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
@@ -21,6 +37,7 @@ from linkage.documents.breaking import LONGEST, MATH, formula_pieces
 from linkage.documents.content import Illustration, ListBlock, TableBlock
 from linkage.documents.forces import Stop, blocked_cylinders, worst_blocked
 from linkage.documents.html import html_text
+from linkage.documents.inputs import plain_words, with_units
 from linkage.documents.markdown import markdown
 from linkage.documents.outcome import CURVE_ROOM, HALF, draw_column
 from linkage.documents.pdf import BOTTOM, HIGH, LEFT, TOP, WIDE, Flow, Page, pdf
@@ -29,11 +46,13 @@ from linkage.documents.pictures import painted
 from linkage.documents.reporting import NUMBER, cited_numbers, own_system, speaking
 from linkage.documents.run import ReportSubject
 from linkage.documents.setting import GlyphRun, set_formula, width
+from linkage.documents.sources import without_unit
 from linkage.documents.title import FIELDS, TitleBlock
+from linkage.formulas import equations
 from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes
 from linkage.motion import Column
 from linkage.statics import elements_of
-from linkage.units import bar, mm
+from linkage.units import bar, deg, mm
 from mechanisms.crane import Crane
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -53,6 +72,18 @@ class Loader(Mechanism):
     lift = Cylinder(A, B, bore=80 * mm, rod=45 * mm, count=2)
     pump = LiftCircuit(lift, pressure=180 * bar, relief=21e6, flow=5e-4, mechanical_efficiency=0.9)
     shock = LoadCase("with shock", scale={"load": 1.8})
+
+
+class Bent(Mechanism):
+    """A lever bent by an angle of the design, with a small coefficient."""
+
+    phi = Stroke(0.0, 1.0)
+    bend = Dimension(0.1, unit="deg")
+    M = Dimension(1e5, unit="kNm")
+    small = 2.95468e-07 * M
+    O = Ground(0.0, 0.0)
+    C = Crank(O, OC=0.5, angle=phi)
+    D = OnLink(O, C, OD=0.4, COD=180 * deg + bend)
 
 
 @cache
@@ -161,6 +192,34 @@ def test_no_number_stands_without_its_unit():
     assert "pressure=180 bar" in rows["pump"] and "relief=210 bar" in rows["pump"] and "flow=30 l/min" in rows["pump"]
     assert "bore=80 mm" in rows["lift"] and "mass=800 kg" in rows["load"]
     assert not [text for text in texts(shown()) if re.search(r"\d{7}\.0|\de[+-]?\d{2}\b", text) and "e-" not in text]
+
+
+def test_a_number_in_an_expression_keeps_its_unit_to_itself():
+    """`mass=0.55 * W` is no 0.55 kg; in a formula 2.9e-07 is a power of ten, and 180 deg stay degrees beside an angle."""
+    element = Weight("G", mass=1.0)
+    assert with_units(element, "Weight(G, mass=0.55 * W)") == "Weight(G, mass=0.55 * W)"
+    assert with_units(element, "Weight(G, mass=2.5)") == "Weight(G, mass=2.5 kg)"
+    listing = equations(Bent())
+    assert "COD = bend + 180 deg" in str(listing) and r"2.95468 \cdot 10^{-7} M" in listing.latex()
+
+
+@pytest.mark.parametrize(("note", "shown_as"), [
+    ("cylinder stroke, m", "cylinder stroke"), ("m", ""), ("m, of the struts", "of the struts"), ("N/m2", "N/m2"),
+    ("arm, from the boom", "arm, from the boom"),
+])  # fmt: skip
+def test_a_note_loses_the_unit_that_the_table_converts(note, shown_as):
+    assert without_unit(note) == shown_as
+
+
+def test_marks_of_emphasis_are_no_words():
+    assert plain_words("a *reduced* load `F`, N_2 D**2 and a * b * c") == "a reduced load F, N_2 D**2 and a * b * c"
+
+
+def test_pins_say_what_bounds_them_where_no_relief_valve_is_declared():
+    said = " ".join(texts(shown(MowerLift)))
+    assert "Where no relief valve is declared, the pump's pressure is the highest." in said
+    (grid,) = (each for each in blocks(shown(MowerLift), TableBlock) if "relief pressure" in each.caption)
+    assert float(grid.rows[0][4]) == pytest.approx(155.0 * np.pi / 4 * 8.0**2, rel=1e-4)  # kgf/cm2 x cm2
 
 
 def test_lengths_and_pressures_have_one_unit():

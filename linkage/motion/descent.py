@@ -63,7 +63,7 @@ def descended(
         unit[going[better]], off[going[better]] = new[better], found[better]
         damping[going] = np.where(better, np.maximum(damping[going] * EASED, LEAST), damping[going] * growth[going])
         growth[going] = np.where(better, GROWTH, growth[going] * GROWTH)
-        going = going[~still & (moved > 1e-14) & (damping[going] < 1e12) & (np.abs(off[going]).max(axis=1) > enough)]
+        going = going[~still & (better | (moved > 1e-14)) & (damping[going] < 1e12) & (np.abs(off[going]).max(axis=1) > enough)]
     return unit, off
 
 
@@ -72,7 +72,8 @@ def descended(
 class DampedSystem:
     """The linear equations of a step of Levenberg and Marquardt from unit coordinates (m, k), and their solution, the `step` (m, k).
 
-    `slopes` (m, targets, k) are in parts of each coordinate's own effect `size` (m, k); `free` (m, k) are the coordinates that move.
+    `slopes` (m, targets, k) are those of the misses. In the `matrix` each coordinate counts in parts of its own effect `size` (m, k);
+    `free` (m, k) are the coordinates that move.
     """
 
     slopes: FloatArray
@@ -84,18 +85,24 @@ class DampedSystem:
     @classmethod
     def of(cls, unit: FloatArray, off: FloatArray, slopes: FloatArray, damping: FloatArray) -> DampedSystem:
         """Return the equations at misses (m, targets); a coordinate that the step would take out of the box is held."""
-        k = unit.shape[1]
-        slopes = np.where(np.isfinite(slopes), slopes, 0.0)
-        length = np.sqrt(np.sum(slopes**2, axis=1))
-        size = np.where(length > 0.0, length, 1.0)
-        slopes = slopes / size[:, None]
+        finite = np.isfinite(slopes)
+        if not finite.all():
+            slopes = np.where(finite, slopes, 0.0)
         turned = slopes.transpose(0, 2, 1)
-        pull, squares = (turned @ off[:, :, None])[:, :, 0], turned @ slopes
+        squares = turned @ slopes
+        length = np.sqrt(np.diagonal(squares, axis1=1, axis2=2))
         free = length > 0.0
+        size = np.where(free, length, 1.0)
+        squares /= size[:, :, None] * size[:, None, :]
+        pull = (turned @ off[:, :, None])[:, :, 0] / size
+        diagonal = np.arange(unit.shape[1])
         while True:  # coordinates that would leave the box are held, one round after the other
-            both = free[:, :, None] & free[:, None, :]
-            matrix = np.where(both, squares, 0.0) + np.eye(k) * np.where(free, damping[:, None], 1.0)[:, :, None]
-            step = damped_solution(matrix, np.where(free, -pull, 0.0)) / size
+            matrix, right = squares.copy(), -pull
+            if not free.all():
+                matrix[~(free[:, :, None] & free[:, None, :])] = 0.0
+                right[~free] = 0.0
+            matrix[:, diagonal, diagonal] += np.where(free, damping[:, None], 1.0)
+            step = damped_solution(matrix, right) / size
             leaving = free & (((unit <= 0.0) & (step < 0.0)) | ((unit >= 1.0) & (step > 0.0)))
             if not leaving.any():
                 return cls(slopes, size, free, matrix, step)
@@ -103,10 +110,10 @@ class DampedSystem:
 
     def bend(self, off: FloatArray, ahead: FloatArray) -> FloatArray:
         """Return what the curvature of the misses adds to the step (m, k), from the misses at a part of it; nothing where that is large."""
-        along = (self.slopes @ (self.step * self.size)[:, :, None])[:, :, 0]
+        along = (self.slopes @ self.step[:, :, None])[:, :, 0]
         curved = (2.0 / PROBE) * ((ahead - off) / PROBE - along)
-        known = np.asarray(np.isfinite(curved).all(axis=1))
-        pull = (self.slopes.transpose(0, 2, 1) @ np.where(known[:, None], curved, 0.0)[:, :, None])[:, :, 0]
+        curved[~np.isfinite(curved).all(axis=1)] = 0.0
+        pull = (self.slopes.transpose(0, 2, 1) @ curved[:, :, None])[:, :, 0] / self.size
         bend = 0.5 * damped_solution(self.matrix, np.where(self.free, -pull, 0.0)) / self.size
         far, straight = (np.linalg.norm(each * self.size, axis=1) for each in (bend, self.step))
         return np.where(np.asarray(4.0 * far <= MOST_BENT * straight)[:, None], bend, 0.0)

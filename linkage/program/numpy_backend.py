@@ -128,7 +128,7 @@ Windowed: TypeAlias = tuple[Sequence[FloatArray], slice, slice]
 
 def has_many(value: Numbers) -> TypeGuard[FloatArray]:
     """Return whether an input is more than one number."""
-    return type(value) is not float and np.size(value) != 1
+    return value.size != 1 if type(value) is np.ndarray else type(value) is not float and np.size(value) != 1
 
 
 def is_array(value: Numbers) -> TypeGuard[FloatArray]:
@@ -257,17 +257,17 @@ def statement(op: str, operands: str, target: str) -> str:
 
 @final
 class Pool(local):
-    """The registers that a thread worked in last: the next block mostly wants as many of the same size."""
+    """The registers that a thread worked in last: the next block mostly wants no more of the same size."""
 
     def __init__(self) -> None:
-        self.size: tuple[int, int] = 0, 0
+        self.size = 0
         self.rows: list[FloatArray] = []
 
     def registers(self, count: int, size: int) -> list[FloatArray]:
         """Return registers whose contents may be anything."""
-        if self.size != (count, size):
-            self.size, self.rows = (count, size), aligned(count, size)
-        return self.rows
+        if self.size != size or len(self.rows) < count:
+            self.size, self.rows = size, aligned(count, size)
+        return self.rows[:count]
 
 
 POOL = Pool()

@@ -140,10 +140,15 @@ def branch_words(fit: Fit, machine: Mechanism, at: FloatArray, base: FloatArray,
     return ""
 
 
+def is_near_change_point(angle: float) -> bool:
+    """Return whether a least transmission angle [rad] is that of a machine which passes near a change point; NaN is none."""
+    return bool(angle < NEAR_CHANGE_POINT)
+
+
 def change_point_words(angle: float, four_bars: Sequence[FourBar]) -> list[str]:
     """Return by how much a machine passes near a change point; none for one that keeps away."""
     words = []
-    if np.isfinite(angle) and angle < NEAR_CHANGE_POINT:
+    if is_near_change_point(angle):
         words.append(said("it passes within {angle} of a change point", angle=show(angle, "deg", 3)))
     for each in four_bars:
         if abs(each.margin) < NEAR_GRASHOF * max(each.lengths):

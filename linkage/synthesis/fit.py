@@ -126,10 +126,15 @@ class Fit:
         self.program = self.plan.made(key, lambda twin: FitProgram.of(twin, self.requests, inputs))
         self.held = {name: float(one.low) for name, one in problem.ranges.items() if is_still(one)}
         self.n, self.width = len(self.space.variables), timing.width
+        self._fixed = problem.dimensions_at(np.zeros(self.n), self.combination)
+        self._owner_of = np.array([self.owners.index(each.owner) for each in self.space.variables], int)
+        self._by_unit = np.array([each.sign * each.span for each in self.space.variables])
+        counted = rows.weights[:, None] * rows.asked
+        self._counted = None if (counted == 1.0).all() else counted
 
     def dimensions(self, unit: FloatArray) -> dict[str, Any]:
         """Return the dimensions of designs (m, n)."""
-        return self.problem.dimensions_at(unit[..., : self.n], self.combination)
+        return self._fixed | self.space.dimensions_at(unit[..., : self.n])
 
     def grid(self, designs: Mapping[str, Any], strokes: FloatArray) -> Grid:
         """Return designs at strokes (n,), or (m, n) where each has its own."""
@@ -140,16 +145,21 @@ class Fit:
     def values(self, designs: Mapping[str, Any], strokes: FloatArray, count: int) -> tuple[FloatArray, Mask]:
         """Return what is wanted of m designs at strokes, (m, r, n), NaN out of reach, and where it is reached (m, n)."""
         found = self._run(self.program.values, designs, strokes, count)
-        return np.moveaxis(found[1:], 0, 1), np.isfinite(found[0])
+        return found[1:].swapaxes(0, 1), np.isfinite(found[0])
 
     def _run(self, kernel: Kernel, designs: Mapping[str, Any], strokes: FloatArray, count: int) -> FloatArray:
         """Return a kernel's values (outputs, m, n), NaN where a point has no place."""
         self.problem.count.add(count)
-        grid = self.grid(designs, strokes)
-        with unwarned(), np.errstate(all="ignore"):
-            found = kernel(grid.flat, way=WAY, size=grid.size).values
-        found = np.array(np.broadcast_to(found, (len(found), count, strokes.shape[-1])))
-        found[:, ~np.isfinite(found[0])] = np.nan
+        shape = count, strokes.shape[-1]
+        if self.plan.solved or not self.n:
+            grid = self.grid(designs, strokes)
+            with unwarned(), np.errstate(all="ignore"):
+                found = np.array(np.broadcast_to(kernel(grid.flat, way=WAY, size=grid.size).values, (len(kernel.outputs), *shape)))
+        else:  # nothing is to be solved first: the inputs as they are
+            found = kernel({**designs, **self.held, self.timing.stroke: strokes}, way=WAY, size=shape).values
+        reached = np.isfinite(found[0])
+        if not reached.all():
+            found[:, ~reached] = np.nan
         return found
 
     def whole(self, unit: FloatArray) -> Mask:
@@ -186,12 +196,15 @@ class Fit:
         strokes = self.timing.strokes(base, at[:, self.n :])
         found = self._run(self.program.graded, self.dimensions(at), strokes, len(at))
         r, points, p = len(self.requests), strokes.shape[1], len(self.owners) + 1
-        off = self.rows.off(np.moveaxis(found[1 : 1 + r], 0, 1)).reshape(len(at), r * points)
-        shares = np.nan_to_num(found[1 + r :], posinf=0.0, neginf=0.0).reshape(r, p, len(at), points)
-        shares *= self.rows.weights[:, None, None, None] * self.rows.asked[:, None, None, :]
-        by_unit = np.einsum("vo,romn->mrnv", self.problem._by_owner, shares[:, :-1])
-        by_own = self.timing.reach[1] * np.moveaxis(shares[:, -1], 0, 1)[..., None] * self.timing.moves
-        return off, np.concatenate([by_unit, by_own], axis=-1).reshape(len(at), r * points, -1)
+        off = self.rows.off(found[1 : 1 + r].swapaxes(0, 1)).reshape(len(at), r * points)
+        shares = found[1 + r :].reshape(r, p, len(at), points)
+        shares[~np.isfinite(shares)] = 0.0
+        if self._counted is not None:
+            shares *= self._counted[:, None, None, :]
+        slopes = np.empty((len(at), r, points, self.n + self.width))
+        slopes[..., : self.n] = shares[:, self._owner_of].transpose(2, 0, 3, 1) * self._by_unit
+        slopes[..., self.n :] = shares[:, -1].swapaxes(0, 1)[..., None] * (self.timing.reach[1] * self.timing.moves)
+        return off, slopes.reshape(len(at), r * points, -1)
 
     def descend(
         self,
@@ -201,10 +214,12 @@ class Fit:
         *,
         through: Callable[[FloatArray], Mask] | None = None,
         held: Sequence[int] = (),
+        begin: float = 1e-3,
     ) -> tuple[FloatArray, FloatArray]:
         """Return where the misses are least near starts (m, n + w), and the sums of their squares (m,), infinite out of reach.
 
         `through` says which designs (m, n + w) a search may come through, all by default. Coordinates that are `held` stay where they are.
+        `begin` is the damping of the first step.
         """
         if not len(at):
             return at, np.zeros(0)
@@ -228,7 +243,8 @@ class Fit:
             taken = (new_at[which] == unit).all(axis=1)
             steep[which[taken]] = new_steep[which[taken]]
             found = steep[which]
-            found[:, :, [*held]] = 0.0
+            if held:
+                found[:, :, [*held]] = 0.0
             return found
 
         def ahead(unit: FloatArray, which: Index) -> FloatArray:
@@ -236,7 +252,7 @@ class Fit:
 
         enough = ENOUGH * self.rows.size
         bent = ahead if through is None else None
-        found, off = descended(misses, slopes, at, steps, enough=enough, settled=SETTLED, ahead=bent)
+        found, off = descended(misses, slopes, at, steps, enough=enough, begin=begin, settled=SETTLED, ahead=bent)
         return found, squared(off)
 
     def errors(self, at: FloatArray, base: FloatArray) -> FloatArray:

@@ -18,6 +18,7 @@ from ..motion import stroke_display_unit
 from ..motion.judging import transmissions
 from ..motion.kinds import measure_of
 from ..motion.measures import Measure
+from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import is_number
 from ..shown import Shown
@@ -280,11 +281,13 @@ def exact_error(rows: TaskRows) -> float:
     return rows.count * (EXACT * rows.size) ** 2
 
 
-def is_one_design(one: FloatArray, other: FloatArray, error: float, known: float, exact: float) -> bool:
-    """Return whether two designs (n,) in unit coordinates, with their errors, are one."""
-    far = float(np.abs(one - other).max(initial=0.0))
-    alike = abs(error - known) <= ALIKE * max(error, known, exact) and max(error, known) > exact
-    return far < SAME or (far < NEAR and alike)
+def is_one_design(
+    one: FloatArray, other: FloatArray, error: FloatArray | float, known: FloatArray | float, exact: float
+) -> Mask:
+    """Return whether two designs (..., n) in unit coordinates, with their errors (...), are one."""
+    far, worse = np.abs(one - other).max(axis=-1, initial=0.0), np.maximum(error, known)
+    alike = (np.abs(error - known) <= ALIKE * np.maximum(worse, exact)) & (worse > exact)
+    return np.asarray((far < SAME) | ((far < NEAR) & alike))
 
 
 def told_error(error: float, exact: float) -> float:

@@ -31,7 +31,7 @@ from ..study.survey import Executor, LocalExecutor, check_executor, check_progre
 from ..units import show
 from .classes import synthesised_classes
 from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
-from .defects import branch_words, circuit_words, in_order, order_words
+from .defects import branch_words, circuit_words, in_order, is_near_change_point, order_words
 from .fit import Fit, Timing
 from .starts import POPULATION, WHOLE_ENOUGH, Likeness, Starts, standing_apart
 from .synthesis import (
@@ -49,7 +49,7 @@ from .synthesis import (
     told_error,
 )
 from .task_error import moving_stroke
-from .task_work import RACE, STEPS, Combination, DescentWork, LayWork, LookWork, PolishWork, RaceWork, SearchRows, Stages, Through
+from .task_work import LONG, RACE, Combination, DescentWork, LayWork, LookWork, PolishWork, RaceWork, SearchRows, Stages, Through
 from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, task_named_in, task_of, timed_as
 
 STARTS = 64
@@ -488,7 +488,7 @@ class TaskSearch:
             rows = np.arange(variable.steps) * float(variable.step or 1.0) / variable.span
             at[:, place] = rows[np.abs(rows - at[:, [place]]).argmin(axis=1)]
         with self.problem.count.without_limit():
-            at, _ = fit.descend(at, ends.base, STEPS, held=stepped)
+            at, _ = fit.descend(at, ends.base, LONG, held=stepped)
         return self.ends_of(fit, at, ends.base)
 
     def good_in_order(self, ends: Ends) -> Mask:
@@ -546,7 +546,7 @@ class TaskSearch:
         if ends.fit.combination != others.fit.combination:
             return False
         n = ends.fit.n
-        return is_one_design(ends.at[k, :n][moving], others.at[j, :n][moving], error, known, exact_error(self.rows))
+        return bool(is_one_design(ends.at[k, :n][moving], others.at[j, :n][moving], error, known, exact_error(self.rows)))
 
     def moving(self, ends: Sequence[Ends]) -> Mask:
         """Return which variables (n,) move anything of the task; all where conditions or a rank are asked."""
@@ -558,9 +558,15 @@ class TaskSearch:
             found |= np.asarray(np.any(steep != 0.0, axis=(0, 1)))
         return found
 
-    def order(self, each: SynthesisedMachine) -> tuple[float, float]:
-        """Return by what answers are ordered: by the error to three digits, or exact, then by what is asked, then by the error."""
-        return told_error(each.error, exact_error(self.rows)), each.error if np.isnan(each.ranked) else each.ranked
+    def order(self, each: SynthesisedMachine) -> tuple[float, bool, float]:
+        """Return by what answers are ordered: by the error to three digits, or exact, then by what is asked, then by the error.
+
+        Where nothing is asked, an exact answer that passes near a change point comes after those that do not.
+        """
+        error = told_error(each.error, exact_error(self.rows))
+        if not np.isnan(each.ranked):
+            return error, False, each.ranked
+        return error, error == 0.0 and is_near_change_point(each.transmission), each.error
 
     def why_not(self, machine: Mechanism, ends: Ends, k: int) -> str:
         """Return why a design is no answer, in words; "" for one that is, by the judge."""

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..errors import LinkageError
 from ..mechanism import Mechanism
+from ..plan import Mask
 from ..program import FloatArray
 from ..study.checkpoint import Checkpoint
 from ..study.designs import Array, Rows
@@ -22,17 +23,22 @@ from ..study.solver import Local
 from ..study.survey import Executor, Progress, SurveyRun
 from .fit import Fit, FitSquares, Timing
 from .starts import Likeness, laid_designs, poses_of
-from .synthesis import exact_error
+from .synthesis import exact_error, is_one_design
 from .tasks import TaskRows
 
-STEPS, TURNS = 60, 5
-"""Steps of a local search between two looks at the limit, and how many times so many."""
+STEPS, TURNS = 20, 15
+"""Steps of a local search between two looks at the limit and at which searches stand where a better one does, and how many times."""
+AGAIN = 1e-8
+"""The damping with which a search goes on after such a look: about what it came to."""
 LOOKS = 3000
 """Designs that a search with conditions looks at, at the most: where it creeps along a wall, what it has by then is taken."""
-LONGER, FARTHER, WORTH = 16, 15, 0.9
-"""Of a piece the best ends that go on, how many times more, while their error comes down to this part: valleys may be long."""
+LONGER, LONG, FARTHER, WORTH = 16, 60, 15, 0.9
+"""Of a piece the best ends that go on, so many steps, how many times more, while their error comes down to this part: valleys may be
+long."""
 RACE = 10
 """Steps of a race, after which the best go on."""
+NUMBERS = 1 << 18
+"""Slopes that a step of a race works out at a time: the more searches go at once, the less each costs."""
 
 Combination = tuple[int, ...]
 Through: TypeAlias = Literal["free", "running", "keeping"]
@@ -191,9 +197,20 @@ class DescentWork(FitWork):
                 break
             before = error[going]
             left = (self.most * len(at) - fit.problem.count.designs) / (2.0 * len(going))  # a step looks at one design or two
-            at[going], error[going] = fit.descend(at[going], base[going], int(np.clip(left, 1, STEPS)), through=through)
-            going = going[error[going] < (1.0 - 1e-9 if turn < TURNS else WORTH) * before]
+            steps, begin = STEPS if turn < TURNS else LONG, AGAIN if turn else 1e-3
+            at[going], error[going] = fit.descend(at[going], base[going], int(np.clip(left, 1, steps)), through=through, begin=begin)
+            going = going[(error[going] < (1.0 - 1e-9 if turn < TURNS else WORTH) * before) & ~self.led(fit, at, error)[going]]
         return {"at": at}
+
+    def led(self, fit: Fit, at: FloatArray, error: FloatArray) -> Mask:
+        """Return which searches (m,) stand where a better one does."""
+        order = np.argsort(error, kind="stable")
+        unit, sorted_error = at[order, : fit.n], error[order]
+        with np.errstate(invalid="ignore"):
+            one = is_one_design(unit[:, None], unit, sorted_error[:, None], sorted_error, exact_error(self.rows))
+        found = np.zeros(len(at), bool)
+        found[order] = np.tril(one, -1).any(axis=1)
+        return found
 
 
 @final
@@ -201,7 +218,10 @@ class DescentWork(FitWork):
 class RaceWork(FitWork):
     """The first steps of local searches, for those that run then; with the `error` where each stands."""
 
-    piece: ClassVar[int] = 64
+    @property
+    def piece(self) -> int:
+        numbers = self.rows.wanted.size * (len(self.problem.space.variables) + self.timing.width)
+        return int(np.clip(NUMBERS // max(numbers, 1), 64, 256))
 
     @property
     def facts(self) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, TypeAlias, final
 
 import numpy as np
@@ -39,23 +40,26 @@ class TaskRows:
         """How many points the task has."""
         return int(self.wanted.shape[1])
 
-    @property
+    @cached_property
     def size(self) -> float:
         """How large the task is [SI]: the largest of what its values differ by, or are, weighed."""
         spans = (np.nanmax(self.wanted, axis=1) - np.nanmin(self.wanted, axis=1)) * self.weights
         return float(spans.max()) or float(np.nanmax(np.abs(self.wanted))) or 1.0
 
-    @property
+    @cached_property
     def asked(self) -> Mask:
         """Which values are wanted (r, n)."""
         return np.isfinite(self.wanted)
 
     def off(self, values: FloatArray) -> FloatArray:
         """Return how far values (m, r, n) are off, weighed, shape (m, r, n): angles modulo a turn."""
-        found = np.where(self.asked, values - self.wanted, 0.0)
-        turn = 2.0 * np.pi * self.turns[:, None]
-        whole = np.round(found / np.where(turn > 0.0, turn, 1.0))
-        return np.asarray((found - turn * whole) * self.weights[:, None])
+        found = values - self.wanted
+        if self.turns.any():
+            turn = 2.0 * np.pi * self.turns[:, None]
+            found -= turn * np.round(found / np.where(turn > 0.0, turn, 1.0))
+        if not self.asked.all():
+            found[:, ~self.asked] = 0.0
+        return np.asarray(found * self.weights[:, None])
 
 
 @final

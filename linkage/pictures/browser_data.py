@@ -293,7 +293,7 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "joints": [{"point": name, "row": live.rows[key][0]} for name in requests.motion._joints if (key := f"joint {name}") in live.rows],
         "arrows": arrow_data(requests, live),
         "paths": [list(plan.points).index(name) for name in requests.trace],
-        "grips": grip_data(plan, names),
+        "grips": grip_data(requests, names),
         "moving": moving_data(plan),
         "meets": meeting_data(plan, names),
         "class": type(machine).__name__,
@@ -305,7 +305,6 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "verdicts": verdict_data(machine, requests.along, requests.over),
         "verdictsIn": verdicts_in_systems(machine, requests.along, requests.over),
         "judge": requests.questions.data(live),
-        "domain": "; ".join(place.over.words(place.motion) for place in requests.questions.judge.places),
     }
 
 
@@ -420,12 +419,27 @@ def limit_data(requests: PageRequests, name: str) -> list[Any]:
     return [value, typeset(text), fails, *([typeset(russian)] if russian != text else [])]
 
 
-def grip_data(plan: Plan, names: Sequence[str]) -> list[dict[str, int]]:
-    """Return the pins on the ground that can be dragged, with their coordinates among the dimensions."""
-    points = list(plan.points)
-    pairs = {name: (f"{name}.x", f"{name}.y") for name in points}
-    free = {name: pair for name, pair in pairs.items() if set(pair) <= set(names)}
-    return [{"point": points.index(name), "x": names.index(x), "y": names.index(y)} for name, (x, y) in free.items()]
+def grip_data(requests: PageRequests, names: Sequence[str]) -> list[dict[str, int]]:
+    """Return the pins on the ground that can be dragged, with their coordinates where these are the frame's.
+
+    A part that is placed otherwise has axes of its own; `meeting_data` has the coordinates of its points.
+    """
+    plan, points = requests.plan, list(requests.plan.points)
+    found = []
+    for name, (x, y) in coordinate_pairs(plan, names).items():
+        if name in plan.moving:
+            continue
+        there = np.reshape(requests.motion[name], (2, -1))[:, requests.motion.reached.ravel()][:, 0]
+        own = [requests.machine.dimensions[each] for each in (x, y)]
+        places = {"x": names.index(x), "y": names.index(y)} if np.allclose(there, own, rtol=0.0, atol=1e-9) else {}
+        found.append({"point": points.index(name)} | places)
+    return found
+
+
+def coordinate_pairs(plan: Plan, names: Sequence[str]) -> dict[str, tuple[str, str]]:
+    """Return the points of which both coordinates are among the dimensions, with the names of these."""
+    pairs = {name: (f"{name}.x", f"{name}.y") for name in plan.points}
+    return {name: pair for name, pair in pairs.items() if set(pair) <= set(names)}
 
 
 def russian_heading(plan: Plan) -> str:
@@ -435,12 +449,16 @@ def russian_heading(plan: Plan) -> str:
 
 
 def moving_data(plan: Plan) -> list[int]:
-    """Return the places of the points that move and can be dragged."""
-    return [place for place, name in enumerate(plan.points) if name in plan.moving]
+    """Return the places of the points that move and can be dragged, those of parts first: a joint lies over what it carries."""
+    moving = [(place, name) for place, name in enumerate(plan.points) if name in plan.moving]
+    return [place for place, _ in sorted(moving, key=lambda each: -each[1].count("."))]
 
 
 def meeting_data(plan: Plan, names: Sequence[str]) -> dict[int, list[int]]:
-    """Return, for every point that moves, which of the dimensions are lengths and angles of it, by their places."""
+    """Return, for every point that moves, which of the dimensions are lengths and angles of it, by their places.
+
+    A point that a part fixes in axes of its own has its two coordinates there.
+    """
     points, entries = list(plan.points), plan.table.entries
     own = {name: place for place, name in enumerate(names) if entries[name].kind in STEPS}
     lengths = {joined_names(*pair): pair for pair in permutations(points, 2)}
@@ -450,6 +468,8 @@ def meeting_data(plan: Plan, names: Sequence[str]) -> dict[int, list[int]]:
         for each in ends:
             if each in plan.moving:
                 found[points.index(each)].append(place)
+    for name, pair in coordinate_pairs(plan, names).items():
+        found[points.index(name)] += [names.index(each) for each in pair]
     return dict(found)
 
 

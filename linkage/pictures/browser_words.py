@@ -10,6 +10,7 @@ SAID = (
     noted("{what}: {step} cannot be placed"),
     noted("{what} stops here"),
     noted("Drag {name}"),
+    noted("{name} stays {gap} short: it has too few lengths of its own"),
     noted("longest arrow {force}"),
     noted("as delivered only: this column is not followed in the page"),
     noted("dashed: as delivered"),

@@ -7,7 +7,7 @@ const loadText = (load) => (load === null ? "" : isNumber(load) ? fixed(load / d
 const withUnit = (text) => `${text}\u2009${told().unit}`;
 const lengthText = (value) => fixed(value / data.lengths.factor, data.lengths.digits);
 const coloured = data.letters.filter((letter) => letter);
-const colour = (limiter) => (data.letters[limiter] ? `color-mix(in srgb, ${css(`body${coloured.indexOf(data.letters[limiter]) % 10}`)} 55%, var(--paper))` : "");
+const colour = (limiter) => (data.letters[limiter] ? `color-mix(in srgb, ${css(`body${coloured.indexOf(data.letters[limiter]) % 10}`)} var(--share), var(--paper))` : "");
 const child = (parent, kind, text = "") => { const found = make(kind); found.textContent = text; return parent.appendChild(found); };
 const best = data.load.reduce((most, load, i) => (isNumber(load) && !(load <= data.load[most]) ? i : most), max(poses.findIndex((each) => each >= 0), 0));
 let cell = best, cells = [], heads = [];
@@ -18,7 +18,7 @@ function written() {
   const head = child(chart, "thead"), top = child(head, "tr"), row = child(head, "tr"), body = child(chart, "tbody");
   Object.assign(child(top, "th", told().down), { className: "axis" });
   Object.assign(child(top, "th", told().across), { className: "axis", colSpan: across });
-  child(row, "th");
+  child(row, "td");
   heads = data.x.map((x) => Object.assign(child(row, "th", lengthText(x)), { scope: "col" }));
   cells = []; heads.push(...data.y.map((y, k) => {
     const line = child(body, "tr"), label = Object.assign(child(line, "th", lengthText(y)), { scope: "row" });

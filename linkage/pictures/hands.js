@@ -55,7 +55,7 @@ function gridded() {
   for (let i = ceil(low[0] / step); i * step <= high[0]; i++) lines.push([px(i * step, 0)[0], 0], [px(i * step, 0)[0], sheetTall], null);
   for (let i = ceil(low[1] / step); i * step <= high[1]; i++) lines.push([0, px(0, i * step)[1]], [sheetWide, px(0, i * step)[1]], null);
   draw(sheet, "path", { class: "mesh", d: broken(lines) });
-  draw(sheet, "text", { x: sheetWide - 12, y: 18, class: "halo", anchor: "end" }).textContent = say("grid {step}", { step: shown(step, data.length, 3) });
+  draw(sheet, "text", { x: sheetWide - 52, y: 20, class: "halo", anchor: "end" }).textContent = say("grid {step}", { step: shown(step, data.length, 3) });
   return [];
 }
 on(byId("grid"), "click", () => { showsGrid = !showsGrid; byId("grid").setAttribute("aria-pressed", String(showsGrid)); soon("fit"); });
@@ -98,33 +98,43 @@ function led(point, to) {
   if (!misses) return false;
   const held = runsAlong.filter((k, j) => isMet(at[j], ends[j])), away = hypot(...misses);
   stands = standing(at);
-  const beyond = away > 2e-3 && held.length ? probed(point, to, standing(at), held) : null;
+  const beyond = away <= 2e-3 ? null : held.length ? probed(point, to, stands, held) : barred(point, to, runsAlong, at, ends);
   warn(beyond || "");
   return !beyond;
 }
 const isMet = (value, [low, high]) => min(abs(value - low), abs(value - high)) <= 1e-9 * (high - low || 1);
-/* Return what ends a way: a stroke at its end, or a step that cannot be placed a little beyond. */
+/* Return what ends a way at the ends of strokes. */
 function probed(point, to, at, held) {
   const named = held.map((k) => `${titled(strokes[k])} = ${shown(at[k], strokes[k], 4)}`).join(", ");
   return say("{name} ends here: {strokes} is the end of the stroke, {gap} short", { name: scene.names[point], strokes: named, gap: shown(apart(to, spot(single(present, at), point, 0)), data.length, 3) });
+}
+/* Return what ends a way where a step cannot be placed a little beyond; null where nothing does. */
+function barred(point, to, names, at, ends) {
+  const aside = (k, j, sign) => single(present, stands.map((value, i) => (i === k ? value + sign * 1e-3 * (ends[j][1] - ends[j][0]) : value)));
+  for (const [j, k] of names.entries()) for (const sign of [-1, 1]) {
+    const there = aside(k, j, sign), back = aside(k, j, -sign);
+    if (there.reason[0] !== 0 && back.reason[0] === 0 && apart(to, spot(back, point, 0)) > apart(to, spot(single(present, stands), point, 0))) return why(there, 0, say("{what} stops here", { what: scene.names[point] }));
+  }
+  return null;
 }
 /* Change the dimensions that meet at a joint so that it stands at a place, all other joints where they are. */
 function reshaped(point, to) {
   const found = data.meets[point] || [], name = scene.names[point];
   if (!found.length) { warn(say("no length of its own meets at {name}", { name })); return false; }
-  const others = scene.names.map((_, p) => p).filter((p) => p !== point), before = others.map((p) => spot(pose, p, 0)), design = (values) => { const all = [...present]; found.forEach((i, j) => { all[i] = values[j]; }); return all; };
+  const others = scene.names.map((_, p) => p).filter((p) => p !== point), before = others.map((p) => gripped.places[p]), design = (values) => { const all = [...present]; found.forEach((i, j) => { all[i] = values[j]; }); return all; };
   const off = (values) => {
     const at = single(design(values), stands);
     if (at.reason[0] !== 0) return null;
     return [...spot(at, point, 0).map((each, axis) => 10 * (each - to[axis])), ...others.flatMap((p, k) => spot(at, p, 0).map((each, axis) => each - before[k][axis]))];
   };
   const reach = scene.box[1] - scene.box[0] + scene.box[3] - scene.box[2];
-  const { at, misses } = solved(found.map((i) => present[i]), found.map((i) => (dims[i].positive ? [1e-6, max(present[i], reach)] : [present[i] - PI, present[i] + PI])), off);
+  const { at, misses } = solved(found.map((i) => present[i]), found.map((i) => (dims[i].positive ? [1e-6, max(present[i], reach)] : ((wide) => [present[i] - wide, present[i] + wide])(dims[i].base in LENGTHS ? reach : PI))), off);
   if (!misses) return false;
   gripped.changes = found;
-  const whole = design(at.map((value) => tidy(value, 5))), left = misses.slice(2).reduce((a, b) => max(a, abs(b)), 0);
+  const whole = design(at.map((value) => tidy(value, 5))), left = others.reduce((most, _, k) => max(most, hypot(misses[2 * k + 2], misses[2 * k + 3])), 0), away = 0.1 * hypot(misses[0], misses[1]);
   const ok = moved(whole, stands, name);
   if (ok && left > 1e-3) warn(say("other joints give way by {gap}: {name} has too few lengths of its own", { name, gap: shown(left, data.length, 3) }));
+  else if (ok && away > 2e-3) warn(say("{name} stays {gap} short: it has too few lengths of its own", { name, gap: shown(away, data.length, 3) }));
   return ok;
 }
 

@@ -135,7 +135,7 @@ function compared() {
   const table = byId("kept"), head = make("tr"), all = [{ letter: say("now"), design: present }, { letter: say("delivered"), design: original }, ...kept];
   table.hidden = !kept.length;
   if (!kept.length) { table.replaceChildren(); return; }
-  head.append(make("th"), ...all.map(({ letter, design }, k) => {
+  head.append(make("td"), ...all.map(({ letter, design }, k) => {
     const cell = make("th", { scope: "col" });
     if (k < 2) { cell.textContent = letter; return cell; }
     const take = make("button", { type: "button", textContent: letter, title: say("Show design {name}", { name: letter }) }), drop = make("button", { type: "button", className: "drop", textContent: "\u00d7", title: say("Drop design {name}", { name: letter }) });

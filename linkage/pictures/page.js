@@ -99,8 +99,8 @@ function grip({ point, x, y }) {
   on(element, "pointerdown", (event) => {
     if (measuring || pinched.size) return;
     event.preventDefault(); event.stopPropagation();
-    const from = x === undefined ? spot(pose, point, 0) : [present[x], present[y]];
-    gripped = { id: event.pointerId, point, x, y, name, from, start: place(event), shift: event.shiftKey };
+    const places = scene.names.map((_, p) => spot(pose, p, 0)), from = x === undefined ? places[point] : [present[x], present[y]];
+    gripped = { id: event.pointerId, point, x, y, name, from, places, start: place(event), shift: event.shiftKey };
     if (x === undefined) play(false);
     sheet.setPointerCapture(event.pointerId);
   });
@@ -121,7 +121,7 @@ on(sheet, "pointermove", (event) => {
 function dragged() {
   const { to, x, y, point, name, shift } = gripped;
   gripped.to = null;
-  if (x === undefined) return shift ? reshaped(point, to) : led(point, to);
+  if (x === undefined) return shift || !data.moving.includes(point) ? reshaped(point, to) : led(point, to);
   const design = [...present];
   [design[x], design[y]] = to;
   return moved(design, stands, name);
@@ -196,7 +196,7 @@ function build() {
     return () => { if (seen !== edition) { seen = edition; set(line, { d: broken([...now.along.keys()].map((i) => (now.reason[i] ? null : px(...spot(now, point, i))))) }); } };
   });
   const first = () => [...gridded(), ghostly(draw(sheet, "path", { class: "line", w: 2, dash: "2 5", stroke: css("muted") }))];
-  parts = drawn({ first, under: paths, over: () => [...data.arrows.map(arrow), ...(data.task ? wanted() : []), ...named(), ...[...data.moving.map((point) => ({ point })), ...data.grips].map(grip), ...measured()] });
+  parts = drawn({ first, under: paths, over: () => [...data.arrows.map(arrow), ...(data.task ? wanted() : []), ...named(), ...[...data.grips, ...data.moving.map((point) => ({ point }))].map(grip), ...measured()] });
   keys = draw(sheet, "g", {});
 }
 /* The delivered design at the same stroke, as a faint outline, where the design has changed. */

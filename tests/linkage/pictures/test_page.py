@@ -249,7 +249,7 @@ def test_a_second_page_of_a_machine_traces_nothing_again(tmp_path, monkeypatch):
 
 
 def test_what_a_page_says_is_what_is_translated():
-    script = "".join(map(page_part, ("mechanism.js", "page.js", "task.js", "chart.js")))
+    script = "".join(map(page_part, ("mechanism.js", "page.js", "hands.js", "leave.js", "task.js", "chart.js")))
     text = "".join(map(page_part, ("machine.html", "chart.html")))
     said = re.findall(r'say\("((?:[^"\\]|\\.)*)"', script) + re.findall(r'"(\{name\} = [^"]*)"', script)
     said += re.findall(r'data-(?:say|tip|name)="([^"]+)"', text)
@@ -532,6 +532,112 @@ def test_what_is_dragged_while_it_plays_is_undone(chromium, written):
         shown.tab.keyboard.press("Control+z")
         shown.settle()
         assert shown.state["design"] == pytest.approx(dict(machine.dimensions), abs=1e-12)
+
+
+class Tool(Mechanism):
+    """A tool in axes of its own, with a pin that is fixed there and one that hangs on it."""
+
+    H, E, J = Ground(0.0, 0.0), Ground(0.20, 0.30), Ground(0.05, 0.12)
+    X = OnLink(H, E, HX=0.2)
+
+
+class Carried(FourBar):
+    """The four-bar with a tool on its coupler, and a mirrored one that stands."""
+
+    tool = Part(Tool, on=("B", "C"))
+    stand = Part(Tool, at=(0.9, 0.1), mirrored=True, angle=20 * deg)
+
+
+@pytest.mark.parametrize(("pin", "keys"), [("tool.J", ["Shift"]), ("stand.J", [])])
+def test_what_a_part_fixes_goes_where_it_is_dragged_in_axes_of_its_own(chromium, written, pin, keys):
+    with Shown(chromium, written(Carried())) as shown:
+        before = shown("hydrolinkage.points()")
+        scale = shown("(() => { const [a, b] = ['O', 'Q'].map((n) => document.querySelector(`[data-pin=${n}]`).getBoundingClientRect());"
+                      " return Math.hypot(a.x - b.x, a.y - b.y) / 0.4; })()")  # fmt: skip
+        drag(shown, f'"{pin}"', (30, -20), keys)
+        after, design = shown("hydrolinkage.points()"), shown.state["design"]
+        assert_allclose(np.subtract(after[pin], before[pin]), np.array([30, 20]) / scale, atol=2e-3)
+        assert {name for name, value in design.items() if value != Carried().dimensions[name]} == {f"{pin}.x", f"{pin}.y"}
+        for name in set(before) - {pin}:
+            assert_allclose(after[name], before[name], atol=1e-5)
+
+
+def test_how_far_others_give_way_is_told_from_where_they_stood(chromium, written):
+    with Shown(chromium, written(Carried())) as shown:
+        before = shown("hydrolinkage.points()")
+        drag(shown, "B", (25, -25), ["Shift"])
+        after = shown("hydrolinkage.points()")
+        away = max(np.hypot(*np.subtract(after[name], before[name])) for name in before if name != "B")
+        told = shown.text("#message")
+        assert "give way" in told
+        (said,) = re.findall(r"by ([\d.]+)", told)
+        assert float(said) == pytest.approx(1e3 * away, rel=0.02)
+
+
+class TooLong(ThreePointHitch):
+    """A stroke longer than the linkage can follow."""
+
+    S = Stroke(0.00, 0.45)
+
+
+def test_a_joint_that_is_dragged_out_of_reach_names_the_step_and_what_is_missing(chromium, written):
+    with Shown(chromium, written(TooLong(), at={"S": (0.0, 0.45)})) as shown:
+        shown("hydrolinkage.set({ at: { S: 0.3 } })")
+        drag(shown, "B", (400, -400))
+        assert shown.state["at"]["S"] == pytest.approx(0.4083, abs=1e-3)
+        assert re.search(r"B stops here: B = Dyad\(A, O\) is [\d.]+\u2009mm short", shown.text("#message"))
+
+
+CONTRASTS = """() => {
+  const linear = (v) => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
+  const light = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
+  const canvas = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+  const colour = (text) => {
+    canvas.clearRect(0, 0, 1, 1);
+    canvas.fillStyle = text;
+    canvas.fillRect(0, 0, 1, 1);
+    return [...canvas.getImageData(0, 0, 1, 1).data].map((v) => v / 255);
+  };
+  const ground = (each) => {
+    for (; each; each = each.parentElement) {
+      const found = colour(getComputedStyle(each).backgroundColor);
+      if (found[3] === 1) return found;
+    }
+    return [1, 1, 1, 1];
+  };
+  const faint = (each) => {
+    for (; each; each = each.parentElement) if (Number(getComputedStyle(each).opacity) < 1) return true;
+    return false;
+  };
+  const written = (each) => [...each.childNodes].some((one) => one.nodeType === 3 && one.data.trim());
+  const found = [];
+  for (const each of document.querySelectorAll("body *")) {
+    if (each.closest("svg, script, :disabled") || !each.getClientRects().length || !written(each)) continue;
+    const [a, b] = [light(colour(getComputedStyle(each).color)), light(ground(each))].sort((x, y) => y - x);
+    const name = each.id || each.className || each.tagName;
+    if (faint(each) || (a + 0.05) / (b + 0.05) < 4.5) found.push(`${name}: ${each.textContent.slice(0, 30)}`);
+  }
+  for (const each of document.querySelectorAll("button, select, input, textarea")) {
+    const named = each.getAttribute("aria-label") || each.labels?.length;
+    if (each.getClientRects().length && !named && !each.textContent.trim()) found.push(`${each.id}: no name`);
+    if (each.tagName === "SELECT" && !named) found.push(`${each.id}: no label`);
+  }
+  for (const each of document.querySelectorAll("th")) if (!each.textContent.trim()) found.push("an empty heading");
+  return found;
+}"""
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_what_is_written_can_be_read_and_every_control_has_a_name(chromium, written, tmp_path, scheme):
+    with Shown(chromium, written(ThreePointHitch()), color_scheme=scheme) as shown:
+        shown("hydrolinkage.set({ design: { OB: 0.29, 'lift.bore': 0.06 } })")
+        for button in ("keep", "grid", "forces"):
+            shown.tab.click(f"#{button}")
+        shown.settle()
+        assert shown("document.querySelectorAll('#live .bad, #kept .other').length") > 1
+        assert shown(CONTRASTS) == []
+    with Shown(chromium, page(digger_field(), tmp_path / "chart.html"), PHONE, color_scheme=scheme) as shown:
+        assert shown(CONTRASTS) == []
 
 
 FORMS = ("python", "toml", "options")

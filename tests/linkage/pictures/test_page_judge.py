@@ -8,6 +8,8 @@ import pytest
 
 from hydraulics import Cylinder, LiftCircuit
 from linkage import Dimension, LoadCase, Over, Stroke
+from linkage.cli.listing import registered
+from linkage.cli.machines import find
 from linkage.language import language
 from linkage.motion import HasVerdicts, live_text
 from linkage.pictures.browser_data import PageRequests, page_data
@@ -151,6 +153,11 @@ def near(machine, seed, count, spread=0.03):
     """Return random designs of a machine that it takes, one by one."""
     found = possible(machine, designs_near(machine, seed, count, spread))
     return [{name: float(value[k]) for name, value in found.items()} for k in range(max(map(len, found.values())))]
+
+
+def test_every_shipped_machine_that_judges_itself_is_among_them():
+    known = {find(name) for name in registered()}
+    assert {each for each in known if each.plan.of_kind(HasVerdicts)} <= set(MACHINES.values())
 
 
 @NEEDED

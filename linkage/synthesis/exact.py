@@ -18,7 +18,7 @@ import numpy.typing as npt
 from .. import plugins
 from ..errors import DefinitionError, StudyError
 from ..frozen import read_only
-from ..language import said
+from ..language import said, said_of
 from ..mechanism import Mechanism
 from ..mobility import grashof
 from ..motion import Featured
@@ -208,9 +208,11 @@ class ExactSynthesis(Shown):
     def sentence(self) -> str:
         """How many there are in words, and the first of them."""
         lines = [
-            said(
-                "{title}: {count} real solutions of {complex} in all, {running} of them run.",
-                title=self.title, count=len(self.all), complex=self.complex_count, running=len(self.solutions),
+            said_of(
+                len(self.all),
+                "{title}: {n} real solution of {complex} in all, {running} of them run.",
+                "{title}: {n} real solutions of {complex} in all, {running} of them run.",
+                title=self.title, complex=self.complex_count, running=len(self.solutions),
             )
         ]  # fmt: skip
         return "\n".join([*lines, *(f"  {place}. {each}" for place, each in enumerate(self.all[:TOLD], 1))])

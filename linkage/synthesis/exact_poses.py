@@ -206,6 +206,8 @@ class Burmester(Shown):
     @property
     def sentence(self) -> str:
         """How many links and machines there are, in words."""
+        if len(self.poses) == 3 and not self.links:
+            return said("3 poses: each point of the body has a link, found.link(point=(x, y)); say region= for machines on pivots in it.")
         head = said("{count} poses, {links} links: ", count=len(self.poses), links=len(self.links))
         return head + str(self.synthesis)
 

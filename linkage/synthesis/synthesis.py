@@ -155,9 +155,9 @@ class Synthesis(Shown):
         title, found, searched = self.problem.plan.title, self.solutions, self.searched
         if found:
             lines = [
-                said(
-                    "{title}: {count} different machines that run, the best first; {searched}",
-                    title=title, count=len(found), searched=searched,
+                said_of(
+                    len(found), "{title}: {n} machine that runs; {searched}",
+                    "{title}: {n} different machines that run, the best first; {searched}", title=title, searched=searched,
                 )
             ]  # fmt: skip
             lines += [f"  {place}. {each}" for place, each in enumerate(found[:TOLD], 1)]
@@ -303,9 +303,10 @@ def sentence_of_classes(found: Synthesis) -> str:
     title = said_of(len(found.classes), "{n} class", "{n} classes")
     if found.solutions:
         count = len(found.solutions)
-        opening = said(
-            "{title}: {count} different machines that run, the best first; {searched}", title=title, count=count, searched=found.searched
-        )
+        opening = said_of(
+            count, "{title}: {n} machine that runs; {searched}",
+            "{title}: {n} different machines that run, the best first; {searched}", title=title, searched=found.searched,
+        )  # fmt: skip
     else:
         opening = said("{title}: no machine that runs was found for it; {searched}", title=title, searched=found.searched)
     best = [f"  {place}. {each.machine.plan.title}: {each}" for place, each in enumerate(found.solutions[:TOLD], 1)]

@@ -115,7 +115,8 @@ def test_regions_are_those_of_a_call(tmp_path):
     given, wanted = (region_of(each, "C") for each in (said, [corners, outside(wheel)]))
     assert_allclose(given.within[0].corners, wanted.within[0].corners, rtol=1e-15)
     assert given.without == wanted.without
-    (tmp_path / "task.toml").write_text(SEVERAL.replace("[synthesis.vary", REGIONS.replace("C =", "O =") + "[synthesis.vary"), encoding="utf-8")
+    both = SEVERAL.replace("[synthesis.vary", REGIONS.replace("C =", "O =") + "[synthesis.vary")
+    (tmp_path / "task.toml").write_text(both, encoding="utf-8")
     of_each = read_synthesis(tmp_path / "task.toml", finder([])).arguments["regions"]
     assert len(of_each) == 2 and all(set(each) == {"O"} for each in of_each.values())
 

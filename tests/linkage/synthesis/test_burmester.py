@@ -44,6 +44,7 @@ def pole(one, other):
 
 def test_of_three_poses_each_point_has_its_centre_and_each_centre_its_point():
     found = burmester(random_poses(1, 3))
+    assert "each point of the body has a link" in str(found)
     for place in np.random.default_rng(2).normal(size=(20, 2)):
         link = found.link(point=place)
         assert_allclose(np.hypot(*(link.places - link.centre).T), link.length, rtol=1e-12)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import product
 from typing import Any, final
 
@@ -21,6 +22,7 @@ from ..program import FloatArray
 from ..units import current_system, factor, shown_in
 from . import style
 from .scene import Bounds
+from .sheet import points_a_metre
 from .symbols import added
 
 SHARE = 0.17
@@ -138,22 +140,30 @@ def grown(box: Bounds, points: FloatArray, margin: float) -> Bounds:
 
 def draw_arrows(ax: Axes, layer: ArrowLayer, scale: float, size: float, level: float = 16.0) -> FloatArray:
     """Draw the arrows of a layer and return points that cover them, shape (n, 2) [m]; `size` is that of the mechanism's pins [m]."""
-    covered = [np.empty((0, 2))]
     for each in layer.arrows:
         tip = each.at + scale * each.vector
         edge = style.mixed(each.colour, style.INK, 0.35)
         if each.length <= TINY * layer.largest:
             patch: Circle | Polygon = Circle((each.at[0], each.at[1]), 0.3 * size, facecolor=each.colour, edgecolor=edge, zorder=level)
-            covered.append(each.at[None])
         else:
             outline = arrow_outline(each.at, tip, size)
             patch = Polygon(outline, facecolor=each.colour, edgecolor=edge, linewidth=0.6, joinstyle="round", zorder=level)
-            covered.append(each.at + np.linspace(0.0, 1.0, 24)[:, None] * (tip - each.at))
         patch.set_gid(each.name)
         added(ax, patch)
     for turn in layer.turning:
-        covered.append(draw_turning(ax, turn, size, level))
-    return np.concatenate(covered)
+        draw_turning(ax, turn, size, level)
+    return arrow_points(layer, scale, size)
+
+
+def arrow_points(layer: ArrowLayer, scale: float, size: float) -> FloatArray:
+    """Return points along the arrows of a layer, shape (n, 2) [m], so near to each other that no text stands between them."""
+    lines = [np.empty((0, 2)), *(turning_line(turn, size) for turn in layer.turning)]
+    for each in layer.arrows:
+        count = int(np.clip(3.0 * scale * each.length / size, 1, 240))
+        lines.append(each.at + np.linspace(0.0, 1.0, count)[:, None] * scale * each.vector)
+        if each.length > TINY * layer.largest:
+            lines.append(arrow_outline(each.at, each.at + scale * each.vector, size))
+    return np.concatenate(lines)
 
 
 def arrow_outline(tail: FloatArray, tip: FloatArray, size: float) -> FloatArray:
@@ -168,31 +178,42 @@ def arrow_outline(tail: FloatArray, tip: FloatArray, size: float) -> FloatArray:
     return np.array([*sides, tail - thin * across, neck - thin * across, neck - wide * across])
 
 
-def draw_turning(ax: Axes, turn: TurningArrow, size: float, level: float) -> FloatArray:
-    """Draw a moment as a curved arrow about its point, and return points that cover it [m]."""
-    radius = turn.radius * size
+def turning_line(turn: TurningArrow, size: float) -> FloatArray:
+    """Return the line of a curved arrow from its tail to its head, shape (n, 2) [m]."""
     angles = TURN_ANGLES if turn.moment > 0.0 else np.pi - TURN_ANGLES
-    circle = turn.at + radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    return np.asarray(turn.at + turn.radius * size * np.column_stack([np.cos(angles), np.sin(angles)]))
+
+
+def draw_turning(ax: Axes, turn: TurningArrow, size: float, level: float) -> None:
+    """Draw a moment as a curved arrow about its point."""
+    circle = turning_line(turn, size)
     line = Line2D(*circle.T, color=turn.colour, linewidth=2.2, solid_capstyle="butt", zorder=level)
     line.set_gid(turn.name)
     ax.add_line(line)
-    end, out = circle[-1], (circle[-1] - turn.at) / radius
+    end, out = circle[-1], (circle[-1] - turn.at) / (turn.radius * size)
     along = np.array([-out[1], out[0]]) * np.sign(turn.moment)
     corners = np.array([end + HEAD * size * along, end + BARB * size * out, end - BARB * size * out])
     added(ax, Polygon(corners, facecolor=turn.colour, edgecolor=turn.colour, joinstyle="round", zorder=level))
-    return np.concatenate([circle, corners])
 
 
 # Values at the arrows, where they cover nothing.
 
-FAR_OUT = (1.0, 1.8, 3.0, 4.5, 7.0, 10.0, 14.0, 19.0)
+FAR_OUT = (1.0, 1.8, 3.0, 4.5, 7.0, 10.0, 14.0, 19.0, 25.0, 33.0)
 LED = 4
 """The place in FAR_OUT from which a thin line leads to what a value stands for."""
 LEADING = 10.0
 """What such a line costs, in covered points."""
+CROSSED_TEXT, COVERED_TEXT, OFF_SHEET = 40.0, 400.0, 900.0
+"""What it costs to cross another text with such a line, to cover one, and to hang over the sheet's edge, in covered points."""
+ARROW = 4
+"""What a point along an arrow costs, in covered points."""
+ALONG_LEADER = np.linspace(0.0, 1.0, 24)[1:, None]
+"""The shares of a leading line at which it is looked at."""
 AGAIN = 3
 """How often values that cover others choose again."""
 AROUND = np.radians(np.arange(0.0, 360.0, 22.5))
+FIRST_LED = LED * len(AROUND)
+"""The first of the spots of a text that such a line leads to."""
 CLEAR = 1.5  # pixels kept free around a value
 
 
@@ -243,18 +264,32 @@ class PlacedWording:
         spot = self.spots[self.place]
         return np.concatenate([spot - self.half, spot + self.half])
 
+    @property
+    def leader(self) -> FloatArray:
+        """Points along the line that leads to what it stands for, shape (n, 2) [pixels]: none where it stands near."""
+        return self.leaders[self.place - FIRST_LED] if self.place >= FIRST_LED else np.empty((0, 2))
+
+    @cached_property
+    def leaders(self) -> FloatArray:
+        """Points along the leading lines of its far spots, shape (k, n, 2) [pixels]."""
+        far = self.spots[FIRST_LED :]
+        nearest = np.clip(self.anchor, far - self.half, far + self.half)
+        return np.asarray(nearest[:, None] + ALONG_LEADER * (self.anchor - nearest)[:, None])
+
     def choose(self, boxes: Sequence[FloatArray], points: FloatArray, inside: object) -> None:
-        """Choose the spot that covers least."""
-        costs = spot_costs(self.spots, self.half, np.array(boxes).reshape(-1, 4), points, inside)
-        is_led = np.arange(len(costs)) >= LED * len(AROUND)
-        self.place = int(np.argmin(costs + 0.04 * np.arange(len(costs)) + LEADING * is_led))
+        """Choose the spot that covers least, and whose line crosses no text."""
+        texts = np.array(boxes).reshape(-1, 4)
+        costs = spot_costs(self.spots, self.half, texts, points, inside) + 0.04 * np.arange(len(self.spots))
+        inner = (self.leaders[:, :, None] > texts[:, :2]) & (self.leaders[:, :, None] < texts[:, 2:])
+        costs[FIRST_LED :] += LEADING + CROSSED_TEXT * inner.all(axis=3).any(axis=1).sum(axis=1)
+        self.place = int(np.argmin(costs))
 
     def write(self, ax: Axes) -> None:
         """Put the text where it has chosen, with a line that leads to what it stands for where that is far."""
         back = ax.transData.inverted()
         x, y = back.transform(self.spots[self.place]).tolist()
         self.text.set_position((x, y))
-        if self.place >= LED * len(AROUND):
+        if self.place >= FIRST_LED:
             nearest = np.clip(self.anchor, self.box[:2], self.box[2:])
             ends = back.transform(np.array([nearest, self.anchor]))
             line = Line2D(*ends.T, color=self.text.get_color(), linewidth=0.6, zorder=19.5)
@@ -286,7 +321,8 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font
     for _ in range(AGAIN):
         for one in chosen:
             others = [*boxes, *(other.box for other in chosen if other is not one and other.is_placed)]
-            one.choose(others, points, inside)
+            lines = [other.leader for other in chosen if other is not one and other.is_placed]
+            one.choose(others, np.concatenate([points, *lines]), inside)
     for one in chosen:
         one.write(ax)
     return [one.text for one in chosen]
@@ -318,28 +354,37 @@ def spot_costs(spots: FloatArray, half: FloatArray, boxes: FloatArray, points: F
     covered = ((points > low) & (points < high)).all(axis=2).sum(axis=1)
     x0, y0, x1, y1 = (getattr(inside, name) for name in ("x0", "y0", "x1", "y1"))
     outside = ((low < (x0, y0)) | (high > (x1, y1))).any(axis=(1, 2))
-    return np.asarray(40.0 * over + 1.0 * covered + 90.0 * outside)
+    return np.asarray(COVERED_TEXT * over + 1.0 * covered + OFF_SHEET * outside)
 
 
 # The bar that says the scale, and what colours mean.
 
 
-def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray, place: int = 0) -> None:
-    """Draw a bar of a round value in the emptiest corner of the sheet; `place` says how many stand there already."""
+BESIDE_CORNER, AMID = 2.0, 6.0
+"""What it costs a bar to stand at the sheet's edge beside its corners, and away from the edge, in covered points."""
+
+
+def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray) -> FloatArray:
+    """Draw a bar of a round value where the sheet is empty, in a corner if one is; return points that cover it, shape (n, 2) [m]."""
     if not scale > 0.0:
-        return
+        return np.empty((0, 2))
     value = round_value(0.8 * layer.largest / layer.factor)
     length = value * layer.factor * scale
     (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
-    pad, high = 0.02 * (x1 - x0), 0.05 * (y1 - y0)
-    spots = [(x, y) for y in (y0 + 1.2 * pad, y1 - 1.6 * pad - high) for x in (x1 - pad - length, x0 + pad)]
+    pad, high = 0.02 * (x1 - x0), text_height(ax, style.SMALL)
+    across = np.linspace(x1 - pad - length, x0 + pad, 7)
+    up = np.linspace(y0 + pad, y1 - pad - 1.5 * high, 9)
+    taken = np.concatenate([covered, *text_grids(ax)])
 
-    def crowd(spot: tuple[float, float]) -> int:
-        low, high_end = np.array(spot) - pad, np.array([spot[0] + length + pad, spot[1] + 2.0 * high])
-        return int(np.count_nonzero(((covered > low) & (covered < high_end)).all(axis=1)))
+    def cost(spot: tuple[int, int]) -> float:
+        low = np.array([across[spot[0]] - pad, up[spot[1]] - 0.8 * pad])
+        top = low + np.array([length + 2.0 * pad, 1.6 * pad + 1.5 * high])
+        crowd = int(np.count_nonzero(((taken > low) & (taken < top)).all(axis=1)))
+        edges = (spot[0] in (0, len(across) - 1)) + (spot[1] in (0, len(up) - 1))
+        return crowd + (AMID, BESIDE_CORNER, 0.0)[edges] + 0.1 * (spot[0] / len(across) + spot[1] / len(up))
 
-    x, y = min(spots, key=crowd)
-    y += place * high
+    column, row = min(product(range(len(across)), range(len(up))), key=cost)
+    x, y = float(across[column]), float(up[row])
     half, colour = 0.2 * pad, layer.keys[0][0] if len(layer.keys) == 1 else style.INK
     across, up = [x, x, x, x + length, x + length, x + length], [y + half, y - half, y, y, y - half, y + half]
     bar = ax.plot(across, up, color=colour, linewidth=1.6, zorder=19.0, solid_joinstyle="miter")
@@ -349,6 +394,22 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray, pl
         zorder=20.0, path_effects=[withStroke(linewidth=2.2, foreground=style.PAPER)],
     )  # fmt: skip
     text.set_gid(f"scale {layer.unit} value")
+    return np.array([x, y]) + np.linspace(-0.3 * pad, length + 0.3 * pad, 60)[:, None] * [1.0, 0.0]
+
+
+def text_height(ax: Axes, font: float) -> float:
+    """Return the height of a line of letters of a size [m], on a sheet whose place and limits stand."""
+    return font * 1.25 / points_a_metre(ax)
+
+
+def text_grids(ax: Axes) -> list[FloatArray]:
+    """Return points that cover each text that is written on a sheet, shape (n, 2) [m]."""
+    figure = ax.figure.figure
+    assert figure is not None
+    renderer, back = renderer_of(figure), ax.transData.inverted()
+    boxes = [text.get_window_extent(renderer) for text in ax.texts if text.get_visible() and text.get_text()]
+    shares = np.array(list(product(np.linspace(0.0, 1.0, 9), np.linspace(0.0, 1.0, 4))))
+    return [np.asarray(back.transform(box.min + shares * box.size)) for box in boxes]
 
 
 def round_value(value: float) -> float:

@@ -28,6 +28,8 @@ LEAST, MOST = 4.5, 12.0
 """The range of the picture's side [inch]."""
 BOW = 0.22
 """How far lines between the same two bodies are bent apart, over their length."""
+NAME = 6
+"""The letters of a body's name that stands above its link's."""
 SHARES = (0.5, 0.42, 0.58, 0.34, 0.66)
 """Where on its line the mark of a joint may stand, the usual place first."""
 COLOURS = {"frame": style.RULE, "barrel": style.BARREL, "rod": style.ROD, "block": style.PAPER, "carriage": style.PAPER}
@@ -55,7 +57,8 @@ def draw_chain(graph: nx.MultiGraph) -> Figure:
         face = COLOURS.get(data["kind"]) or colours[str(name)]
         body(ax, str(name), data, face, at[name])
     bodies, joints = graph.number_of_nodes(), graph.number_of_edges()
-    write_title(figure, str(graph.name), f"3 ({bodies} - 1) - 2 · {joints} = {3 * (bodies - 1) - 2 * joints}")
+    freedom = f"3 ({bodies} - 1) - 2 · {joints} = {3 * (bodies - 1) - 2 * joints}"
+    write_title(figure, str(graph.name), freedom.replace("-", "\N{MINUS SIGN}"))
     footnote(figure, said("round: pin; square: slide; orange: driven by the stroke that is named"))
     return figure
 
@@ -101,8 +104,9 @@ def joint(
 
 
 def body(ax: Axes, name: str, data: dict[str, Any], face: str, place: FloatArray) -> None:
-    """Draw a body as a plate with its name, and that of its link below."""
-    words = f"{name}\n{data['link']}" if data.get("link") else name
+    """Draw a body as a plate with its name, and that of its link below, which stands alone for a long one."""
+    link = data.get("link")
+    words = link if link and len(name) > NAME else f"{name}\n{link}" if link else name
     box = {"boxstyle": "round,pad=0.45", "facecolor": face, "edgecolor": style.mixed(face, style.INK, 0.65), "linewidth": style.OUTLINE}
     x, y = place
     ax.plot(x, y, alpha=0.0)

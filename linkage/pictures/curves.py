@@ -26,6 +26,7 @@ from .strokes import StrokeAxis, column_shown, frame_count
 
 PANEL = (4.6, 3.0)
 """The size of a panel with its share of the margins [inch]."""
+TIED = "\N{NO-BREAK SPACE}"
 LETTERS_AN_INCH = 8.0
 """How many letters of a heading an inch has room for."""
 
@@ -43,8 +44,9 @@ def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], *, limi
     if not shown:
         raise DefinitionError(f"{motion.plan.title}: there is no column to draw over {along.name}; name a result, not a stroke.")
     figure, cells = panel_grid(len(shown))
-    title = motion.plan.heading + (" " + said("at {place}", place=along.held) if along.held else "")
-    title = "\n".join(wrap(title, int(LETTERS_AN_INCH * float(figure.get_figwidth()))))
+    held = along.held.replace(" ", TIED).replace("," + TIED, ", ")  # a line breaks between strokes, not in them
+    title = motion.plan.heading + (" " + said("at {place}", place=held) if held else "")
+    title = "\n".join(wrap(title, int(LETTERS_AN_INCH * float(figure.get_figwidth())))).replace(TIED, " ")
     figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
     for ax, column in zip(cells, shown, strict=True):
         panel(ax, motion, column, given.get(column.name))
@@ -208,8 +210,8 @@ def _name(ax: Axes, limit: Limit, value: float, along: FloatArray, shown: FloatA
     gaps = np.abs(np.nan_to_num(shown, nan=value) - value)
     right, up = gaps[np.argmax(along)] >= gaps[np.argmin(along)], limit.fails == "above"
     ax.annotate(
-        limit.text, (1.0 if right else 0.0, value), xycoords=("axes fraction", "data"), xytext=(-5 if right else 5, 3 if up else -3),
-        textcoords="offset points", ha="right" if right else "left", va="bottom" if up else "top",
+        typeset(limit.text), (1.0 if right else 0.0, value), xycoords=("axes fraction", "data"), textcoords="offset points",
+        xytext=(-5 if right else 5, 3 if up else -3), ha="right" if right else "left", va="bottom" if up else "top",
         fontsize=style.SMALL, color=style.ACCENT, zorder=6.0,
     )  # fmt: skip
 

@@ -17,6 +17,7 @@ from ..quantities import joined_names
 from ..statics import JointForce, PinForces, pin_forces
 from ..units import current_system, shown_in
 from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
+from .style import part_of_points
 
 PIN, LOAD, MEMBER, GROUND = "#0072b2", "#d55e00", "#007f5c", "#000000"
 """The colours of pin forces, loads, the ends of cylinders and springs, and of the ground under supports: Okabe and Ito's, one darker."""
@@ -129,20 +130,24 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
     for element, bearer, at, force, moment, colour in load_groups(forces):
         arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, colour, element))
         turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, colour, element))
-    used = {arrow.colour for arrow in arrows} | {LOAD, PIN}
     words = {LOAD: said("load"), PIN: said("pin force"), MEMBER: said("of a cylinder or spring"), GROUND: said("from the ground")}
-    keys = [(colour, text) for colour, text in words.items() if colour in used]
-    return layer_of(arrows, turning, keys, translated(SENSE))
+    return layer_of(arrows, turning, words, translated(SENSE))
+
+
+MOST_LETTERS = 6
+"""A body that no link names goes by all its points where these have so many letters at the most; else by its first two."""
 
 
 def short_name(forces: ForcesAt, body: str) -> str:
-    """Return a body's name as it is written at an arrow: one of many points goes by its first two, of its part's own."""
-    points = next((each.points for each in forces.found._structure.bodies if each.name == body), ())
-    if len(body) <= 8 or len(points) < 3 or body in forces.found.members:
+    """Return a body's name as it is written at an arrow: its member's, its link's, or its points; of many its part's first two."""
+    found = next((each for each in forces.found._structure.bodies if each.name == body), None)
+    if found is None or body in forces.found.members or len(found.points) < 3:
         return body
-    owner = max((each.rpartition(".")[0] for each in points), key=[each.rpartition(".")[0] for each in points].count)
-    own = [each for each in points if each.rpartition(".")[0] == owner]
-    return f"{joined_names(*(own if len(own) > 1 else points)[:2])}\N{HORIZONTAL ELLIPSIS}"
+    owner = part_of_points(found.points)
+    own = [each for each in found.points if part_of_points([each]) == owner]
+    if found.label or (len(own) == len(found.points) and len("".join(each.rpartition(".")[2] for each in own)) <= MOST_LETTERS):
+        return found.label or body
+    return f"{joined_names(*(own if len(own) > 1 else found.points)[:2])}\N{HORIZONTAL ELLIPSIS}"
 
 
 def from_words(forces: ForcesAt, body: str) -> str:
@@ -167,16 +172,14 @@ def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
         if bearer == body:
             arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, colour, element))
             turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, colour, element))
-    used = {each.colour for each in arrows} | {each.colour for each in turning}
-    keys = [(LOAD, said("load")), (PIN, said("from a body or the frame")), (MEMBER, said("from a cylinder or spring"))]
-    keys += [(GROUND, said("from the ground"))]
-    return layer_of(arrows, turning, [key for key in keys if key[0] in used])
+    words = {LOAD: said("load"), PIN: said("from a body or the frame"), MEMBER: said("from a cylinder or spring")}
+    return layer_of(arrows, turning, words | {GROUND: said("from the ground")})
 
 
-def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], keys: list[tuple[str, str]], sense: str = "") -> ArrowLayer:
-    """Return forces and moments as a layer; loads and moments of zero are left out.
+def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], words: Mapping[str, str], sense: str = "") -> ArrowLayer:
+    """Return forces and moments as a layer, with the words of the colours that are there; forces and moments of zero are left out.
 
-    It is in kN, or in N where the largest is less than 100 N, or in the unit of a chosen system.
+    It is in kN, or in N where the largest is less than 1 kN, or in the unit of a chosen system.
     """
     largest = max((each.length for each in arrows), default=0.0)
     shown = tuple(each for each in arrows if each.length > NOTHING_THERE * largest)
@@ -186,8 +189,10 @@ def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], keys: list[
         if abs(each.moment) > NOTHING_THERE * most:
             here = sum(1 for other in turns if np.allclose(other.at, each.at))
             turns.append(replace(each, radius=each.radius + 1.4 * here))
-    unit = "kN" if current_system() or largest >= 100.0 or most >= 100.0 else "N"
-    return ArrowLayer(shown, shown_in(unit), tuple(keys), tuple(turns), sense=sense)
+    unit = "kN" if current_system() or largest >= 1000.0 or most >= 1000.0 else "N"
+    used = {each.colour for each in (*shown, *turns)}
+    keys = tuple((colour, text) for colour, text in words.items() if colour in used)
+    return ArrowLayer(shown, shown_in(unit), keys, tuple(turns), sense=sense if used else "")
 
 
 def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatArray, float, str]]:

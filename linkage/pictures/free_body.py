@@ -14,6 +14,7 @@ from ..motion import Motion
 from ..program import FloatArray
 from . import style
 from .arrows import (
+    ARROW,
     ArrowLayer,
     VectorArrow,
     Wording,
@@ -27,7 +28,7 @@ from .arrows import (
     wordings,
 )
 from .drawing import BodyPart, MarkPart, pin
-from .force_arrows import FRAME, ForceQuestion, ForcesAt, body_layer, drawn_body, forces_at_pose, imbalance
+from .force_arrows import FRAME, ForceQuestion, ForcesAt, body_layer, drawn_body, forces_at_pose, imbalance, short_name
 from .labels import LabelPart, offsets
 from .overlays import sheet_note
 from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, write_title
@@ -60,7 +61,7 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     sheet_note(ax, [said("No forces here: {why}", why=forces.refusal)] if forces.refusal else forces.found.remarks)
     where = [stroke_words(motion.plan, name, float(values.ravel()[pose])) for name, values in motion.strokes.items()]
     heading = motion.plan.heading
-    on_body = said("{machine}: forces on {body}", machine=heading, body=body)
+    on_body = said("{machine}: forces on {body}", machine=heading, body=short_name(forces, body))
     write_title(figure, said("{machine}: forces on the frame", machine=heading) if body == FRAME else on_body, ", ".join(where))
     legend_row(ax, *ax.get_legend_handles_labels())
     footnote(figure, closing_words(layer, "" if forces.found.axle_loads else body))
@@ -131,9 +132,9 @@ class FreeBodyPicture:
         outline = self.outline()
         covered = draw_arrows(ax, self.layer, self.scale, self.size)
         self.name_points(ax, np.concatenate([outline, covered]))
-        everything = np.concatenate([outline, covered, covered])
-        scale_bar(ax, self.layer, self.scale, everything)
-        place_wordings(ax, wordings(self.layer, self.scale, self.size), everything)
+        everything = np.concatenate([outline, np.repeat(covered, ARROW, axis=0)])
+        bar = scale_bar(ax, self.layer, self.scale, everything)
+        place_wordings(ax, wordings(self.layer, self.scale, self.size), np.concatenate([everything, bar]))
         for line in colour_keys(self.layer):
             ax.add_line(line)
 

@@ -18,9 +18,11 @@ from ..quantities import as_mapping
 from ..units import factor, show, shown_in
 from . import style
 from .arrows import (
+    ARROW,
     ArrowLayer,
     VectorArrow,
     Wording,
+    arrow_points,
     colour_keys,
     draw_arrows,
     grown,
@@ -145,12 +147,9 @@ class Overlay:
         """What the picture says in words: what is not known here, and of poles that it does not show where they are."""
         return [*self.notes, *(words for mark in self.marks for words in ([mark.words] if mark.words else far_words(mark, self.sheet)))]
 
-    def covered(self) -> FloatArray:
-        """Return points along the arrows, where no name should stand, shape (n, 2) [m]."""
-        lines = [np.empty((0, 2))]
-        for layer in self.layers:
-            share = np.linspace(0.0, 1.0, 24)[:, None]
-            lines += [each.at + share * layer.scale(self.sheet) * each.vector for each in layer.arrows]
+    def covered(self, size: float) -> FloatArray:
+        """Return points along the arrows, where no name should stand, shape (n, 2) [m]; `size` is that of a pin [m]."""
+        lines = [np.empty((0, 2)), *(arrow_points(layer, layer.scale(self.sheet), size) for layer in self.layers)]
         lines += [gap.outer(0.0) for gap in self.gaps]
         return np.concatenate([*lines, *(mark.at[None] for mark in self.marks if mark.is_near(self.sheet))])
 
@@ -159,7 +158,7 @@ class Overlay:
         covered, texts = [keep_clear], []
         for layer in self.layers:
             scale = layer.scale(self.sheet)
-            covered.append(np.repeat(draw_arrows(ax, layer, scale, size), 2, axis=0))
+            covered.append(np.repeat(draw_arrows(ax, layer, scale, size), ARROW, axis=0))
             texts += wordings(layer, scale, size)
         for mark in self.marks:
             texts += draw_pole(ax, mark, self.sheet, size)
@@ -167,10 +166,10 @@ class Overlay:
         for gap in self.gaps:
             texts += draw_gap(ax, gap, size)
             covered.append(np.repeat(gap.outer(size), 6, axis=0))
-        everything = np.concatenate(covered)
-        for place, layer in enumerate(self.layers):
-            scale_bar(ax, layer, layer.scale(self.sheet), everything, place)
         sheet_note(ax, self.sentences)
+        for layer in self.layers:
+            covered.append(np.repeat(scale_bar(ax, layer, layer.scale(self.sheet), np.concatenate(covered)), ARROW, axis=0))
+        everything = np.concatenate(covered)
         figure = ax.figure.figure
         if figure is not None:
             footnote(figure, " ".join(layer.sense for layer in self.layers if layer.sense))

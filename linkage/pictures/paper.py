@@ -15,9 +15,12 @@ from .scene import Bounds
 from .sheet import Picture, sheet
 
 WIDTH = 9.0
-LEAST, MOST = 4.2, 10.0
+LEAST, MOST = 3.0, 10.0
 LEFT, RIGHT, BOTTOM, TOP = 0.75, 0.2, 0.6, 0.7
 """The figure's width, the range of its height, and the room around the sheet [inch]."""
+
+EDGE = 0.03
+"""What stays free at the paper's edges [inch]."""
 
 LETTERS = (style.TEXT, 9.0, style.SMALL, 7.5, 6.5)
 """The sizes of a legend's letters, the usual one first."""
@@ -35,7 +38,21 @@ def empty_page(box: Bounds, rows: int = 1) -> tuple[Figure, Axes]:
     FigureCanvasAgg(figure)
     ax = figure.add_axes((LEFT / WIDTH, BOTTOM / height, wide / WIDTH, high / height))
     sheet(ax, box)
+    make_room(figure, ax)
     return figure, ax
+
+
+def make_room(figure: Figure, ax: Axes) -> None:
+    """Make a figure wider where the numbers at its axes are so long that they would hang over its edges; the sheet keeps its size."""
+    canvas: Any = FigureCanvasAgg(figure)  # matplotlib declares no types for its methods
+    renderer, whole = canvas.get_renderer(), figure.get_figwidth()
+    covered = [axis.get_tightbbox(renderer) for axis in (ax.xaxis, ax.yaxis)]
+    left = max(0.0, EDGE - min(each.x0 for each in covered) / figure.dpi)
+    right = max(0.0, EDGE + max(each.x1 for each in covered) / figure.dpi - whole)
+    if left + right > 0.0:
+        x, y, wide, high = ax.get_position(original=True).bounds
+        figure.set_figwidth(whole + left + right)
+        ax.set_position(((x * whole + left) / (whole + left + right), y, wide * whole / (whole + left + right), high))
 
 
 def write_title(figure: Figure, text: str, beside: str = "") -> None:
@@ -52,7 +69,8 @@ def remark(figure: Figure, ax: Axes, text: str) -> None:
     """Write in a warning colour, above the sheet's right end, what the picture does not show."""
     if text:
         level = ax.get_position(original=True).y1 + 0.13 / float(figure.get_figheight())
-        figure.text(1.0 - RIGHT / WIDTH, level, text, fontsize=style.TEXT, color=style.ACCENT, va="center", ha="right")
+        right = 1.0 - RIGHT / float(figure.get_figwidth())
+        figure.text(right, level, text, fontsize=style.TEXT, color=style.ACCENT, va="center", ha="right")
 
 
 def footnote(figure: Figure, text: str) -> None:

@@ -106,12 +106,14 @@ def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, o
             whole.places[name],
             said_of(len(path), "path of {points}", "paths of {points}", points=", ".join(path)) if name == path[0] else "",
         )
-    clear = [whole.places[name].T for name in path] + ([laid.covered()] if laid else [])
+    clear = [whole.places[name].T for name in path] + ([laid.covered(whole.size)] if laid else [])
     draw_poses(ax, shown, swept, clear)
     if laid:
         overlays.centrodes(ax, swept)
-        at = Scene(shown).at(last)
-        laid.draw(ax, whole.size, np.concatenate([cloud(whole, at), surrounding_points(whole, at)]))
+        poses = Scene(shown)
+        faint = [cloud(whole, poses.at(pose))[::3] for pose in poses.reached[:-1]]
+        at = poses.at(last)
+        laid.draw(ax, whole.size, np.concatenate([cloud(whole, at), surrounding_points(whole, at), *faint]))
     write_heading(figure, ax, shown, moving)
     remark(figure, ax, unreached_words(swept, moving[0]) if len(moving) == 1 else unreached_on_the_way(swept))
     return figure
@@ -134,7 +136,7 @@ def draw_laid_over(motion: Motion, swept: Motion, pose: int, overlays: Overlays)
     drawing = Drawing(ax, scene, STRONG)
     drawing.ground()
     if pose in scene.reached:
-        drawing.label([scene.at(pose)], [laid.covered()])
+        drawing.label([scene.at(pose)], [laid.covered(scene.size)])
     drawing.update(pose)
     overlays.centrodes(ax, swept)
     at = scene.at(pose)

@@ -758,16 +758,18 @@ class Scene:
         return self._grown(self._grown(own, self.straights_reach, 1.0), self._around(), SHARE)
 
     def _grown(self, box: Bounds, points: FloatArray, share: float) -> Bounds:
-        """Return a box that holds some points as well, each side moved by a share of the box's larger side at most."""
+        """Return a box that holds some points as well, each side moved by a share of the box's larger side at most.
+
+        What sticks out a little farther is not cut off: it may take half as much again.
+        """
         if not points.size:
             return box
         left, right, bottom, top = box
         most, pad = share * max(right - left, top - bottom), 2.0 * self.size
         (x0, y0), (x1, y1) = points.min(axis=0) - pad, points.max(axis=0) + pad
-        return (
-            max(min(left, float(x0)), left - most), min(max(right, float(x1)), right + most),
-            max(min(bottom, float(y0)), bottom - most), min(max(top, float(y1)), top + most),
-        )  # fmt: skip
+        wanted = np.maximum([left - x0, x1 - right, bottom - y0, y1 - top], 0.0)
+        out_left, out_right, down, up = np.where(wanted <= 1.5 * most, wanted, most).tolist()
+        return left - out_left, right + out_right, bottom - down, top + up
 
     @cached_property
     def straights_reach(self) -> FloatArray:

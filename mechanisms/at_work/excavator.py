@@ -19,6 +19,7 @@ from linkage import (
     Featured,
     Force,
     Ground,
+    Link,
     LinkMass,
     LoadCase,
     Mechanism,
@@ -44,6 +45,7 @@ class Boom(Mechanism):
     A = OnLink(B, D, BA=2.050, DBA=-atan2(0.278, 1.025))  # the boom's end
     E = Carried(B, A, 0.977, 0.737)
     up = angle(B, A)
+    beam = Link(B, D, A, E)
 
     steel = LinkMass((B, A), mass=227.343, at=(1.025, 0.384))
     ram = Cylinder(C, D, bore=80 * mm, rod=45 * mm, works="both", closed=0.905, stroke=0.400)
@@ -62,6 +64,7 @@ class Arm(Mechanism):
     G = Carried(A, L, -0.134, 0.320)
     J = Carried(A, L, 0.880, 0.0)
     fold = angle(A, L)
+    stick = Link(A, F, L, G, J)
 
     steel = LinkMass((A, L), mass=130.123, at=(0.225, 0.227))
     ram = Cylinder(E, F, bore=80 * mm, rod=56 * mm, works="both", closed=1.046, stroke=0.510)
@@ -80,6 +83,7 @@ class Bucket(Mechanism):
     K = Dyad(H, L, HK=0.240, LK=hypot(0.014, 0.164), side=LEFT)
     M = OnLink(L, K, LM=0.567, KLM=-atan2(0.164, -0.014))  # the teeth
     turn = angle(L, M)
+    bucket = Link(L, K, M)
 
     steel = LinkMass((L, M), mass=53.0, at=(0.289, 0.166))
     soil = LinkMass((L, M), mass=100.0, at=(0.280, 0.180))

@@ -5,7 +5,7 @@ Sources: those of `mechanisms.crane` and `mechanisms.grapple`; how the head hang
 
 from __future__ import annotations
 
-from linkage import Crank, Featured, Force, LoadCase, Mechanism, Over, Part, Stroke, deg
+from linkage import Crank, Featured, Force, Link, LoadCase, Mechanism, Over, Part, Stroke, deg
 
 from ..crane import Crane
 from ..grapple import Grapple
@@ -30,6 +30,7 @@ class Forwarder(Mechanism):
 
     crane = Part(Crane, phi=phi, psi=psi, t=t, stems=None)
     R = Crank(crane.T, crane_TR=HANGS, angle=swing - 90 * deg)  # the centre of the largest stem
+    head = Link(crane.T, R)
     right = Part(Grapple, theta=theta, on=(crane.T, R), at=(HANGS, 0.0), angle=90 * deg)
     left = Part(Grapple, theta=twin, on=(crane.T, R), at=(HANGS, 0.0), angle=90 * deg, mirrored=True)
 

@@ -11,6 +11,7 @@ from linkage import (
     Dyad,
     Featured,
     Ground,
+    Link,
     LinkMass,
     LoadCase,
     Mechanism,
@@ -37,6 +38,7 @@ class Forks(Mechanism):
     X = OnLink(N, W, NX=hypot(1.30, 0.25), WNX=atan2(-0.25, 1.30) - 92 * deg)  # their tips
     G = OnLink(N, W, NG=hypot(0.70, 0.25), WNG=atan2(0.25, 0.70) - 92 * deg)  # of the load, 600 mm before the heel
     tilt = angle(F, X)
+    carriage = Link(N, W, F)
 
     steel = LinkMass((F, X), mass=260.0, at=(0.20, 0.15))
     load = Weight(G, mass=3000.0)

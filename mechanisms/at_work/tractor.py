@@ -6,7 +6,7 @@ Both tools, what they weigh, the draught and the grip of the ground are illustra
 
 from __future__ import annotations
 
-from linkage import Featured, Force, Ground, LinkMass, LoadCase, Mechanism, Outline, Over, Part, Stroke, Support, Weight
+from linkage import Featured, Force, Ground, Link, LinkMass, LoadCase, Mechanism, Outline, Over, Part, Stroke, Support, Weight
 from linkage.units import deg, kN, mm
 
 from ..three_point_hitch import ThreePointHitch
@@ -49,6 +49,7 @@ class SpreaderTractor(Mechanism):
 
     hitch = Part(ThreePointHitch, S=S, MK=0.93, load=None)  # its own implement left out
     tool = Part(Spreader, on=(hitch.F, hitch.K), angle=-90 * deg, F=hitch.F, K=hitch.K)
+    implement = Link(hitch.F, hitch.K)
 
     rear_axle = Ground(0.0, 0.0)  # on the ground
     front_axle = Ground(-hitch.wheelbase, 0.0)

@@ -88,9 +88,10 @@ def marked(ax: Axes, motion: Motion, movement: Movement, found: Answer, word: st
     curve = (movement.given if above else movement.asked)(motion) / kN
     rise = np.abs(curve - np.interp(at, motion.strokes[name] / deg, curve))[np.abs(motion.strokes[name] / deg - at) < BESIDE * (high - low)]
     off = 8.0 + PANEL * float(rise.max(initial=0.0)) / (top - bottom)
+    aside = {"left": 4.0, "right": -4.0}.get(side, 0.0)
     ax.annotate(
-        f"{word} {float(found.value) / kN:z.1f}\nat {at:.1f}°", (at, max(asked, given) if above else min(asked, given)),
-        xytext=(0.0, off if above else -off), textcoords="offset points", ha=side, va="bottom" if above else "top",
+        f"{word} {float(found.value) / kN:z.1f} kNm\nat {at:.1f}°", (at, max(asked, given) if above else min(asked, given)),
+        xytext=(aside, off if above else -off), textcoords="offset points", ha=side, va="bottom" if above else "top",
         fontsize=style.SMALL, color=colour, zorder=8.0,
     )  # fmt: skip
 

@@ -94,7 +94,7 @@ def surroundings(ax: Axes, crane: CraneSkeleton) -> None:
     ax.plot([guard, guard], [platform, stakes], color=style.PISTON, linewidth=2.2, solid_capstyle="butt", zorder=3.0)
     ax.annotate(
         "guard", (guard, 0.5 * (platform + stakes)), xytext=(4, 0), textcoords="offset points",
-        fontsize=style.SMALL, color=style.MUTED, va="center", zorder=4.0,
+        fontsize=style.SMALL, color=style.MUTED, va="center", zorder=12.0,
     )  # fmt: skip
 
 

@@ -90,7 +90,7 @@ class CraneSkeleton(Mechanism):
     J = Crank(O, OJ=l_c, angle=90 * deg - phi)
     K = Crank(J, JK=l_p, angle=angle(J, O) + psi)         # the arm's end
     T = OnLink(J, K, JT=l_p + t)                          # the telescope's end, with load and tool
-    arm = Link(J, K)
+    main_boom, arm = Link(O, J), Link(J, K)
 
     ground = Outline.line((-3.0, 0.0), (10.5, 0.0))       # what stands around is drawn only; its figures are illustrative
     platform = Outline([(-2.6, H_p - 0.25), (0.45, H_p - 0.25), (0.45, H_p), (-2.6, H_p)])

@@ -214,7 +214,7 @@ def moments(grapple: Grapple) -> Figure:
     below.set_ylim(min(0.9, 0.95 * float(ratio.min())), None)
     for place, word in ((int(np.argmin(ratio)), "least"), (int(np.argmax(ratio)), "greatest")):
         _mark(below, float(D[place]), float(ratio[place]), f"{word} {ratio[place]:.3f} at {D[place]:.0f} mm")
-    for ax, words in ((above, "moment about the hinge, kN m"), (below, "M_g / M_1")):
+    for ax, words in ((above, "moment about the hinge, kNm"), (below, "M_g / M_1")):
         ax.set_ylabel(words, fontsize=style.TEXT, color=style.MUTED)
     below.set_xlabel("diameter of the stem, mm", fontsize=style.TEXT, color=style.MUTED)
     return page

@@ -16,6 +16,7 @@ from linkage import (
     Dyad,
     Featured,
     Ground,
+    Link,
     Mechanism,
     Motion,
     OnLink,
@@ -60,6 +61,7 @@ class HeaderBalancer(Mechanism):
     G1 = OnLink(O, B, OG1=0.488774, BOG1=5.491118 * deg)  # the feeder's centre of gravity
     G2 = OnLink(O, B, OG2=1.436851, BOG2=18.840343 * deg)  # the header's
     AB = Vector(A, B)
+    housing = Link(O, B, R)  # with the header
 
     h_horizon = stroke_at(0.0, y(O), distance(O, A), angle(O, A), L_OB, L_OR, BOR, L_min)
 

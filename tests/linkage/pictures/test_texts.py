@@ -1,20 +1,31 @@
-"""No text of a picture covers another one, a tick, or the edge of the paper: of every shipped machine, with its forces and without."""
+"""No text of a picture covers another one, a tick, or the edge of the paper: of every shipped machine, with its forces and without.
+
+Values stand beside the arrows of forces, the bar of their scale stands free, and bodies have short names there.
+"""
 
 from importlib.metadata import entry_points
 from itertools import combinations
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.text import Text
 
-from linkage import draw, plot
+from linkage import RIGHT, Crank, Dyad, Force, Ground, Mechanism, OnLink, Stroke, deg, draw, plot
+from linkage.pictures.force_arrows import ForceQuestion, forces_at_pose, short_name
 from tests.linkage.motion.in_node import elsewhere
 
 SHIPPED = {point.name: point for point in entry_points(group="hydrolinkage.machines")}
 QUICK = ("arm_drive", "crane", "grapple", "three_point_hitch", "wheel_loader")
 TOUCH = 1.0
 """Pixels by which boxes of letters may touch: they are higher than the letters in them."""
+INNER = 4.0
+"""Pixels from the edge of a value's box to its letters."""
+NAME = 16
+"""The letters of a body's longest name."""
 
 
 def boxes(figure):
@@ -42,10 +53,36 @@ def check_texts(figure):
     assert covered == []
 
 
+def named(figure, kind):
+    """Return what a figure shows under a name that begins so, with the outline of each [pixels]."""
+    shown = figure.axes[0].get_children()
+    found = [each for each in shown if isinstance(each, (Patch, Line2D)) and (each.get_gid() or "").startswith(kind)]
+    return [(each.get_gid(), each.get_path().transformed(each.get_transform())) for each in found]
+
+
+def crossed(figure, kind):
+    """Return the values that the arrows of one kind go through."""
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    values = [each for each in figure.axes[0].texts if (each.get_gid() or "").endswith(" value")]
+    boxes_of = [(each.get_text(), Text.get_window_extent(each, renderer).padded(-INNER)) for each in values]
+    return [(text, name) for name, outline in named(figure, kind) for text, box in boxes_of if outline.intersects_bbox(box)]
+
+
+def check_forces(figure):
+    """Assert that values stand beside arrows, that the scale's bar stands free of texts, and that no name of a body is long."""
+    assert crossed(figure, "force ") == []
+    (_, bar), *_ = named(figure, "scale ") or [("", None)]
+    assert bar is None or not [text for text, box in boxes(figure) if bar.intersects_bbox(box)]
+    texts = [each.get_text() for each in figure.axes[0].texts]
+    assert max((len(each.partition(" on ")[2]) for each in texts), default=0) <= NAME
+
+
 def check_machine(machine):
-    for make in (lambda: draw(machine), lambda: draw(machine, forces=True), lambda: plot(machine)):
+    for make, check in ((lambda: draw(machine), None), (lambda: draw(machine, forces=True), check_forces), (lambda: plot(machine), None)):
         figure = make()
         check_texts(figure)
+        if check is not None:
+            check(figure)
         plt.close(figure)
 
 
@@ -64,3 +101,55 @@ def test_no_text_of_any_shipped_machine_covers_another(name):
 @pytest.mark.parametrize("name", [name for name, _ in elsewhere()])
 def test_no_text_of_a_machine_that_is_not_shipped_covers_another(name):
     check_machine(dict(elsewhere())[name]())
+
+
+class LongThin(Mechanism):
+    """A boom of 12 m, half a metre high."""
+
+    s = Stroke(0.0, 0.05)
+    O, A = Ground(0.0, 0.0), Ground(0.6, -0.4)
+    B = Dyad(A, O, AB=1.45 + s, OB=2.0, side=RIGHT)
+    C, D, T = OnLink(O, B, OC=5.0), OnLink(O, B, OD=8.0), OnLink(O, B, OT=12.0)
+
+
+class FarAway(Mechanism):
+    """A crank 5 km away, with nine forces on its pin."""
+
+    phi = Stroke(20 * deg, 70 * deg)
+    O = Ground(5000.0, -3000.0)
+    A = Crank(O, OA=1.0, angle=phi)
+    a, b, c = Force(A, (0.8e3, 0.1e3)), Force(A, (0.7e3, 0.3e3)), Force(A, (0.7e3, 0.4e3))
+    d, e, f = Force(A, (0.6e3, 0.5e3)), Force(A, (0.5e3, 0.6e3)), Force(A, (0.4e3, 0.7e3))
+    g, h, i = Force(A, (0.3e3, 0.7e3)), Force(A, (0.1e3, 0.8e3)), Force(A, (0.0, 0.8e3))
+
+
+def test_nine_forces_at_a_pin_far_from_the_origin():
+    figure = draw(FarAway().at(phi=0.6), forces=True)
+    check_texts(figure)
+    check_forces(figure)
+    assert sum((each.get_gid() or "").startswith("load ") for each in figure.axes[0].texts) == 9
+
+
+def test_a_long_thin_machine_fills_its_sheet():
+    figure = draw(LongThin())
+    check_texts(figure)
+    assert figure.get_figheight() < figure.get_figwidth() / 2.5
+    assert np.ptp(figure.axes[0].get_ylim()) < 3.5  # m, of 1.4 from the lowest pin to the highest
+
+
+def test_a_body_goes_by_its_link_in_pictures():
+    forces = forces_at_pose(SHIPPED["crane"].load()().at(phi=1.0, psi=1.5, t=1.0), 0, ForceQuestion())
+    names = {each.name: short_name(forces, each.name) for each in forces.found._structure.bodies}
+    assert names["OJOCOGHVBUC"] == "main_boom"
+    assert names["JKER"] == "arm"
+    assert names["lift"] == "lift"
+
+
+def test_a_colour_without_an_arrow_has_no_key():
+    figure = draw(LongThin(), forces=True)
+    assert [each.get_text() for each in figure.axes[0].get_legend().get_texts()] == ["s = 0 mm", "s = 50 mm"]
+
+
+def test_a_heading_is_parted_between_strokes():
+    figure = plot(SHIPPED["levelled_telehandler"].load()())
+    assert figure.get_suptitle().splitlines()[1:] == ["tilt = 0 mm"]

@@ -40,7 +40,7 @@ def read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return view
 
 
-def frozen(given: Any) -> npt.NDArray[np.float64]:
+def frozen(given: object) -> npt.NDArray[np.float64]:
     """Return a read-only copy of numbers as floats."""
     return read_only(np.array(given, float))
 

@@ -296,7 +296,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         return {spellings[each][0] for each in (name, f"{name}.x", f"{name}.y") if each in spellings}
 
     @of_a_design
-    def sweep(self, count: int | None = None, /, *, unreachable: str = "raise", **strokes: Any) -> Motion:
+    def sweep(self, count: int | None = None, /, *, unreachable: str = "raise", **strokes: object) -> Motion:
         """Return the motion over the whole stroke, at `count` poses.
 
         With several strokes each is named: `sweep(S1=101, S2=0.15)`, an int is a count, a float a value; two
@@ -310,7 +310,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
 
     @of_a_design
-    def at(self, *unnamed: object, unreachable: str = "raise", per_design: object = False, **strokes: Any) -> Motion:
+    def at(self, *unnamed: object, unreachable: str = "raise", per_design: object = False, **strokes: object) -> Motion:
         """Return the motion at chosen strokes [SI]: `at(S=[0.0, 0.1])`. They may lie beyond the declared range.
 
         Strokes are shared by all designs of a batch; with `per_design` each design has its own: their arrays then begin with the shape of
@@ -352,7 +352,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         backend: str | None = None,
         threads: int = 1,
         per_design: object = False,
-        **strokes: Any,
+        **strokes: object,
     ) -> list[FloatArray]:
         """Return values, ratios and forces of many poses in one pass, nothing else: `G, T = evaluate(["G", thrust()], S=...)`.
 
@@ -419,7 +419,7 @@ class Mechanism(Shown, metaclass=MechanismType):
 
     @of_a_design
     def answers(
-        self, questions: Sequence[Question], over: Over | Mapping[str, Any] | Sequence[Over] | None = None, acting: Acting | None = None
+        self, questions: Sequence[Question], over: Over | Mapping[str, object] | Sequence[Over] | None = None, acting: Acting | None = None
     ) -> list[Answer]:
         """Return the answers to questions, the worst over everything that is looked at: one function for every reader.
 

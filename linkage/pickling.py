@@ -25,7 +25,7 @@ class InnerFunction:
     by_name: dict[str, Any] | None
     cells: tuple[Any, ...]
 
-    def __call__(self, *given: Any, **named: Any) -> Any:
+    def __call__(self, *given: object, **named: object) -> Any:
         """Return what the function gives."""
         return function_again(*vars(self).values())(*given, **named)
 
@@ -55,7 +55,7 @@ def code_of(module: str, outer: str) -> Any:
     return unwrap(found).__code__
 
 
-def picklable(value: Any) -> Any:
+def picklable(value: object) -> Any:
     """Return a value that pickle can write: a nested function by its place, in a partial too; others as they are."""
     if isinstance(value, partial):
         named = {name: picklable(each) for name, each in value.keywords.items()}

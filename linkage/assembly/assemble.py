@@ -234,7 +234,7 @@ def held_inside(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     return {name: drawn_in(member, defaults) for name, member in among.items() if name not in members}
 
 
-def drawn_in(value: Any, defaults: Mapping[str, float]) -> Any:
+def drawn_in(value: object, defaults: Mapping[str, float]) -> Any:
     """Return a quantity with the numbers of the design that is drawn in the place of design variables."""
     if isinstance(value, Variable) and value.variable in defaults:
         return Number(defaults[value.variable])

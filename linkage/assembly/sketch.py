@@ -119,7 +119,7 @@ def with_measured_labels(name: str, step: Step, settled: Mapping[str, Member], t
     return found
 
 
-def missing_labels(name: str, step: Step, parents: list[str], X: Any, place: Callable[[str], Place]) -> dict[str, float]:
+def missing_labels(name: str, step: Step, parents: list[str], X: object, place: Callable[[str], Place]) -> dict[str, float]:
     """Return the labels a drawn step lacks, measured: every distance of a dyad, distance and angle on a link."""
     away = {parent: X - np.array(place(parent)) for parent in parents}
     given = set(step.labels)

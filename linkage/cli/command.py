@@ -8,7 +8,7 @@ from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace, _Acti
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, final
+from typing import TYPE_CHECKING, TypeAlias, final
 from urllib.parse import parse_qsl
 
 from ..disk import check_place
@@ -60,7 +60,7 @@ def link_argument(parser: ArgumentParser) -> None:
 class FromLink(Action):
     """Takes the dimensions of a live page's link, as if `--set` had said them."""
 
-    def __call__(self, parser: ArgumentParser, namespace: Namespace, values: Any, option: str | None = None) -> None:
+    def __call__(self, parser: ArgumentParser, namespace: Namespace, values: object, option: str | None = None) -> None:
         said = parse_qsl(str(values).rpartition("#")[2], keep_blank_values=True)
         found = [f"{name[2:]}={value}" for name, value in said if name.startswith("d.")]
         if not any(name.startswith(("d.", "s.")) for name, _ in said):

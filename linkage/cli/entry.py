@@ -262,7 +262,7 @@ def fail(*messages: str) -> int:
     return BAD_INPUT
 
 
-def say_warning(message: Warning | str, *where: Any, **more: Any) -> None:
+def say_warning(message: Warning | str, *where: object, **more: object) -> None:
     """Say a warning in one line on stderr."""
     print(f"{PROGRAM}: warning: {' '.join(str(message).split())}", file=sys.stderr)
 

@@ -43,7 +43,7 @@ def find(text: str) -> type[Mechanism]:
     raise DefinitionError(f"{unknown('Machine', text, entries)} {OWN}")
 
 
-def find_like(text: str, base: type[Kind], what: str, **instead: Any) -> type[Kind]:
+def find_like(text: str, base: type[Kind], what: str, **instead: object) -> type[Kind]:
     """Return the machine that a text names as one of a kind: a subclass, or a variant of the kind with all the members of a file.
 
     A file holds the linkage, not the functions of a class: they are the kind's. `instead` are attributes in the place of those

@@ -39,7 +39,7 @@ class Check:
         return None if np.isnan(self.measured) else self.measured <= self.bound
 
 
-def checks_section(subject: ReportSubject, values: Mapping[str, Any]) -> Section:
+def checks_section(subject: ReportSubject, values: Mapping[str, object]) -> Section:
     """Return the section of checks."""
     found = checks(subject, values)
     rows: list[tuple[Cell, ...]] = [
@@ -62,7 +62,7 @@ def kept_mark(ok: bool | None) -> Mark:
     return Mark(ok, said("not made") if ok is None else said("kept") if ok else said("not kept"))
 
 
-def checks(subject: ReportSubject, values: Mapping[str, Any]) -> list[Check]:
+def checks(subject: ReportSubject, values: Mapping[str, object]) -> list[Check]:
     """Return all checks of a design along its run; `values` are those of its equations, by name."""
     with unwarned():
         found = [lengths_kept(subject.table), *loops_closed(subject.table), equations_against(subject, values), derivatives(subject)]

@@ -35,7 +35,7 @@ def fingerprint(machine: Mechanism, strokes: Mapping[str, Any]) -> str:
     return hashlib.sha256(json.dumps(inputs, sort_keys=True, ensure_ascii=True).encode()).hexdigest()
 
 
-def functions_of(member: Any) -> list[str]:
+def functions_of(member: object) -> list[str]:
     """Return the source of the functions that a member is made of; the name of one without source."""
     return [source_of_function(value) for _, value in sorted(vars(member).items()) if inspect.isfunction(value)]
 

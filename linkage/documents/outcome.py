@@ -82,7 +82,7 @@ def reported_columns(subject: ReportSubject, names: Sequence[str] | None) -> lis
     return [known[name] for name in dict.fromkeys([*(each for each in subject.machine.strokes if each in known), *names])]
 
 
-def results_section(subject: ReportSubject, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[Any]]) -> Section:
+def results_section(subject: ReportSubject, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[object]]) -> Section:
     """Return the section of the table over the stroke and the curves, the one the machine is about first."""
     columns = reported_columns(subject, names)
     blocks: list[Block] = []
@@ -124,7 +124,7 @@ def results_section(subject: ReportSubject, names: Sequence[str] | None, first: 
     return Section(said("Results"), tuple(blocks))
 
 
-def one_curve(names: Sequence[str], columns: Mapping[str, Column], limits: Mapping[str, Sequence[Any]]) -> dict[str, list[str]]:
+def one_curve(names: Sequence[str], columns: Mapping[str, Column], limits: Mapping[str, Sequence[object]]) -> dict[str, list[str]]:
     """Return the columns that are drawn, each with the others that are the same curve; of these the one with a limit, else the first."""
     groups: list[list[str]] = []
     for name in dict.fromkeys(names):
@@ -170,7 +170,7 @@ BEYOND = 1e-6
 """Of a curve's range: what lies no further beyond it is not marked."""
 
 
-def wider_answers(subject: ReportSubject, columns: Mapping[str, Column], limits: Mapping[str, Sequence[Any]]) -> dict[str, list[Answer]]:
+def wider_answers(subject: ReportSubject, columns: Mapping[str, Column], limits: Mapping[str, Sequence[object]]) -> dict[str, list[Answer]]:
     """Return, by column, the least and the greatest over all that the machine runs, those beyond the curve; of a limit its side.
 
     They are asked for of what has a limit, of forces and what hangs on them, and of the first column.
@@ -214,7 +214,7 @@ def beyond_words(answers: Sequence[Answer], column: Column) -> str:
     return said(" Over all that the machine runs: {answers}.", answers="; ".join(parts))
 
 
-def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None, beyond: Sequence[Answer]) -> None:
+def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object] | None, beyond: Sequence[Answer]) -> None:
     """Draw a column over the stroke with its limit, and lines for what lies beyond it elsewhere."""
     panel(ax, motion, column, bound)
     heading = ax.get_title(loc="left")

@@ -60,14 +60,14 @@ def report(
     *,
     language: str | None = None,
     units: str | None = None,
-    case: Any = None,
-    over: Any = None,
+    case: object = None,
+    over: object = None,
     acting: Acting | None = None,
-    at: Mapping[str, Any] = NOTHING,
+    at: Mapping[str, object] = NOTHING,
     count: int = 11,
     columns: Sequence[str] | None = None,
     trace: Sequence[str] | None = None,
-    limits: Mapping[str, Sequence[Any]] | None = None,
+    limits: Mapping[str, Sequence[object]] | None = None,
     title_block: Mapping[str, str] = NOTHING,
     start: int = 1,
     number: str = "",
@@ -115,14 +115,14 @@ def report_document(
     *,
     language: str | None = None,
     units: str | None = None,
-    case: Any = None,
+    case: object = None,
     at: At = NOTHING,
-    over: Any = None,
+    over: object = None,
     acting: Acting | None = None,
     count: int = 11,
     columns: Sequence[str] | None = None,
     trace: Sequence[str] | None = None,
-    limits: Mapping[str, Sequence[Any]] | None = None,
+    limits: Mapping[str, Sequence[object]] | None = None,
     title_block: Mapping[str, str] = NOTHING,
     start: int = 1,
     block: TitleBlock | None = None,
@@ -146,7 +146,7 @@ def composed(
     subject: ReportSubject,
     columns: Sequence[str] | None,
     trace: Sequence[str] | None,
-    limits: Mapping[str, Sequence[Any]] | None,
+    limits: Mapping[str, Sequence[object]] | None,
     title_block: Mapping[str, str],
     start: int,
     block: TitleBlock,
@@ -179,7 +179,7 @@ def composed(
     return Document(machine.plan.heading, words, block, facts(subject, title_block, mark), mark, whole, current_language())
 
 
-def own_system(machine: Any) -> str | None:
+def own_system(machine: object) -> str | None:
     """Return the system of units that a machine's own numbers are nearest to; None for anything but a machine."""
     if not isinstance(machine, Mechanism):
         return None
@@ -252,7 +252,7 @@ def span_words(subject: ReportSubject) -> str:
     return ", ".join(words)
 
 
-def checked_limits(limits: Mapping[str, Sequence[Any]], columns: Sequence[str], title: str) -> Mapping[str, Sequence[Any]]:
+def checked_limits(limits: Mapping[str, Sequence[object]], columns: Sequence[str], title: str) -> Mapping[str, Sequence[Any]]:
     """Return limits by column; DefinitionError for one of no column, or that is none."""
     if not isinstance(limits, Mapping):
         raise DefinitionError(f'limits={cited(limits)}: limits by the names of columns are expected, limits={{"tilt": (0.1, "most")}}.')
@@ -266,7 +266,7 @@ def checked_limits(limits: Mapping[str, Sequence[Any]], columns: Sequence[str], 
 # What the machine itself judges.
 
 
-def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> tuple[Section, Mark, Sequence[str]]:
+def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object]]) -> tuple[Section, Mark, Sequence[str]]:
     """Return the section of a machine's verdicts over all that it runs, with its worst places, how many rules are kept, and all of them."""
     title = said("Verdicts")
     try:

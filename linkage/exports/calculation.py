@@ -23,6 +23,7 @@ from ..plan import plan_measure
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
 from ..reports import Run
+from ..vectors import Numbers
 
 AGREE = 1e-9
 """Relative: a formula that is further from the engine is not used."""
@@ -50,7 +51,7 @@ class CalculatedColumn:
     name: str
     meaning: str
     unit: str
-    symbol: Any
+    symbol: sympy.Symbol
     expr: Any
     values: FloatArray
     turns: int | None = None
@@ -143,7 +144,7 @@ class Calculation:
             self._column(number, column_name(symbol.name), str(each), unit, symbol, expr)
         self._compare(each)
 
-    def _direction(self, each: Equation, word: Any, letter: str) -> Any:
+    def _direction(self, each: Equation, word: Direction, letter: str) -> sympy.Expr:
         """Return the symbol of a vector's direction, with a column of its own, in which it does not jump."""
         symbol = sympy.Symbol(str(word), real=True)
         if symbol not in self._known:
@@ -154,7 +155,8 @@ class Calculation:
         return symbol
 
     def _column(
-        self, number: str, name: str, meaning: str, unit: str, symbol: Any, expr: Any, turns: int | None = None, checks: bool = False
+        self, number: str, name: str, meaning: str, unit: str, symbol: sympy.Symbol, expr: sympy.Expr,
+        turns: int | None = None, checks: bool = False,
     ) -> None:
         i = dict(zip(explicit(X_AXIS), (sympy.S.One, sympy.S.Zero), strict=True))
         exact = expr.xreplace({symbol: value for symbol, value in i.items() if symbol not in self._known})
@@ -166,7 +168,7 @@ class Calculation:
         self.columns.append(column)
         self._known[column.symbol] = column.values
 
-    def _spread(self, values: Any) -> FloatArray:
+    def _spread(self, values: object) -> FloatArray:
         """Return values over the poses, shape (poses,)."""
         return np.array(np.broadcast_to(np.asarray(values, float), self.motion.shape))
 
@@ -195,10 +197,10 @@ class Calculation:
 
     # -- other designs ---------------------------------------------------------------------------------
 
-    def _inputs(self, written: Equations, poses: Mapping[str, Any]) -> dict[Any, Any]:
+    def _inputs(self, written: Equations, poses: Mapping[str, Any]) -> dict[sympy.Symbol, Any]:
         return written._inputs(poses, "nan")
 
-    def at_design(self, design: Mechanism, poses: Mapping[str, Any]) -> tuple[Motion, dict[Any, Any]]:
+    def at_design(self, design: Mechanism, poses: Mapping[str, Any]) -> tuple[Motion, dict[sympy.Symbol, Any]]:
         """Return another design's motion at some poses, and what the formulas give there, by symbol; plain numbers are the engine's."""
         own = self.equations
         other = Equations(design, own._lines, own._listing, 1, None, own._forces)
@@ -213,14 +215,14 @@ class Calculation:
         return motion, known
 
     @property
-    def stroke_symbols(self) -> dict[str, Any]:
+    def stroke_symbols(self) -> dict[str, sympy.Symbol]:
         """The symbols of the strokes, by name."""
         return {name: self.equations._listing.names.quantity(name) for name in self.design.strokes}
 
     # -- dimensions ------------------------------------------------------------------------------------
 
     @cached_property
-    def dimension_symbols(self) -> dict[Any, str]:
+    def dimension_symbols(self) -> dict[sympy.Symbol, str]:
         """The dimension behind each plain symbol of the formulas, a fixed point's coordinates by both of their symbols."""
         names, spellings = self.equations._listing.names, self.design.plan.table.spellings
         found = {names.quantity(name): name for name in self.design.dimensions}
@@ -233,7 +235,7 @@ class Calculation:
     @cached_property
     def used(self) -> set[str]:
         """The dimensions that some formula reads."""
-        free: set[Any] = set().union(*(each.expr.free_symbols for each in self.columns if each.expr is not None))
+        free = set[sympy.Symbol]().union(*(each.expr.free_symbols for each in self.columns if each.expr is not None))
         return {self.dimension_symbols[symbol] for symbol in free if symbol in self.dimension_symbols}
 
     def owner(self, name: str) -> str:
@@ -259,7 +261,7 @@ def si_text(each: Equation) -> str:
     return "rad" if each.unit.si == "deg" else each.unit.si
 
 
-def worked_out(expr: Any, known: Mapping[Any, Any]) -> Any:
+def worked_out(expr: sympy.Expr, known: Mapping[sympy.Symbol, Numbers]) -> Numbers:
     """Return an expression's value from those of its symbols."""
     needed, function = function_of(expr)
     with np.errstate(all="ignore"):
@@ -267,9 +269,9 @@ def worked_out(expr: Any, known: Mapping[Any, Any]) -> Any:
 
 
 @lru_cache(maxsize=2048)
-def function_of(expr: Any) -> tuple[Sequence[Any], Callable[..., Any]]:
+def function_of(expr: sympy.Expr) -> tuple[Sequence[sympy.Symbol], Callable[..., Numbers]]:
     """Return an expression's symbols, and the function of their values that it is."""
-    needed: Sequence[Any] = sorted(expr.free_symbols, key=str)
+    needed: Sequence[sympy.Symbol] = sorted(expr.free_symbols, key=str)
     return needed, sympy.lambdify(needed, expr, "numpy", dummify=True)
 
 

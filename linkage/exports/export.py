@@ -180,7 +180,7 @@ def export(
     path: Place,
     *,
     format: str | None = None,
-    at: Mapping[str, Any] = NOTHING,
+    at: Mapping[str, object] = NOTHING,
     count: int = 101,
     trace: Sequence[str] = (),
     columns: Sequence[Column] = (),

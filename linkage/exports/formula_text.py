@@ -7,7 +7,7 @@ logarithm. Names and decimals are those of the file format, whatever language th
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, final
+from typing import final
 
 import sympy
 from sympy.printing.precedence import PRECEDENCE
@@ -23,7 +23,7 @@ FUNCTION_NAMES: Mapping[str, str] = {
 }  # fmt: skip
 
 
-def formula(expr: Any, read: Callable[[Any], str]) -> str | None:
+def formula(expr: sympy.Expr, read: Callable[[sympy.Symbol], str]) -> str | None:
     """Return an expression as a formula, `=...`; None where it is longer than a spreadsheet takes. `read` gives a symbol's place."""
     text = f"={FormulaText(read).doprint(expr)}"
     return text if len(text) <= LONGEST_FORMULA else None
@@ -33,28 +33,28 @@ def formula(expr: Any, read: Callable[[Any], str]) -> str | None:
 class FormulaText(StrPrinter):  # type: ignore[misc]
     """A formula's text; `read` gives the place of a symbol."""
 
-    def __init__(self, read: Callable[[Any], str]) -> None:
+    def __init__(self, read: Callable[[sympy.Symbol], str]) -> None:
         super().__init__()
         self.read = read
 
-    def _print_Symbol(self, expr: Any) -> str:
+    def _print_Symbol(self, expr: sympy.Symbol) -> str:
         return self.read(expr)
 
     _print_Dummy = _print_Symbol
 
-    def _print_Float(self, expr: Any) -> str:
+    def _print_Float(self, expr: sympy.Float) -> str:
         return repr(float(expr)).removesuffix(".0")
 
-    def _print_Rational(self, expr: Any) -> str:
+    def _print_Rational(self, expr: sympy.Rational) -> str:
         return f"{expr.p}/{expr.q}"
 
-    def _print_Pi(self, expr: Any) -> str:
+    def _print_Pi(self, expr: object) -> str:
         return "PI()"
 
-    def _print_NaN(self, expr: Any) -> str:
+    def _print_NaN(self, expr: object) -> str:
         return "NA()"
 
-    def _print_Add(self, expr: Any, order: Any = None) -> str:
+    def _print_Add(self, expr: sympy.Add, order: str | None = None) -> str:
         text = ""
         for each in reading_order(expr.args):
             negative = each.could_extract_minus_sign()
@@ -62,11 +62,11 @@ class FormulaText(StrPrinter):  # type: ignore[misc]
             text += f"-{part}" if negative and text else f"+{part}" if text else self._print(each)
         return text
 
-    def _bare(self, expr: Any) -> str:
+    def _bare(self, expr: sympy.Expr) -> str:
         """Return a term of a sum behind its sign."""
         return str(self.parenthesize(expr, PRECEDENCE["Mul"], strict=True))
 
-    def _print_Mul(self, expr: Any) -> str:
+    def _print_Mul(self, expr: sympy.Mul) -> str:
         if expr.could_extract_minus_sign():
             rest = self.parenthesize(-expr, PRECEDENCE["Mul"], strict=True)
             return f"-1*{rest}" if "^" in rest else f"-{rest}"
@@ -75,7 +75,7 @@ class FormulaText(StrPrinter):  # type: ignore[misc]
             return "*".join(self.parenthesize(each, PRECEDENCE["Mul"], strict=True) for each in sympy.Mul.make_args(expr))
         return f"{self.parenthesize(over, PRECEDENCE['Mul'])}/{self.parenthesize(under, PRECEDENCE['Pow'])}"
 
-    def _print_Pow(self, expr: Any, rational: bool = False) -> str:
+    def _print_Pow(self, expr: sympy.Pow, rational: bool = False) -> str:
         base, power = expr.args
         if power == sympy.Rational(1, 2):
             return f"SQRT({self._print(base)})"
@@ -83,43 +83,43 @@ class FormulaText(StrPrinter):  # type: ignore[misc]
             return f"1/{self.parenthesize(sympy.Pow(base, -power), PRECEDENCE['Pow'])}"
         return f"{self._alone(base)}^{self._alone(power)}"
 
-    def _alone(self, expr: Any) -> str:
+    def _alone(self, expr: sympy.Expr) -> str:
         """Return an expression as one piece: a cell, a function, a number without a sign, or in brackets."""
         text = str(self._print(expr))
         is_one = expr.is_Symbol or expr.is_Function or (expr.is_number and text.replace(".", "").isdigit())
         return text if is_one else f"({text})"
 
-    def _print_atan2(self, expr: Any) -> str:
+    def _print_atan2(self, expr: sympy.atan2) -> str:
         y, x = map(self._print, expr.args)
         return f"ATAN2({x},{y})"
 
-    def _print_Function(self, expr: Any) -> str:
+    def _print_Function(self, expr: sympy.Function) -> str:
         return f"{FUNCTION_NAMES[type(expr).__name__]}({','.join(map(self._print, expr.args))})"
 
     _print_Abs = _print_Min = _print_Max = _print_Function
 
-    def _print_Piecewise(self, expr: Any) -> str:
+    def _print_Piecewise(self, expr: sympy.Piecewise) -> str:
         (value, condition), *others = expr.args
         if condition is sympy.true or condition == True:  # noqa: E712 - SymPy's truth
             return str(self._print(value))
         other = self._print(sympy.Piecewise(*others, evaluate=False)) if others else "NA()"
         return f"IF({self._print(condition)},{self._print(value)},{other})"
 
-    def _print_Relational(self, expr: Any) -> str:
+    def _print_Relational(self, expr: sympy.Rel) -> str:
         sign = {"==": "=", "!=": "<>"}.get(expr.rel_op, expr.rel_op)
         return f"{self.parenthesize(expr.lhs, PRECEDENCE['Add'])}{sign}{self.parenthesize(expr.rhs, PRECEDENCE['Add'])}"
 
-    def _print_And(self, expr: Any) -> str:
+    def _print_And(self, expr: sympy.And) -> str:
         return f"AND({','.join(map(self._print, expr.args))})"
 
-    def _print_Or(self, expr: Any) -> str:
+    def _print_Or(self, expr: sympy.Or) -> str:
         return f"OR({','.join(map(self._print, expr.args))})"
 
-    def _print_Not(self, expr: Any) -> str:
+    def _print_Not(self, expr: sympy.Not) -> str:
         return f"NOT({self._print(expr.args[0])})"
 
-    def _print_BooleanTrue(self, expr: Any) -> str:
+    def _print_BooleanTrue(self, expr: object) -> str:
         return "TRUE"
 
-    def _print_BooleanFalse(self, expr: Any) -> str:
+    def _print_BooleanFalse(self, expr: object) -> str:
         return "FALSE"

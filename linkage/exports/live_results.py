@@ -15,6 +15,7 @@ from itertools import permutations
 from typing import Any, final
 
 import numpy as np
+import sympy
 
 from ..errors import LinkageError, SingularWarning
 from ..mechanism import Mechanism
@@ -51,7 +52,7 @@ def live_results(calculation: Calculation) -> list[LiveResult]:
     return FormulaSearch(calculation, table).found()
 
 
-Trial = tuple[list[FloatArray], dict[Any, Any]]
+Trial = tuple[list[FloatArray], dict[sympy.Symbol, Any]]
 """A design's table of results, and what the formulas give there."""
 
 
@@ -76,7 +77,7 @@ class FormulaSearch:
             each if each.expr is not None else self._live(place, self._combined(place, list(simple))) for place, each in enumerate(found)
         ]
 
-    def _live(self, place: int, candidates: Iterator[Any]) -> LiveResult:
+    def _live(self, place: int, candidates: Iterator[sympy.Expr]) -> LiveResult:
         column, own = self.table[place], self._own(self.table[place])
         for expr in candidates:
             if self.here is None or not is_given(self.here, place, expr):
@@ -87,7 +88,7 @@ class FormulaSearch:
                 return LiveResult(column, expr, self._needed(place, expr))
         return LiveResult(column)
 
-    def _needed(self, place: int, expr: Any) -> tuple[str, ...]:
+    def _needed(self, place: int, expr: sympy.Expr) -> tuple[str, ...]:
         """Return the dimensions that must stay 0 or 1 for a formula to give a column."""
         return tuple(name for name in self.neutral if not is_given(self._alone[name], place, expr))
 
@@ -104,14 +105,14 @@ class FormulaSearch:
 
     # -- what may give a column ------------------------------------------------------------------------
 
-    def _named(self, place: int) -> Iterator[Any]:
+    def _named(self, place: int) -> Iterator[sympy.Expr]:
         """Yield the symbols that may give a column, those of its own name first."""
         own = self._own(self.table[place])
         yield from own
         yield from (name for name in self.calculation.stroke_symbols.values() if name not in own)
         yield from (each.symbol for each in reversed(self.calculation.columns) if each.expr is not None and each.symbol not in own)
 
-    def _combined(self, place: int, simple: list[Any]) -> Iterator[Any]:
+    def _combined(self, place: int, simple: list[sympy.Expr]) -> Iterator[sympy.Expr]:
         """Yield a quantity that is divided by a dimension, or multiplied, and differences of what gives other columns."""
         if self.here is not None:
             table, known = self.here
@@ -120,7 +121,7 @@ class FormulaSearch:
                     yield from self._scaled(table[place], each.symbol, known[each.symbol])
         yield from (a - b for a, b in permutations(simple, 2))
 
-    def _scaled(self, wanted: FloatArray, symbol: Any, values: FloatArray) -> Iterator[Any]:
+    def _scaled(self, wanted: FloatArray, symbol: sympy.Symbol, values: FloatArray) -> Iterator[sympy.Expr]:
         """Yield a symbol times or over a dimension, where that is what is wanted."""
         with np.errstate(all="ignore"):
             shares = wanted / values
@@ -133,7 +134,7 @@ class FormulaSearch:
             elif name not in self.neutral and abs(value * shares[0] - 1.0) <= EQUAL:
                 yield symbol / dimension
 
-    def _own(self, column: Column) -> list[Any]:
+    def _own(self, column: Column) -> list[sympy.Expr]:
         """Return the symbols of a column's own name."""
         strokes = [symbol for name, symbol in self.calculation.stroke_symbols.items() if name == column.name]
         return strokes + [each.symbol for each in self.calculation.columns if each.name == column.name and not each.checks]
@@ -157,7 +158,7 @@ class FormulaSearch:
         except LinkageError:
             return None
 
-    def _trial(self, design: Mechanism, poses: Mapping[str, Any]) -> Trial | None:
+    def _trial(self, design: Mechanism, poses: Mapping[str, object]) -> Trial | None:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", SingularWarning)
@@ -169,12 +170,12 @@ class FormulaSearch:
         return [at_all_poses(each.values, motion.shape) for each in table], known
 
 
-def at_all_poses(values: Any, shape: tuple[int, ...]) -> FloatArray:
+def at_all_poses(values: object, shape: tuple[int, ...]) -> FloatArray:
     """Return values over all poses."""
     return np.array(np.broadcast_to(np.asarray(values, float), shape))
 
 
-def is_given(trial: Trial | None, place: int, expr: Any) -> bool:
+def is_given(trial: Trial | None, place: int, expr: sympy.Expr) -> bool:
     """Return whether a formula gives a column of a trial: a symbol, a quotient, a product or a difference."""
     if trial is None or place >= len(trial[0]):
         return False
@@ -186,7 +187,7 @@ def is_given(trial: Trial | None, place: int, expr: Any) -> bool:
     return bool(np.allclose(value, column, rtol=0.0, atol=EQUAL * max(size, NEGLIGIBLE), equal_nan=True))
 
 
-def quick_value(expr: Any, known: Mapping[Any, Any]) -> Any:
+def quick_value(expr: sympy.Expr, known: Mapping[sympy.Symbol, Any]) -> Any:
     """Return the value of a product of powers of symbols, or of a sum of such."""
     if expr.is_Symbol:
         return known[expr]

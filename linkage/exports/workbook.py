@@ -7,9 +7,10 @@ from collections.abc import Mapping, Sequence
 from datetime import datetime
 from functools import cached_property
 from inspect import cleandoc
-from typing import Any, final
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
+import sympy
 
 from ..errors import DefinitionError
 from ..formulas.numbered import CONVENTION, DEFINITIONS, uses
@@ -21,6 +22,11 @@ from .extras import missing_extra
 from .formula_text import formula
 from .live_results import LiveResult, live_results
 from .names import cell_names
+
+if TYPE_CHECKING:
+    from xlsxwriter import Workbook
+    from xlsxwriter.format import Format
+    from xlsxwriter.worksheet import Worksheet
 
 MADE = datetime(2000, 1, 1)
 """The date in the file: the same design gives the same bytes."""
@@ -52,7 +58,7 @@ def workbook(calculation: Calculation, name: str) -> bytes:
 class Sheets:
     """The sheets of one workbook; texts are written as texts, whatever they begin with."""
 
-    def __init__(self, book: Any, calculation: Calculation) -> None:
+    def __init__(self, book: Workbook, calculation: Calculation) -> None:
         self.book, self.calculation = book, calculation
         self.results = live_results(calculation)
         self.count = calculation.motion.shape[0]
@@ -74,7 +80,7 @@ class Sheets:
         )
         self.plain = book.add_format({"num_format": "General", "font_color": ink})
         self.warning = book.add_format({"bold": True, "font_color": "#C0392B"})
-        self._formats: dict[tuple[str, bool], Any] = {}
+        self._formats: dict[tuple[str, bool], Format] = {}
 
     def write_sheets(self) -> None:
         """Write all sheets, in the order in which they are read."""
@@ -99,7 +105,7 @@ class Sheets:
     # -- what is given ---------------------------------------------------------------------------------
 
     @cached_property
-    def defined_names(self) -> dict[Any, str]:
+    def defined_names(self) -> dict[sympy.Symbol, str]:
         """The names of the cells of dimensions, by the dimension, and of the ends of strokes, by (stroke, "from" or "to")."""
         calculation = self.calculation
         shown = {name: calculation.equations._listing.names.quantity(name).name for name in calculation.design.dimensions}
@@ -110,7 +116,7 @@ class Sheets:
         found = cell_names(unique)
         return {key: found[text] for key, text in zip(keys, unique, strict=True)}
 
-    def _dimensions(self, sheet: Any) -> None:
+    def _dimensions(self, sheet: Worksheet) -> None:
         """Write the design variables: the value that is typed in, in its unit, and beside it in SI, by the name that formulas use."""
         design = self.calculation.design
         sheet.set_column(0, 0, 30)
@@ -159,7 +165,7 @@ class Sheets:
             return f"{where}; no formula here reads it" if where else "no formula here reads it"
         return where
 
-    def _check(self, sheet: Any, row: int) -> None:
+    def _check(self, sheet: Worksheet, row: int) -> None:
         """Write a warning that appears where pins found together do not fit the dimensions any more."""
         places = [place for place, column in enumerate(self.calculation.columns) if column.checks]
         if not places:
@@ -189,7 +195,7 @@ class Sheets:
         forces = self.calculation.equations._forces
         return [] if forces is None else forces.friction
 
-    def _strokes(self, sheet: Any) -> None:
+    def _strokes(self, sheet: Worksheet) -> None:
         """Write the ends of the stroke that runs and the others' values, then all strokes at every pose."""
         calculation, strokes = self.calculation, list(self.calculation.design.strokes)
         plan, run = calculation.design.plan, calculation.run
@@ -232,27 +238,27 @@ class Sheets:
         return 1 + len(self.calculation.design.strokes) + column
 
     @cached_property
-    def _letters(self) -> dict[Any, str]:
+    def _letters(self) -> dict[sympy.Symbol, str]:
         """The letter of the column of each symbol of the calculation's sheet."""
         from xlsxwriter.utility import xl_col_to_name
 
         symbols = [*self.calculation.stroke_symbols.values(), *(each.symbol for each in self.calculation.columns)]
         return {symbol: str(xl_col_to_name(1 + place)) for place, symbol in enumerate(symbols)}
 
-    def _cell_formula(self, expr: Any, sheet: str = "") -> str | None:
+    def _cell_formula(self, expr: sympy.Expr, sheet: str = "") -> str | None:
         """Return an expression as a formula with ROW_MARK where the row's number goes; None for one that is too long.
 
         A symbol is a cell of the calculation in the same row, or a dimension by its name.
         """
         dimensions = self.calculation.dimension_symbols
 
-        def read(symbol: Any) -> str:
+        def read(symbol: sympy.Symbol) -> str:
             letter = self._letters.get(symbol)
             return f"{sheet}{letter}{ROW_MARK}" if letter is not None else self.defined_names[dimensions[symbol]]
 
         return formula(expr, read)
 
-    def _calculation(self, sheet: Any) -> None:
+    def _calculation(self, sheet: Worksheet) -> None:
         """Write a column for each equation, two for a vector, in their order: number, name, unit, meaning, and a formula a pose."""
         plan, strokes = self.calculation.design.plan, list(self.calculation.design.strokes)
         sheet.set_row(3 + self.top, 75)
@@ -275,12 +281,12 @@ class Sheets:
             self._write_column(sheet, self._sheet_column(place), each)
         sheet.freeze_panes(self.above, 1 + len(strokes))
 
-    def _heading(self, sheet: Any, column: int, texts: Sequence[str], dead: bool = False) -> None:
+    def _heading(self, sheet: Worksheet, column: int, texts: Sequence[str], dead: bool = False) -> None:
         for row, text in enumerate(texts):
             upper, lower = (self.dead_head, self.dead_wrapped) if dead else (self.head, self.wrapped)
             sheet.write_string(self.top + row, column, text, lower if row == 3 else upper)
 
-    def _write_column(self, sheet: Any, place: int, each: CalculatedColumn) -> None:
+    def _write_column(self, sheet: Worksheet, place: int, each: CalculatedColumn) -> None:
         """Write one column's formulas with their values, or its values alone."""
         look = self._format(float(np.nanmax(np.abs(each.values), initial=0.0)), each.expr is None)
         template = None if each.expr is None else self._cell_formula(each.expr)
@@ -291,7 +297,7 @@ class Sheets:
                 text = without_jump(text, each.turns, f"{self._letters[each.symbol]}{row}" if pose else "")
             self._number(sheet, row, place, text, value, look)
 
-    def _number(self, sheet: Any, row: int, column: int, text: str | None, value: float, look: Any) -> None:
+    def _number(self, sheet: Worksheet, row: int, column: int, text: str | None, value: float, look: Format) -> None:
         if text is not None:
             sheet.write_formula(row, column, text, look, value if np.isfinite(value) else "#NUM!")
         elif np.isfinite(value):
@@ -299,7 +305,7 @@ class Sheets:
         else:
             sheet.write_string(row, column, "", look)
 
-    def _format(self, size: float, dead: bool) -> Any:
+    def _format(self, size: float, dead: bool) -> Format:
         """Return how numbers up to a size are shown."""
         text = "0.00000E+00" if size >= 1e7 or 0.0 < size < 1e-3 else "0.00" if size >= 1e4 else "0.0000" if size >= 100.0 else "0.000000"
         if (text, dead) not in self._formats:
@@ -309,7 +315,7 @@ class Sheets:
 
     # -- results ---------------------------------------------------------------------------------------
 
-    def _results(self, sheet: Any) -> None:
+    def _results(self, sheet: Worksheet) -> None:
         """Write the machine's own table, in its units; what no equation gives as numbers."""
         sheet.set_column(0, max(len(self.results) - 1, 0), 14)
         for column, result in enumerate(self.results):
@@ -342,7 +348,7 @@ class Sheets:
         tests = ",".join(f"{self.defined_names[name]}={own[name]:g}" for name in result.kept)
         return f"=IF(AND({tests}),{shown},NA())"
 
-    def _result_format(self, result: LiveResult) -> Any:
+    def _result_format(self, result: LiveResult) -> Format:
         digits = result.column.digits
         key = (f"0.{'0' * digits}" if digits else "0", result.expr is None)
         if key not in self._formats:
@@ -350,7 +356,7 @@ class Sheets:
             self._formats[key] = self.book.add_format({"num_format": key[0], **colour})
         return self._formats[key]
 
-    def _chart(self, sheet: Any) -> None:
+    def _chart(self, sheet: Worksheet) -> None:
         """Draw what the machine is about over its stroke."""
         columns = [result.column for result in self.results]
         over_stroke = next((place for place, each in enumerate(columns) if each.name == self.calculation.run.stroke), None)
@@ -424,7 +430,7 @@ def without_jump(text: str, turns: int, before: str) -> str:
     return f"{text}-2*PI()*ROUND(({text[1:]}-{before})/(2*PI()),0)"
 
 
-def check_count(count: Any) -> int:
+def check_count(count: object) -> int:
     """Return the number of poses; DefinitionError for anything but a whole number of rows that a sheet has."""
     if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 2 <= count <= 100_000:
         raise DefinitionError(f"count={count!r}: a number of poses from 2 to 100000 is expected, such as 101.")

@@ -74,7 +74,7 @@ CONDITIONS: Mapping[str, Condition] = MappingProxyType({"reachable": reachable})
 AXES = {"_x": x, "_y": y, ".x": x, ".y": y}
 
 
-def measure_said(text: object, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Measure:
+def measure_said(text: object, machine: Mechanism, over: Mapping[str, object] | None = None) -> Measure:
     """Return the measure of this machine that a text says; DefinitionError for anything else.
 
     What depends on no stroke is one too: `mass`.
@@ -93,7 +93,7 @@ def measure_or_constant(found: Any, machine: Mechanism) -> Measure:
     return at(found) if is_quantity and not strokes_behind(machine.plan, found) else as_measure(found)
 
 
-def condition_said(text: object, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Condition:
+def condition_said(text: object, machine: Mechanism, over: Mapping[str, object] | None = None) -> Condition:
     """Return the condition on this machine that a text says; DefinitionError for anything else."""
     parser = CriterionParser(checked_text(text), machine)
     found = parser.whole()
@@ -121,7 +121,7 @@ def checked_text(text: object) -> str:
     return text
 
 
-def check_measures(machine: Mechanism, measures: list[Measure], constraints: list[Constraint], over: Mapping[str, Any] | None) -> None:
+def check_measures(machine: Mechanism, measures: list[Measure], constraints: list[Constraint], over: Mapping[str, object] | None) -> None:
     """Raise DefinitionError where measures or constraints ask for what a machine has not: an unknown point, no such stroke."""
     Problem(machine, measures, constraints, NOWHERE, over=over)
 
@@ -299,7 +299,7 @@ class CriterionParser(Grammar):
     def numeric(self, name: str) -> Callable[..., Any]:
         """Return NumPy's function of numbers, quantities and requests; a number of numbers."""
 
-        def made(*parts: Any) -> Any:
+        def made(*parts: object) -> Any:
             if any(isinstance(each, (Measure, str, Worst)) for each in parts):
                 what = next(each for each in parts if isinstance(each, (Measure, str, Worst)))
                 raise DefinitionError(f"{name}({self.words(what)}) cannot be calculated; it takes quantities over poses, as least(abs(q)).")

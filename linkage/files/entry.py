@@ -125,7 +125,7 @@ def kind_of(cls: type[Any], parameter: Parameter, said: Mapping[str, Any]) -> Ki
 # -- their table -------------------------------------------------------------------------------------------
 
 
-def read_table(given: Mapping[Any, Any], names: Names, arguments: Iterable[Argument], mistakes: Mistakes) -> dict[str, Any]:
+def read_table(given: Mapping[object, object], names: Names, arguments: Iterable[Argument], mistakes: Mistakes) -> dict[str, Any]:
     """Return the arguments that a table says, by name; what is wrong or missing is noted under its key."""
     found: dict[str, Any] = {}
     for each in arguments:
@@ -147,7 +147,7 @@ def check_keys(given: Mapping[Any, Any], known: Iterable[str], mistakes: Mistake
             mistakes.add((str(key),), "is not a key of it.")
 
 
-def made_of(found: Mapping[str, Any], arguments: Iterable[Argument]) -> dict[str, Any]:
+def made_of(found: Mapping[str, object], arguments: Iterable[Argument]) -> dict[str, Any]:
     """Return arguments as their class takes them, once all of them are sound."""
     return {each.name: each.kind.make(found[each.name]) for each in arguments if each.name in found}
 

@@ -67,7 +67,7 @@ class Names:
         return [name for name, each in self.kinds.items() if each == kind]
 
 
-def by_whole_names(given: Mapping[str, Any], words: Sequence[str] = (), depth: int = 1) -> Iterator[tuple[str, Any]]:
+def by_whole_names(given: Mapping[str, object], words: Sequence[str] = (), depth: int = 1) -> Iterator[tuple[str, Any]]:
     """Yield the entries of a table by whole names: `lift.bore = 1`, which TOML keeps as a table in a table, as "lift.bore".
 
     A table with one of some `words` is a value.

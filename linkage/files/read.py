@@ -40,7 +40,7 @@ def load(path_or_text: str | os.PathLike[str], trust: Collection[str] = ()) -> t
     return built(found.data, Faults(source=found.name, line_of=found.line_of), trusted(trust), found.folder)
 
 
-def from_dict(data: Mapping[str, Any], trust: Collection[str] = ()) -> type[Mechanism]:
+def from_dict(data: Mapping[str, object], trust: Collection[str] = ()) -> type[Mechanism]:
     """Return the class of mechanism that tables say, as `load` has them from a file. `trust` and errors are those of `load`."""
     return built(data, Faults(source="the tables"), trusted(trust))
 
@@ -144,14 +144,14 @@ def machines_read(
     return found
 
 
-def named_machines(tables: Mapping[str, Any]) -> set[str]:
+def named_machines(tables: Mapping[str, object]) -> set[str]:
     """Return the machines that the parts of a machine name."""
     parts = tables.get("parts", {})
     entries = parts.values() if isinstance(parts, Mapping) else ()
     return {str(each["machine"]) for each in entries if isinstance(each, Mapping) and "machine" in each}
 
 
-def with_parts_named(names: Names, sections: Mapping[str, Mapping[str, Any]], faults: Faults) -> Names:
+def with_parts_named(names: Names, sections: Mapping[str, Mapping[str, object]], faults: Faults) -> Names:
     """Return the names with those of the members of parts; a stroke that a part is not given is one of the machine."""
     kinds, strokes = dict(names.kinds), list[str]()
     for name, entry in sections.get("parts", {}).items():
@@ -164,7 +164,7 @@ def with_parts_named(names: Names, sections: Mapping[str, Mapping[str, Any]], fa
     return replace(names, kinds=kinds, of_parts=tuple(strokes))
 
 
-def names_of(sections: Mapping[str, Mapping[str, Any]], faults: Faults) -> Names:
+def names_of(sections: Mapping[str, Mapping[str, object]], faults: Faults) -> Names:
     """Return all names with their sections and kinds; bad, double and too many ones are noted."""
     check_sizes(sections, faults.source)
     found: dict[str, str] = {}
@@ -179,7 +179,7 @@ def names_of(sections: Mapping[str, Mapping[str, Any]], faults: Faults) -> Names
     return Names(found, {name: registry().kind(section) for name, section in found.items()})
 
 
-def check_sizes(sections: Mapping[str, Mapping[str, Any]], where: str) -> None:
+def check_sizes(sections: Mapping[str, Mapping[str, object]], where: str) -> None:
     """Raise FileError for more members than any machine has."""
     entries = [entry for table in sections.values() for entry in table.values()]
     sketched = [entry for entry in entries if isinstance(entry, Mapping) and not {"near", "at"}.isdisjoint(entry)]
@@ -204,7 +204,7 @@ def ordered(data: Mapping[str, Any], names: Names, faults: Faults) -> list[str]:
 
 
 def members_read(
-    order: list[str], sections: Mapping[str, Mapping[str, Any]], names: Names, title: str, faults: Faults, trust: Collection[str]
+    order: list[str], sections: Mapping[str, Mapping[str, object]], names: Names, title: str, faults: Faults, trust: Collection[str]
 ) -> dict[str, Member]:
     """Return the members by name, in an order, each sound by itself; the mistakes of the others are noted."""
     for name in order:

@@ -129,7 +129,7 @@ def read_search(
     return SearchFile(head.machine, arguments, rounding, outputs)
 
 
-def objectives_listed(head: StudyHead, over: Mapping[str, Any] | None) -> dict[str, list[Any]]:
+def objectives_listed(head: StudyHead, over: Mapping[str, object] | None) -> dict[str, list[Any]]:
     """Return what is to be least and what greatest; mistakes are noted."""
     found: dict[str, list[Any]] = {}
     for key in ("minimise", "maximise"):
@@ -142,7 +142,7 @@ def objectives_listed(head: StudyHead, over: Mapping[str, Any] | None) -> dict[s
     return found
 
 
-def conditions_listed(head: StudyHead, given: object, over: Mapping[str, Any] | None, *key: str) -> list[Any]:
+def conditions_listed(head: StudyHead, given: object, over: Mapping[str, object] | None, *key: str) -> list[Any]:
     """Return the conditions of a list of texts; mistakes are noted behind a key, each with its number."""
     found: list[Any] = []
     if isinstance(given, str):

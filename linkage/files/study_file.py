@@ -196,7 +196,7 @@ def range_said(given: object, plan: Plan, name: str) -> Any:
     return ends
 
 
-def range_of_table(given: Mapping[str, Any], plan: Plan, name: str, measures: str) -> Any:
+def range_of_table(given: Mapping[str, object], plan: Plan, name: str, measures: str) -> Any:
     """Return a range of a table: { from, to, step }, { around, step } or { choices }."""
     for key in given:
         known_name("Key", key, RANGE_KEYS)

@@ -80,7 +80,7 @@ class StudyTask(ABC):
     section: str
     keys: tuple[str, ...]
 
-    def __init__(self, head: StudyHead, given: Mapping[str, Any]) -> None:
+    def __init__(self, head: StudyHead, given: Mapping[str, object]) -> None:
         self.head, self.given, self.machine, self.plan = head, given, head.machine, head.machine.plan
 
     @abstractmethod

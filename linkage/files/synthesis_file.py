@@ -108,7 +108,7 @@ def read_synthesis(
     return SynthesisFile(machine, arguments, rounding, outputs)
 
 
-def varied_and_kept(head: StudyHead, given: Mapping[str, Any], over: Mapping[str, Any] | None) -> dict[str, Any]:
+def varied_and_kept(head: StudyHead, given: Mapping[str, object], over: Mapping[str, object] | None) -> dict[str, Any]:
     """Return what varies, what must be kept and what answers are ranked by; mistakes are noted.
 
     Of several machines these are tables by the machines' names, or one thing for all; what `vary` leaves out the search chooses.
@@ -133,7 +133,7 @@ def by_machine(head: StudyHead, given: object, *, is_of_points: bool = False) ->
     return given
 
 
-def rank_said(head: StudyHead, given: object, over: Mapping[str, Any] | None) -> Any:
+def rank_said(head: StudyHead, given: object, over: Mapping[str, object] | None) -> Any:
     """Return the measure that answers are ranked by; None, noted, for anything else."""
     found = None
     with head.faults.at(SECTION, "rank"):
@@ -160,7 +160,7 @@ def timed_said(given: object) -> Any:
 # The task.
 
 
-def task_said(head: StudyHead, section: Mapping[str, Any], over: Mapping[str, Any] | None) -> dict[str, Task]:
+def task_said(head: StudyHead, section: Mapping[str, object], over: Mapping[str, object] | None) -> dict[str, Task]:
     """Return the task of a section by its keyword; mistakes are noted."""
     named = [name for name in TASK_KEYS if name in section]
     found: dict[str, Task] = {}

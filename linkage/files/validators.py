@@ -194,7 +194,7 @@ def loads_of(given: object, names: Names) -> Any:
     return [names.checked(each, "load") for each in given]
 
 
-def each_of(given: Iterable[tuple[Any, Any]], read: Callable[[Any, Any], Any]) -> list[Any]:
+def each_of(given: Iterable[tuple[object, object]], read: Callable[[Any, Any], Any]) -> list[Any]:
     """Return what is read of each key and value; SeveralError with all mistakes, each under its key."""
     found, mistakes = [], Mistakes()
     for key, value in given:

@@ -121,7 +121,7 @@ def save(machine: Machine, path: str | os.PathLike[str]) -> None:
 # -- JSON: a line for each member --------------------------------------------------------------------------
 
 
-def json_text(data: Mapping[str, Any]) -> str:
+def json_text(data: Mapping[str, object]) -> str:
     """Return the text of a file's tables."""
     return "{\n" + ",\n".join(f"  {json_inline(name)}: {json_section(value)}" for name, value in data.items()) + "\n}\n"
 

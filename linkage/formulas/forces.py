@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, cast, final
+from typing import Any, TypeAlias, cast, final
 
 import numpy as np
 import sympy
@@ -20,15 +20,17 @@ from ..loads import AT_REST, Acting, ForceElement, Rates, Support, TwoPinned, Tw
 from ..mechanism import Mechanism
 from ..motion import Motion, stroke_unit
 from ..motion.requests import stroke_of
-from ..program import FloatArray
 from ..quantities import Angle, Distance, Quantity, Reference, joined_names, name_of
 from ..statics import applied_loads, axle_load, standing_supports
 from ..statics.holding import Holders, PressureLine, holders_of
+from ..vectors import FloatArray, Numbers, Scalar
 from .listing import GivenNumber, Listing, ListingLine
 from .rates import LineDerivatives
 from .symbolic import NUMBER, Term, Unit, term, unit_named
 from .words import Cross, Dot
 
+Levers: TypeAlias = Mapping[PressureLine, Mapping[str, sympy.Expr]]
+"""What a unit of pressure in each line does on a unit of each stroke."""
 MOST = 3
 """More cylinders that hold their strokes together have no equations that one would read."""
 WORDS = (
@@ -44,7 +46,7 @@ class Pulled:
     """A load as it is written: its point, its symbol, and its direction: -1 downwards, 1 upwards, 0 a vector's own."""
 
     point: str
-    symbol: Any
+    symbol: sympy.Symbol | sympy.MatrixSymbol
     way: int
 
 
@@ -56,7 +58,7 @@ class ForceLines:
 
     def __init__(self, design: Mechanism, listing: Listing) -> None:
         self.design, self.listing, self.plan = design, listing, design.plan
-        self.inputs: Mapping[str, Any] = {name: listing.input(name) for name in listing.units}
+        self.inputs: Mapping[str, Scalar] = {name: listing.input(name) for name in listing.units}
         self.lines: list[ListingLine] = []
         self.givens: list[GivenNumber] = []
         self._thrusts: dict[str, Term] = {}
@@ -105,20 +107,20 @@ class ForceLines:
             yield from self._numbers(name)
             return
         for push, thrust in zip(pushes, thrusts, strict=True):
-            if not self.equals(cast(Any, thrust), 0.0):
-                self.carry(push.member, cast(Any, thrust))
+            if not self.equals(thrust, 0.0):
+                self.carry(push.member, thrust)
         both = zip(loads, terms, strict=True)
-        live = [(load, parts) for load, parts in both if not all(self.equals(cast(Any, each), 0.0) for each in parts)]
+        live = [(load, parts) for load, parts in both if not all(self.equals(each, 0.0) for each in parts)]
         for load, (x, y) in live:
             yield self._pulled(name if len(live) == 1 else f"{name}_{load.point}", load.point, x, y)
 
-    def _terms(self, force: Any) -> tuple[Term, Term]:
+    def _terms(self, force: FloatArray) -> tuple[Term, Term]:
         x, y = (term(part) for part in np.asarray(force, object))
         return x, y
 
     def _pulled(self, title: str, point: str, x: Term, y: Term) -> Pulled:
         """Write the line of a load: a weight, an upward force, or a vector."""
-        if self.equals(cast(Any, x), 0.0):
+        if self.equals(x, 0.0):
             down = bool(y.expr.could_extract_minus_sign())
             found = self._write(f"P_{title}" if down else f"F_{title}", -y if down else y, "N")
             self._weights[title] = found if down else -found
@@ -155,14 +157,16 @@ class ForceLines:
             block, rows = next_block(left, list(needs), levers)
             for each, unit_thrust in zip(block, self._solved(block, rows, levers, needs), strict=True):
                 for cylinder in each.cylinders:
-                    self.carry(cylinder, cast(Any, Term(unit_thrust * self._area(each, cylinder))))
+                    self.carry(cylinder, Term(unit_thrust * self._area(each, cylinder)))
             left, known = [each for each in left if each not in block], {each: self._unit_thrust(each) for each in block}
             needs = {
                 name: need - sympy.Add(*(thrust * levers[each][name] for each, thrust in known.items()))
                 for name, need in needs.items() if name not in rows
             }  # fmt: skip
 
-    def _solved(self, block: Sequence[PressureLine], rows: Sequence[str], levers: Any, needs: Mapping[str, Any]) -> list[Any]:
+    def _solved(
+        self, block: Sequence[PressureLine], rows: Sequence[str], levers: Levers, needs: Mapping[str, sympy.Expr],
+    ) -> list[sympy.Expr]:
         """Return the thrusts on a unit of area of lines that hold some strokes together, by Cramer's rule."""
         matrix = sympy.Matrix([[levers[line][stroke] for line in block] for stroke in rows])
         if len(block) > MOST:
@@ -175,7 +179,7 @@ class ForceLines:
             found.append(changed.det() / matrix.det())
         return found
 
-    def _levers(self, line: PressureLine, strokes: Sequence[str]) -> dict[str, Any]:
+    def _levers(self, line: PressureLine, strokes: Sequence[str]) -> dict[str, sympy.Expr]:
         """Return what a unit of pressure in a line does on a unit of each stroke."""
         if line.changes_shares:
             names = " and ".join(each.name for each in line.cylinders)
@@ -183,11 +187,11 @@ class ForceLines:
         parts = {name: [self._area(line, each) * self._chains[name].growth(each) for each in line.cylinders] for name in strokes}
         return {name: sympy.Add(*each) for name, each in parts.items()}
 
-    def _area(self, line: PressureLine, cylinder: TwoPoint) -> Any:
+    def _area(self, line: PressureLine, cylinder: TwoPoint) -> sympy.Expr:
         """Return the thrust of a cylinder at a unit of its line's pressure; of one that is alone on its line at a unit of its own."""
         return sympy.S.One if len(line.cylinders) == 1 else term(np.asarray(cylinder.area_written(self), object)[()]).expr
 
-    def _unit_thrust(self, line: PressureLine) -> Any:
+    def _unit_thrust(self, line: PressureLine) -> sympy.Expr:
         first = line.cylinders[0]
         return self._thrusts[first.name or joined_names(*first.ends)].expr / self._area(line, first)
 
@@ -230,10 +234,10 @@ class ForceLines:
     # -- what elements write on ------------------------------------------------------------------------
 
     @property
-    def pi(self) -> Any:
+    def pi(self) -> Scalar:
         return Term(sympy.pi)
 
-    def line(self, name: str, value: Any, unit: str = "") -> Any:
+    def line(self, name: str, value: Scalar, unit: str = "") -> Scalar:
         return self._write(name, term(np.asarray(value, object)[()]), unit)
 
     def _write(self, name: str, value: Term, unit: str) -> Term:
@@ -242,28 +246,28 @@ class ForceLines:
             self.lines.append(ListingLine(symbol, whole_numbers(value.expr), unit_named(unit)))
         return Term(symbol)
 
-    def given(self, name: str, value: Callable[[Any], Any], unit: str = "") -> Any:
+    def given(self, name: str, value: Callable[[Motion], Numbers], unit: str = "") -> Scalar:
         symbol = self.listing.names.force(name)
         self.givens.append(GivenNumber(symbol, value, unit_named(unit)))
         return Term(symbol)
 
-    def equals(self, value: Any, number: float) -> bool:
+    def equals(self, value: Scalar, number: float) -> bool:
         expr = term(np.asarray(value, object)[()]).expr.xreplace(self._values)
         return not expr.free_symbols and float(expr) == number
 
     @cached_property
-    def _values(self) -> dict[Any, Any]:
+    def _values(self) -> dict[sympy.Symbol, sympy.Float]:
         return {self.inputs[name].expr: sympy.Float(float(value)) for name, value in self.design.dimensions.items()}
 
-    def weight(self, name: str) -> Any:
+    def weight(self, name: str) -> Scalar:
         if name not in self._weights:
             raise DefinitionError(f"{self.plan.title}: {name} is no force straight up or down, which an equation of its machine expects.")
         return self._weights[name]
 
-    def thrust(self, member: Reference) -> Any:
+    def thrust(self, member: Reference) -> Scalar:
         return self._thrusts.get(name_of(member))
 
-    def carry(self, member: TwoPinned, thrust: Any) -> None:
+    def carry(self, member: TwoPinned, thrust: Scalar) -> None:
         title = member.name or joined_names(*member.ends)
         self._thrusts[title] = self.line(f"T_{title}", thrust, "kN")
         self._members[title] = member
@@ -279,16 +283,16 @@ class ForceLines:
         place = self.listing.at(name)
         return np.array([place.x, place.y], object)
 
-    def value(self, quantity: Quantity) -> Any:
+    def value(self, quantity: Quantity) -> Scalar:
         return self.listing.value(quantity)
 
-    def angle(self, P: Reference, Q: Reference) -> Any:
+    def angle(self, P: Reference, Q: Reference) -> Scalar:
         return self.value(Angle(P, Q))
 
-    def distance(self, P: Reference, Q: Reference) -> Any:
+    def distance(self, P: Reference, Q: Reference) -> Scalar:
         return self.value(Distance(P, Q))
 
-    def sketched(self, quantity: Quantity) -> Any:
+    def sketched(self, quantity: Quantity) -> Scalar:
         strokes: Mapping[str, Any] = self.plan.sketch_strokes
         return term(float(self.design.at(**strokes).value(quantity)))
 
@@ -310,12 +314,12 @@ class ForceLines:
         return np.array([Term(vector[0, 0]), Term(vector[1, 0])], object)
 
 
-def inner(a: Any, b: Any) -> Any:
+def inner(a: FloatArray, b: FloatArray) -> Scalar:
     """Return the scalar product of two vectors of terms or numbers."""
     return a[0] * b[0] + a[1] * b[1]
 
 
-def next_block(lines: Sequence[PressureLine], strokes: Sequence[str], levers: Mapping[PressureLine, Mapping[str, Any]]) -> Any:
+def next_block(lines: Sequence[PressureLine], strokes: Sequence[str], levers: Levers) -> tuple[list[PressureLine], list[str]]:
     """Return lines and as many strokes that are solved next: one line that holds a stroke alone, else all that are left."""
     for stroke in strokes:
         holding = [line for line in lines if levers[line][stroke] != 0]
@@ -334,7 +338,7 @@ def given_load(name: str, place: int) -> Callable[[Motion], FloatArray]:
     return lambda motion: applied_loads(motion, Acting([name]), AT_REST).loads[place].force
 
 
-def whole_numbers(expr: Any) -> Any:
+def whole_numbers(expr: sympy.Expr) -> sympy.Expr:
     """Return an expression whose decimals that are whole numbers stand as such: 1.0 m is m."""
     whole = {each: sympy.Integer(round(float(each))) for each in expr.atoms(sympy.Float) if float(each) == round(float(each))}
     return expr.xreplace(whole)
@@ -367,13 +371,13 @@ class Chain:
         self._vertical = dict.fromkeys(each.point for each in pulled if is_only and each.way and each.point in self.points)
         self.lines += [ListingLine(names.ratio(name), self.points[name][1, 0], self._unit(name)) for name in self._vertical]
 
-    def _given_rate(self, forces: ForceLines, stroke: str, point: str) -> Any:
+    def _given_rate(self, forces: ForceLines, stroke: str, point: str) -> sympy.MatrixSymbol:
         """Return the derivative of a point that hangs on pins found together: a given number."""
         symbol = self.listing.names.derivative(self.listing.names.vector(point), self.symbol)
         forces.givens.append(GivenNumber(symbol, lambda motion: motion.ratio(point, wrt=stroke), NUMBER))
         return symbol
 
-    def _given_growth(self, forces: ForceLines, stroke: str, ends: tuple[str, str]) -> Any:
+    def _given_growth(self, forces: ForceLines, stroke: str, ends: tuple[str, str]) -> sympy.Symbol:
         """Return how a length grows that hangs on pins found together: a given number."""
         vector = self.listing.names.vector(joined_names(*ends))
         symbol = self.listing.names.stretching(vector, self.symbol)
@@ -383,11 +387,11 @@ class Chain:
     def _unit(self, point: str) -> Unit:
         return next((each.unit for each in self.lines if each.lhs == self.points[point]), NUMBER)
 
-    def growth(self, member: TwoPinned) -> Any:
+    def growth(self, member: TwoPinned) -> sympy.Expr:
         """Return how a member's length grows on a unit of the stroke."""
         return self.growths[member.ends]
 
-    def rates_of(self, point: str) -> tuple[Any, Any]:
+    def rates_of(self, point: str) -> tuple[sympy.Expr, sympy.Expr]:
         """Return both parts of a point's derivative; the second by its own name I_G where it has one."""
         x, y = self.points[point][0, 0], self.points[point][1, 0]
         return x, self.listing.names.ratio(point) if point in self._vertical else y
@@ -404,12 +408,12 @@ class Chain:
         return Term(total)
 
 
-def symbols_behind(lines: Sequence[ListingLine], target: Any) -> set[Any]:
+def symbols_behind(lines: Sequence[ListingLine], target: sympy.Basic) -> set[sympy.Basic]:
     """Return the symbols that an expression is built from, those of the lines behind it too."""
     return set(target.free_symbols).union(*(line.rhs.free_symbols for line in needed_by(lines, [target])))
 
 
-def needed_by(lines: Sequence[ListingLine], targets: Sequence[Any]) -> list[ListingLine]:
+def needed_by(lines: Sequence[ListingLine], targets: Sequence[sympy.Basic]) -> list[ListingLine]:
     """Return the lines that some expressions are built from, in order."""
     wanted = set().union(*(each.free_symbols for each in targets)) if targets else set()
     found = []

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import singledispatch
-from typing import Any, final
+from typing import Any, cast, final
 
 import numpy as np
 import sympy
 
 from ..motion import Motion
 from ..plan import Plan
-from ..quantities import AtPose, Axes, Member, Quantity, Reference, Tabulated, Turning, Variable, joined_names, name_of, spelled
+from ..quantities import AtPose, Axes, Member, Quantity, Reference, Tabulated, Turning, Variable, Where, joined_names, name_of, spelled
 from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, Point, Turn, Vector
-from ..vectors import Line, Vec
+from ..vectors import FloatArray, Line, Numbers, Scalar, Vec
 from .names import SymbolNames
 from .printing import Text
 from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, curve_function, input_units, term, vector_expr
@@ -27,27 +27,27 @@ X_AXIS = vector_symbol("i")
 
 
 @singledispatch
-def symbolic_value(member: Member, reading: Any) -> Any:
+def symbolic_value(member: Member, reading: Listing) -> Any:
     """Return what a member equals: a SymPy vector, or a term for a quantity."""
     raise NotImplementedError(f"{type(member).__name__} has no symbolic form")
 
 
-@symbolic_value.register
-def _(member: Quantity, reading: Any) -> Term:
-    return term(member.rule(reading))
+@symbolic_value.register(Quantity)
+def _(member: Quantity, reading: Listing) -> Term:
+    return term(member.rule(cast(Where, reading)))
 
 
-@symbolic_value.register
-def _(member: CosineAngle, reading: Any) -> Term:
+@symbolic_value.register(CosineAngle)
+def _(member: CosineAngle, reading: Listing) -> Term:
     return Term(Tcos(*(reading.value(side).expr for side in member.triangle)), ANGLE)
 
 
-@symbolic_value.register
-def _(member: Axis, reading: Any) -> Any:
+@symbolic_value.register(Axis)
+def _(member: Axis, reading: Listing) -> sympy.MatrixExpr:
     return x_axis_of(member.axes, reading)
 
 
-def x_axis_of(axes: Axes | None, reading: Any) -> Any:
+def x_axis_of(axes: Axes | None, reading: Listing) -> sympy.MatrixExpr:
     """Return the x axis; of a part its own one, along what carries it, mirrored and turned as the part is."""
     if axes is None:
         return X_AXIS
@@ -56,34 +56,36 @@ def x_axis_of(axes: Axes | None, reading: Any) -> Any:
     return own if axes.is_level else TurnV(own, reading.value(axes.angle).as_angle().expr)
 
 
-@symbolic_value.register
-def _(member: Turn, reading: Any) -> Any:
+@symbolic_value.register(Turn)
+def _(member: Turn, reading: Listing) -> sympy.MatrixExpr:
     length = None if member.scaled_to is None else reading.scaled(member, member.scaled_to)
     base, angle = reading.arrow_line(member.base), reading.value(member.angle).as_angle()
     return TurnV(base, angle.expr) if length is None else TurnVL(base, angle.expr, length.expr)
 
 
-@symbolic_value.register
-def _(member: Guide, reading: Any) -> Any:
+@symbolic_value.register(Guide)
+def _(member: Guide, reading: Listing) -> sympy.MatrixExpr:
     """Return the guide's direction, of length one."""
     if member.Q is not None:
         P, Q = member.points
         return TurnVL(reading.between(P, Q), sympy.S.Zero, sympy.S.One)
-    fixed = member.angle is None or member.angle.is_constant
-    angle = reading.input(f"{member.name}.angle") if fixed else reading.value(member.angle).as_angle()
+    if member.angle is None or member.angle.is_constant:
+        angle = reading.input(f"{member.name}.angle")
+    else:
+        angle = reading.value(member.angle).as_angle()
     sign = 1 if member.axes is None or not member.axes.mirrored else -1
     return TurnV(x_axis_of(member.axes, reading), sign * angle.expr)
 
 
-@symbolic_value.register
-def _(member: Offset, reading: Any) -> Any:
+@symbolic_value.register(Offset)
+def _(member: Offset, reading: Listing) -> sympy.MatrixExpr:
     return reading.at(member.P).expr + reading.arrow_line(member.by)
 
 
-@symbolic_value.register
-def _(member: Point, reading: Any) -> Any:
+@symbolic_value.register(Point)
+def _(member: Point, reading: Listing) -> sympy.MatrixExpr | None:
     """Return a point's place by its own rule; of one that is given by coordinates these where one is a formula, else None."""
-    place: Any = member.place(reading)
+    place = cast("Place | Vec", member.place(cast(Where, reading)))
     given = member.coordinates()
     if not given or getattr(member, "axes", None) is not None:
         return vector_expr(place)
@@ -98,8 +100,8 @@ def _(member: Point, reading: Any) -> Any:
 class ListingLine:
     """One line: a symbol, what it equals, and what it measures."""
 
-    lhs: Any
-    rhs: Any
+    lhs: sympy.Basic
+    rhs: sympy.Basic
     unit: Unit
 
     @property
@@ -113,11 +115,11 @@ class ListingLine:
 class GivenNumber:
     """A symbol that no line gives, what its value is at the poses of a motion [SI], and what it measures."""
 
-    symbol: Any
-    value: Callable[[Motion], Any]
+    symbol: sympy.Symbol | sympy.MatrixSymbol
+    value: Callable[[Motion], Numbers]
     unit: Unit
 
-    def parts(self, motion: Motion) -> dict[Any, Any]:
+    def parts(self, motion: Motion) -> dict[sympy.Symbol, FloatArray]:
         """Return the plain symbols with their values at the poses of a motion."""
         value = np.asarray(self.value(motion))
         return dict(zip(explicit(self.symbol), value if self.symbol.is_Matrix else (value,), strict=True))
@@ -132,8 +134,8 @@ class Listing:
         self.lines: list[ListingLine] = []
         self.unknowns: list[str] = []
         self.givens: list[GivenNumber] = []
-        self._vectors: dict[Any, Any] = {}
-        self._terms: dict[Any, Term] = {}
+        self._vectors: dict[object, sympy.MatrixExpr] = {}
+        self._terms: dict[str | int, Term] = {}
         self._labels: dict[int, Assignment] = {}
         self._kept: list[Assignment] = []
         self._lengths: dict[str, Term] = {}
@@ -159,7 +161,7 @@ class Listing:
 
     # -- points and vectors ----------------------------------------------------------------------------
 
-    def at(self, point: Reference) -> Any:
+    def at(self, point: Reference) -> Place:
         """Return a point."""
         name = name_of(point)
         if name not in self._vectors:
@@ -189,7 +191,7 @@ class Listing:
                 self._kept.append(each)
                 self.assign(each)
         for slide in group.slides:
-            miss = slide.miss(self)  # type: ignore[arg-type]
+            miss = slide.miss(cast(Where, self))
             self.lines.append(ListingLine(miss.expr, sympy.S.Zero, LENGTH))
 
     def assign(self, each: Assignment) -> None:
@@ -202,13 +204,13 @@ class Listing:
             key = each.name if isinstance(each.value, Point) else id(each.value)
             self.define(key, self.names.vector(each.name), symbolic_value(each.value, self), LENGTH)
 
-    def define(self, key: Any, symbol: Any, rhs: Any, unit: Unit) -> None:
+    def define(self, key: object, symbol: sympy.MatrixExpr, rhs: sympy.Basic | None, unit: Unit) -> None:
         """Write a line; nothing is written for a fixed point of plain coordinates."""
         self._vectors[key] = symbol
         if rhs is not None:
             self.lines.append(ListingLine(symbol, rhs, unit))
 
-    def between(self, P: str, Q: str, called: str = "") -> Any:
+    def between(self, P: str, Q: str, called: str = "") -> sympy.MatrixExpr:
         """Return the vector PQ, written as Q - P where it is not known yet, by the name that a step has for it if it has one."""
         if (P, Q) not in self._vectors:
             vectors = self.plan.of_kind(Vector).items()
@@ -217,10 +219,10 @@ class Listing:
             self.define((P, Q), self.names.vector(declared), ends, LENGTH)
         return self._vectors[P, Q]
 
-    def arrow_line(self, vector: Reference) -> Any:
+    def arrow_line(self, vector: Reference) -> sympy.MatrixExpr:
         """Return a vector member as its symbol; one without a name written out."""
         named = vector if isinstance(vector, str) else vector.name
-        member: Any = self.plan.members[named] if named else vector
+        member = self.plan.members[named] if named else cast(Member, vector)
         if isinstance(member, Vector):
             return self.between(name_of(member.P), name_of(member.Q))
         key = named or id(member)
@@ -230,7 +232,7 @@ class Listing:
             self.define(key, self.names.vector(named), symbolic_value(member, self), LENGTH)
         return self._vectors[key]
 
-    def vector(self, vector: Reference) -> Any:
+    def vector(self, vector: Reference) -> Place:
         """Return a vector member."""
         return Place(lambda: self.arrow_line(vector), self)
 
@@ -244,7 +246,7 @@ class Listing:
         """The points that the lines start from: fixed ones, guides' origins, and pins that are found together."""
         return [*self.plan.ground, *self.fixed_guides, *self.unknowns]
 
-    def symbol_of(self, name: str) -> Any:
+    def symbol_of(self, name: str) -> sympy.Basic:
         """Return the symbol of a named point, vector or quantity."""
         if isinstance(self.plan.members[name], Quantity):
             return self.names.quantity(name)
@@ -255,25 +257,25 @@ class Listing:
     def value(self, quantity: Reference) -> Term:
         """Return a quantity: its symbol where it has a name or a label."""
         named = quantity if isinstance(quantity, str) else quantity.name
-        member: Any = self.plan.members[named] if named else quantity
+        member = cast(Quantity, self.plan.members[named] if named else quantity)
         if named in self.units:
             return self.input(named)
         if named or id(member) in self._labels:
             return self._known(named or id(member), member)
         return self._lengths.get(spelled(member)) or symbolic_value(member, self)
 
-    def _known(self, key: Any, member: Quantity) -> Term:
+    def _known(self, key: str | int, member: Quantity) -> Term:
         if key not in self._terms:
             found: Term = symbolic_value(member, self)
             self._terms[key] = found if isinstance(key, int) and found.expr.is_Atom else self._line(key, member, found)
         return self._terms[key]
 
-    def _line(self, key: Any, member: Quantity, found: Term) -> Term:
+    def _line(self, key: str | int, member: Quantity, found: Term) -> Term:
         symbol = self._symbol(key, found.unit)
         self.lines.append(ListingLine(symbol, found.expr, found.unit))
         return Term(symbol, found.unit)
 
-    def _symbol(self, key: Any, unit: Unit) -> Any:
+    def _symbol(self, key: str | int, unit: Unit) -> sympy.Symbol:
         if isinstance(key, str):
             return self.names.quantity(key)
         name = self._labels[key].name
@@ -311,11 +313,11 @@ class Listing:
 
     # -- what the rules of other steps ask -------------------------------------------------------------
 
-    def root(self, radicand: Any, scale: Any, size: Any, most: Any = None) -> Term:
+    def root(self, radicand: Term, scale: Scalar, size: Scalar, most: Scalar = None) -> Term:
         """Return the square root that closes a loop."""
         return FUNCTIONS["sqrt"](radicand)
 
-    def margin(self, sine: Any) -> Any:
+    def margin(self, sine: Scalar) -> Scalar:
         """Return the sine of the angle between a loop's two members."""
         return sine
 
@@ -328,20 +330,20 @@ class Listing:
             self.define(("line", name), self.names.direction(name), symbolic_value(member, self), NUMBER)
         along = Place(lambda: self._vectors["line", name], self, unit=NUMBER)
         if member.P is None and member.axes is not None and ("origin", name) not in self._vectors:
-            place = member.axes.place(self, Vec(self.input(f"{name}.x"), self.input(f"{name}.y")))  # type: ignore[arg-type]
+            place = member.axes.place(cast(Where, self), Vec(self.input(f"{name}.x"), self.input(f"{name}.y")))
             self.define(("origin", name), self.names.vector(name), sympy.ImmutableMatrix([term(place.x).expr, term(place.y).expr]), LENGTH)
-        start: Any = Place(lambda: self.names.vector(name), self) if member.P is None else self.at(member.P)
+        start = Place(lambda: self.names.vector(name), self) if member.P is None else self.at(member.P)
         return Line(start, along)  # type: ignore[arg-type]
 
-    def curve(self, curve: Tabulated, x: Any, order: int = 0) -> Term:
+    def curve(self, curve: Tabulated, x: Term, order: int = 0) -> Term:
         """Return what a table gives, by its name."""
         return Term(curve_function(curve, order)(term(x).expr))
 
-    def angle_of(self, vector: Any) -> Term:
+    def angle_of(self, vector: Place) -> Term:
         """Return a vector's direction."""
         return Term(Direction(vector_expr(vector)), ANGLE)
 
-    def followed(self, angle: str, vector: Any) -> None:
+    def followed(self, angle: str, vector: Place) -> None:
         """Return nothing: an angle is written the same, wherever it is counted from."""
 
     def link(self, P: str, Q: str) -> Term | None:
@@ -353,11 +355,11 @@ class Listing:
         """Return the distance of two points."""
         return self.link(P, Q) or Term(Norm(self.between(P, Q)), LENGTH)
 
-    def apart(self, square: Any) -> Any:
+    def apart(self, square: Scalar) -> Scalar:
         """Return the square of a vector whose direction is taken."""
         return square
 
-    def direction(self, P: str, Q: str) -> Any:
+    def direction(self, P: str, Q: str) -> Place:
         """Return the vector between two points."""
         return self.at(Q) - self.at(P)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any, final
+from typing import final
 
 import sympy
 
@@ -25,7 +25,7 @@ class SymbolNames:
         self.owners: dict[str, str] = {}
         """The parts that symbols are of, by their texts; "" for those of the machine itself."""
         self.latex: dict[str, str] = {}
-        self._texts: dict[Any, str] = {}
+        self._texts: dict[object, str] = {}
         self._guides = plan.of_kind(Guide)
         self._members = plan.members
         self._placed = {*plan.points, *plan.of_kind(Arrow), *self._guides}
@@ -38,14 +38,14 @@ class SymbolNames:
 
     # -- symbols ---------------------------------------------------------------------------------------
 
-    def vector(self, name: str) -> Any:
+    def vector(self, name: str) -> sympy.MatrixSymbol:
         """Return the symbol of a point or a vector member, or of a vector named by its two points."""
         text = self._text(name if name in self._placed else ("vector", name), name, self._vector_latex(name))
         for axis in "xy":
             self.latex.setdefault(f"{text}.{axis}", self._component_latex(name, axis))
         return point_symbol(text) if name in self.points or name in self._guides else vector_symbol(text)
 
-    def quantity(self, name: str) -> Any:
+    def quantity(self, name: str) -> sympy.Symbol:
         """Return the symbol of a named quantity or a stroke, or of a design variable: the label OB is the length L_OB."""
         if name in self._lengths:
             shown = self._length_latex(name)
@@ -62,20 +62,20 @@ class SymbolNames:
         self.latex.setdefault(text, shown)
         return sympy.Symbol(text, real=True)
 
-    def direction(self, guide: str) -> Any:
+    def direction(self, guide: str) -> sympy.MatrixSymbol:
         """Return the symbol of a guide's direction: u_rail."""
         shown = rf"\vec{{u}}_{{{self._scalar_latex(guide)}}}"
         return vector_symbol(self._text(("direction", guide), f"u_{guide}", shown))
 
-    def length(self, vector: str) -> Any:
+    def length(self, vector: str) -> sympy.Symbol:
         """Return the symbol of a vector's given length: L_AB."""
         return sympy.Symbol(self._text(("length", vector), f"L_{vector}", self._length_latex(vector)), real=True)
 
-    def angle(self, name: str) -> Any:
+    def angle(self, name: str) -> sympy.Symbol:
         """Return the symbol of an angle that a step brings: OAB."""
         return sympy.Symbol(self._text(("angle", name), name, self._scalar_latex(name)), real=True)
 
-    def derivative(self, symbol: Any, stroke: Any) -> Any:
+    def derivative(self, symbol: sympy.Symbol | sympy.MatrixSymbol, stroke: sympy.Symbol) -> sympy.Symbol | sympy.MatrixSymbol:
         """Return the symbol of a derivative by a stroke: dOAB/dS."""
         text = self._text(("derivative", symbol, stroke), f"d{symbol.name}/d{stroke.name}")
         for part in ("", ".x", ".y"):
@@ -83,29 +83,29 @@ class SymbolNames:
             self.latex[text + part] = rf"\frac{{d{shown}}}{{d{self.latex.get(stroke.name, stroke.name)}}}"
         return type(symbol)(text, 2, 1) if symbol.is_Matrix else sympy.Symbol(text, real=True)
 
-    def stretching(self, vector: Any, stroke: Any) -> Any:
+    def stretching(self, vector: sympy.MatrixSymbol, stroke: sympy.Symbol) -> sympy.Symbol:
         """Return the symbol of the derivative of a vector's length: d|EC|/dS."""
         shown, by = (self.latex.get(each.name, each.name) for each in (vector, stroke))
         text = self._text(("stretching", vector, stroke), f"d|{vector.name}|/d{stroke.name}")
         self.latex[text] = rf"\frac{{d\left|{shown}\right|}}{{d{by}}}"
         return sympy.Symbol(text, real=True)
 
-    def ratio(self, point: str) -> Any:
+    def ratio(self, point: str) -> sympy.Symbol:
         """Return the symbol of a transfer ratio: I_G for dG_y/dS."""
         return sympy.Symbol(self._text(("ratio", point), f"I_{point}", f"I_{{{self._scalar_latex(point)}}}"), real=True)
 
-    def force(self, name: str) -> Any:
+    def force(self, name: str) -> sympy.Symbol:
         """Return the symbol of a scalar that the equations of forces bring: P_load, Q_S, T_lift."""
         return sympy.Symbol(self._text(("force", name), name, self._scalar_latex(name)), real=True)
 
-    def force_vector(self, name: str) -> Any:
+    def force_vector(self, name: str) -> sympy.MatrixSymbol:
         """Return the symbol of a force as a vector: F_pull."""
         text = self._text(("force vector", name), name, self._vector_latex(name))
         for axis in "xy":
             self.latex.setdefault(f"{text}.{axis}", self._component_latex(name, axis))
         return vector_symbol(text)
 
-    def _text(self, key: Any, wanted: str, latex: str = "") -> str:
+    def _text(self, key: object, wanted: str, latex: str = "") -> str:
         """Return the text of a thing; a stroke is added where another thing has it already."""
         if key not in self._texts:
             while wanted in self._texts.values():
@@ -129,7 +129,7 @@ class SymbolNames:
                     return owner, f"{sign}_{rest[len(owner) + 1 :]}" if sign else rest[len(owner) + 1 :]
         return "", name
 
-    def _owner_of(self, key: Any) -> str:
+    def _owner_of(self, key: object) -> str:
         """Return the part that the thing of a key is of."""
         name = key[1] if isinstance(key, tuple) else key
         return self.owned(name)[0] if isinstance(name, str) else self.owners.get(getattr(name, "name", ""), "")

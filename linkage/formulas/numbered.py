@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from textwrap import wrap
 from types import MappingProxyType
-from typing import Any, final
+from typing import Any, TypeAlias, final, overload
 
 import mpmath
 import numpy as np
@@ -22,6 +22,7 @@ from ..plan import Part
 from ..quantities import is_whole
 from ..shown import Shown
 from ..units import SI, UNITS, factor, shown_in
+from ..vectors import Numbers, Scalar
 from .forces import WORDS, ForceLines
 from .listing import X_AXIS, GivenNumber, Listing, ListingLine
 from .names import escaped_latex
@@ -73,9 +74,9 @@ def by_parts(lines: Sequence[ListingLine], listing: Listing) -> list[ListingLine
     if not listing.plan.of_kind(Part):
         return list(lines)
     made = [{line.lhs} if hasattr(line.lhs, "name") else set() for line in lines]
-    every = set[Any]().union(*made)
+    every = set[sympy.Basic]().union(*made)
     needs = [(line.rhs.free_symbols | line.lhs.free_symbols) & every - own for line, own in zip(lines, made, strict=True)]
-    left, found, known = list(range(len(lines))), list[int](), set[Any]()
+    left, found, known = list(range(len(lines))), list[int](), set[sympy.Basic]()
 
     def ready(owner: str) -> list[int]:
         """Return the lines of a part that can be written now, one behind the other."""
@@ -108,7 +109,7 @@ def part_of_line(line: ListingLine, listing: Listing) -> str:
     return owners.pop() if len(owners) == 1 else ""
 
 
-def check_given(design: Any, start: Any, at: Any, ratio: Any, flags: Mapping[str, Any]) -> None:
+def check_given(design: Mechanism, start: object, at: object, ratio: object, flags: Mapping[str, bool]) -> None:
     """Raise DefinitionError for a wrong mechanism, first number, pose, name or flag."""
     require_mechanism(design)
     if not is_whole(start):
@@ -122,7 +123,7 @@ def check_given(design: Any, start: Any, at: Any, ratio: Any, flags: Mapping[str
             raise DefinitionError(f"{flag}={cited(value)}: True or False is expected.")
 
 
-def check_pose(design: Mechanism, at: Any) -> None:
+def check_pose(design: Mechanism, at: object) -> None:
     """Raise DefinitionError for anything but a pose: strokes by name, or None."""
     if at is not None and not isinstance(at, Mapping):
         raise DefinitionError(f"{design.plan.title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
@@ -142,7 +143,7 @@ def differentiated(design: Mechanism, listing: Listing, target: str, wrt: str | 
     return ratio_lines(listing.lines, known[target], listing.names.quantity(stroke), listing.units[stroke], listing.names)
 
 
-def members_with_lines(listing: Listing) -> dict[str, Any]:
+def members_with_lines(listing: Listing) -> dict[str, sympy.Basic]:
     """Return the members that have a line, by their names in the class."""
     lines = {line.lhs for line in listing.lines}
     symbols = {name: listing.symbol_of(name) for name in listing.plan.named()}
@@ -159,10 +160,10 @@ class Equation:
     """
 
     number: int
-    lhs: Any
-    rhs: Any
+    lhs: sympy.Basic
+    rhs: sympy.Basic
     unit: Unit
-    follows: tuple[Any, ...] = ()
+    follows: tuple[sympy.Symbol, ...] = ()
     part: str = ""
     """The part of the machine whose equation it is."""
 
@@ -172,7 +173,7 @@ class Equation:
         return str(Text().doprint(self.lhs))
 
     @property
-    def symbols(self) -> tuple[Any, ...]:
+    def symbols(self) -> tuple[sympy.Basic, ...]:
         """The SymPy symbols of the right side, by name."""
         return tuple(sorted(self.rhs.free_symbols, key=str))
 
@@ -251,14 +252,14 @@ def shown_latex(text: str) -> str:
     return number_latex(value) + (unit_latex(unit) if unit else "")
 
 
-def value_in_equation(value: Any, unit: Unit) -> str:
+def value_in_equation(value: Scalar, unit: Unit) -> str:
     """Return a value as it is written in an equation: a pair, an angle in degrees, a plain number [SI]."""
     if np.ndim(value):
         return f"({', '.join(plain_number(float(part) / unit.si_factor) for part in value)})"
     return plain_number(float(value) / unit.si_factor) + (" deg" if unit.text == "deg" else "")
 
 
-def value_shown(value: Any, unit: Unit) -> str:
+def value_shown(value: Scalar, unit: Unit) -> str:
     """Return a value in the unit it is shown in, with that unit; what is not shown in SI follows the system of units that is chosen."""
     if np.ndim(value):
         return f"({', '.join(plain_number(float(part) / unit.shown_factor) for part in value)}) {unit.text}".rstrip()
@@ -281,7 +282,7 @@ class Equations(Sequence[Equation], Shown):
         lines: Sequence[ListingLine],
         listing: Listing,
         start: int,
-        poses: Mapping[str, Any] | None,
+        poses: Mapping[str, float] | None,
         forces: ForceLines | None = None,
     ) -> None:
         self.machine, self._listing, self._lines, self._poses, self._forces = machine, listing, tuple(lines), poses, forces
@@ -298,8 +299,12 @@ class Equations(Sequence[Equation], Shown):
     def __iter__(self) -> Iterator[Equation]:
         return iter(self._items)
 
-    def __getitem__(self, place: Any) -> Any:
-        """Return an equation by its place or its name, or a list of them by a slice."""
+    @overload
+    def __getitem__(self, place: int | str) -> Equation: ...
+    @overload
+    def __getitem__(self, place: slice) -> tuple[Equation, ...]: ...
+    def __getitem__(self, place: int | str | slice) -> Equation | tuple[Equation, ...]:
+        """Return an equation by its place or its name, or several of them by a slice."""
         if not isinstance(place, str):
             return self._items[place]
         found = {each.name: each for each in self._items}
@@ -308,7 +313,7 @@ class Equations(Sequence[Equation], Shown):
         return found[place]
 
     @property
-    def symbols(self) -> dict[str, Any]:
+    def symbols(self) -> dict[str, sympy.Basic]:
         """Every SymPy symbol by its text: what is given, then the left sides."""
         given = {symbol.name: symbol for each in self._items for symbol in each.symbols}
         return given | {each.name: each.lhs for each in self._items if each.lhs.is_Symbol or each.lhs.is_Matrix}
@@ -329,7 +334,7 @@ class Equations(Sequence[Equation], Shown):
 
     # -- numbers ---------------------------------------------------------------------------------------
 
-    def values(self, at: Mapping[str, Any] | None = None, digits: int | None = None) -> dict[str, Any]:
+    def values(self, at: Mapping[str, Numbers] | None = None, digits: int | None = None) -> dict[str, Any]:
         """Return every left side's value [SI] by name: a number, a pair for a vector.
 
         `at` are strokes, numbers or arrays; those not named are at their start. With `digits` the values are
@@ -340,14 +345,14 @@ class Equations(Sequence[Equation], Shown):
         found = evaluated(self._lines, self._inputs(at), digits)
         return {line.name: found[line.lhs] for line in self._lines}
 
-    def _pose(self, at: Mapping[str, Any] | None) -> dict[str, Any]:
+    def _pose(self, at: Mapping[str, Numbers] | None) -> dict[str, Numbers]:
         strokes = self.machine.plan.strokes
         check_pose(self.machine, at)
         for name in at or {}:
             known_name("Stroke", name, strokes, self.machine.plan.title)
         return {name: stroke.start for name, stroke in strokes.items()} | dict(at or {})
 
-    def _inputs(self, at: Mapping[str, Any] | None, unreachable: str = "raise") -> dict[Any, Any]:
+    def _inputs(self, at: Mapping[str, Numbers] | None, unreachable: str = "raise") -> dict[sympy.Symbol, Any]:
         """Return the plain symbols of everything given, with their values [SI]."""
         pose, names = self._pose(at), self._listing.names
         motion = self.machine.at(unreachable=unreachable, **pose)
@@ -370,7 +375,7 @@ class Equations(Sequence[Equation], Shown):
 
     # -- closed forms ----------------------------------------------------------------------------------
 
-    def closed(self, name: str, limit: int = 20_000) -> Any:
+    def closed(self, name: str, limit: int = 20_000) -> sympy.Expr | tuple[sympy.Expr, ...]:
         """Return a left side in elementary functions of strokes and dimensions alone: SymPy, one or a tuple of two.
 
         For short chains: a closed form grows by a factor at each step. Raises DefinitionError above `limit` operations.
@@ -378,7 +383,7 @@ class Equations(Sequence[Equation], Shown):
         if not is_whole(limit):
             raise DefinitionError(f"limit={cited(limit)}: the number of operations is expected, such as 20000.")
         target = self[known_name("Equation", name, [each.name for each in self._items], self.machine.plan.title)]
-        known: dict[Any, Any] = {}
+        known: dict[sympy.Symbol, sympy.Expr] = {}
         for each in self._items[: self._items.index(target) + 1]:
             written = tuple(part.xreplace(known) for part in explicit(each.rhs))
             if each is target:
@@ -390,7 +395,7 @@ class Equations(Sequence[Equation], Shown):
 
     # -- text ------------------------------------------------------------------------------------------
 
-    def text(self, numbers: bool | None = None, at: Mapping[str, Any] | None = None) -> str:
+    def text(self, numbers: bool | None = None, at: Mapping[str, Numbers] | None = None) -> str:
         """Return the legend and the numbered equations; with `numbers` each followed by its evaluation at a pose."""
         check_pose(self.machine, at)
         filled = numbers if numbers is not None else self._poses is not None or at is not None
@@ -403,7 +408,7 @@ class Equations(Sequence[Equation], Shown):
             lines.append(f"{f'({each.number})':<{width}} {each.filled(values, shown) if filled else each}")
         return "\n".join([*legend(self, self._listing, shown, self._forces), "", *lines])
 
-    def _filled(self, at: Mapping[str, Any] | None, known: Mapping[str, Any] | None = None) -> tuple[dict[str, str], dict[str, str]]:
+    def _filled(self, at: Mapping[str, Numbers] | None, known: Mapping[str, object] | None = None) -> tuple[dict[str, str], dict[str, str]]:
         """Return every symbol's value as an equation has it, and as it is shown with its unit; `known` are the left sides' own."""
         pose, names, units = self._pose(at), self._listing.names, self._listing.units
         if any(np.ndim(value) for value in pose.values()):
@@ -430,7 +435,7 @@ class Equations(Sequence[Equation], Shown):
 
     __repr__ = __str__
 
-    def sheet(self, at: Mapping[str, Any] | None = None, known: Mapping[str, Any] | None = None) -> list[SheetLine]:
+    def sheet(self, at: Mapping[str, Numbers] | None = None, known: Mapping[str, object] | None = None) -> list[SheetLine]:
         """Return the equations with their numbers at a pose, in LaTeX, as a calculation sheet shows them.
 
         `known` are the left sides' values there by name [SI], where `values` gave them already.
@@ -482,7 +487,7 @@ class Equations(Sequence[Equation], Shown):
         return self.latex()
 
 
-def strokes_followed(line: ListingLine, strokes: Sequence[Any]) -> tuple[Any, ...]:
+def strokes_followed(line: ListingLine, strokes: Sequence[sympy.Symbol]) -> tuple[sympy.Symbol, ...]:
     """Return the strokes that a scalar's own formula names: L_AB(S)."""
     if not line.lhs.is_Symbol or "/" in line.lhs.name:
         return ()
@@ -498,7 +503,8 @@ CONVENTION = (
     "x to the right, y up; angles counter-clockwise positive; lengths in m.",
     "One letter is the position of a point, two are the vector between two points: AB = B - A.",
 )
-DEFINITIONS: tuple[tuple[tuple[Any, ...], str], ...] = (
+Word: TypeAlias = "type[sympy.Basic] | sympy.Basic"
+DEFINITIONS: tuple[tuple[tuple[Word, ...], str], ...] = (
     ((TurnV, TurnVL), "TurnV(V, a): the vector V turned by the angle a, counter-clockwise for a > 0"),
     ((TurnVL,), "TurnVL(V, a, L) = TurnV(V, a)*L/|V|"),
     ((Tcos,), "Tcos(L1, L2, L3) = acos((L1**2 + L2**2 - L3**2)/(2*L1*L2)): the angle between the sides L1 and L2"),
@@ -506,7 +512,7 @@ DEFINITIONS: tuple[tuple[tuple[Any, ...], str], ...] = (
     ((Dot,), "dot(U, V) = U_x*V_x + U_y*V_y"),
     ((Cross,), "cross(U, V) = U_x*V_y - U_y*V_x"),
 )
-LATEX: tuple[tuple[tuple[Any, ...], str], ...] = (
+LATEX: tuple[tuple[tuple[Word, ...], str], ...] = (
     (
         (TurnV, TurnVL),
         r"\operatorname{TurnV}\left(\vec{V}, a\right) &= "
@@ -522,12 +528,12 @@ LATEX: tuple[tuple[tuple[Any, ...], str], ...] = (
 )
 
 
-def uses(equations: Any, words: tuple[Any, ...]) -> bool:
+def uses(equations: Equations, words: tuple[Word, ...]) -> bool:
     """Return whether the equations use one of some words."""
     return any(each.rhs.has(*words) for each in equations)
 
 
-def legend(equations: Any, listing: Listing, values: dict[str, str], forces: ForceLines | None = None) -> list[str]:
+def legend(equations: Equations, listing: Listing, values: dict[str, str], forces: ForceLines | None = None) -> list[str]:
     """Return the lines in front: conventions, definitions, and what is given, with `values` where there are any."""
     lines = [*CONVENTION, *(text for words, text in DEFINITIONS if uses(equations, words))]
     if uses(equations, (X_AXIS,)):
@@ -543,7 +549,7 @@ def legend(equations: Any, listing: Listing, values: dict[str, str], forces: For
     return [*lines, *given_lines(equations, listing, values, others)]
 
 
-def given_lines(equations: Any, listing: Listing, values: dict[str, str], others: Sequence[Any]) -> list[str]:
+def given_lines(equations: Equations, listing: Listing, values: dict[str, str], others: Sequence[sympy.Basic]) -> list[str]:
     """Return what the equations start from: strokes, points, dimensions; `Given: S; A, O; L0, L_OB`."""
     plan, names = listing.plan, listing.names
     made = {each.lhs for each in equations}
@@ -557,12 +563,12 @@ def given_lines(equations: Any, listing: Listing, values: dict[str, str], others
     return [line.replace(TOGETHER, " ") for line in lines]
 
 
-def given_words(symbol: Any, values: dict[str, str]) -> str:
+def given_words(symbol: sympy.Symbol | sympy.MatrixSymbol, values: dict[str, str]) -> str:
     """Return a given symbol, with its value and unit where that is known."""
     return f"{symbol.name} = {values[symbol.name]}".replace(" ", TOGETHER) if symbol.name in values else str(symbol.name)
 
 
-def latex_legend(equations: Any) -> list[str]:
+def latex_legend(equations: Equations) -> list[str]:
     """Return the definitions as an unnumbered `align*` environment; nothing where none is used."""
     rows = [text for words, text in LATEX if uses(equations, words)]
     return [r"\begin{align*}", " \\\\\n".join(f"  {row}" for row in rows), r"\end{align*}"] if rows else []
@@ -571,7 +577,7 @@ def latex_legend(equations: Any) -> list[str]:
 # Numbers for the equations: each line evaluated from those before it, on arrays or to any number of digits.
 
 
-def evaluated(lines: Sequence[ListingLine], inputs: Mapping[Any, Any], digits: int | None = None) -> dict[Any, Any]:
+def evaluated(lines: Sequence[ListingLine], inputs: Mapping[sympy.Symbol, Any], digits: int | None = None) -> dict[sympy.Basic, Any]:
     """Return every line's value [SI]: a scalar or a pair, by its symbol.
 
     `inputs` are the plain symbols' values. With `digits` mpmath works at that many digits and the values
@@ -586,7 +592,7 @@ def evaluated(lines: Sequence[ListingLine], inputs: Mapping[Any, Any], digits: i
     return {symbol: _rounded(value, digits) for symbol, value in found.items()}
 
 
-def _rounded(value: Any, digits: int) -> Any:
+def _rounded(value: object, digits: int) -> Any:
     """Return mpmath numbers as SymPy's, which keep their digits wherever they are shown."""
     return tuple(_rounded(part, digits) for part in value) if isinstance(value, tuple) else sympy.Float(value, digits)
 
@@ -598,12 +604,12 @@ def in_reals(value: Any) -> Any:
     return np.where(np.imag(value) == 0.0, np.real(value), np.nan)[()] if np.iscomplexobj(value) else value
 
 
-def _evaluated(lines: Sequence[ListingLine], known: dict[Any, Any], arithmetic: str) -> dict[Any, Any]:
+def _evaluated(lines: Sequence[ListingLine], known: dict[sympy.Symbol, Any], arithmetic: str) -> dict[sympy.Basic, Any]:
     known |= dict(zip(explicit(X_AXIS), (1.0, 0.0), strict=True))
     try:
         return in_one_call(lines, known, arithmetic)
     except ZeroDivisionError:  # mpmath's; NumPy has no value there either and says so by NaN or infinity
-        found: dict[Any, Any] = {}
+        found: dict[sympy.Basic, Any] = {}
         for line in lines:
             parts = explicit(line.lhs)
             try:
@@ -614,7 +620,7 @@ def _evaluated(lines: Sequence[ListingLine], known: dict[Any, Any], arithmetic: 
         return found
 
 
-def in_one_call(lines: Sequence[ListingLine], known: Mapping[Any, Any], arithmetic: str) -> dict[Any, Any]:
+def in_one_call(lines: Sequence[ListingLine], known: Mapping[sympy.Symbol, object], arithmetic: str) -> dict[sympy.Basic, Any]:
     """Return the lines' values, worked out by one function that is compiled once for all designs of a class."""
     function, needed = compiled_lines(tuple((line.lhs, line.rhs) for line in lines), arithmetic)
     values = iter(function(*(known[symbol] for symbol in needed)))
@@ -622,7 +628,9 @@ def in_one_call(lines: Sequence[ListingLine], known: Mapping[Any, Any], arithmet
 
 
 @lru_cache(maxsize=64)
-def compiled_lines(lines: tuple[tuple[Any, Any], ...], arithmetic: str) -> tuple[Callable[..., Sequence[Any]], tuple[Any, ...]]:
+def compiled_lines(
+    lines: tuple[tuple[sympy.Basic, sympy.Basic], ...], arithmetic: str
+) -> tuple[Callable[..., Sequence[Any]], tuple[sympy.Symbol, ...]]:
     """Return a function of plain symbols that gives the values of lines, (left, right) each, one after the other, and these symbols.
 
     A value that is no real number goes on as NaN.
@@ -630,9 +638,9 @@ def compiled_lines(lines: tuple[tuple[Any, Any], ...], arithmetic: str) -> tuple
     written = [(explicit(left), explicit(right)) for left, right in lines]
     symbols = set().union(*(each.free_symbols for _, right in written for each in right), *(left for left, _ in written))
     plain = {symbol: sympy.Symbol(f"v{place:05d}") for place, symbol in enumerate(sorted(symbols, key=str))}  # keeps the order of sums
-    assigned: list[tuple[Any, Any]] = []
-    needed: dict[Any, Any] = {}
-    made: set[Any] = set()
+    assigned: list[tuple[sympy.Symbol, sympy.Expr]] = []
+    needed: dict[sympy.Symbol, sympy.Symbol] = {}
+    made: set[sympy.Symbol] = set()
     for left, right in written:
         used = set().union(*(each.free_symbols for each in right)) - made
         needed |= {symbol: plain[symbol] for symbol in sorted(used, key=str)}

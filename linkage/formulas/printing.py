@@ -5,14 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from math import hypot
-from typing import Any, final
+from typing import final
 
-from sympy import fraction
+import sympy
+from sympy.matrices.expressions.matexpr import MatrixElement
 from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from .words import PointSymbol
+from .words import Cross, Deg, Direction, Dot, Norm, PointSymbol, Tcos, TurnV, TurnVL
 
 
 def plain_number(value: float, digits: int = 6) -> str:
@@ -35,21 +36,21 @@ def number_latex(text: str, *, inside: bool = False) -> str:
     return rf"\left({shown}\right)" if inside and text.startswith("-") else shown
 
 
-def reading_order(terms: Sequence[Any]) -> list[Any]:
+def reading_order(terms: Sequence[sympy.Basic]) -> list[sympy.Basic]:
     """Return the terms of a sum as they are read: positive ones first, points before vectors, numbers last."""
     return sorted(terms, key=lambda each: (not each.free_symbols, is_negative(each), not isinstance(each, PointSymbol)))
 
 
-def is_negative(expr: Any) -> bool:
+def is_negative(expr: sympy.Basic) -> bool:
     """Return whether a term of a sum is printed with a minus."""
     factor = expr.as_coeff_matrices()[0] if expr.is_Matrix and expr.is_MatMul else expr
     return bool(not expr.is_Add and (factor.is_number or factor.is_Mul) and factor.could_extract_minus_sign())
 
 
-def factors(expr: Any) -> tuple[Any, Any, Any]:
+def factors(expr: sympy.MatMul) -> tuple[sympy.Expr, sympy.Expr, sympy.MatrixExpr]:
     """Return a scaled vector as numerator, denominator and vector."""
     factor, (vector,) = expr.as_coeff_matrices()
-    return (*fraction(factor), vector)
+    return (*sympy.fraction(factor), vector)
 
 
 def signed_sum(terms: Sequence[str]) -> str:
@@ -68,64 +69,64 @@ class Text(StrPrinter):  # type: ignore[misc]
         super().__init__()
         self.values = values or {}
 
-    def _print_Symbol(self, expr: Any) -> str:
+    def _print_Symbol(self, expr: sympy.Symbol) -> str:
         return self._filled(expr.name)
 
-    def _print_MatrixSymbol(self, expr: Any) -> str:
+    def _print_MatrixSymbol(self, expr: sympy.MatrixSymbol) -> str:
         return self._filled(expr.name)
 
     def _filled(self, name: str) -> str:
         found = self.values.get(name, name)
         return f"({found})" if found.startswith("-") else found
 
-    def _print_MatrixElement(self, expr: Any) -> str:
+    def _print_MatrixElement(self, expr: MatrixElement) -> str:
         if expr.parent.name not in self.values:
             head, slash, tail = expr.parent.name.partition("/")
             return f"{head}_{'xy'[int(expr.i)]}{slash}{tail}"
         part = self.values[expr.parent.name].strip("()").split(", ")[int(expr.i)]
         return f"({part})" if part.startswith("-") else part
 
-    def _print_Float(self, expr: Any) -> str:
+    def _print_Float(self, expr: sympy.Float) -> str:
         return plain_number(float(expr), 12)
 
-    def _print_Add(self, expr: Any, order: Any = None) -> str:
+    def _print_Add(self, expr: sympy.Add, order: str | None = None) -> str:
         return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
-    def _print_MatAdd(self, expr: Any) -> str:
+    def _print_MatAdd(self, expr: sympy.MatAdd) -> str:
         return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
-    def _print_MatMul(self, expr: Any) -> str:
+    def _print_MatMul(self, expr: sympy.MatMul) -> str:
         over, under, vector = factors(expr)
         if is_negative(expr):
             return f"-{self._print(-expr)}"
         text = self._print(vector) if over == 1 else f"{self.parenthesize(over, PRECEDENCE['Mul'])}*{self._print(vector)}"
         return text if under == 1 else f"{text}/{self.parenthesize(under, PRECEDENCE['Pow'])}"
 
-    def _print_call(self, expr: Any) -> str:
+    def _print_call(self, expr: sympy.Basic) -> str:
         """Return a word of the method, or a function of SymPy's in small letters, with its arguments."""
         name = type(expr).__name__
         return f"{name if name in ('TurnV', 'TurnVL', 'Tcos') else name.lower()}({', '.join(map(self._print, expr.args))})"
 
     _print_TurnV = _print_TurnVL = _print_Tcos = _print_Dot = _print_Cross = _print_Min = _print_Max = _print_call
 
-    def _print_Norm(self, expr: Any) -> str:
+    def _print_Norm(self, expr: Norm) -> str:
         text = self._print(expr.args[0])
         pair = re.fullmatch(r"\(([-+.\de]+), ([-+.\de]+)\)", text) if self.values else None
         if pair is not None:
             return plain_number(hypot(float(pair[1]), float(pair[2])))
         return f"|{text}|"
 
-    def _print_Direction(self, expr: Any) -> str:
+    def _print_Direction(self, expr: Direction) -> str:
         text = self._print(expr.args[0])
         return f"angle{text}" if text.startswith("(") else f"angle({text})"
 
-    def _print_Deg(self, expr: Any) -> str:
+    def _print_Deg(self, expr: Deg) -> str:
         return f"{self._print(expr.args[0])} deg"
 
-    def _print_ImmutableDenseMatrix(self, expr: Any) -> str:
+    def _print_ImmutableDenseMatrix(self, expr: sympy.ImmutableMatrix) -> str:
         return f"({', '.join(map(self._print, expr))})"
 
-    def _print_Abs(self, expr: Any) -> str:
+    def _print_Abs(self, expr: sympy.Abs) -> str:
         return f"|{self._print(expr.args[0])}|"
 
 
@@ -141,32 +142,32 @@ class Latex(LatexPrinter):  # type: ignore[misc]
         self.words, self.values = words, values or {}
         self.times = r" \cdot " if values else " "
 
-    def _print_Symbol(self, expr: Any, style: str = "plain") -> str:
+    def _print_Symbol(self, expr: sympy.Symbol, style: str = "plain") -> str:
         if expr.name in self.values:
             return number_latex(self.values[expr.name], inside=True)
         return self.words.get(expr.name) or str(super()._print_Symbol(expr))
 
-    def _print_MatrixSymbol(self, expr: Any, style: str = "plain") -> str:
+    def _print_MatrixSymbol(self, expr: sympy.MatrixSymbol, style: str = "plain") -> str:
         if expr.name in self.values:
             return number_latex(self.values[expr.name], inside=True)
         return r"\vec{\imath}" if expr.name == "i" else self.words.get(expr.name, expr.name)
 
-    def _print_MatrixElement(self, expr: Any) -> str:
+    def _print_MatrixElement(self, expr: MatrixElement) -> str:
         axis = "xy"[int(expr.i)]
         if expr.parent.name in self.values:
             return number_latex(self.values[expr.parent.name].strip("()").split(", ")["xy".index(axis)], inside=True)
         return self.words.get(f"{expr.parent.name}.{axis}") or rf"{self._print(expr.parent)}_{{{axis}}}"
 
-    def _print_Float(self, expr: Any) -> str:
+    def _print_Float(self, expr: sympy.Float) -> str:
         return number_latex(plain_number(float(expr), 12))
 
-    def _print_Add(self, expr: Any, order: Any = None) -> str:
+    def _print_Add(self, expr: sympy.Add, order: str | None = None) -> str:
         return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
-    def _print_MatAdd(self, expr: Any) -> str:
+    def _print_MatAdd(self, expr: sympy.MatAdd) -> str:
         return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
-    def _print_MatMul(self, expr: Any) -> str:
+    def _print_MatMul(self, expr: sympy.MatMul) -> str:
         over, under, vector = factors(expr)
         if is_negative(expr):
             return f"- {self._print(-expr)}"
@@ -174,42 +175,42 @@ class Latex(LatexPrinter):  # type: ignore[misc]
             return rf"\frac{{{self._print(over)}}}{{{self._print(under)}}}{self.times}{self._print(vector)}"
         return self._print(vector) if over == 1 else f"{self.parenthesize(over, PRECEDENCE['Mul'])}{self.times}{self._print(vector)}"
 
-    def _call(self, head: str, expr: Any) -> str:
+    def _call(self, head: str, expr: sympy.Basic) -> str:
         return rf"{head}\left({', '.join(map(self._print, expr.args))}\right)"
 
-    def _print_TurnV(self, expr: Any) -> str:
+    def _print_TurnV(self, expr: TurnV) -> str:
         return self._call(r"\operatorname{TurnV}", expr)
 
-    def _print_TurnVL(self, expr: Any) -> str:
+    def _print_TurnVL(self, expr: TurnVL) -> str:
         return self._call(r"\operatorname{TurnV}_{L}", expr)
 
-    def _print_Tcos(self, expr: Any, exp: Any = None) -> str:
+    def _print_Tcos(self, expr: Tcos, exp: str | None = None) -> str:
         return self._call(r"\operatorname{Tcos}", expr)
 
-    def _print_Norm(self, expr: Any) -> str:
+    def _print_Norm(self, expr: Norm) -> str:
         if self.values:
             found = Text(self.values).doprint(expr)
             if not found.startswith("|"):
                 return number_latex(found)
         return rf"\left|{self._print(expr.args[0])}\right|"
 
-    def _print_Direction(self, expr: Any) -> str:
+    def _print_Direction(self, expr: Direction) -> str:
         return self._call(r"\arg", expr)
 
-    def _print_Dot(self, expr: Any) -> str:
+    def _print_Dot(self, expr: Dot) -> str:
         return r" \cdot ".join(map(self._factor, expr.args))
 
-    def _print_Cross(self, expr: Any) -> str:
+    def _print_Cross(self, expr: Cross) -> str:
         left, right = map(self._factor, expr.args)
         return rf"\left({left} \times {right}\right)_{{z}}"
 
-    def _factor(self, vector: Any) -> str:
+    def _factor(self, vector: sympy.Basic) -> str:
         text = self._print(vector)
         return rf"\left({text}\right)" if vector.is_MatAdd else str(text)
 
-    def _print_Deg(self, expr: Any) -> str:
+    def _print_Deg(self, expr: Deg) -> str:
         return rf"{self._print(expr.args[0])}^{{\circ}}"
 
-    def _print_ImmutableDenseMatrix(self, expr: Any) -> str:
+    def _print_ImmutableDenseMatrix(self, expr: sympy.ImmutableMatrix) -> str:
         rows = r" \\ ".join(map(self._print, expr))
         return rf"\begin{{pmatrix}} {rows} \end{{pmatrix}}"

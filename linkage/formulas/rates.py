@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import singledispatchmethod
-from typing import Any, final
+from typing import final
 
 import sympy
 from sympy.matrices.expressions.matadd import MatAdd
@@ -27,9 +27,9 @@ STILL = sympy.ZeroMatrix(2, 1)
 class LineDerivatives:
     """Derivatives by one stroke of the lines read so far."""
 
-    def __init__(self, stroke: Any, unit: Unit, names: SymbolNames) -> None:
+    def __init__(self, stroke: sympy.Symbol, unit: Unit, names: SymbolNames) -> None:
         self.stroke, self.unit, self.names = stroke, unit, names
-        self.known: dict[Any, Any] = {stroke: sympy.S.One}
+        self.known: dict[sympy.Basic, sympy.Basic] = {stroke: sympy.S.One}
         self._line: ListingLine | None = None
         self._found: list[ListingLine] = []
 
@@ -46,7 +46,7 @@ class LineDerivatives:
 
     # -- scalars ---------------------------------------------------------------------------------------
 
-    def number(self, expr: Any, angle: Any = None) -> Any:
+    def number(self, expr: sympy.Expr, angle: sympy.Symbol | None = None) -> sympy.Expr:
         """Return the derivative of a scalar; `angle` is its own symbol, where it has one."""
         if isinstance(expr, Tcos):
             return self._cosine_rule(expr, expr if angle is None else angle)
@@ -58,13 +58,13 @@ class LineDerivatives:
         total = sympy.Add(*(plain.diff(symbol) * rate for symbol, rate in rates if rate != 0))
         return total.xreplace({symbol: word for word, symbol in stands.items()})
 
-    def _cosine_rule(self, expr: Any, angle: Any) -> Any:
+    def _cosine_rule(self, expr: Tcos, angle: sympy.Expr) -> sympy.Expr:
         a, b, c = expr.args
         da, db, dc = map(self.number, expr.args)
         turned = c * dc - a * da - b * db + sympy.cos(angle) * (a * db + b * da)
         return turned / (a * b * sympy.sin(angle))
 
-    def _word(self, word: Any) -> Any:
+    def _word(self, word: sympy.Expr) -> sympy.Expr:
         """Return the derivative of a number read off vectors."""
         if isinstance(word, Tcos):
             return self._cosine_rule(word, word)
@@ -75,19 +75,19 @@ class LineDerivatives:
             return self._stretching(word.args[0])
         return self._turning(word.args[0]) if isinstance(word, Direction) else self._product(word)
 
-    def _product(self, word: Any) -> Any:
+    def _product(self, word: Dot | Cross) -> sympy.Expr:
         """Return the derivative of a scalar or vector product."""
         a, b = word.args
         da, db = self.of(a), self.of(b)
         terms = [type(word)(*pair) for pair, rate in (((da, b), da), ((a, db), db)) if rate != STILL]
         return sympy.Add(*terms)
 
-    def _turning(self, vector: Any) -> Any:
+    def _turning(self, vector: sympy.MatrixExpr) -> sympy.Expr:
         """Return the rate at which a vector turns."""
         rate = self.of(vector)
         return sympy.S.Zero if rate == STILL else Cross(vector, rate) / Norm(vector) ** 2
 
-    def _stretching(self, vector: Any) -> Any:
+    def _stretching(self, vector: sympy.MatrixExpr) -> sympy.Expr:
         """Return the rate of a vector's length, that of a named one with a line of its own: d|EC|/dS."""
         if isinstance(vector, TurnV):  # written where it is used
             base, _, *length = vector.args
@@ -105,28 +105,28 @@ class LineDerivatives:
     # -- vectors ---------------------------------------------------------------------------------------
 
     @singledispatchmethod
-    def of(self, vector: Any) -> Any:
+    def of(self, vector: sympy.MatrixExpr) -> sympy.MatrixExpr:
         """Return the derivative of a vector; STILL where it does not follow the stroke."""
         return sympy.ImmutableMatrix([self.number(each) for each in vector])
 
     @of.register
-    def _(self, vector: MatrixSymbol) -> Any:
+    def _(self, vector: MatrixSymbol) -> sympy.MatrixExpr:
         return self.known.get(vector, STILL)
 
     @of.register
-    def _(self, vector: MatAdd) -> Any:
+    def _(self, vector: MatAdd) -> sympy.MatrixExpr:
         moving = [rate for rate in map(self.of, vector.args) if rate != STILL]
         return summed(moving)
 
     @of.register
-    def _(self, vector: MatMul) -> Any:
+    def _(self, vector: MatMul) -> sympy.MatrixExpr:
         factor, (rest,) = vector.as_coeff_matrices()
         rate, scaled = self.of(rest), self.number(factor)
         turned = [] if rate == STILL else [MatMul(factor, rate)]
         return summed(turned + ([] if scaled == 0 else [MatMul(scaled, rest)]))
 
     @of.register
-    def _(self, vector: TurnV) -> Any:
+    def _(self, vector: TurnV) -> sympy.MatrixExpr:
         base, angle, *length = vector.args
         turned = self.number(angle) + self._turning(base)
         longer = self.number(length[0]) / length[0] if length else self._stretching(base) / Norm(base)
@@ -134,12 +134,12 @@ class LineDerivatives:
         return summed([MatMul(factor, part) for factor, part in ((turned, TurnV(here, Deg(90))), (longer, here)) if factor != 0])
 
 
-def summed(vectors: Sequence[Any]) -> Any:
+def summed(vectors: Sequence[sympy.MatrixExpr]) -> sympy.MatrixExpr:
     """Return the sum of vectors, kept as written; STILL for none."""
     return (MatAdd(*vectors) if len(vectors) > 1 else vectors[0]) if vectors else STILL
 
 
-def lines_needed(lines: Sequence[ListingLine], target: Any) -> list[ListingLine]:
+def lines_needed(lines: Sequence[ListingLine], target: sympy.Basic) -> list[ListingLine]:
     """Return the lines that a symbol is built from, its own last."""
     wanted, found = {target}, []
     for line in reversed(lines):
@@ -149,7 +149,9 @@ def lines_needed(lines: Sequence[ListingLine], target: Any) -> list[ListingLine]
     return found[::-1]
 
 
-def ratio_lines(lines: Sequence[ListingLine], target: Any, stroke: Any, unit: Unit, names: SymbolNames) -> list[ListingLine]:
+def ratio_lines(
+    lines: Sequence[ListingLine], target: sympy.Basic, stroke: sympy.Symbol, unit: Unit, names: SymbolNames
+) -> list[ListingLine]:
     """Return the chain of derivatives that ends in a target's transfer ratio; for a point, I_G = dG_y/dS comes last."""
     chain = LineDerivatives(stroke, unit, names).lines(lines_needed(lines, target))
     if not chain or chain[-1].lhs != names.derivative(target, stroke) or not target.is_Matrix:

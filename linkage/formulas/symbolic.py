@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import isnan
-from typing import Any, ClassVar, final
+from typing import ClassVar, Protocol, final
 
 import numpy as np
 import sympy
+from sympy.logic.boolalg import Boolean
 from sympy.matrices.expressions.matadd import MatAdd
 from sympy.matrices.expressions.matmul import MatMul
 
@@ -20,7 +21,7 @@ from ..plan import Plan
 from ..program.traced import elementwise
 from ..quantities import Quantity, Tabulated, unnamed
 from ..units import SI, UNITS, deg, unit_or_none
-from ..vectors import Operators, Vec
+from ..vectors import Operators, Scalar, Vec
 from .words import Cross, Deg, Dot, Norm, TurnV
 
 # What an expression measures: lengths, angles, and products of them.
@@ -120,22 +121,22 @@ DIGITS = 40
 """Numbers are taken as the decimals they are written as."""
 
 
-def exact_number(value: float) -> Any:
+def exact_number(value: float) -> sympy.Number:
     """Return a float as an exact integer or as the decimal it is written as."""
     return sympy.Integer(int(value)) if value == int(value) and abs(value) < 1e15 else sympy.Float(repr(value), DIGITS)
 
 
-def degrees(value: float) -> Any:
+def degrees(value: float) -> sympy.Expr:
     """Return an angle [rad] as it is shown, in degrees; 0 stays 0."""
     shown = float(f"{value / deg:.13g}")
     return Deg(exact_number(shown)) if value else sympy.S.Zero
 
 
 @final
-class Term(Operators[Any, "Term"]):
+class Term(Operators["Term | float", "Term"]):
     """An expression and its unit; adds, multiplies and takes NumPy's functions, as the rules of quantities ask."""
 
-    def __init__(self, expr: Any, unit: Unit = NUMBER) -> None:
+    def __init__(self, expr: sympy.Expr, unit: Unit = NUMBER) -> None:
         self.expr, self.unit = expr, unit
 
     def as_angle(self) -> Term:
@@ -144,33 +145,33 @@ class Term(Operators[Any, "Term"]):
             return Term(degrees(float(self.expr)), ANGLE)
         return self
 
-    def applied(self, function: str, *operands: Any) -> Term:
+    def applied(self, function: str, *operands: Term | float) -> Term:
         """Return what NumPy's function of that name makes of terms and numbers."""
         return FUNCTIONS[function](*map(term, operands))
 
-    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Term:
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Term | float, **options: object) -> Term:
         if method != "__call__" or options or ufunc.__name__ not in FUNCTIONS:
             raise DefinitionError(f"{ufunc.__name__} has no symbolic form; use one of: {', '.join(FUNCTIONS)}.")
         found: Term = elementwise(lambda *numbers: self.applied(ufunc.__name__, *numbers), inputs)
         return found
 
-    def __lt__(self, other: Any) -> Relation:
+    def __lt__(self, other: Term | float) -> Relation:
         return Relation(self.expr < term(other).expr)
 
-    def __le__(self, other: Any) -> Relation:
+    def __le__(self, other: Term | float) -> Relation:
         return Relation(self.expr <= term(other).expr)
 
-    def __gt__(self, other: Any) -> Relation:
+    def __gt__(self, other: Term | float) -> Relation:
         return Relation(self.expr > term(other).expr)
 
-    def __ge__(self, other: Any) -> Relation:
+    def __ge__(self, other: Term | float) -> Relation:
         return Relation(self.expr >= term(other).expr)
 
     def __repr__(self) -> str:
         return f"{self.expr} {self.unit.text}".strip()
 
 
-def term(value: Any) -> Term:
+def term(value: Scalar) -> Term:
     """Return a number as a term."""
     return value if isinstance(value, Term) else Term(exact_number(float(value)))
 
@@ -181,13 +182,13 @@ class Relation:
 
     __array_ufunc__ = None
 
-    def __init__(self, truth: Any) -> None:
+    def __init__(self, truth: Boolean) -> None:
         self.truth = truth
 
-    def __and__(self, other: Any) -> Relation:
+    def __and__(self, other: Relation | bool) -> Relation:
         return Relation(sympy.And(self.truth, other.truth if isinstance(other, Relation) else bool(other)))
 
-    def __or__(self, other: Any) -> Relation:
+    def __or__(self, other: Relation | bool) -> Relation:
         return Relation(sympy.Or(self.truth, other.truth if isinstance(other, Relation) else bool(other)))
 
     __rand__, __ror__ = __and__, __or__
@@ -195,7 +196,7 @@ class Relation:
     def __invert__(self) -> Relation:
         return Relation(sympy.Not(self.truth))
 
-    def __array_function__(self, function: Any, types: Any, args: Any, options: Any) -> Any:
+    def __array_function__(self, function: Callable[..., object], types: object, args: tuple[Scalar, ...], options: object) -> Scalar:
         if function in (np.any, np.all):
             return function is np.all
         if function is not np.where or options or len(args) != 3 or not isinstance(args[0], Relation):
@@ -206,12 +207,12 @@ class Relation:
         raise DefinitionError("A comparison in an `if` has no symbolic form; np.where chooses by one.")
 
 
-def as_number(function: Any) -> Callable[..., Term]:
+def as_number(function: Callable[..., sympy.Expr]) -> Callable[..., Term]:
     """Return a function of numbers and angles whose value is a plain number."""
     return lambda *terms: Term(function(*(each.expr for each in terms)))
 
 
-def keeping_unit(function: Any) -> Callable[..., Term]:
+def keeping_unit(function: Callable[..., sympy.Expr]) -> Callable[..., Term]:
     """Return a function whose value measures what its arguments measure."""
     return lambda *terms: Term(function(*(each.expr for each in terms)), max(terms, key=lambda each: each.unit != NUMBER).unit)
 
@@ -278,10 +279,10 @@ class CurveFunction(sympy.Function):  # type: ignore[misc]
     curve: ClassVar[Tabulated]
     order: ClassVar[int]
 
-    def fdiff(self, argindex: int = 1) -> Any:
+    def fdiff(self, argindex: int = 1) -> sympy.Expr:
         return curve_function(self.curve, self.order + 1)(self.args[0])
 
-    def doit(self, **options: Any) -> Any:
+    def doit(self, **options: object) -> sympy.Expr:
         return self.curve.value(Term(self.args[0].doit()), self.order, either, within_half_a_turn).expr
 
 
@@ -291,7 +292,7 @@ def curve_function(curve: Tabulated, order: int) -> type[CurveFunction]:
     return type(curve.name + "'" * order, (CurveFunction,), {"curve": curve, "order": order})
 
 
-def either(a: Any, b: Any, x: Any, y: Any) -> Term:
+def either(a: Term | float, b: Term | float, x: Term | float, y: Term | float) -> Term:
     """Return x where a <= b, else y."""
     value, other = (sympy.nan if isinstance(each, float) and isnan(each) else term(each).expr for each in (x, y))
     return Term(sympy.Piecewise((value, term(a).expr <= term(b).expr), (other, True), evaluate=False))
@@ -305,15 +306,27 @@ def within_half_a_turn(angle: Term) -> Term:
 # Points and vectors of the symbolic reading: SymPy vectors that obey the plane's algebra, as the rules of steps ask.
 
 
+class VectorReading(Protocol):
+    """What a place reads its vectors from: the listing."""
+
+    def between(self, P: str, Q: str) -> sympy.MatrixExpr:
+        """Return the vector PQ."""
+
+    def link(self, P: str, Q: str) -> Term | None:
+        """Return the length of the link PQ; None without a link."""
+
+
 @final
 class Place:
     """A point, a vector or a direction. Its expression is asked for when it is first needed, so that nothing idle is written."""
 
-    def __init__(self, written: Callable[[], Any], reading: Any, points: tuple[str, ...] = (), unit: Unit = LENGTH) -> None:
+    def __init__(
+        self, written: Callable[[], sympy.MatrixExpr], reading: VectorReading, points: tuple[str, ...] = (), unit: Unit = LENGTH
+    ) -> None:
         self._written, self._reading, self._points, self.unit = written, reading, points, unit
 
     @property
-    def expr(self) -> Any:
+    def expr(self) -> sympy.MatrixExpr:
         """The SymPy vector."""
         return self._written()
 
@@ -327,7 +340,7 @@ class Place:
         """The y component."""
         return Term(self.expr[1, 0], self.unit)
 
-    def _like(self, written: Callable[[], Any], unit: Unit | None = None) -> Place:
+    def _like(self, written: Callable[[], sympy.MatrixExpr], unit: Unit | None = None) -> Place:
         return Place(written, self._reading, unit=unit or self.unit)
 
     def __add__(self, other: Place | Vec) -> Place:
@@ -342,7 +355,7 @@ class Place:
     def __neg__(self) -> Place:
         return self._like(lambda: MatMul(-1, self.expr))
 
-    def __mul__(self, factor: Any) -> Place:
+    def __mul__(self, factor: Term | float) -> Place:
         scale = term(factor)
         return self._like(lambda: self.expr if scale.expr == 1 else MatMul(scale.expr, self.expr), self.unit.times(scale.unit))
 
@@ -358,7 +371,7 @@ class Place:
         """Return this vector turned by +90 degrees."""
         return self._like(lambda: TurnV(self.expr, Deg(90)))
 
-    def turned(self, cos: Any, sin: Any) -> Place:
+    def turned(self, cos: Term | float, sin: Term | float) -> Place:
         """Return this vector turned by the angle with that cosine and sine."""
         found: Place = self * cos + self.left() * sin
         return found
@@ -373,7 +386,7 @@ class Place:
         return Term(Norm(self.expr), self.unit) ** 2
 
 
-def vector_expr(given: Place | Vec) -> Any:
+def vector_expr(given: Place | Vec) -> sympy.MatrixExpr:
     """Return a vector as SymPy's: that of a place, or of two components that a step's rule has put together."""
     return given.expr if isinstance(given, Place) else sympy.ImmutableMatrix([term(given.x).expr, term(given.y).expr])
 

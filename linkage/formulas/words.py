@@ -6,13 +6,13 @@ Source: Dyuzhev, Kotov, Chuprynin, "Universality of the hitch of the power vehic
 
 from __future__ import annotations
 
-from typing import Any, final
+from typing import Self, final
 
 import sympy
 from sympy.matrices.expressions.matexpr import MatrixElement, MatrixExpr
 
 
-def vector_symbol(name: str) -> Any:
+def vector_symbol(name: str) -> sympy.MatrixSymbol:
     """Return the symbol of a vector or a position."""
     return sympy.MatrixSymbol(name, 2, 1)
 
@@ -22,12 +22,12 @@ class PointSymbol(sympy.MatrixSymbol):  # type: ignore[misc]
     """The symbol of a position: it comes first in a sum."""
 
 
-def point_symbol(name: str) -> Any:
+def point_symbol(name: str) -> PointSymbol:
     """Return the symbol of a position."""
     return PointSymbol(name, 2, 1)
 
 
-def components_of(vector: Any) -> tuple[Any, Any]:
+def components_of(vector: MatrixExpr) -> tuple[sympy.Expr, sympy.Expr]:
     """Return both components of a vector, written out."""
     return vector[0, 0].doit(), vector[1, 0].doit()
 
@@ -35,7 +35,7 @@ def components_of(vector: Any) -> tuple[Any, Any]:
 class TurnV(MatrixExpr):  # type: ignore[misc]
     """The vector V turned by the angle a [rad], counter-clockwise positive."""
 
-    def __new__(cls, vector: Any, angle: Any) -> Any:
+    def __new__(cls, vector: MatrixExpr, angle: sympy.Expr) -> MatrixExpr:
         return super().__new__(cls, vector, sympy.sympify(angle))
 
     @property
@@ -43,16 +43,16 @@ class TurnV(MatrixExpr):  # type: ignore[misc]
         return (2, 1)
 
     @property
-    def scale(self) -> Any:
+    def scale(self) -> sympy.Expr:
         """The factor to the length."""
         return sympy.S.One
 
-    def _entry(self, i: Any, j: Any, **options: Any) -> Any:
+    def _entry(self, i: sympy.Integer, j: sympy.Integer, **options: object) -> sympy.Expr:
         (x, y), angle = components_of(self.args[0]), self.args[1].doit()
         cos, sin = sympy.cos(angle), sympy.sin(angle)
         return self.scale * (x * cos - y * sin if i == 0 else x * sin + y * cos)
 
-    def doit(self, **options: Any) -> Any:
+    def doit(self, **options: object) -> Self:
         return self
 
 
@@ -60,11 +60,11 @@ class TurnV(MatrixExpr):  # type: ignore[misc]
 class TurnVL(TurnV):
     """The vector V turned by the angle a [rad] and scaled to the length L [m]: TurnV(V, a) L/|V|."""
 
-    def __new__(cls, vector: Any, angle: Any, length: Any) -> Any:
+    def __new__(cls, vector: MatrixExpr, angle: sympy.Expr, length: sympy.Expr) -> MatrixExpr:
         return MatrixExpr.__new__(cls, vector, sympy.sympify(angle), sympy.sympify(length))
 
     @property
-    def scale(self) -> Any:
+    def scale(self) -> sympy.Expr:
         return self.args[2].doit() / Norm(self.args[0]).doit()
 
 
@@ -75,7 +75,7 @@ class Tcos(sympy.Function):  # type: ignore[misc]
     nargs = 3
     is_real = True
 
-    def doit(self, **options: Any) -> Any:
+    def doit(self, **options: object) -> sympy.Expr:
         a, b, c = (side.doit() for side in self.args)
         return sympy.acos((a**2 + b**2 - c**2) / (2 * a * b))
 
@@ -86,7 +86,7 @@ class VectorNumber(sympy.Expr):  # type: ignore[misc]
     is_real = True
     is_commutative = True
 
-    def __new__(cls, *args: Any) -> Any:
+    def __new__(cls, *args: sympy.Basic) -> sympy.Expr:
         return super().__new__(cls, *map(sympy.sympify, args))
 
 
@@ -96,7 +96,7 @@ class Norm(VectorNumber):
 
     is_nonnegative = True
 
-    def doit(self, **options: Any) -> Any:
+    def doit(self, **options: object) -> sympy.Expr:
         x, y = components_of(self.args[0])
         return sympy.sqrt(x**2 + y**2)
 
@@ -105,7 +105,7 @@ class Norm(VectorNumber):
 class Direction(VectorNumber):
     """The direction of V [rad], counter-clockwise from the x axis."""
 
-    def doit(self, **options: Any) -> Any:
+    def doit(self, **options: object) -> sympy.Expr:
         x, y = components_of(self.args[0])
         return sympy.atan2(y, x)
 
@@ -114,7 +114,7 @@ class Direction(VectorNumber):
 class Dot(VectorNumber):
     """The scalar product of two vectors [m2]."""
 
-    def doit(self, **options: Any) -> Any:
+    def doit(self, **options: object) -> sympy.Expr:
         (a, b), (c, d) = map(components_of, self.args)
         return a * c + b * d
 
@@ -123,7 +123,7 @@ class Dot(VectorNumber):
 class Cross(VectorNumber):
     """The z component of the vector product of two vectors [m2]."""
 
-    def doit(self, **options: Any) -> Any:
+    def doit(self, **options: object) -> sympy.Expr:
         (a, b), (c, d) = map(components_of, self.args)
         return a * d - b * c
 
@@ -134,14 +134,14 @@ class Deg(VectorNumber):
 
     is_number = True
 
-    def doit(self, **options: Any) -> Any:
+    def doit(self, **options: object) -> sympy.Expr:
         return self.args[0] * sympy.pi / 180
 
-    def _eval_evalf(self, prec: int) -> Any:
+    def _eval_evalf(self, prec: int) -> sympy.Expr:
         return self.doit()._eval_evalf(prec)
 
 
-def explicit(expr: Any) -> tuple[Any, ...]:
+def explicit(expr: sympy.Basic) -> tuple[sympy.Expr, ...]:
     """Return an expression in scalars and elementary functions: one for a number, two for a vector.
 
     A vector's components are the symbols `AB.x` and `AB.y`.
@@ -150,6 +150,6 @@ def explicit(expr: Any) -> tuple[Any, ...]:
     return tuple(each.xreplace({part: component_symbol(part) for part in each.atoms(MatrixElement)}) for each in entries)
 
 
-def component_symbol(part: Any) -> Any:
+def component_symbol(part: MatrixElement) -> sympy.Symbol:
     """Return the plain symbol of one component of a vector."""
     return sympy.Symbol(f"{part.parent.name}.{'xy'[int(part.i)]}", real=True)

@@ -10,7 +10,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, TypeAlias, final, get_args
+from typing import ClassVar, Literal, TypeAlias, final, get_args
 
 import numpy as np
 
@@ -48,7 +48,7 @@ class TwoPoint(ForceElement):
     places: ClassVar[tuple[str, ...]] = ("A", "B")
     drawn_as: ClassVar[DrawnAs] = "strut"
 
-    def __init_subclass__(cls, **options: Any) -> None:
+    def __init_subclass__(cls, **options: object) -> None:
         super().__init_subclass__(**options)
         if cls.drawn_as not in get_args(DrawnAs):
             raise DefinitionError(f"{cls.__name__}: drawn_as={cls.drawn_as!r} is none of {', '.join(get_args(DrawnAs))}.")

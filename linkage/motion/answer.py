@@ -174,6 +174,6 @@ def share_text(share: float) -> str:
     return f"{100.0 * share:.3g} %" if share > 0.0 else said("a narrow part")
 
 
-def places_text(strokes: Mapping[str, Any], units: Mapping[str, str]) -> str:
+def places_text(strokes: Mapping[str, object], units: Mapping[str, str]) -> str:
     """Return values of strokes as a place is read: `S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
     return ", ".join(f"{name} = {place_text(value, units[name])}" for name, value in strokes.items())

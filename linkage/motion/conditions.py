@@ -203,7 +203,7 @@ def condition_of_sine(sine: FloatArray) -> FloatArray:
         return worst
 
 
-def singular_error(found: Conditioning, mask: Mask, strokes: Mapping[str, Any], what: str, motion: MotionLike) -> SingularError:
+def singular_error(found: Conditioning, mask: Mask, strokes: Mapping[str, object], what: str, motion: MotionLike) -> SingularError:
     """Return the error for a result asked at singular poses; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
     near = found.culprit()
@@ -227,7 +227,7 @@ def singular_error(found: Conditioning, mask: Mask, strokes: Mapping[str, Any], 
     )  # fmt: skip
 
 
-def lost_places(found: Conditioning, mask: Mask, strokes: Mapping[str, Any]) -> SingularError:
+def lost_places(found: Conditioning, mask: Mask, strokes: Mapping[str, object]) -> SingularError:
     """Return the error for poses of which rounding leaves nothing; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
     near = found.culprit()

@@ -93,7 +93,7 @@ def evaluate_apart(
 
 
 def at_one_pose(
-    plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], requests: Sequence[RequestLike]
+    plan: Plan, designs: Mapping[str, object], strokes: Mapping[str, object], requests: Sequence[RequestLike]
 ) -> list[FloatArray] | None:
     """Return the values of requests at one pose within the declared strokes; None where it has to be looked at closely, or are several.
 
@@ -312,7 +312,7 @@ class Evaluation:
             self._refuse()
         self._fill(block, bad, inputs, [lost | mask for mask in refused])
 
-    def _failed(self, inputs: Mapping[str, Any], count: int) -> Mask:
+    def _failed(self, inputs: Mapping[str, object], count: int) -> Mask:
         """Return the mask of poses, shape (count,), at which something that the requests are built from cannot be placed."""
         plan, failed = self.grid.plan, np.zeros(count, bool)
         names = members_behind(plan, self.requests)
@@ -396,7 +396,7 @@ def part_of_input(value: Any, band: slice, part: slice, of_design: bool) -> Any:
     return value if np.ndim(value) == 0 or np.size(value) == 1 else value[band] if of_design else value[part]
 
 
-def input_at(value: Any, of_design: bool, mask: Mask) -> Any:
+def input_at(value: object, of_design: bool, mask: Mask) -> Any:
     """Return a flat input at the poses of a mask."""
     shaped = np.asarray(value, float)
     if shaped.ndim == 1 and of_design:
@@ -420,7 +420,7 @@ class PoseProgram:
         self._order = [list(plan.strokes).index(node.value) for node in self.bulk.kernel.plan.pose_inputs]
         self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
 
-    def of_design(self, designs: Mapping[str, Any]) -> Pose | None:
+    def of_design(self, designs: Mapping[str, object]) -> Pose | None:
         """Return the function of one design, that of the latest kept; None for several designs."""
         known, pose = self._latest
         if known is not designs:
@@ -455,7 +455,7 @@ class PoseProgram:
 
         return at
 
-    def _keeps_digits(self, designs: Mapping[str, Any], strokes: Sequence[float]) -> bool:
+    def _keeps_digits(self, designs: Mapping[str, object], strokes: Sequence[float]) -> bool:
         """Return whether a coarse look shows that all requests keep their digits at a pose."""
         inputs = {**designs, **dict(zip(self._plan.strokes, strokes, strict=True))}
         return all(keeps_digits(self._plan, each, inputs, ONE_POSE)[0, 0] for each in self._requests)
@@ -503,7 +503,7 @@ class PoseFunction:
         return PoseFunction, (self._plan, self._designs, self._requests)
 
 
-def one_value(value: Any, name: str, title: str) -> FloatArray:
+def one_value(value: object, name: str, title: str) -> FloatArray:
     """Return a stroke's one value, shape (); DefinitionError for several, and for anything but a finite number."""
     try:
         found = real(value)

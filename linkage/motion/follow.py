@@ -43,7 +43,7 @@ Pose: TypeAlias = Callable[[Sequence[float]], "tuple[list[float], list[list[floa
 """The values of the targets at some strokes, and their slopes, a row each; None where there is no pose."""
 
 
-def followed(plan: Plan, designs: Mapping[str, Any], targets: Any, hold: Any, start: Any, unreachable: str) -> Motion:
+def followed(plan: Plan, designs: Mapping[str, object], targets: object, hold: object, start: object, unreachable: str) -> Motion:
     """Return the motion along a path of places; see Mechanism.follow."""
     one_word("unreachable", unreachable, ("raise", "nan"))
     places = Places.of(plan, designs, targets, hold, where="follow")

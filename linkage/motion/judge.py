@@ -200,7 +200,7 @@ class Domain:
         steps = SAMPLES if count < 2 else values_a_stroke(count, self.motion._grid.size[0]) - 1
         return dict.fromkeys(self.running, 1.0 / steps)
 
-    def situations(self, request: Any, acting: Acting) -> list[Situation]:
+    def situations(self, request: object, acting: Acting) -> list[Situation]:
         """Return the load cases and movements in which a request is judged here; one without anything for what is of no force."""
         if not isinstance(request, Request):
             return [Situation()]
@@ -308,7 +308,7 @@ def rubs(plan: Plan, motion: Motion, acting: Acting) -> bool:
         return any(each.feeds(plan.members) or each.frictions(motion) for each in own) or acting.rates is not None
 
 
-def case_named(plan: Plan, case: Any) -> str:
+def case_named(plan: Plan, case: object) -> str:
     """Return the name of a load case of the class, by its name, its title or itself; DefinitionError for any other."""
     cases = plan.of_kind(LoadCase)
     for name, each in cases.items():
@@ -536,7 +536,8 @@ class Judge:
     """Who answers questions about some designs of a machine: over all of its `overs`, in all that acts."""
 
     def __init__(
-        self, plan: Plan, designs: Mapping[str, Numbers], overs: Sequence[Over | Motion], acting: Acting | None = None, machine: Any = None
+        self, plan: Plan, designs: Mapping[str, Numbers], overs: Sequence[Over | Motion], acting: Acting | None = None,
+        machine: object = None,
     ) -> None:
         if acting is not None and not isinstance(acting, Acting):
             raise DefinitionError(f'{plan.title}: acting={cited(acting)}: a situation is expected, such as Acting(case="full").')
@@ -715,7 +716,7 @@ class Judge:
 
     # -- from leaves to questions ------------------------------------------------------------------------
 
-    def candidates(self, question: Any, number: int) -> list[Candidate]:
+    def candidates(self, question: object, number: int) -> list[Candidate]:
         """Return a constraint, or a bare measure, in every situation over one `Over`, by its number."""
         leaves, of_poses = leaves_of(question), is_at_poses(question)
         place, seen = (self.anywhere, None) if of_poses else (self.places[number], self._seen[number])
@@ -764,7 +765,7 @@ class Judge:
             error = assembly_error_at(self.motion, strokes) if strokes and not self.motion._design_shape else None
         return Lost(1.0, strokes, " ".join(str(error).split()) if error is not None else "")
 
-    def worst(self, question: Any, constraints: Sequence[Any]) -> Answer:
+    def worst(self, question: object, constraints: Sequence[object]) -> Answer:
         """Return the answer to a question: the worst of what it is in every situation over every `Over`, of a batch for every design."""
         count = len(self.places) if any(not is_at_poses(one) for one in constraints) else 1
         candidates = [each for number in range(count) for one in constraints for each in self.candidates(one, number)]
@@ -781,7 +782,7 @@ class Judge:
             each_of.append(self.answered(question, [of_one_design(each, design, shape) for each in candidates], own))
         return of_batch(each_of, shape)
 
-    def answered(self, question: Any, candidates: Sequence[Candidate], margins: FloatArray) -> Answer:
+    def answered(self, question: object, candidates: Sequence[Candidate], margins: FloatArray) -> Answer:
         """Return the answer of one design."""
         is_bare = isinstance(question, Measure)
         lost = next((found for each in candidates if (found := self.lost(each))), NONE_LOST)
@@ -804,7 +805,7 @@ class Judge:
         return self.named_answer(question, worst, float(worst.value), ok, status, strokes, candidates, lost)
 
     def named_answer(
-        self, question: Any, worst: Candidate, value: float, ok: bool | None, status: str, strokes: Mapping[str, float],
+        self, question: object, worst: Candidate, value: float, ok: bool | None, status: str, strokes: Mapping[str, float],
         candidates: Sequence[Candidate], lost: Lost,
     ) -> Answer:  # fmt: skip
         """Return an answer, with what has to be named as there are several."""
@@ -899,7 +900,7 @@ def of_one_design(candidate: Candidate, place: tuple[Any, ...], shape: tuple[int
     )  # fmt: skip
 
 
-def questions_of(plan: Plan, given: Any) -> list[Any]:
+def questions_of(plan: Plan, given: object) -> list[Any]:
     """Return questions as a list; DefinitionError for anything else."""
     listed = [given] if isinstance(given, (Measure, Condition)) else given
     if not isinstance(listed, (list, tuple)):
@@ -922,7 +923,7 @@ def leaves_of(question: Any) -> tuple[Leaf, ...]:
     return found
 
 
-def is_at_poses(question: Any) -> bool:
+def is_at_poses(question: object) -> bool:
     """Return whether a constraint or a measure is only about poses that it says itself, whatever the `Over`."""
     leaves = leaves_of(question)
     return bool(leaves) and all(isinstance(leaf, At) for leaf in leaves)
@@ -936,12 +937,12 @@ def leaf_key(plan: Plan, leaf: Leaf) -> Any:
     return type(leaf).__name__, inner, strokes, leaf.by if isinstance(leaf, Integral) else None
 
 
-def plain_identity(plan: Plan, quantity: Any) -> Hashable:
+def plain_identity(plan: Plan, quantity: object) -> Hashable:
     """Return what tells a quantity or a request from others; None for a function of a motion, and for what may change."""
     return identity_of(plan, quantity) if isinstance(quantity, (str, Quantity, Request)) else None
 
 
-def key_of(plan: Plan, quantity: Any) -> Any:
+def key_of(plan: Plan, quantity: object) -> Any:
     """Return what tells a piece from others as long as it lives."""
     identity = plain_identity(plan, quantity)
     return id(quantity) if identity is None else identity
@@ -1007,7 +1008,7 @@ def valued(question: Any, number: Callable[[Leaf], FloatArray]) -> tuple[FloatAr
     return left, np.where((margin < 0.0) & (margin >= -size), 0.0, margin)
 
 
-def measures_of(plan: Plan, question: Any) -> str:
+def measures_of(plan: Plan, question: object) -> str:
     """Return what the value of a question measures, where that is plain."""
     measure = question.left if isinstance(question, Constraint) else question
     if not isinstance(measure, Leaf) or isinstance(measure, Integral):

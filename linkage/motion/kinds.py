@@ -62,7 +62,7 @@ class MeasureKind:
 # What a quantity measures, by its parts.
 
 
-def measure_of(plan: Plan, quantity: Any) -> str:
+def measure_of(plan: Plan, quantity: object) -> str:
     """Return what a quantity measures: "length", "angle", "force", "pressure", or "" where that is not known."""
     if isinstance(quantity, Leaf) and not isinstance(quantity, Integral):
         return measure_of(plan, quantity.quantity)
@@ -112,7 +112,7 @@ def kind_of_measure(plan: Plan, measure: Measure) -> MeasureKind | None:
     return product_of(measure.symbol == "/", (left, unitless_number(measure.left)), (right, unitless_number(measure.right)))
 
 
-def kind_of_quantity(plan: Plan, quantity: Any) -> MeasureKind | None:
+def kind_of_quantity(plan: Plan, quantity: object) -> MeasureKind | None:
     """Return the kind of a quantity or request; None where it is not known, and of a number. DefinitionError as for a measure."""
     known = plan.members.get(quantity) if isinstance(quantity, str) else quantity
     if isinstance(known, Worst):
@@ -141,7 +141,7 @@ def kind_of_quantity(plan: Plan, quantity: Any) -> MeasureKind | None:
     return MeasureKind(KINDS["angle"]) if sign == "arctan2" else None
 
 
-def kind_of_one(plan: Plan, known: Any) -> MeasureKind | None:
+def kind_of_one(plan: Plan, known: object) -> MeasureKind | None:
     """Return the kind of a quantity or request that is made of no others."""
     if isinstance(known, Value) and known.along:
         target = plan.members.get(known.target) if isinstance(known.target, str) else known.target
@@ -164,7 +164,7 @@ def unitless_number(measure: Measure) -> float | None:
     return measure.value if isinstance(measure, Given) and not measure.measures else None
 
 
-def constant_part(part: Any) -> float | None:
+def constant_part(part: object) -> float | None:
     """Return a number that stands in a quantity; None for anything else."""
     return part.number if isinstance(part, Number) else part if isinstance(part, float) else None
 

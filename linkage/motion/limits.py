@@ -220,7 +220,7 @@ class Open:
 
 
 @np.errstate(all="ignore")
-def assembly_error(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mapping[str, Any], stop: str = "") -> AssemblyError:
+def assembly_error(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mapping[str, object], stop: str = "") -> AssemblyError:
     """Return the error for poses that cannot be assembled.
 
     `reading` holds the failing poses, `mask` all of them (designs first, strokes last), `strokes` their values.

@@ -290,7 +290,7 @@ def worst(quantity: MeasuredQuantity, over: str, by: Callable[..., Any] = most) 
     return Worst(inner, over, 1.0 if by is most else -1.0)
 
 
-def require_quantity(quantity: Any, word: str) -> Any:
+def require_quantity(quantity: object, word: str) -> Any:
     """Return what is a quantity; DefinitionError for anything else."""
     if isinstance(quantity, Measure):
         raise DefinitionError(f"{word}({quantity}): {quantity} is one number of a design already.")
@@ -372,7 +372,7 @@ reachable = Reachable()
 """Every pose of the stroke is assembled. A search keeps it also where it is not written."""
 
 
-def conditions_of(given: Any, machine: Any) -> list[Constraint]:
+def conditions_of(given: object, machine: object) -> list[Constraint]:
     """Return the constraints of conditions; DefinitionError for anything else."""
     listed = [given] if isinstance(given, (Condition, Measure, PoseCondition, bool)) else given
     if not isinstance(listed, (list, tuple)):
@@ -402,7 +402,7 @@ def in_case(measure: Measure, case: Case) -> Measure:
     return measure
 
 
-def quantity_in_case(quantity: Any, case: Case) -> Any:
+def quantity_in_case(quantity: object, case: Case) -> Any:
     """Return a quantity with the forces of a load case."""
     if isinstance(quantity, Worst):
         situated = quantity_in_case(quantity.quantity, case)
@@ -451,7 +451,7 @@ def mean_in_cases(measure: Measure, shares: Spectrum) -> Measure:
 # Quantities as requests of a plan.
 
 
-def which_component(plan: Plan, quantity: Any) -> str:
+def which_component(plan: Plan, quantity: object) -> str:
     """Return how one component of a quantity of two is asked for: `ratio(x(G), order=2)` of `ratio(G, order=2)`."""
     if isinstance(quantity, Value) and name_of(quantity.target) in plan.points:
         one, other = (replace(quantity, target=part(name_of(quantity.target))) for part in (x, y))
@@ -460,7 +460,7 @@ def which_component(plan: Plan, quantity: Any) -> str:
     return f'say which, x("{name}") or y("{name}")' if quantity in plan.points else "take x(P) or y(P) for a point P in it"
 
 
-def traced(plan: Plan, quantity: Any) -> Request | None:
+def traced(plan: Plan, quantity: object) -> Request | None:
     """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for anything but a number."""
     if not isinstance(quantity, (str, Quantity, Request)):
         return None
@@ -485,7 +485,7 @@ def bound_quantity(plan: Plan, quantity: str | Quantity | Request) -> Request:
     return bound(plan, quantity)
 
 
-def strokes_behind(plan: Plan, quantity: Any) -> tuple[str, ...]:
+def strokes_behind(plan: Plan, quantity: object) -> tuple[str, ...]:
     """Return the strokes that a quantity depends on; all of them for a function of a motion."""
     if not isinstance(quantity, (str, Quantity, Request)):
         return tuple(plan.strokes)

@@ -286,13 +286,13 @@ class Motion(Shown):
         found = np.where(refused, np.nan, found) if np.count_nonzero(refused) else found
         return self._finite(found, refused, f"{words} by {stroke}")
 
-    def velocity(self, target: Reference, rates: Mapping[str, Any]) -> FloatArray:
+    def velocity(self, target: Reference, rates: Mapping[str, object]) -> FloatArray:
         """Return the velocity of a point [m/s], shape (2, ...), or the rate of an output, from stroke rates [1/s]."""
         gaps = self.unreachable == "nan"
         given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title, gaps=gaps)
         return sum((self.ratio(target, wrt=name) * rate for name, rate in given.items()), self._still(target))
 
-    def acceleration(self, target: Reference, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> FloatArray:
+    def acceleration(self, target: Reference, rates: Mapping[str, object], accelerations: Mapping[str, object] | None = None) -> FloatArray:
         """Return the acceleration of a point [m/s2], shape (2, ...), from stroke rates and accelerations."""
         gaps = self.unreachable == "nan"
         given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title, gaps=gaps)
@@ -308,7 +308,7 @@ class Motion(Shown):
                 total = total + self._evaluated(Value(member, tuple(sorted((first, second))))) * u * v
         return np.where(refused, np.nan, total)
 
-    def rates_for(self, velocities: Mapping[RequestLike, Any]) -> dict[str, FloatArray]:
+    def rates_for(self, velocities: Mapping[RequestLike, object]) -> dict[str, FloatArray]:
         """Return the stroke rates [1/s] that give outputs their rates and points their velocities: `rates_for({"px": 0.2, "py": 0.0})`.
 
         As many as there are strokes, by name or quantity, a number or an array over the poses each; of a point the two parts, (0.2, 0.0); a
@@ -318,7 +318,7 @@ class Motion(Shown):
         return rates_for(self, velocities)
 
     def pole(
-        self, body: Reference, other: Reference = "frame", *, wrt: str | None = None, rates: Mapping[str, Any] | None = None
+        self, body: Reference, other: Reference = "frame", *, wrt: str | None = None, rates: Mapping[str, object] | None = None
     ) -> FloatArray:
         """Return the pole of a body, its instant centre, against the frame or another body, shape (2, ...) [m]; over a sweep, its path.
 
@@ -408,7 +408,7 @@ class Motion(Shown):
             return None
         return stroke_search.interruptions(self) if self.unreachable == "nan" else ()
 
-    def moved(self, strokes: Mapping[str, Any]) -> Self:
+    def moved(self, strokes: Mapping[str, object]) -> Self:
         """Return the same designs at other strokes [SI], each at its own where the arrays begin with the designs; NaN out of reach."""
         given = strokes if isinstance(strokes, Mapping) else {}
         if given.keys() != self.strokes.keys():
@@ -662,12 +662,12 @@ class Motion(Shown):
         with np.errstate(all="ignore"):
             return self.plan.points[name].meeting(self._placed)
 
-    def _array(self, values: Any) -> FloatArray:
+    def _array(self, values: object) -> FloatArray:
         """Return numbers as arrays of floats."""
         return np.asarray(values, float)
 
 
-def rates_for(motion: Motion, velocities: Any) -> dict[str, FloatArray]:
+def rates_for(motion: Motion, velocities: object) -> dict[str, FloatArray]:
     """Return the stroke rates that give some velocities; see Motion.rates_for."""
     plan, title = motion.plan, f"{motion.plan.title}.rates_for"
     if not isinstance(velocities, Mapping) or not velocities:

@@ -43,26 +43,27 @@ class Over(Member):
     lost: str
 
     def __init__(
-        self, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[Any] | None = None, lost: str = "", **strokes: Any
+        self, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[object] | None = None, lost: str = "",
+        **strokes: object,
     ) -> None:
         self._hold("box", {name: box_ends(name, value) for name, value in strokes.items()}, only, cases, lost)
 
     @classmethod
     def path(
-        cls, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[Any] | None = None, lost: str = "", **strokes: Any
+        cls, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[object] | None = None, lost: str = "", **strokes: object
     ) -> Self:
         """Return straight legs through places in this order: an array of values for each stroke, as many each; a number is held."""
         return cls._of_places("path", strokes, only, cases, lost)
 
     @classmethod
     def poses(
-        cls, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[Any] | None = None, lost: str = "", **strokes: Any
+        cls, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[object] | None = None, lost: str = "", **strokes: object
     ) -> Self:
         """Return these poses and nothing between them: an array of values for each stroke, as many each; a number is held."""
         return cls._of_places("poses", strokes, only, cases, lost)
 
     @classmethod
-    def _of_places(cls, shape: str, strokes: Mapping[str, Any], only: Any, cases: Any, lost: Any) -> Self:
+    def _of_places(cls, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object) -> Self:
         found = cls()
         object.__setattr__(found, "_name", "")
         values = {name: place_values(shape, name, value) for name, value in strokes.items()}
@@ -73,7 +74,7 @@ class Over(Member):
         found._hold(shape, values, only, cases, lost)
         return found
 
-    def _hold(self, shape: str, strokes: Mapping[str, Any], only: Any, cases: Any, lost: Any) -> None:
+    def _hold(self, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object) -> None:
         """Keep what was given; DefinitionError for a wrong condition, case or word."""
         listed = (only,) if isinstance(only, PoseCondition) else only
         if not isinstance(listed, (list, tuple)) or not all(isinstance(each, PoseCondition) for each in listed):
@@ -218,19 +219,19 @@ class Over(Member):
         return str(self)
 
 
-def ends_text(value: Any) -> str:
+def ends_text(value: object) -> str:
     """Return the value of a stroke as it is written."""
     if isinstance(value, tuple):
         return f"({', '.join(map(ends_text, value))})"
     return repr(float(value)) if is_number(value) else str(getattr(value, "name", "") or value)
 
 
-def is_end(value: Any) -> bool:
+def is_end(value: object) -> bool:
     """Return whether a value is a number, a quantity or a name, that of a part's with dots in it."""
     return is_number(value) or isinstance(value, Quantity) or (isinstance(value, str) and all(map(str.isidentifier, value.split("."))))
 
 
-def box_ends(name: str, value: Any) -> Any:
+def box_ends(name: str, value: object) -> Any:
     """Return what a stroke of a box is given: a number, a quantity or its name, or two of such; DefinitionError for anything else."""
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) == 2 and all(map(is_end, value)):
@@ -246,7 +247,7 @@ def box_ends(name: str, value: Any) -> Any:
     raise DefinitionError(f"Over({name}={cited(value)}): (low, high) or one value is expected, in SI.")
 
 
-def place_values(shape: str, name: str, value: Any) -> Any:
+def place_values(shape: str, name: str, value: object) -> Any:
     """Return what a stroke of a path is given: numbers or quantities in their order, or one where it is held."""
     if is_end(value) and not is_number(value):
         return value

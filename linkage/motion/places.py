@@ -293,7 +293,7 @@ def traced_target(plan: Plan, target: Target, title: str) -> Request:
     return found
 
 
-def held_strokes(plan: Plan, hold: Any, title: str) -> dict[str, float]:
+def held_strokes(plan: Plan, hold: object, title: str) -> dict[str, float]:
     """Return the strokes that are held, by name; DefinitionError for a name that is no stroke, and for a value that is no number."""
     if hold is None:
         return {}

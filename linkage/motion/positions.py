@@ -29,13 +29,13 @@ class StrokeRows(np.ndarray[Any, np.dtype[np.float64]]):
 
     names: tuple[str, ...]
 
-    def __new__(cls, rows: Any, names: Iterable[str]) -> StrokeRows:
+    def __new__(cls, rows: object, names: Iterable[str]) -> StrokeRows:
         found = np.array(rows, float).view(cls)
         found.names = tuple(names)
         found.flags.writeable = False
         return found
 
-    def __array_finalize__(self, other: Any) -> None:
+    def __array_finalize__(self, other: object) -> None:
         self.names = getattr(other, "names", ())
 
     def __getitem__(self, key: Any) -> Any:
@@ -98,7 +98,7 @@ class Positions:
         return self.sentence
 
 
-def positions_for(plan: Plan, designs: Mapping[str, Any], targets: Any, hold: Any) -> Positions:
+def positions_for(plan: Plan, designs: Mapping[str, object], targets: object, hold: object) -> Positions:
     """Return the strokes that give some targets; see `strokes_for`."""
     places = Places.of(plan, designs, targets, hold, where="strokes_for")
     for each in places.targets:

@@ -103,7 +103,7 @@ class Forbidden:
     shape: Any
 
 
-def outside(shape: Any) -> Forbidden:
+def outside(shape: object) -> Forbidden:
     """Return a shape as a forbidden one: `regions={"C": ["frame", outside("wheel")]}`."""
     return Forbidden(shape)
 
@@ -156,7 +156,7 @@ def crossing(X: Vec, edge: tuple[Vec, Vec], choose: Pick) -> Scalar:
     return choose(2.5, np.abs(from_start + to_end + left), -1.0, 1.0)
 
 
-def inside(point: Reference, *shapes: Any) -> NodeRequest:
+def inside(point: Reference, *shapes: object) -> NodeRequest:
     """Return the request for how far a point lies inside a region [m], below zero outside: `inside("C", [(0, 0), (1, 0), (1, 0.5)])`.
 
     Each shape is a polygon by its corners [m], an `Outline` of the frame or `Outline.circle(...)`. The point is to be in one of them, and
@@ -188,7 +188,7 @@ def inside_names(point: str, plan: Plan) -> set[str]:
 # What a user writes.
 
 
-def region_of(given: Any, where: str, outlines: Any = None, value: Any = None) -> Region:
+def region_of(given: object, where: str, outlines: object = None, value: object = None) -> Region:
     """Return the region of a shape or a list of shapes; DefinitionError for anything else.
 
     `outlines` are those of a machine by name, whose coordinates `value` gives as numbers.
@@ -205,14 +205,14 @@ def region_of(given: Any, where: str, outlines: Any = None, value: Any = None) -
     return Region(tuple(within), tuple(without))
 
 
-def is_shape(given: Any) -> bool:
+def is_shape(given: object) -> bool:
     """Return whether this is one shape and no list of several: an outline, its name, or corners."""
     if isinstance(given, (str, Outline, Forbidden, Polygon, Disc)):
         return True
     return isinstance(given, (list, tuple, np.ndarray)) and len(given) > 0 and all(is_place(each) for each in given)
 
 
-def is_place(given: Any) -> bool:
+def is_place(given: object) -> bool:
     """Return whether this is a pair of numbers."""
     return isinstance(given, (list, tuple, np.ndarray)) and len(given) == 2 and all(map(is_number, given))
 

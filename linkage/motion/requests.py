@@ -292,7 +292,7 @@ def stroke_of(plan: Plan, name: str | None, keyword: str = "wrt") -> str:
     return checked_name("Stroke", name, plan.strokes, plan.title)
 
 
-def dimensions_of(plan: Plan, names: Any) -> list[tuple[str, int]]:
+def dimensions_of(plan: Plan, names: object) -> list[tuple[str, int]]:
     """Return design variables by any of their spellings, with signs; DefinitionError for anything but one of them."""
     if isinstance(names, str):
         raise DefinitionError(f'{plan.title}: wrt="{names}": a list of dimensions is expected, wrt=["{names}"].')

@@ -21,7 +21,7 @@ FAR = 40.0
 """A stroke of a metre or more that is so many times the declared one was given in millimetres."""
 
 
-def known_strokes(given: Mapping[str, Any], strokes: Mapping[str, Stroke], title: str) -> None:
+def known_strokes(given: Mapping[str, object], strokes: Mapping[str, Stroke], title: str) -> None:
     """Raise DefinitionError for a stroke that is not there or not given."""
     for name in given:
         if name not in strokes:
@@ -31,7 +31,7 @@ def known_strokes(given: Mapping[str, Any], strokes: Mapping[str, Stroke], title
         raise DefinitionError(f"{title}: the stroke {', '.join(missing)} is not given; say {', '.join(f'{name}=...' for name in missing)}.")
 
 
-def at_values(given: Mapping[str, Any], plan: Plan, take: Callable[[Any], FloatArray] = real) -> dict[str, FloatArray]:
+def at_values(given: Mapping[str, object], plan: Plan, take: Callable[[Any], FloatArray] = real) -> dict[str, FloatArray]:
     """Return chosen stroke values, broadcast against each other; `take` makes arrays of them."""
     strokes, title = plan.strokes, plan.title
     known_strokes(given, strokes, title)
@@ -88,12 +88,12 @@ def is_round(value: float) -> bool:
     return abs(10.0 * value - round(10.0 * value)) < 1e-9 * abs(value)
 
 
-def float_array(value: Any) -> FloatArray:
+def float_array(value: object) -> FloatArray:
     """Return an array of floats as it is, not copied; anything else as `real` does."""
     return value if type(value) is np.ndarray and value.dtype == np.float64 else real(value)
 
 
-def sweep_values(count: int | None, given: Mapping[str, Any], plan: Plan) -> dict[str, FloatArray]:
+def sweep_values(count: int | None, given: Mapping[str, object], plan: Plan) -> dict[str, FloatArray]:
     """Return strokes over their ranges: an int is a count, a float a value; two counts give a grid."""
     strokes, title = plan.strokes, plan.title
     if count is not None:
@@ -114,7 +114,7 @@ def sweep_values(count: int | None, given: Mapping[str, Any], plan: Plan) -> dic
     return dict(zip(strokes, np.broadcast_arrays(*full), strict=True))
 
 
-def _axis(name: str, given: Any, plan: Plan) -> FloatArray:
+def _axis(name: str, given: object, plan: Plan) -> FloatArray:
     stroke, title = plan.strokes[name], plan.title
     if isinstance(given, (int, np.integer)) and not isinstance(given, bool):
         if given < 1:
@@ -132,13 +132,13 @@ def _axis(name: str, given: Any, plan: Plan) -> FloatArray:
 
 # What a motion is given for, checked: names, rates, orders and steps.
 
-def checked_name(kind: str, target: Any, known: Collection[str], title: str) -> str:
+def checked_name(kind: str, target: object, known: Collection[str], title: str) -> str:
     """Return the name of a member or the name as given; raise DefinitionError where it is not a known one."""
     return known_name(kind, target.name if isinstance(target, Member) else target, known, where=title)
 
 
 def rates_of(
-    what: str, given: Any, strokes: Mapping[str, FloatArray], shape: tuple[int, ...], title: str, *, gaps: bool = False
+    what: str, given: object, strokes: Mapping[str, FloatArray], shape: tuple[int, ...], title: str, *, gaps: bool = False
 ) -> dict[str, FloatArray]:
     """Return the stroke rates by name, a float or an array over the poses, NaN where there may be `gaps`; DefinitionError for others."""
     if not isinstance(given, Mapping):
@@ -150,7 +150,7 @@ def rates_of(
     }
 
 
-def checked_rate(what: str, value: Any, shape: tuple[int, ...], title: str, *, gaps: bool = False) -> FloatArray:
+def checked_rate(what: str, value: object, shape: tuple[int, ...], title: str, *, gaps: bool = False) -> FloatArray:
     """Return one rate; DefinitionError unless it is finite, or NaN where there may be `gaps`, and fits the poses."""
     try:
         rate = real(value)
@@ -162,14 +162,14 @@ def checked_rate(what: str, value: Any, shape: tuple[int, ...], title: str, *, g
     return rate
 
 
-def order_of(order: Any) -> int:
+def order_of(order: object) -> int:
     """Return the order of a derivative; DefinitionError unless it is 1 or 2."""
     if not is_whole(order) or order not in (1, 2):
         raise DefinitionError(f"order={order!r}: derivatives of order 1 and 2 are provided.")
     return int(order)
 
 
-def method_of(method: Any, step: Any) -> str:
+def method_of(method: object, step: object) -> str:
     """Return how to differentiate; DefinitionError for an unknown word or a step that is not a positive number."""
     if not isinstance(method, str) or method not in ("exact", "central"):
         raise DefinitionError(f'method={method!r}: say "exact" or "central".')

@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
-from typing import Any, ClassVar, TypeVar
+from typing import ClassVar, TypeVar
 
 import numpy as np
 
@@ -98,7 +98,7 @@ class Column:
         return f"{name}, {unit_sign(self.unit)}" if self.unit else name
 
 
-def are_numbers(values: Any) -> bool:
+def are_numbers(values: object) -> bool:
     """Return whether values are real numbers or truth values, all of them known."""
     try:
         array = np.asarray(values)

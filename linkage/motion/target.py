@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, NoReturn, final
+from typing import NoReturn, final
 
 import numpy as np
 
@@ -71,12 +71,12 @@ def quantity_cited(quantity: object) -> str:
     return str(quantity) if isinstance(quantity, (Quantity, Request)) else cited(quantity)
 
 
-def is_one(value: Any) -> bool:
+def is_one(value: object) -> bool:
     """Return whether a value is one finite number."""
     return is_number(value.item() if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value) else value)
 
 
-def values_along(what: str, value: Any) -> FloatArray:
+def values_along(what: str, value: object) -> FloatArray:
     """Return the values of a path, shape (places,), a copy; DefinitionError for anything but finite numbers in a row."""
     try:
         found = real(value)

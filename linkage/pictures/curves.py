@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from math import ceil, sqrt
 from textwrap import wrap
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -31,7 +31,7 @@ LETTERS_AN_INCH = 8.0
 """How many letters of a heading an inch has room for."""
 
 
-def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
+def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[object]] | None = None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; see `plot`."""
     along, columns = StrokeAxis.of(motion), columns_named(motion, columns)
     if limits is not None and not isinstance(limits, Mapping):
@@ -56,7 +56,7 @@ def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], *, limi
 def plot_machine(
     machine: Mechanism,
     columns: Sequence[Column | RequestLike] = (),
-    limits: Mapping[str, Sequence[Any]] | None = None,
+    limits: Mapping[str, Sequence[object]] | None = None,
     at: At = NOTHING,
     count: int = 101,
 ) -> Figure:
@@ -121,7 +121,7 @@ class Limit(NamedTuple):
         return np.asarray(values > self.value if self.fails == "above" else values < self.value)
 
 
-def limit_of(given: Sequence[Any]) -> Limit:
+def limit_of(given: Sequence[object]) -> Limit:
     """Return a limit from a tuple of its parts; DefinitionError for a side that is neither above nor below."""
     parts = tuple(given) if isinstance(given, (list, tuple)) else ()
     if not 1 <= len(parts) <= 3 or not is_number(parts[0]) or not all(isinstance(each, str) for each in parts[1:]):
@@ -143,7 +143,7 @@ def limit_crossings(along: FloatArray, values: FloatArray, at: float) -> list[fl
 # One curve over a stroke: its line, its limit with the failing side shaded, its axes.
 
 
-def panel(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None = None, colour: str = style.CURVE) -> None:
+def panel(ax: Axes, motion: Motion, column: Column, bound: Sequence[object] | None = None, colour: str = style.CURVE) -> None:
     """Draw a column over the stroke that a motion runs along, with its limit `(value [SI], text, fails)`."""
     along = StrokeAxis.of(motion)
     ax.plot(along.values, column.drawn, color=colour, linewidth=style.BOLD, zorder=5.0, marker="o" if len(along.values) == 1 else None)

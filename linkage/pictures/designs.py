@@ -41,7 +41,7 @@ TINTS = ("#0072b2", "#d55e00", "#007f5c", "#9a3a86", "#8a5a00", "#4a5a6a")
 """The colours of designs: Okabe and Ito's, some darker; a seventh one and those after it are lighter."""
 
 
-def draw_designs(machines: Sequence[Mechanism], at: Any, path: Sequence[str], count: int) -> Figure:
+def draw_designs(machines: Sequence[Mechanism], at: object, path: Sequence[str], count: int) -> Figure:
     """Return a figure of several designs at the same strokes: of two the first one faint, of more each in its own colour.
 
     `at` and `path` are as for one design; without `at` every stroke is at mid-stroke.

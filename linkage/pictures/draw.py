@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
@@ -46,11 +46,11 @@ def draw(machine: Synthesis, *, count: int = ..., answers: int = ...) -> Figure:
 @overload
 def draw(machine: Sequence[Assembly]) -> Figure: ...
 @overload
-def draw(machine: Sequence[Mechanism], at: Any = ..., path: Sequence[str] = ..., count: int = ...) -> Figure: ...
+def draw(machine: Sequence[Mechanism], at: object = ..., path: Sequence[str] = ..., count: int = ...) -> Figure: ...
 @overload
 def draw(
     machine: Mechanism | Motion,
-    at: Any = ...,
+    at: object = ...,
     path: Sequence[str] = ...,
     count: int = ...,
     *,
@@ -62,7 +62,7 @@ def draw(
     case: Case = ...,
     direction: str = ...,
     drive: str | None = ...,
-    velocities: Mapping[str, Any] | None = ...,
+    velocities: Mapping[str, object] | None = ...,
     pole: bool | str | tuple[str, str] = ...,
     clearance: bool | tuple[str, str] = ...,
 ) -> Figure: ...
@@ -72,7 +72,7 @@ def draw(machine: Burmester) -> Figure: ...
 def draw(machine: nx.MultiGraph) -> Figure: ...
 def draw(
     machine: Mechanism | Motion | Optimum | Synthesis | Burmester | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism],
-    at: Any = None,
+    at: object = None,
     path: Sequence[str] = (),
     count: int = 101,
     *,
@@ -84,7 +84,7 @@ def draw(
     case: Case = None,
     direction: str = "frictionless",
     drive: str | None = None,
-    velocities: Mapping[str, Any] | None = None,
+    velocities: Mapping[str, object] | None = None,
     pole: bool | str | tuple[str, str] = False,
     clearance: bool | tuple[str, str] = False,
     answers: int | None = None,
@@ -163,22 +163,22 @@ def draw(
 @overload
 def plot(motion: Optimum | WorkingField) -> Figure: ...
 @overload
-def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = ...) -> Figure: ...
+def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[object]] | None = ...) -> Figure: ...
 @overload
 def plot(
     motion: Mechanism,
     columns: Sequence[Column | RequestLike] = ...,
     *,
-    limits: Mapping[str, Sequence[Any]] | None = ...,
-    at: Mapping[str, Any] = ...,
+    limits: Mapping[str, Sequence[object]] | None = ...,
+    at: Mapping[str, object] = ...,
     count: int = ...,
 ) -> Figure: ...
 def plot(
     motion: Motion | Mechanism | Optimum | WorkingField,
     columns: Sequence[Column | RequestLike] = (),
     *,
-    limits: Mapping[str, Sequence[Any]] | None = None,
-    at: Mapping[str, Any] = NOTHING,
+    limits: Mapping[str, Sequence[object]] | None = None,
+    at: Mapping[str, object] = NOTHING,
     count: int = 101,
 ) -> Figure:
     """Return a figure of columns over the stroke, a panel each; a column that is the stroke itself is left out.

@@ -46,7 +46,7 @@ def animate(
     count: int = 60,
     column: str | None = None,
     trace: Sequence[str] | None = None,
-    limit: Sequence[Any] | None = None,
+    limit: Sequence[object] | None = None,
     at: At = NOTHING,
     progress: Progress | None = None,
 ) -> Path:
@@ -130,7 +130,7 @@ MOST = 9
 class Stage:
     """A figure with a mechanism on the left and a live curve on the right; `frame` gives it at a pose."""
 
-    def __init__(self, playback: Playback, paths: Sequence[str], bound: Sequence[Any] | Limit | None, dpi: int) -> None:
+    def __init__(self, playback: Playback, paths: Sequence[str], bound: Sequence[object] | Limit | None, dpi: int) -> None:
         self.playback, self.scene, self.along = playback, Scene(playback.motion), StrokeAxis.of(playback.motion)
         self.figure = Figure(figsize=(WIDTH, HEIGHT), dpi=dpi, facecolor=style.PAPER)
         self.canvas = cast(Any, FigureCanvasAgg(self.figure))  # matplotlib declares no types for its methods
@@ -158,7 +158,7 @@ class Stage:
         self._title(SHEET[0], self.scene.motion.plan.heading)
         return drawing
 
-    def _curve(self, bound: Sequence[Any] | None) -> tuple[Artist, ...]:
+    def _curve(self, bound: Sequence[object] | None) -> tuple[Artist, ...]:
         """Return what is drawn anew on the curve, from the lowest layer up: the piece run through, the limit, a marker."""
         ax = self.figure.add_axes(CURVE)
         panel(ax, self.playback.motion, self.playback.column, bound, colour=style.RULE)

@@ -67,7 +67,7 @@ def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
     return figure
 
 
-def require_optimum(optimum: Any) -> None:
+def require_optimum(optimum: object) -> None:
     """Raise DefinitionError for anything but an optimum."""
     if not isinstance(optimum, Optimum):
         raise DefinitionError(f"{cited(optimum)} is no result of a search; give what optimise(...) returns.")

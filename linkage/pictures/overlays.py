@@ -201,7 +201,7 @@ def place_words(motion: Motion, pose: int) -> str:
 # Velocities of the points, from rates of the strokes.
 
 
-def velocity_layer(motion: Motion, pose: int, rates: Mapping[str, Any]) -> ArrowLayer:
+def velocity_layer(motion: Motion, pose: int, rates: Mapping[str, object]) -> ArrowLayer:
     """Return the velocities of the moving points at a pose as arrows, in m/s; in mm/s where all are slower than 0.1 m/s."""
     arrows = []
     at = one_pose(motion, pose)
@@ -261,7 +261,7 @@ def pole_marks(motion: Motion, pose: int, asked: Any, rates: Mapping[str, Any] |
     return [mark for body, other in pairs for mark in poles_of_pair(at, body, other, rates)]
 
 
-def asked_poles(motion: Motion, asked: Any) -> Iterator[tuple[str, str]]:
+def asked_poles(motion: Motion, asked: object) -> Iterator[tuple[str, str]]:
     """Yield the pairs of bodies whose poles are asked for: True means every body that no fixed pin holds."""
     title = motion.plan.title
     if asked is True:
@@ -276,7 +276,7 @@ def asked_poles(motion: Motion, asked: Any) -> Iterator[tuple[str, str]]:
         raise DefinitionError(f'{title}: pole={cited(asked)}: a body, pole="EDF", two of them, pole=("EDF", "FKG"), or True is expected.')
 
 
-def poles_of_pair(at: Motion, body: str, other: str, rates: Mapping[str, Any] | None) -> Iterator[PoleMark]:
+def poles_of_pair(at: Motion, body: str, other: str, rates: Mapping[str, object] | None) -> Iterator[PoleMark]:
     """Yield the pole of a body against the frame; of two bodies their pole and each one's own, which stand in one line."""
     if other == "frame":
         yield mark_of(at, body, other, rates, tuple(at[name] for name in whole_body(at.plan, body)))
@@ -287,7 +287,7 @@ def poles_of_pair(at: Motion, body: str, other: str, rates: Mapping[str, Any] | 
     yield from own
 
 
-def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, Any] | None, ends: tuple[FloatArray, ...]) -> PoleMark:
+def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, object] | None, ends: tuple[FloatArray, ...]) -> PoleMark:
     """Return one pole; where it is at infinity or everywhere, the words for that."""
     if rates is None and len(at.strokes) > 1:
         names = as_mapping(dict.fromkeys(at.strokes, "..."))
@@ -341,7 +341,7 @@ def length_words(value: float) -> str:
     return f"{significant(value / factor(unit), 4)} {translated(unit)}".replace("-", "\N{MINUS SIGN}")
 
 
-def centrode(ax: Axes, swept: Motion, body: str, other: str, rates: Mapping[str, Any] | None) -> None:
+def centrode(ax: Axes, swept: Motion, body: str, other: str, rates: Mapping[str, object] | None) -> None:
     """Draw the path of a body's pole over a motion as a thin line, where the sheet shows it."""
     with unwarned():
         path = swept.pole(body, other, rates=rates).reshape(2, -1)

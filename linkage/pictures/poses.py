@@ -39,7 +39,7 @@ FILLED = 1.0 / 3.0
 
 def draw_machine(
     machine: Mechanism | Motion,
-    at: Any = None,
+    at: object = None,
     path: Sequence[str] = (),
     count: int = 101,
     overlays: Overlays = NO_OVERLAYS,
@@ -84,7 +84,7 @@ def draw_pose(
     return figure
 
 
-def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, overlays: Overlays = NO_OVERLAYS) -> Figure:
+def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int, overlays: Overlays = NO_OVERLAYS) -> Figure:
     """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint, what is laid over it at that one."""
     path = named_points(machine, path, "path")
     if overlays.has_gap and at is None:
@@ -145,7 +145,7 @@ def draw_laid_over(motion: Motion, swept: Motion, pose: int, overlays: Overlays)
     return figure
 
 
-def motions(machine: Mechanism, at: Any, count: int) -> tuple[tuple[str, ...], Motion, Motion]:
+def motions(machine: Mechanism, at: object, count: int) -> tuple[tuple[str, ...], Motion, Motion]:
     """Return the strokes that move, the motion at the chosen values, and the one over the whole stroke, or along several at once."""
     given: dict[str, Any] = dict(at) if isinstance(at, Mapping) else {first_stroke(machine): at}
     for name in given:
@@ -170,7 +170,7 @@ def motions(machine: Mechanism, at: Any, count: int) -> tuple[tuple[str, ...], M
 
 
 def joint_motions(
-    machine: Mechanism, given: Mapping[str, Any], moving: tuple[str, ...], count: int
+    machine: Mechanism, given: Mapping[str, object], moving: tuple[str, ...], count: int
 ) -> tuple[tuple[str, ...], Motion, Motion]:
     """Return what `motions` does where several strokes move together, from each of their values on to the next."""
     chosen = {name: chosen_values(machine, name, value).ravel() for name, value in given.items()}
@@ -185,7 +185,7 @@ def joint_motions(
     return moving, shown, machine.at(unreachable="nan", **still, **along)
 
 
-def chosen_values(machine: Mechanism, name: str, value: Any) -> FloatArray:
+def chosen_values(machine: Mechanism, name: str, value: object) -> FloatArray:
     """Return a stroke's values; DefinitionError for anything but finite numbers, one at least."""
     try:
         values = real(value)
@@ -196,7 +196,7 @@ def chosen_values(machine: Mechanism, name: str, value: Any) -> FloatArray:
     return values
 
 
-def named_points(machine: Mechanism, names: Any, what: str) -> tuple[str, ...]:
+def named_points(machine: Mechanism, names: object, what: str) -> tuple[str, ...]:
     """Return the names of points whose paths are drawn; DefinitionError for anything but a list of such names."""
     if not isinstance(names, (list, tuple)):
         raise DefinitionError(f'{machine.plan.title}: {what}={cited(names)}: a list of points is expected, such as {what}=["G"].')

@@ -40,7 +40,7 @@ def sheet(ax: Axes, box: Bounds) -> None:
         ax.spines[side].set_visible(True)
 
 
-def panels(size: tuple[float, float], across: int, down: int = 1, count: int | None = None, **room: Any) -> tuple[Figure, list[Axes]]:
+def panels(size: tuple[float, float], across: int, down: int = 1, count: int | None = None, **room: object) -> tuple[Figure, list[Axes]]:
     """Return an empty figure of a size [inch] and its axes, row by row: as many as there is room for, or the first so many.
 
     `room` is matplotlib's for its constrained layout: w_pad, h_pad, rect.

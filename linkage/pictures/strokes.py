@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -181,7 +181,7 @@ def is_turn(machine: Mechanism, run: Run) -> bool:
     return straight and is_angle and round(turns) >= 1 and abs(turns - round(turns)) < 1e-9
 
 
-def frame_count(count: Any) -> int:
+def frame_count(count: object) -> int:
     """Return a number of poses; DefinitionError unless it is a whole number of at least 2."""
     if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 2 <= count <= MANY:
         raise DefinitionError(f"count={cited(count)}: an animation has at least 2 poses; give a whole number such as 60.")

@@ -59,7 +59,7 @@ def ranges_searched(found: Synthesis, best: SynthesisedMachine) -> dict[str, tup
     return named | {name: None for names in space.names for name in names if name in owners}
 
 
-def columns_with(found: Synthesis, run: Mapping[str, Any]) -> dict[str, Any]:
+def columns_with(found: Synthesis, run: Mapping[str, object]) -> dict[str, Any]:
     """Return the columns of a page on which the task's quantity stands, that one shown first."""
     task, machine = found.task, found.machine
     motion = machine.at(unreachable="nan", **{name: np.array(ends) for name, ends in run.items()})

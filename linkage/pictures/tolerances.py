@@ -76,7 +76,7 @@ def limits_of(found: MonteCarlo, band: Band) -> list[tuple[float, str]]:
     return said
 
 
-def is_same(found: MonteCarlo, quantity: Any, band: Band) -> bool:
+def is_same(found: MonteCarlo, quantity: object, band: Band) -> bool:
     """Return whether a quantity is that of a band."""
     one, other = (number_bound(found.machine.plan, each) for each in (quantity, found.of[band.quantity]))
     return quantity is found.of[band.quantity] if one is None or other is None else one.key == other.key

@@ -46,7 +46,7 @@ Kind = TypeVar("Kind", bound=Member)
 class Named(FrozenDict[str, Any]):
     """Members by name, those of parts by each of their names: a point that is fused with another one is that one."""
 
-    def __init__(self, members: Mapping[str, Any], aliases: Mapping[str, str]) -> None:
+    def __init__(self, members: Mapping[str, object], aliases: Mapping[str, str]) -> None:
         super().__init__(members)
         self.aliases: Mapping[str, str] = FrozenDict({alias: name for alias, name in aliases.items() if name in members})
 
@@ -62,7 +62,7 @@ class Named(FrozenDict[str, Any]):
     def __contains__(self, name: object) -> bool:
         return super().__contains__(name) or name in self.aliases
 
-    def get(self, name: str, default: Any = None) -> Any:
+    def get(self, name: str, default: object = None) -> Any:
         known = self.aliases.get(name, name)
         return super().get(known, default)
 

@@ -76,8 +76,8 @@ class Part(Member):
     kind = "part"
 
     def __init__(
-        self, machine: Any, *, on: Reference | Sequence[Reference] | None = None, at: Sequence[Operand] | None = None,
-        angle: Operand = 0.0, mirrored: bool = False, **given: Any,
+        self, machine: object, *, on: Reference | Sequence[Reference] | None = None, at: Sequence[Operand] | None = None,
+        angle: Operand = 0.0, mirrored: bool = False, **given: object,
     ) -> None:  # fmt: skip
         if not is_mechanism(machine):
             raise DefinitionError(f"Part({cited(machine)}): a class of mechanisms is expected, or a design of one, such as Part(FourBar).")
@@ -167,7 +167,7 @@ class Part(Member):
             else:
                 raise unknown("Name", name, [*plan.members, *plan.table.names()], where=title)
 
-    def _check_point(self, title: str, name: str, member: Point, value: Any) -> None:
+    def _check_point(self, title: str, name: str, member: Point, value: object) -> None:
         if value is None or not member.is_fixed:
             if not member.is_fixed:
                 said = f"{title}: {name} moves in the part and takes no place"
@@ -290,7 +290,7 @@ class Inner:
     __getitem__ = __getattr__
 
 
-def given_text(value: Any) -> str:
+def given_text(value: object) -> str:
     """Return what a keyword was given as it is written."""
     if isinstance(value, (str, Member)):
         return value.name or written(value) if isinstance(value, Quantity) else label(value)
@@ -299,7 +299,7 @@ def given_text(value: Any) -> str:
     return repr(value.item() if isinstance(value, np.generic) else value)
 
 
-def pair_of(given: Any, what: str) -> tuple[Operand, Operand]:
+def pair_of(given: object, what: str) -> tuple[Operand, Operand]:
     """Return two coordinates; DefinitionError for anything else."""
     pair = tuple(given) if (isinstance(given, (list, tuple, np.ndarray)) and np.ndim(given) != 0) or isinstance(given, tuple) else ()
     if len(pair) != 2:
@@ -310,7 +310,7 @@ def pair_of(given: Any, what: str) -> tuple[Operand, Operand]:
     return x, y
 
 
-def carriers_of(on: Any) -> tuple[Reference, ...]:
+def carriers_of(on: object) -> tuple[Reference, ...]:
     """Return the references to what carries a part."""
     if on is None:
         return ()

@@ -251,7 +251,7 @@ class Trace(Reading):
         return cos, root
 
 
-def in_fork(value: Any, nodes: Sequence[Node]) -> Any:
+def in_fork(value: object, nodes: Sequence[Node]) -> Any:
     """Return what holds nodes of a graph with those that have the same numbers in a fork of it."""
     if isinstance(value, Node):
         return nodes[value.number]

@@ -139,7 +139,7 @@ Make = Callable[[Callable[..., None], CompiledFile | None], Callable[..., None]]
 """What compiles a function and keeps what came of it where it is told."""
 
 
-def compiled(text: str, names: Mapping[str, Any], where: str = "<linkage program>") -> dict[str, Any]:
+def compiled(text: str, names: Mapping[str, object], where: str = "<linkage program>") -> dict[str, Any]:
     """Return the functions of a program's text."""
     space: dict[str, Any] = dict(names) | {"nan": math.nan, "inf": math.inf}
     exec(compile(text, where, "exec"), space)

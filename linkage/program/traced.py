@@ -127,11 +127,11 @@ class Comparison:
     def __init__(self, truth: Node, notes: Notes, thin: bool = False, slit: bool = False) -> None:
         self.truth, self.notes, self.thin, self.slit = truth, notes, thin, slit
 
-    def __and__(self, other: Any) -> Comparison:
+    def __and__(self, other: object) -> Comparison:
         both = self.truth.graph.apply("minimum", self.truth, truth_of(other))
         return Comparison(both, self.notes, self.thin or is_thin(other), self.slit and is_slit(other))
 
-    def __or__(self, other: Any) -> Comparison:
+    def __or__(self, other: object) -> Comparison:
         return ~(~self & (~other if isinstance(other, Comparison) else not other))
 
     __rand__, __ror__ = __and__, __or__
@@ -158,7 +158,7 @@ class Comparison:
         if self.truth.op != "constant" or not self.truth.value > 0.0:
             self.notes.gaps[self.truth] = self.notes.owner
 
-    def choose(self, x: Any, y: Any) -> Any:
+    def choose(self, x: object, y: object) -> Any:
         """Return x where it is true, else y."""
         for truth in [self.truth] * self.thin + [-self.truth] * self.slit:
             self.notes.switches[truth] = self.notes.owner
@@ -182,7 +182,7 @@ def claim(value: Any, name: str) -> None:
         found.notes.claimed(name)
 
 
-def is_traced(value: Any) -> bool:
+def is_traced(value: object) -> bool:
     """Return whether a value is a number of a law that is being traced: it has no value yet; what has none later is reported then."""
     return isinstance(value, Traced)
 
@@ -198,27 +198,27 @@ def elementwise(rule: Callable[..., Any], inputs: tuple[Any, ...]) -> Any:
     return found[()]
 
 
-def arrayed(value: Any) -> Any:
+def arrayed(value: object) -> Any:
     """Return a value, and each of a list of them, as an array of numbers that may be traced."""
     return [arrayed(each) for each in value] if isinstance(value, (list, tuple)) else np.asarray(value, object)
 
 
-def node_of(number: Any) -> Any:
+def node_of(number: object) -> Any:
     """Return a traced number's node; any other number as it is."""
     return number.node if isinstance(number, Traced) else number
 
 
-def truth_of(condition: Any) -> Any:
+def truth_of(condition: object) -> Any:
     """Return a condition's node, or 1 for what is true and -1 for what is not."""
     return condition.truth if isinstance(condition, Comparison) else 1.0 if condition else -1.0
 
 
-def is_thin(condition: Any) -> bool:
+def is_thin(condition: object) -> bool:
     """Return whether a condition is true only where numbers are equal; what is never true counts."""
     return condition.thin if isinstance(condition, Comparison) else not condition
 
 
-def is_slit(condition: Any) -> bool:
+def is_slit(condition: object) -> bool:
     """Return whether a condition is false only where numbers are equal; what is always true counts."""
     return condition.slit if isinstance(condition, Comparison) else bool(condition)
 

@@ -20,7 +20,7 @@ TAKEN = (
 class Arithmetic(Operators[Any, Any], ABC):
     """The base of what is added, multiplied and given to NumPy's functions beside numbers and quantities. A subclass says `applied`."""
 
-    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: object) -> Any:
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: object, **options: object) -> Any:
         name = {"true_divide": "divide", "fabs": "absolute"}.get(ufunc.__name__, ufunc.__name__)
         if method != "__call__" or options or name not in TAKEN:
             raise DefinitionError(f"np.{ufunc.__name__} of {self} is not provided in this form; use one of: {', '.join(TAKEN)}.")

@@ -53,14 +53,14 @@ def is_whole(value: object) -> bool:
     return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
 
 
-def plain(value: Any) -> Any:
+def plain(value: object) -> Any:
     """Return NumPy's number as Python's own, which prints as it is written in a class; a whole one that no float holds as a float."""
     if isinstance(value, int) and abs(value) > EXACT and is_number(value):
         return float(value)
     return value.item() if isinstance(value, np.generic) else value
 
 
-def real(value: Any) -> FloatArray:
+def real(value: object) -> FloatArray:
     """Return a value as a new array of floats, NaN where it is masked; raise ValueError for anything but real numbers."""
     if type(value) is float:
         return np.array(value)

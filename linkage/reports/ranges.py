@@ -158,7 +158,7 @@ def run_of(machine: Mechanism, at: At = NOTHING) -> Run:
     return Run(moving, {name: value for name, value in held.items() if name not in moving})
 
 
-def stroke_way(machine: Mechanism, name: str, value: Any) -> tuple[float, ...]:
+def stroke_way(machine: Mechanism, name: str, value: object) -> tuple[float, ...]:
     """Return what a stroke is given: one value, or those that it passes; DefinitionError for anything else."""
     title = machine.plan.title
     if name not in machine.strokes:

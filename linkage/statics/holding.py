@@ -622,7 +622,7 @@ def share_in(tie: Tie, member: TwoPoint, motion: Poses) -> FloatArray:
     return reduce(np.add, parts) if parts else np.zeros(())
 
 
-def number_or_one(value: Any) -> FloatArray:
+def number_or_one(value: object) -> FloatArray:
     """Return a number as it is; of a program 1, for which its sign is taken as that of the plain design."""
     return np.ones(()) if is_traced(value) else np.asarray(value, float)
 

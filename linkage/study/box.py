@@ -72,7 +72,7 @@ class Box:
         return self.settings(unit[:, : len(self.ranges)], choice)
 
 
-def setting_words(plan: Plan, settings: Mapping[str, Any], place: int) -> str:
+def setting_words(plan: Plan, settings: Mapping[str, object], place: int) -> str:
     """Return one of some settings (m,) in words: `MK = 800 mm, M = (220, 950) mm`."""
     return ", ".join(f"{name} = {value_words(plan, name, value, place)}" for name, value in settings.items())
 
@@ -84,14 +84,14 @@ def value_words(plan: Plan, name: str, value: Any, place: int) -> str:
     return show(float(value[place]), unit_of(plan, name))
 
 
-def range_of(name: str, given: Any) -> tuple[float, float]:
+def range_of(name: str, given: object) -> tuple[float, float]:
     """Return a range; DefinitionError unless it is (low, high)."""
     if not isinstance(given, (tuple, list)) or len(given) != 2 or not all(is_number(end) for end in given) or given[0] > given[1]:
         raise DefinitionError(f"{name}={cited(given)} is no range; write (low, high) in SI, or a list [first, second] of choices.")
     return float(given[0]), float(given[1])
 
 
-def choices_of(name: str, given: Any) -> list[Any]:
+def choices_of(name: str, given: object) -> list[Any]:
     """Return a list of choices; DefinitionError for anything else."""
     if not isinstance(given, (list, tuple, range)) or not given:
         said = "write a range (low, high) or a list of choices such as [(0.22, 1.05), (0.22, 0.95)]"

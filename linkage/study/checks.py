@@ -21,7 +21,7 @@ def unit_of(plan: Plan, name: str) -> str:
     return found.unit or {"length": "mm", "coordinate": "mm", "angle": "deg"}.get(found.kind, "")
 
 
-def check_mechanism(machine: Any) -> None:
+def check_mechanism(machine: object) -> None:
     """Raise DefinitionError for anything but an instance of a mechanism."""
     if not isinstance(machine, Mechanism):
         name = machine.__name__ if isinstance(machine, type) else ""
@@ -36,7 +36,7 @@ def check_one_design(machine: Mechanism) -> None:
         raise DefinitionError(f"{type(machine).__name__}: a study starts from one design, this is a batch; choose one of them.")
 
 
-def check_vary(machine: Mechanism, what: str, over: Any) -> None:
+def check_vary(machine: Mechanism, what: str, over: object) -> None:
     """Raise DefinitionError where the designs of a study, or strokes, are given as `over`."""
     if over is None:
         return

@@ -41,7 +41,7 @@ class FittedRows:
     travels: Mapping[str, Travel]
 
 
-def fitted_rows(machine: Mechanism, vary: Any) -> FittedRows:
+def fitted_rows(machine: Mechanism, vary: object) -> FittedRows:
     """Return the same with rows of the cylinders that `vary` names as rows of their dimensions; DefinitionError for anything else."""
     if not isinstance(vary, Mapping):
         return FittedRows(machine, vary, {})
@@ -66,7 +66,7 @@ def fitted_rows(machine: Mechanism, vary: Any) -> FittedRows:
     return FittedRows(machine, found, travels)
 
 
-def fields_of(plan: Plan, name: str, rows: Any) -> tuple[str, ...]:
+def fields_of(plan: Plan, name: str, rows: object) -> tuple[str, ...]:
     """Return what the rows for an element say of it; DefinitionError for rows that say nothing, or what it does not have."""
     listed = list(rows) if isinstance(rows, (list, tuple)) else []
     fields = {getattr(type(row), "_fields", ()) for row in listed}

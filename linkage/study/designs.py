@@ -106,7 +106,7 @@ def arrays_of(machine: Mechanism, name: str, value: Any) -> tuple[Array, ...]:
     return design_array(machine, name, x, 0), design_array(machine, name, y, 0)
 
 
-def design_array(machine: Mechanism, name: str, value: Any, least: int) -> Array:
+def design_array(machine: Mechanism, name: str, value: object, least: int) -> Array:
     """Return an array of one dimension, or of at least so many, as it is given, NaN where it is masked."""
     try:
         found = np.asarray(unmasked(value))
@@ -118,7 +118,7 @@ def design_array(machine: Mechanism, name: str, value: Any, least: int) -> Array
     return found
 
 
-def check_once(machine: Mechanism, names: Mapping[str, Any]) -> None:
+def check_once(machine: Mechanism, names: Mapping[str, object]) -> None:
     """Raise DefinitionError where two names stand for one dimension."""
     seen: dict[str, str] = {}
     for name in names:
@@ -239,7 +239,7 @@ def measure_piece(task: Task, whole: Mechanism, start: int, first: int, stop: in
     return result_arrays(task, found, stop - first, where)
 
 
-def result_arrays(task: Task, found: Any, size: int, where: str) -> dict[str, Array]:
+def result_arrays(task: Task, found: object, size: int, where: str) -> dict[str, Array]:
     """Return results as arrays of floats, or of truth values; DefinitionError for anything else."""
     title = task.machine.plan.title
     if not isinstance(found, Mapping) or not found or not all(isinstance(name, str) and name for name in found):

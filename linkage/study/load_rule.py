@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, final
+from typing import final
 
 from ..errors import DefinitionError, cited, known_name
 from ..frozen import refuses_changes
@@ -65,7 +65,7 @@ OECD_2 = LoadRule("OECD Code 2", pressure=0.9)
 RULES: Mapping[str, LoadRule] = MappingProxyType({each.title: each for each in (ISO_10567, ISO_14397_1, OECD_2)})
 
 
-def rule_of(given: Any) -> LoadRule:
+def rule_of(given: object) -> LoadRule:
     """Return the rule that is meant, by its title too; DefinitionError for anything else."""
     if given is None:
         return PLAIN_RULE

@@ -28,7 +28,7 @@ Measured: TypeAlias = QuantityLike | Measure
 """The same, or a measure such as `most("tilt")`; the function may return one number for each design: `np.ptp(motion["tilt"], axis=-1)`."""
 
 
-def number_bound(plan: Plan, quantity: Any) -> Request | None:
+def number_bound(plan: Plan, quantity: object) -> Request | None:
     """Return a quantity bound to a plan as nodes of its program; None for what has none: a measure, a function of a motion.
 
     DefinitionError for anything but a quantity, and for a point, which has two coordinates.
@@ -41,7 +41,7 @@ def number_bound(plan: Plan, quantity: Any) -> Request | None:
     return None
 
 
-def traced_number(plan: Plan, quantity: Any) -> Request:
+def traced_number(plan: Plan, quantity: object) -> Request:
     """Return a quantity bound to a plan; DefinitionError for what has no gradient in the program."""
     found = number_bound(plan, quantity)
     if found is None:
@@ -50,7 +50,7 @@ def traced_number(plan: Plan, quantity: Any) -> Request:
     return found
 
 
-def measured_title(plan: Plan, quantity: Any) -> str:
+def measured_title(plan: Plan, quantity: object) -> str:
     """Return a quantity in words; DefinitionError for anything else."""
     found = number_bound(plan, quantity)
     return str(quantity) if isinstance(quantity, Measure) else words_of(quantity) if found is None else found.sentence
@@ -157,7 +157,7 @@ class StudyPoses:
         values = self.stroke_values[by]
         return float(0.5 * (values[min(place + 1, self.pose_count - 1)] - values[max(place - 1, 0)]))
 
-    def values(self, machine: Mechanism, quantity: Any, way: RunOptions) -> FloatArray:
+    def values(self, machine: Mechanism, quantity: object, way: RunOptions) -> FloatArray:
         """Return a quantity of m designs at the poses, shape (m, n), or (m, 1) of one number for each design."""
         with unwarned(), np.errstate(all="ignore"):
             if isinstance(quantity, Measure):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, TypeAlias, TypeVar, final
+from typing import TypeAlias, TypeVar, final
 
 import numpy as np
 
@@ -127,7 +127,7 @@ def monte_carlo(
     seed: int = 0,
     backend: str = "numpy",
     threads: int = 1,
-    **strokes: Any,
+    **strokes: object,
 ) -> MonteCarlo:
     """Return the bands of quantities over machines with tolerances, and how many of them keep conditions.
 
@@ -164,7 +164,7 @@ def monte_carlo(
     )  # fmt: skip
 
 
-def quantities_listed(plan: Plan, of: Any) -> dict[str, Measured]:
+def quantities_listed(plan: Plan, of: object) -> dict[str, Measured]:
     """Return quantities by their words, or the names they are given; DefinitionError for a wrong list, or one name for two."""
     if isinstance(of, Mapping) and of and all(isinstance(name, str) for name in of):
         _ = [measured_title(plan, quantity) for quantity in of.values()]  # raises for what is none
@@ -178,7 +178,7 @@ def quantities_listed(plan: Plan, of: Any) -> dict[str, Measured]:
     return found
 
 
-def limits_listed(machine: Mechanism, given: Any) -> tuple[Constraint, ...]:
+def limits_listed(machine: Mechanism, given: object) -> tuple[Constraint, ...]:
     """Return conditions as constraints; DefinitionError for anything else, and for an equation, which no machine keeps."""
     found = tuple(conditions_of(given, machine))
     for each in found:
@@ -187,7 +187,7 @@ def limits_listed(machine: Mechanism, given: Any) -> tuple[Constraint, ...]:
     return found
 
 
-def percentages(given: Any) -> tuple[float, ...]:
+def percentages(given: object) -> tuple[float, ...]:
     """Return percentages in order; DefinitionError for anything else."""
     if not isinstance(given, (list, tuple)) or not all(is_number(each) and 0.0 <= each <= 100.0 for each in given):
         raise DefinitionError(f"percentiles={cited(given)}: percentages from 0 to 100 are expected, such as (5, 50, 95).")

@@ -84,12 +84,12 @@ def optimise(
     *,
     minimise: Measure | Quantity | str | None = ...,
     maximise: Measure | Quantity | str | None = ...,
-    vary: Mapping[Any, Any],
-    subject_to: Any = ...,
-    regions: Mapping[str, Any] | None = ...,
-    case: Any = ...,
-    over: Mapping[str, Any] | None = ...,
-    robust: Mapping[str, Any] | None = ...,
+    vary: Mapping[object, object],
+    subject_to: object = ...,
+    regions: Mapping[str, object] | None = ...,
+    case: object = ...,
+    over: Mapping[str, object] | None = ...,
+    robust: Mapping[str, object] | None = ...,
     sigmas: float = ...,
     method: str = ...,
     solver: str = ...,
@@ -97,7 +97,7 @@ def optimise(
     seed: int = ...,
     limit: int | None = ...,
     folder: str | os.PathLike[str] | None = ...,
-    progress: Any = ...,
+    progress: object = ...,
 ) -> Optimum: ...
 @overload
 def optimise(
@@ -105,15 +105,15 @@ def optimise(
     *,
     minimise: Sequence[Measure | Quantity] = ...,
     maximise: Sequence[Measure | Quantity] = ...,
-    vary: Mapping[Any, Any],
-    subject_to: Any = ...,
-    regions: Mapping[str, Any] | None = ...,
-    case: Any = ...,
-    over: Mapping[str, Any] | None = ...,
+    vary: Mapping[object, object],
+    subject_to: object = ...,
+    regions: Mapping[str, object] | None = ...,
+    case: object = ...,
+    over: Mapping[str, object] | None = ...,
     solver: str = ...,
     seed: int = ...,
     limit: int | None = ...,
-    progress: Any = ...,
+    progress: object = ...,
 ) -> Front: ...
 def optimise(
     machine: Mechanism,
@@ -211,7 +211,7 @@ def optimise(
         return DesignSearch(problem, plan, Journal.of(folder, problem, plan), tell).run()
 
 
-def where_searched(machine: Mechanism, over: Any) -> tuple[Any, list[Any]]:
+def where_searched(machine: Mechanism, over: object) -> tuple[Any, list[Any]]:
     """Return the part of each stroke that a search looks at, and the load cases that occur there, None for the plain loads.
 
     `over` is a dictionary, an `Over` or the name of one that the class declares; without it the box. DefinitionError for a path, poses and
@@ -264,7 +264,7 @@ def default_limit(problem: Problem, plan: SearchPlan) -> int:
     return spread + int(LOCAL_DESIGNS / (1.0 + problem.poses / POSES_AS_ONE))
 
 
-def objectives_of(machine: Mechanism, minimise: Any, maximise: Any) -> tuple[list[Measure], float]:
+def objectives_of(machine: Mechanism, minimise: object, maximise: object) -> tuple[list[Measure], float]:
     """Return what is to be least, or of a single one greatest (the sense is then -1.0); DefinitionError for none."""
     listed = [[] if given is None else list(given) if isinstance(given, (list, tuple)) else [given] for given in (minimise, maximise)]
     least, most = ([objective_of(machine, each) for each in group] for group in listed)
@@ -282,7 +282,7 @@ def check_counts(title: str, starts: Any, seed: Any, limit: Any) -> None:
             raise DefinitionError(f"{title}: {name}={cited(value)}: a whole number is expected, at least {least}.")
 
 
-def objective_of(machine: Mechanism, given: Any) -> Measure:
+def objective_of(machine: Mechanism, given: object) -> Measure:
     """Return what is to be least or greatest; DefinitionError for what has a value at every pose."""
     if isinstance(given, Measure):
         return given
@@ -335,7 +335,7 @@ def pieces_in_cases(constraints: Sequence[Constraint], cases: Sequence[Case], ju
 # Spread: each number as bad as tolerances make it.
 
 
-def with_spread(problem: Problem, robust: Any, sigmas: Any) -> Problem:
+def with_spread(problem: Problem, robust: object, sigmas: object) -> Problem:
     """Return a problem whose numbers are worse by so many standard deviations of what tolerances of dimensions make of them."""
     title = problem.plan.title
     if not is_number(sigmas) or sigmas < 0.0:

@@ -126,7 +126,7 @@ def evolved_front(problem: Problem, combination: Sequence[int], seed: int, left:
     class Generation(Asked):  # type: ignore[misc]
         """A generation's objectives and what is missing, as pymoo asks for them."""
 
-        def _evaluate(self, x: FloatArray, out: dict[str, Any], *args: Any, **options: Any) -> None:
+        def _evaluate(self, x: FloatArray, out: dict[str, Any], *args: object, **options: object) -> None:
             values, missing, reached = problem.merits_of_each(combination, np.asarray(x, float))
             out["F"] = np.where(np.isfinite(values), values, 1e30).T
             out["G"] = np.stack([np.nan_to_num(missing, nan=1e6, posinf=1e6) - MET, 1e6 * (1.0 - reached)], axis=1)

@@ -85,7 +85,7 @@ class Range:
         return tuple(end for end in (self.low, self.high) if not is_number(end))
 
 
-def end_words(end: Any) -> Any:
+def end_words(end: object) -> Any:
     """Return an end of a range as it is shown: a number, or a quantity in words."""
     return end if is_number(end) else words_of(end)
 
@@ -95,7 +95,7 @@ def is_still(one: Range) -> bool:
     return is_number(one.low) and bool(one.low == one.high)
 
 
-def ranges_of(machine: Mechanism, over: Any) -> dict[str, Range]:
+def ranges_of(machine: Mechanism, over: object) -> dict[str, Range]:
     """Return the part of each stroke that is looked at; DefinitionError for anything else."""
     title, plan = machine.plan.title, machine.plan
     given = {} if over is None else over
@@ -138,7 +138,7 @@ class PoseSet:
     alone: bool = False
     """Whether its single pose is kept apart from others."""
 
-    def place(self, quantity: Any) -> int:
+    def place(self, quantity: object) -> int:
         """Return the number of a quantity, entered where it is new."""
         for place, known in enumerate(self.quantities):
             if known is quantity or (isinstance(known, str) and known == quantity and isinstance(quantity, str)):
@@ -253,7 +253,7 @@ class WatchedValues:
     Each is turned by its sense, 1.0 or -1.0, so that of all of them the greatest is looked for. `quick`: by the plan's program.
     """
 
-    def __init__(self, plan: Plan, quantities: Sequence[Any], senses: Sequence[float], *, quick: bool) -> None:
+    def __init__(self, plan: Plan, quantities: Sequence[object], senses: Sequence[float], *, quick: bool) -> None:
         self.quantities, self.senses = quantities, np.array(senses)
         self._quickly = rows_of_motion(plan, quantities) if quick else None
         self._owners = [(place, divisor) for place, each in enumerate(quantities) for divisor in divisors_of(plan, each)]
@@ -293,7 +293,7 @@ class Problem:
         constraints: Sequence[Constraint],
         space: Space,
         sense: float = 1.0,
-        over: Any = None,
+        over: Mapping[str, Any] | None = None,
         counts: Mapping[int, int] = SAMPLES,
         count: Count | None = None,
     ) -> None:
@@ -566,7 +566,7 @@ class Problem:
         return JoinedTo(Grid(self.plan, designs, strokes, joining=joined_in_order), last)
 
     @staticmethod
-    def _end(end: Any, ends: Mapping[int, tuple[FloatArray, FloatArray | None]], m: int, axes: int) -> Any:
+    def _end(end: object, ends: Mapping[int, tuple[FloatArray, FloatArray | None]], m: int, axes: int) -> Any:
         if is_number(end):
             return float(end)
         values = ends[id(end)][0]
@@ -899,7 +899,7 @@ class Problem:
         """Return from where to where [SI] each stroke of one design is looked at."""
         found = self._ends(design, slopes=False)
 
-        def number(end: Any) -> float:
+        def number(end: object) -> float:
             return float(end) if is_number(end) else float(found[id(end)][0][0])
 
         return {name: (number(one.low), number(one.high)) for name, one in self.ranges.items()}

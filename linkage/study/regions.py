@@ -61,7 +61,7 @@ class PointRegion:
                 values[rows, place] = sign * where[:, column]
 
 
-def point_regions(machine: Mechanism, given: Any, circles: Mapping[str, float], variables: Sequence[Varied]) -> tuple[PointRegion, ...]:
+def point_regions(machine: Mechanism, given: object, circles: Mapping[str, float], variables: Sequence[Varied]) -> tuple[PointRegion, ...]:
     """Return the regions that are given, and circles about where points stand now, by their radius; DefinitionError for anything else."""
     title, plan = machine.plan.title, machine.plan
     if given is None:

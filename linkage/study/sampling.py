@@ -98,7 +98,7 @@ class Sampling:
     `owners` are the inputs they are differentiated by: design variables, and strokes.
     """
 
-    def __init__(self, plan: Plan, quantities: Sequence[Any], owners: Sequence[str]) -> None:
+    def __init__(self, plan: Plan, quantities: Sequence[object], owners: Sequence[str]) -> None:
         self.plan, self.quantities, self.owners = plan, tuple(quantities), tuple(owners)
         bound = [(place, traced(plan, quantity)) for place, quantity in enumerate(self.quantities)]
         self._traced = {place: request for place, request in bound if request is not None}
@@ -159,7 +159,7 @@ class Sampling:
                 lost[place] = (empty[place] & ~free.reshape(reached.shape)).any(axis=1)
         return lost
 
-    def _differences(self, grid: Grid, quantity: Any) -> FloatArray:
+    def _differences(self, grid: Grid, quantity: object) -> FloatArray:
         """Return the central differences of a quantity that is not traced, shape (p, n)."""
         found = []
         for owner in self.owners:
@@ -176,7 +176,7 @@ class Sampling:
         return np.array(found)
 
 
-def rows_of_motion(plan: Plan, quantities: Sequence[Any]) -> Callable[[Motion], FloatArray]:
+def rows_of_motion(plan: Plan, quantities: Sequence[object]) -> Callable[[Motion], FloatArray]:
     """Return quantities as one function of a motion (k, ...): by the plan's program, those that are no part of it as the motion gives them.
 
     Poses out of reach have no value.
@@ -208,7 +208,7 @@ GOES_THROUGH = ("add", "subtract", "multiply", "divide", "negative", "absolute",
 """The functions that grow without bounds where a part of them does."""
 
 
-def divisors_of(plan: Plan, quantity: Any) -> tuple[Any, ...]:
+def divisors_of(plan: Plan, quantity: object) -> tuple[Any, ...]:
     """Return what a quantity is divided by, directly or in its parts: where one of these passes zero it has no bounds."""
     known = plan.members.get(quantity) if isinstance(quantity, str) else quantity
     if isinstance(known, Ref):
@@ -224,7 +224,7 @@ def divisors_of(plan: Plan, quantity: Any) -> tuple[Any, ...]:
     return tuple(found)
 
 
-def zero_factors(plan: Plan, divisor: Any) -> list[Any]:
+def zero_factors(plan: Plan, divisor: object) -> list[Any]:
     """Return the factors of a divisor, each of which makes it zero, without the sizes and powers about them."""
     known = plan.members.get(divisor) if isinstance(divisor, str) else divisor
     if isinstance(known, Ref):

@@ -91,7 +91,9 @@ class Tornado:
         return f"{tolerance_words(self.plan, bar.name, bar.tolerance):<{width}}  {ends}, {100.0 * bar.share:.0f} % of the variance"
 
 
-def tornado(machine: Mechanism, quantity: Measured, tolerances: Mapping[str, ToleranceLike], *, unit: str = "", **strokes: Any) -> Tornado:
+def tornado(
+    machine: Mechanism, quantity: Measured, tolerances: Mapping[str, ToleranceLike], *, unit: str = "", **strokes: object
+) -> Tornado:
     """Return what every tolerance by itself does to a quantity at one pose, the dimension that does most first.
 
     `tornado(hitch, "tilt", {"OB": 0.1 * mm, "CD": 0.2 * mm}, unit="deg", S=0.1)`. Gradients are exact; those of a measure over the strokes
@@ -177,7 +179,7 @@ def sobol(
     seed: int = 0,
     backend: str = "numpy",
     threads: int = 1,
-    **strokes: Any,
+    **strokes: object,
 ) -> SobolIndices:
     """Return the Sobol indices of a quantity over tolerances, at every stroke looked at; by default 21 over a single one.
 

@@ -22,7 +22,7 @@ def is_side(name: str) -> bool:
     return name.endswith(ENDING)
 
 
-def sided_step(machine: Mechanism, name: Any) -> str:
+def sided_step(machine: Mechanism, name: object) -> str:
     """Return the step whose side a name such as `B.side` stands for; "" for other names, DefinitionError for what has no side."""
     plan = machine.plan
     if not isinstance(name, str) or not is_side(name):
@@ -43,7 +43,7 @@ def sided_step(machine: Mechanism, name: Any) -> str:
     return step
 
 
-def side_given(name: str, given: Any) -> Side:
+def side_given(name: str, given: object) -> Side:
     """Return a side; DefinitionError for anything but LEFT and RIGHT."""
     side = Side.said(given)
     if side is None:

@@ -429,7 +429,7 @@ class Local:
             return np.zeros(0), np.zeros((0, self.width))
         return np.concatenate([row.values for row in rows]), np.concatenate([row.slopes for row in rows])
 
-    def _sequential(self, z: FloatArray, bounds: Any, most: int) -> FloatArray:
+    def _sequential(self, z: FloatArray, bounds: object, most: int) -> FloatArray:
         """Return what SLSQP comes to."""
         from scipy.optimize import minimize
 
@@ -516,7 +516,7 @@ class Local:
     def _held(self, kind: str, equations: bool) -> dict[str, Any]:
         return {"type": kind, "fun": lambda at: self._stacked(at, equations)[0], "jac": lambda at: self._stacked(at, equations)[1]}
 
-    def _trusted(self, z: FloatArray, bounds: Any, most: int) -> FloatArray:
+    def _trusted(self, z: FloatArray, bounds: object, most: int) -> FloatArray:
         """Return what trust-constr comes to: by the lines that stand worst, then with those that its end misses, too."""
         known: list[Index | None] = [None] * 2
         for _ in range(WIDENED):
@@ -539,7 +539,7 @@ class Local:
         lines = np.concatenate([*found, np.zeros(0, int) if known is None else known]) if found else np.zeros(0, int)
         return np.unique(lines.astype(int))
 
-    def _within(self, z: FloatArray, bounds: Any, chosen: Sequence[Index], most: int) -> FloatArray:
+    def _within(self, z: FloatArray, bounds: object, chosen: Sequence[Index], most: int) -> FloatArray:
         """Return what trust-constr comes to by some of the lines."""
         from scipy.optimize import NonlinearConstraint, minimize
 

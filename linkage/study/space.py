@@ -166,7 +166,7 @@ class Space:
         return np.array([each.sign * float(machine.dimensions[each.owner]) for each in self.variables])
 
 
-def known_dimension(machine: Mechanism, name: Any) -> None:
+def known_dimension(machine: Mechanism, name: object) -> None:
     """Raise DefinitionError for anything but a dimension of a machine."""
     if not isinstance(name, str):
         raise unknown("Dimension", name, machine.plan.table.names(), where=machine.plan.title)
@@ -238,7 +238,7 @@ def size_of_machine(machine: Mechanism) -> float:
 
 
 def rows_of(
-    title: str, names: Sequence[str], given: Any, owners: Sequence[tuple[str, float]]
+    title: str, names: Sequence[str], given: object, owners: Sequence[tuple[str, float]]
 ) -> tuple[tuple[float, ...], ...]:
     """Return the rows of choices, a side as its number; DefinitionError for anything else."""
     width = len(owners)

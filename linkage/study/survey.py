@@ -46,7 +46,7 @@ class Executor(Protocol):
 class LocalExecutor:
     """An executor that runs everything at once, in this thread."""
 
-    def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
+    def submit(self, fn: Callable[..., Any], /, *args: object) -> Future[Any]:
         """Return the future of a call that is done."""
         future: Future[Any] = Future()
         try:
@@ -406,7 +406,7 @@ def check_options(machine: Mechanism, measure: Measure, executor: Executor | Non
     check_progress(progress)
 
 
-def check_executor(executor: Any) -> None:
+def check_executor(executor: object) -> None:
     """Raise DefinitionError for anything but an executor."""
     if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "submit", None))):
         what = "is a class" if isinstance(executor, type) else "has no submit"

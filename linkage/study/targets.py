@@ -50,7 +50,7 @@ class Solutions:
         return self.sentence
 
 
-def solutions_for(machine: Mechanism, vary: Mapping[str, Any], targets: Sequence[Target], points: int | None) -> Solutions:
+def solutions_for(machine: Mechanism, vary: Mapping[str, object], targets: Sequence[Target], points: int | None) -> Solutions:
     """Return the settings of a box that give all targets; see `settings_for`."""
     check_one_design(machine)
     box, aim = Box.of(machine, vary), Aim.of(machine, targets)

@@ -89,7 +89,7 @@ class Tolerance:
 ToleranceLike: TypeAlias = float | tuple[float, float] | Tolerance
 
 
-def tolerances_of(plan: Plan, given: Any) -> dict[str, Tolerance]:
+def tolerances_of(plan: Plan, given: object) -> dict[str, Tolerance]:
     """Return tolerances by the names of dimensions, a point's for each of its coordinates.
 
     Raises DefinitionError for a name that is no dimension, for two that stand for one, and for anything but a tolerance.
@@ -108,7 +108,7 @@ def tolerances_of(plan: Plan, given: Any) -> dict[str, Tolerance]:
     return found
 
 
-def dimension_names(plan: Plan, name: Any) -> list[str]:
+def dimension_names(plan: Plan, name: object) -> list[str]:
     """Return the name of a dimension, or of both coordinates of a point; DefinitionError for any other name."""
     if isinstance(name, str) and f"{name}.x" in plan.table.spellings:
         return [f"{name}.x", f"{name}.y"]
@@ -186,7 +186,7 @@ def sigma(quantity: RequestLike, tolerances: Mapping[str, ToleranceLike]) -> Nod
     return NodeRequest(text=f"sigma({words_of(quantity)})", bound_by=bound_in, identity_by=identity)
 
 
-def deviations_of(plan: Plan, tolerances: Any) -> tuple[tuple[str, float], ...]:
+def deviations_of(plan: Plan, tolerances: object) -> tuple[tuple[str, float], ...]:
     """Return dimensions by name with their standard deviations [SI]."""
     return tuple((name, each.sigma) for name, each in tolerances_of(plan, tolerances).items())
 

@@ -155,18 +155,18 @@ class WorkingField:
 def working_field(
     machine: Mechanism,
     point: Reference,
-    x: Any,
-    y: Any,
+    x: object,
+    y: object,
     *,
     along: tuple[float, float] = (0.0, 1.0),
     hold: Mapping[str, float] | None = None,
-    over: Over | Mapping[str, Any] | None = None,
+    over: Over | Mapping[str, object] | None = None,
     keep: Sequence[Target] = (),
     lifts: Sequence[Reference] | None = None,
     rule: LoadRule | str | None = None,
     case: Case = None,
     without: Sequence[Reference] = (),
-    limits: Mapping[str, Any] | None = None,
+    limits: Mapping[str, object] | None = None,
 ) -> WorkingField:
     """Return what a machine lifts at a point over places x by y [m]: `working_field(digger, "L", x=np.linspace(1, 6, 14), y=[0, 1, 2])`.
 
@@ -187,7 +187,7 @@ def working_field(
 # What is asked for.
 
 
-def axis_values(given: Any, name: str, title: str) -> FloatArray:
+def axis_values(given: object, name: str, title: str) -> FloatArray:
     """Return the places along an axis [m]; DefinitionError for anything but a row of numbers."""
     try:
         found = np.atleast_1d(real(given))
@@ -201,7 +201,7 @@ def axis_values(given: Any, name: str, title: str) -> FloatArray:
     return frozen(found)
 
 
-def pull_direction(along: Any, title: str) -> tuple[float, float]:
+def pull_direction(along: object, title: str) -> tuple[float, float]:
     """Return a direction of length one; DefinitionError for none."""
     parts = list(along) if isinstance(along, (list, tuple, np.ndarray)) else []
     size = float(np.hypot(*parts)) if len(parts) == 2 and all(map(is_number, parts)) else 0.0
@@ -210,14 +210,14 @@ def pull_direction(along: Any, title: str) -> tuple[float, float]:
     return float(parts[0] / size), float(parts[1] / size)
 
 
-def names_among(given: Any, what: str, known: Mapping[str, Any], title: str, example: str) -> tuple[str, ...]:
+def names_among(given: object, what: str, known: Mapping[str, object], title: str, example: str) -> tuple[str, ...]:
     """Return names; DefinitionError for one that is unknown."""
     if isinstance(given, str) or not isinstance(given, (list, tuple, set, frozenset)):
         raise DefinitionError(f"{title}: {what}={cited(given)}: a list of names is expected, {what}=[{example}].")
     return tuple(known_name("Load", name_of(each), known, where=f"{title}: {what}") for each in given)
 
 
-def ranges_over(machine: Mechanism, over: Any, title: str) -> StrokeRanges:
+def ranges_over(machine: Mechanism, over: object, title: str) -> StrokeRanges:
     """Return the ends between which strokes run [m or rad]; DefinitionError for anything but a box of strokes."""
     if over is None:
         return DECLARED
@@ -232,7 +232,7 @@ def ranges_over(machine: Mechanism, over: Any, title: str) -> StrokeRanges:
     return {name: (float(np.min(strokes[name])), float(np.max(strokes[name]))) for name in found.strokes}
 
 
-def check_strokes(plan: Plan, hold: Any, targets: Sequence[Target], title: str) -> None:
+def check_strokes(plan: Plan, hold: object, targets: Sequence[Target], title: str) -> None:
     """Raise DefinitionError where fewer strokes are left than a place and what is kept take."""
     free = [name for name in plan.strokes if not isinstance(hold, Mapping) or name not in hold]
     if len(free) < len(targets):
@@ -271,7 +271,7 @@ class FurtherLimit:
         share = (self._margin(motion, loads.beside(PROBE)) - own) / PROBE
         return largest(own, share, np.zeros(()), np.asarray(np.inf))
 
-    def _margin(self, motion: Motion, acting: Any) -> FloatArray:
+    def _margin(self, motion: Motion, acting: object) -> FloatArray:
         asked = self.margin if isinstance(self.margin, Quantity) else self.margin.under(acting, keep=True)
         return np.broadcast_to(np.asarray(motion.value(asked) if isinstance(asked, Quantity) else motion[asked], float), motion.shape)
 

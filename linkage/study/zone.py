@@ -113,7 +113,7 @@ def remarks(machine: Mechanism, quantity: QuantityLike, box: Box, strokes: Mappi
     return said + near_dead_points(motion, quantity)
 
 
-def settings_counted(mask: Mask, motion: Motion, settings: Mapping[str, Any]) -> str:
+def settings_counted(mask: Mask, motion: Motion, settings: Mapping[str, object]) -> str:
     """Return which settings (m) are meant at which strokes (n), mask (m, n), with an example."""
     some, when = mask.any(axis=1), mask.any(axis=0)
     spans = ", ".join(f"{name} = {value[when].min():.4f} to {value[when].max():.4f}" for name, value in motion.strokes.items())

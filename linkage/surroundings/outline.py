@@ -220,7 +220,7 @@ class PlacedFile(Outline):
     angle: Quantity
     form: ClassVar[str] = ""
 
-    def _place(self, path: str, on: Any, at: Corner, angle: Operand) -> None:
+    def _place(self, path: str, on: object, at: Corner, angle: Operand) -> None:
         if not path.strip():
             raise DefinitionError(f"{self.form}: the path of the file is missing.")
         self.path, self.on = path, carrier(on, self.form)
@@ -328,7 +328,7 @@ class ImageOutline(PlacedFile):
 # What it is given, and how that is written.
 
 
-def outline_corners(given: Any, what: str, least: int) -> tuple[tuple[Quantity, ...], ...]:
+def outline_corners(given: object, what: str, least: int) -> tuple[tuple[Quantity, ...], ...]:
     """Return corners as pairs of quantities; DefinitionError for anything else, or for too few."""
     if isinstance(given, (str, Mapping, Member)) or not isinstance(given, (Sequence, np.ndarray)):
         raise DefinitionError(f"{what}: {cited(given)} is no list of corners; write [(0, 0), (0.4, 0), (0.4, 0.3)] in m.")
@@ -338,7 +338,7 @@ def outline_corners(given: Any, what: str, least: int) -> tuple[tuple[Quantity, 
     return found
 
 
-def corner_of(given: Any, what: str) -> tuple[Quantity, ...]:
+def corner_of(given: object, what: str) -> tuple[Quantity, ...]:
     """Return two coordinates as quantities; DefinitionError for anything else."""
     pair = tuple(given) if isinstance(given, (list, tuple)) or (isinstance(given, np.ndarray) and given.ndim == 1) else ()
     if len(pair) != 2 or not all(isinstance(each, (str, Quantity)) or is_number(each) for each in pair):
@@ -346,14 +346,14 @@ def corner_of(given: Any, what: str) -> tuple[Quantity, ...]:
     return tuple(quantity(plain(each)) for each in pair)
 
 
-def length_above_zero(given: Any, what: str) -> Quantity:
+def length_above_zero(given: object, what: str) -> Quantity:
     """Return a size as a quantity; DefinitionError for one that is not above zero."""
     if not isinstance(given, (str, Quantity)) and not (is_number(given) and given > 0.0):
         raise DefinitionError(f"{what}: {cited(given)} is no size; give a length above zero [m], or a dimension.")
     return quantity(plain(given))
 
 
-def carrier(given: Any, what: str) -> tuple[Reference, ...]:
+def carrier(given: object, what: str) -> tuple[Reference, ...]:
     """Return the points that carry an outline; DefinitionError for more than two, or one of them twice."""
     if given is None:
         return ()

@@ -76,12 +76,12 @@ def synthesised_classes(
     return compared(classes, limit)
 
 
-def nothing_to_better(classes: Sequence[SearchedClass], by_class: Mapping[str, Any]) -> bool:
+def nothing_to_better(classes: Sequence[SearchedClass], by_class: Mapping[str, object]) -> bool:
     """Return whether an answer fits exactly, so that no other one can be better; not where answers are ranked by something else too."""
     return by_class["rank"] is None and any(each.is_exact for each in classes)
 
 
-def designs_of_classes(given: Any) -> list[Mechanism]:
+def designs_of_classes(given: object) -> list[Mechanism]:
     """Return the designs of classes, of those that are installed where none are given; DefinitionError for anything else."""
     if given is None:
         return shipped_machines()
@@ -115,7 +115,7 @@ def shipped_machines() -> list[Mechanism]:
 class SearchedClass:
     """A class that is searched: its machine, what it is searched with, and what its shares of the budget found."""
 
-    def __init__(self, machine: Mechanism, options: Mapping[str, Any]) -> None:
+    def __init__(self, machine: Mechanism, options: Mapping[str, object]) -> None:
         self.machine, self.options = machine, options
         self.found: list[Synthesis] = []
         self.least, self.idle = np.inf, 0

@@ -13,7 +13,7 @@ import zipfile
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -98,7 +98,7 @@ class CurveCatalogue(Shown):
         values = self.kind.values(self.units[int(number)][None])
         return self.kind.machine.replaced(**{name: float(value[0]) for name, value in self.kind.designs(values).items()})
 
-    def nearest(self, points: Any, count: int = 8) -> tuple[CurveMatch, ...]:
+    def nearest(self, points: object, count: int = 8) -> tuple[CurveMatch, ...]:
         """Return the machines whose curves are nearest to the closed curve through points (n, 2) [m], laid onto it, the nearest first.
 
         DefinitionError for anything but a closed curve.
@@ -170,7 +170,7 @@ def curve_catalogue(
     machine: Mechanism,
     of: str,
     *,
-    hold: Any = (),
+    hold: object = (),
     count: int | None = None,
     seed: int = 0,
     executor: Executor | None = None,

@@ -188,7 +188,7 @@ class CurveClass:
         return float(self.machine.plan.strokes[self.stroke].end) - self.start
 
 
-def held_angles(machine: Mechanism, hold: Any) -> list[str]:
+def held_angles(machine: Mechanism, hold: object) -> list[str]:
     """Return the owners of the angles that stay as they are; DefinitionError for anything else."""
     entries, spellings = machine.plan.table.entries, machine.plan.table.spellings
     names = [*hold] if isinstance(hold, (tuple, list, set, frozenset)) else [hold]

@@ -6,7 +6,6 @@ Source: Freudenstein: Approximate synthesis of four-bar linkages, Trans. ASME 77
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -25,7 +24,7 @@ LARGEST = 1e6
 """Links that are so many times longer than the frame are none."""
 
 
-def freudenstein(pairs: Any, *, free: str = "follower", ground: float = 1.0) -> ExactSynthesis:
+def freudenstein(pairs: object, *, free: str = "follower", ground: float = 1.0) -> ExactSynthesis:
     """Return all four-bars that turn angles of the crank into angles of the follower: `freudenstein([(0.5, 0.9), (0.9, 1.2), (1.3, 1.6)])`.
 
     `pairs` (n, 2) are (phi, psi) [rad], three to five of them. Of three, both are measured from the frame O -> C. Of four, the zero of

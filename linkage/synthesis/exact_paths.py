@@ -38,7 +38,7 @@ System: TypeAlias = Callable[[ComplexArray, FloatArray], tuple[ComplexArray, Com
 """Values (m, 4) and derivatives (m, 4, 6) at places (m, 6) and times (m,) from 0 to 1."""
 
 
-def five_point(pivots: Any, points: Any, *, in_order: bool = True) -> ExactSynthesis:
+def five_point(pivots: object, points: object, *, in_order: bool = True) -> ExactSynthesis:
     """Return all four-bars on two fixed pivots whose coupler point goes through five points: `five_point([(0, 0), (0.1, 0)], points)`.
 
     `pivots` (2, 2) and `points` (5, 2) [m]. All real solutions are found, each with its machine: `solutions` go through the points in
@@ -64,7 +64,7 @@ def five_point(pivots: Any, points: Any, *, in_order: bool = True) -> ExactSynth
     return exact_synthesis(title, found, len(every))
 
 
-def complex_rows(name: str, given: Any, count: int) -> ComplexArray:
+def complex_rows(name: str, given: object, count: int) -> ComplexArray:
     """Return places (n, 2) as complex numbers (n,); DefinitionError for another number of them, or for two at one place."""
     rows = table_of("five_point", name, given, 2)
     if len(rows) != count:

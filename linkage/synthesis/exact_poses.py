@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations
 from math import pi
-from typing import Any, final
+from typing import final
 
 import numpy as np
 import numpy.typing as npt
@@ -56,7 +56,7 @@ NO_MINOR = 1e-12
 NOWHERE = complex(float("nan"), float("nan"))
 
 
-def burmester(poses: Any, region: Any = None, *, in_order: bool = True) -> Burmester:
+def burmester(poses: object, region: object = None, *, in_order: bool = True) -> Burmester:
     """Return the links that guide a body through finite poses, and the four-bars of them: `burmester([(0, 0, 0), (0.1, 0.05, 0.3), ...])`.
 
     `poses` (n, 3) are x, y [m] and angle [rad] of the body, three to five of them, or a `PoseTask`. A link leads a point of the body, the
@@ -79,7 +79,7 @@ def burmester(poses: Any, region: Any = None, *, in_order: bool = True) -> Burme
     return Burmester(read_only(rows), border, halves[0], halves[1], tuple(picked), body, bool(in_order))
 
 
-def checked_poses(poses: Any) -> FloatArray:
+def checked_poses(poses: object) -> FloatArray:
     """Return poses (n, 3); DefinitionError for anything else."""
     given = np.stack([poses.x, poses.y, poses.angle], axis=1) if isinstance(poses, PoseTask) else poses
     rows = table_of("burmester", "poses", given, 3, "rows (x, y, angle)")
@@ -216,7 +216,7 @@ class Burmester(Shown):
 
     __repr__ = __str__
 
-    def link(self, *, point: Any = None, centre: Any = None) -> GuidingLink:
+    def link(self, *, point: object = None, centre: object = None) -> GuidingLink:
         """Return the link of a circle point in the first pose, or of a centre point (2,) [m]; of four poses, of the nearest on the curve.
 
         Raises DefinitionError where both or none are given, and StudyError of five poses where there is none.

@@ -24,7 +24,7 @@ Squares: TypeAlias = tuple[Measure, ...]
 
 
 def task_error(
-    machine: Mechanism, task: Task, strokes: Any = None, *, timed: bool | None = None, over: Mapping[str, Any] | None = None
+    machine: Mechanism, task: Task, strokes: object = None, *, timed: bool | None = None, over: Mapping[str, object] | None = None
 ) -> Measure:
     """Return the sum of the squares of what a machine misses of a task, as a measure [SI^2]: what `synthesise` makes least.
 
@@ -41,7 +41,7 @@ def task_error(
 
 
 def point_errors(
-    machine: Mechanism, task: Task, strokes: Any = None, *, timed: bool | None = None, over: Mapping[str, Any] | None = None
+    machine: Mechanism, task: Task, strokes: object = None, *, timed: bool | None = None, over: Mapping[str, object] | None = None
 ) -> Squares:
     """Return the squares of what a machine misses at each point of a task, as measures [SI^2]; see `task_error`.
 

@@ -45,7 +45,20 @@ from linkage.loads import (
 from linkage.loads.element import UNBOUNDED, Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Condition, Judge, Motion, Question, least, most
-from linkage.quantities import AtPose, Distance, Member, Number, Quantity, Reference, Stroke, Variable, Where, label, name_of, quantity
+from linkage.quantities import (
+    AtPose,
+    Distance,
+    Member,
+    Number,
+    Quantity,
+    Reference,
+    Stroke,
+    Variable,
+    Where,
+    label,
+    name_of,
+    quantity,
+)
 from linkage.quantities.quantity import plain
 from linkage.statics import AnyMotion, LawRequest, each_once, lock_words, motion_in_case, plan_of, same
 from linkage.units import show

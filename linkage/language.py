@@ -96,17 +96,17 @@ def said(template: str, /, **values: object) -> str:
 
     A template is one literal, so that catalogues can be made of the source. DefinitionError for a value that it has and is not given.
     """
-    return _filled(translated(template), values)
+    return _with_values(translated(template), values)
 
 
 def said_of(number: int, one: str, many: str, /, **values: object) -> str:
     """Return the one of two templates, or in another language of as many as it has, that goes with a number; `{n}` is that number."""
     name = _LANGUAGE.get()
     template = (one if number == 1 else many) if name == ENGLISH else _catalogue(name).ngettext(one, many, number)
-    return _filled(template, {"n": number, **values})
+    return _with_values(template, {"n": number, **values})
 
 
-def _filled(template: str, values: dict[str, object]) -> str:
+def _with_values(template: str, values: dict[str, object]) -> str:
     try:
         return template.format(**values)
     except (KeyError, IndexError) as error:

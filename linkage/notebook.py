@@ -34,7 +34,7 @@ from .pictures import draw, page_html
 from .pictures.dimensioned import dimensioned
 from .pictures.sheet import Picture
 from .reports import NOTHING, design_rows, stroke_rows
-from .reports.table import cells, flat
+from .reports.table import column_texts, flat
 from .shown import Shown, ShownList
 from .statics import PinForces, max_table
 from .statics.table import max_headings
@@ -151,7 +151,7 @@ def columns_left_out(there: int) -> str:
 
 def column_table(columns: Sequence[Column], caption: str = "") -> str:
     """Return columns as a table, at some of their poses spread over all."""
-    texts = [cells(column, values) for column, values in zip(columns, flat(columns), strict=True)]
+    texts = [column_texts(column, values) for column, values in zip(columns, flat(columns), strict=True)]
     poses = np.unique(np.linspace(0, len(texts[0]) - 1, MOST_ROWS).round().astype(int)).tolist() if texts[0] else []
     return html_table([column.heading for column in columns], ([text[pose] for text in texts] for pose in poses), caption)
 

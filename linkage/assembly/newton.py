@@ -22,7 +22,7 @@ from ..program import (
     ancestors,
     compiled,
     expanded,
-    function,
+    function_text,
     is_zero,
     jacobian,
     replaced,
@@ -250,7 +250,7 @@ class Programs:
         rules, raw = nodes[: len(steps) + 2], nodes[len(steps) + 2 :]
         order = ancestors(known)
         given = [node for node in order if node.op == "input"]
-        text = function("hold", given, [node for node in order if node.op not in ("input", "constant")], known, GUARDED)
+        text = function_text("hold", given, [node for node in order if node.op not in ("input", "constant")], known, GUARDED)
         return cls(
             inputs=tuple(node.value for node in given),
             known=tuple(known),

@@ -83,7 +83,7 @@ def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> S
     distance = {side: float(np.hypot(*np.subtract(sketch.at(name), place))) for side, sketch in sketches.items()}
     side, other = sorted(distance, key=lambda each: distance[each])
     apart = float(np.hypot(*np.subtract(sketches[side].at(name), sketches[other].at(name))))
-    flat = type(step).from_drawing == "angle" and apart <= 1e-6 * extent(step, sketches[side])  # a straight link has no sides
+    flat = type(step).from_drawing == "angle" and apart <= 1e-6 * distance_of_parents(step, sketches[side])  # a straight link has no sides
     if not flat and distance[other] - distance[side] <= 1e-6 * max(apart, 1e-12):
         raise DefinitionError(
             f"{title}: {name} = {step} does not choose an assembly mode: both poses are equally near, the sketch lies on the dead line. "
@@ -95,7 +95,7 @@ def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> S
     return chosen
 
 
-def extent(step: Step, sketch: Sketch) -> float:
+def distance_of_parents(step: Step, sketch: Sketch) -> float:
     """Return the distance of a step's parents in a sketch [m]."""
     P, Q = (sketch.at(name_of(parent)) for parent in step.parents)
     return float(np.hypot(*np.subtract(P, Q)))

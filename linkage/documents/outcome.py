@@ -22,8 +22,8 @@ from ..pictures.scene import Scene
 from ..pictures.style import ACCENT, INK, SMALL, THIN, TITLE
 from ..program import FloatArray
 from ..reports import results
-from ..reports.table import cells as text_cells
 from ..reports.table import column_blocks, flat
+from ..reports.table import column_texts as text_cells
 from ..units import UNITS, factor, show, unit_sign
 from .content import Block, Cell, Illustration, Paragraph, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit

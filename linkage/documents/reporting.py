@@ -176,7 +176,7 @@ def composed(
     )
     whole = tuple(each for each in sections if each is not None)
     words = cited_numbers(plain_words(translated(own_paragraphs(type(machine))[0])))
-    return Document(machine.plan.heading, words, block, facts(subject, title_block, mark), mark, whole, current_language())
+    return Document(machine.plan.heading, words, block, title_rows(subject, title_block, mark), mark, whole, current_language())
 
 
 def own_system(machine: object) -> str | None:
@@ -224,7 +224,7 @@ def block_of_source(block: Block) -> Block:
     return block
 
 
-def facts(subject: ReportSubject, title_block: Mapping[str, str], mark: Mark) -> tuple[tuple[str, str], ...]:
+def title_rows(subject: ReportSubject, title_block: Mapping[str, str], mark: Mark) -> tuple[tuple[str, str], ...]:
     """Return the rows of the title block: what was calculated, of what inputs, by which version; nothing that another run would change."""
     machine, run, cls = subject.machine, subject.run, type(subject.machine)
     seen = {**run.ways, **{name: (value,) for name, value in run.held.items()}}

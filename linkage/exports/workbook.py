@@ -147,7 +147,7 @@ class Sheets:
             sheet.write_string(row, 5, self._note(name, entry.where), self.muted)
             self.book.define_name(self.defined_names[name], f"=Dimensions!$D${row + 1}")
         sheet.freeze_panes(5, 1)
-        self._check(sheet, row + 2)
+        self._agreement(sheet, row + 2)
         for place, text in enumerate(self._remarks()):
             sheet.write_string(row + 3 + place, 0, text, self.text)
 
@@ -165,7 +165,7 @@ class Sheets:
             return f"{where}; no formula here reads it" if where else "no formula here reads it"
         return where
 
-    def _check(self, sheet: Worksheet, row: int) -> None:
+    def _agreement(self, sheet: Worksheet, row: int) -> None:
         """Write a warning that appears where pins found together do not fit the dimensions any more."""
         places = [place for place, column in enumerate(self.calculation.columns) if column.checks]
         if not places:
@@ -373,7 +373,7 @@ class Sheets:
         unit = stroke_unit(self.calculation.design.plan, self.calculation.run.stroke)
         axis = {"num_font": {"size": 10}, "major_gridlines": {"visible": True, "line": {"color": "#E1E5EA", "width": 0.75}}}
         chart.set_title({"name": f"{self.calculation.design.plan.heading}: {y.heading}", "name_font": {"size": 13}, "overlay": False})
-        low, high = span(x.shown if x is not None else self.calculation.stroke_values[self.calculation.run.stroke])
+        low, high = axis_ends(x.shown if x is not None else self.calculation.stroke_values[self.calculation.run.stroke])
         name = x.heading if x is not None else f"{self.calculation.run.stroke}, {unit}"
         chart.set_x_axis({"name": name, "min": low, "max": high, "label_position": "low", "crossing": "min", **axis})
         chart.set_y_axis({"name": y.heading, "label_position": "low", "crossing": "min", **axis})
@@ -397,7 +397,7 @@ def featured_place(columns: Sequence[Column], wanted: str) -> int:
     return names.index(wanted) if wanted in names else changing[-1] if changing else len(columns) - 1
 
 
-def span(values: Any) -> tuple[float, float]:
+def axis_ends(values: Any) -> tuple[float, float]:
     """Return the least and the greatest of some values, as an axis is labelled."""
     return tidy(float(np.min(values))), tidy(float(np.max(values)))
 

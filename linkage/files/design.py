@@ -125,10 +125,10 @@ def members_to_write(machine: type[Mechanism] | Mechanism) -> dict[str, Member]:
     if not isinstance(machine, Mechanism):
         return declared(machine)
     members = declared(type(machine))
-    return {name: settled(name, member, machine) for name, member in members.items()} if changed(machine) else members
+    return {name: without_sketch(name, member, machine) for name, member in members.items()} if changed(machine) else members
 
 
-def settled(name: str, member: Member, machine: Mechanism) -> Member:
+def without_sketch(name: str, member: Member, machine: Mechanism) -> Member:
     """Return a member that no longer needs the sketch of its class."""
     if isinstance(member, Part):
         return member.having({each: value for each, value in changed(machine).items() if each.startswith(f"{name}.")})

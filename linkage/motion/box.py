@@ -612,7 +612,7 @@ def border_stencil(k: int, axis: Index) -> tuple[FloatArray, Index]:
     return np.array([offsets for offsets, _ in found])[axis], np.array([index.reshape(-1) for _, index in found])[axis]
 
 
-def turned(climbs: Climbs, lost: Mask, half: FloatArray) -> Climbs:
+def along_next_stroke(climbs: Climbs, lost: Mask, half: FloatArray) -> Climbs:
     """Return searches that follow the border along the next stroke where it is `lost` along this one, as wide as before for each stroke."""
     k = climbs.unit.shape[1]
     axis = np.where(lost, (climbs.axis + 1) % k, climbs.axis)
@@ -646,7 +646,7 @@ def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[C
         going, done, stuck = after_round(going, values, box.k, least[going.function, going.design], places)
         beaten = going.value <= (known + least)[going.function, going.design]
         stuck = (going.half < FINE) | (beaten & (going.idle > 2 * PATIENCE))
-        going = turned(going, np.asarray(~np.isfinite(values).all(axis=-1)), half)
+        going = along_next_stroke(going, np.asarray(~np.isfinite(values).all(axis=-1)), half)
         tops.append(going.subset(done))
         ended.append(going.subset(stuck & ~done))
         best = Climbs.concatenated([*tops, *ended, going]).best(box.seen.shape[1])[-len(going.value) :]

@@ -16,7 +16,7 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import SingularError, SingularWarning, warn
-from ..plan import ArrayReading, Mask, Plan, called, opening
+from ..plan import ArrayReading, Mask, Plan, name_or_pins, opening
 from ..program import FloatArray, Iterated, Node, scatter
 from ..steps import Point
 from ..vectors import Numbers
@@ -260,6 +260,6 @@ def warn_near(found: Conditioning, what: str, be: str = "is") -> None:
     near = found.culprit()
     plan, name, estimate = found.plan, near.member, float(np.max(found.error))
     how = str(near) if near.condition is None else f"{be} near a dead point ({near})"
-    who = f"{called(plan, name) if name else 'it'} {how}" if how else ""
+    who = f"{name_or_pins(plan, name) if name else 'it'} {how}" if how else ""
     text = f"{what}: {who or 'its parts nearly cancel'}; expect a relative error of about {estimate:.0e}."
     warn(SingularWarning(text, estimate=estimate))

@@ -262,7 +262,7 @@ class Evaluation:
         plan = self.grid.plan
         assumed, gaps, kernel = plan.made(("guards", tuple(each.key for each in self.requests)), self._watch)
         worst: dict[int, Conditioning] = {}
-        for band, part in pieces(*self.grid.size):
+        for band, part in grid_blocks(*self.grid.size):
             inputs = {name: part_of_input(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
             block = place[:, band, part]
             least = np.broadcast_to(kernel(inputs, way=self.way).values, (len(kernel.plan.outputs), *block.shape[1:]))
@@ -380,7 +380,7 @@ def checked_out(grid: Grid, rows: int, out: FloatArray) -> FloatArray:
     return out
 
 
-def pieces(m: int, n: int, most: int = PIECE) -> Iterator[tuple[slice, slice]]:
+def grid_blocks(m: int, n: int, most: int = PIECE) -> Iterator[tuple[slice, slice]]:
     """Yield parts of a grid of at most so many poses."""
     width = min(n, most)
     height = max(1, most // max(width, 1))

@@ -157,7 +157,7 @@ def outline_pieces(plan: Plan, outline: Outline, where: Reading, pick: Pick) -> 
         centre = tuple(where.value(each) for each in outline.centre) or (0.0, 0.0)
         return [Piece((place(*centre),), radius=where.value(outline.radius))]
     own = [Vec(where.value(x), where.value(y)) for x, y in outline.points]
-    corners, numbers = [place(each.x, each.y) for each in own], cut(plan, outline)
+    corners, numbers = [place(each.x, each.y) for each in own], corner_pieces(plan, outline)
     if not follows_dimensions(outline):
         return [Piece(tuple(corners[each] for each in piece), in_order=True) for piece in numbers]
     sound = how_sound(own, numbers, 1.0 if signed_area(class_corners(plan, outline)) > 0.0 else -1.0, pick)
@@ -175,7 +175,7 @@ def class_corners(plan: Plan, outline: Outline) -> Corners:
     return numbers_at(outline.points, lambda each: float(reading.value(each)))
 
 
-def cut(plan: Plan, outline: Outline) -> tuple[tuple[int, ...], ...]:
+def corner_pieces(plan: Plan, outline: Outline) -> tuple[tuple[int, ...], ...]:
     """Return the convex pieces of an outline by the numbers of its corners; DefinitionError for one that has no inside."""
     if not outline.closed or not hasattr(outline, "points"):
         what = f"{plan.title}: {outline.name} = {outline}: it is open, or lines of a file, and has no inside"

@@ -18,7 +18,7 @@ from ..program import FloatArray
 from .grid import recalled
 from .interruptions import ON_ARRAYS, ROUNDING, Clearances
 from .motion import Motion, out_of_reach
-from .search import places_text, searched
+from .search import extremum_reached, places_text
 
 
 @final
@@ -65,7 +65,7 @@ def margins_found(motion: Motion, known: Clearances, kept: Callable[[Motion], Ma
         found = margins(each, known)
         return found if kept is None else np.where(kept(each), found, np.nan)
 
-    found = searched(motion, asked, -1.0, everywhere=True)
+    found = extremum_reached(motion, asked, -1.0, everywhere=True)
     shape = (len(known.loops), *motion._design_shape)
     places = [{name: value[row] for name, value in found.strokes.items()} for row in range(shape[0])]
     noise = np.array([rounding_at(motion, known, place)[row] for row, place in enumerate(places)])

@@ -157,7 +157,7 @@ def pairs_of(plan: Plan) -> dict[Pair, bool]:
     found: dict[Pair, bool] = {}
     for a, b in combinations(lie, 2):
         if lie[a] & lie[b]:
-            found |= dict(apart(plan, a, b))
+            found |= dict(pairs_of_bodies(plan, a, b))
     for point, between in passing(plan, lie).items():
         for name in lie:
             if lie[name] & between and point not in shape_named(plan, name).points:
@@ -179,7 +179,7 @@ def id_of(plan: Plan, name: str) -> frozenset[str] | str:
     return name if shape.outline is not None else frozenset(shape.points)
 
 
-def apart(plan: Plan, a: str, b: str) -> Iterator[tuple[Pair, bool]]:
+def pairs_of_bodies(plan: Plan, a: str, b: str) -> Iterator[tuple[Pair, bool]]:
     """Yield the pairs that stand for two bodies: themselves where they share no pin, else and with them their outlines."""
     shapes = {name: shape_named(plan, name) for name in (a, b)}
     drawn = {name: [name] if shapes[name].outline is not None else outlines_on(plan, shapes[name].points) for name in (a, b)}

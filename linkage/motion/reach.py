@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..errors import unwarned
-from ..plan import Plan, called
+from ..plan import Plan, name_or_pins
 from . import stroke_search
 from .answer import places_text
 from .judge import Judge
@@ -45,7 +45,7 @@ def loop_margin(plan: Plan, least: LeastMargin) -> LoopMargin:
     if least.kind in ("links", "guides"):
         clear = float(np.arcsin(min(clear, 1.0)))
     strokes = {name: float(each) for name, each in least.strokes.items()}
-    return LoopMargin(called(plan, least.step), least.kind, clear, bool(least.is_hole), strokes, places_text(strokes, least.units))
+    return LoopMargin(name_or_pins(plan, least.step), least.kind, clear, bool(least.is_hole), strokes, places_text(strokes, least.units))
 
 
 Motion._limits_of = limits_over  # a motion's limits ask the judge, who is made with motions

@@ -82,10 +82,10 @@ def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
     require_function(motion, f)
     if not motion.strokes:
         raise DefinitionError(f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
-    return searched(motion, f, sense)
+    return extremum_reached(motion, f, sense)
 
 
-def searched(motion: Motion, f: Function, sense: float, *, everywhere: bool = False) -> Extremum:
+def extremum_reached(motion: Motion, f: Function, sense: float, *, everywhere: bool = False) -> Extremum:
     """Return the same of poses that are reached only, or `everywhere`."""
     units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
     if len(motion._stroke_shape) > 1 and len(strokes_moved(motion)) > 1:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, unwarned
 from ..loads import ForceElement, TwoPoint
-from ..plan import Mask, Plan, called, failures, missing_words, opening
+from ..plan import Mask, Plan, failures, missing_words, name_or_pins, opening
 from ..program import FloatArray
 from ..quantities import Distance
 from ..steps import Point
@@ -60,7 +60,7 @@ def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> S
     low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
     between = StrokeClearance(motion.plan, motion._grid.flat, name, held).interruptions(low, high)
     found = reachable_ranges(moved_along(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
-    crossings = tuple((each.deepest, called(motion.plan, each.step)) for each in between if not each.is_gap)
+    crossings = tuple((each.deepest, name_or_pins(motion.plan, each.step)) for each in between if not each.is_gap)
     others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
     least = least_transmission(motion, name, held, found)
     turns = open_turn(motion, name, held, found) if unit == "rad" else None
@@ -120,7 +120,7 @@ def end_of_reach(scan: Scan, inside: float, outside: float) -> tuple[float, str]
 
 def failing(motion: MotionLike) -> str:
     """Return what cannot be placed first at a motion's pose, by its name."""
-    return next((called(motion.plan, name) for name, mask in failures(motion.plan, motion._reading, motion.shape) if mask.any()), "")
+    return next((name_or_pins(motion.plan, name) for name, mask in failures(motion.plan, motion._reading, motion.shape) if mask.any()), "")
 
 
 # The least transmission angles along a stroke: of every dyad whose angle changes with it.

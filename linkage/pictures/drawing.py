@@ -23,7 +23,7 @@ from . import style
 from .labels import LabelPart, offsets
 from .layout import label_free, props
 from .scene import DrawnMark, Places, Plate, Scene
-from .shapes import rounded
+from .shapes import rounded_outline
 from .sheet import MOST_PIXELS, pixels_text, points_a_metre, sheet
 from .style import FAINT, STRONG, Look
 from .symbols import MovingPart, SlotPart, added, ground, polygon, rails
@@ -130,7 +130,7 @@ class BodyPart(MovingPart):
         self.artists = (self.face, self.edge)
 
     def move(self, at: Places) -> None:
-        outline = rounded(self.form.at(at), self.radius)
+        outline = rounded_outline(self.form.at(at), self.radius)
         for artist in self.artists:
             artist.set_xy(outline)
 

@@ -41,7 +41,7 @@ def _turn(a: FloatArray, b: FloatArray, c: FloatArray) -> float:
     return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 
 
-def rounded(corners: FloatArray, radius: float) -> FloatArray:
+def rounded_outline(corners: FloatArray, radius: float) -> FloatArray:
     """Return the line around a polygon at a distance, shape (m, 2).
 
     `corners` has the shape (k, 2), counter-clockwise: one gives a circle, two a bar with round ends. Where the polygon turns inwards
@@ -212,7 +212,7 @@ def strut(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
 
 def pulley(radius: float) -> DrawnLine:
     """Return a circle of a radius [m]."""
-    return DrawnLine(np.column_stack([np.zeros(33), rounded(np.zeros((1, 2)), radius)]), closed=True)
+    return DrawnLine(np.column_stack([np.zeros(33), rounded_outline(np.zeros((1, 2)), radius)]), closed=True)
 
 
 def tangent(start: float, end: float, length: float) -> DrawnLine:
@@ -323,7 +323,7 @@ def accumulators(count: int, start: float, across: float, size: float) -> tuple[
     for place in places:
         foot, top = run + side * 0.7 * size, run + side * (0.7 * size + tall)
         found.append(outline((0.0, place, run), (0.0, place, foot)))
-        shell = rounded(np.array([[place, foot + side * half], [place, top - side * half]]), half)
+        shell = rounded_outline(np.array([[place, foot + side * half], [place, top - side * half]]), half)
         found.append(DrawnLine(np.column_stack([np.zeros(len(shell)), shell]), fill="ROD", closed=True))
         middle = 0.5 * (foot + top)
         found.append(outline((0.0, place - half, middle), (0.0, place + half, middle)))
@@ -361,7 +361,7 @@ def support_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
 
 def force_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
     """Return a ring where a force acts."""
-    ring = rounded(np.zeros((1, 2)), 0.68 * size)
+    ring = rounded_outline(np.zeros((1, 2)), 0.68 * size)
     return (DrawnLine(np.column_stack([np.zeros(len(ring)), ring]), fill="ACCENT", closed=True),)
 
 

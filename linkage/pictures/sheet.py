@@ -33,7 +33,7 @@ def sheet(ax: Axes, box: Bounds) -> None:
     ax.set_aspect("equal", adjustable="box")
     for axis, name in ((ax.xaxis, "x"), (ax.yaxis, "y")):
         axis.set_major_locator(RoundValues(factor(unit)))
-        axis.set_major_formatter(ScalarFormatter(useOffset=False) if unit == "m" else length_text(factor(unit)))
+        axis.set_major_formatter(ScalarFormatter(useOffset=False) if unit == "m" else ticks_of_length(factor(unit)))
         axis.set_label_text(f"{name}, {translated(unit)}", fontsize=style.TEXT, color=style.MUTED)
     quiet(ax)
     for side in ("top", "right"):
@@ -67,7 +67,7 @@ class RoundValues(MaxNLocator):
         return np.asarray(super().tick_values(vmin / self.unit, vmax / self.unit)) * self.unit
 
 
-def length_text(unit: float) -> FuncFormatter:
+def ticks_of_length(unit: float) -> FuncFormatter:
     """Return what writes a length [m] in a unit that is so much of SI."""
     return FuncFormatter(lambda value, _: f"{value / unit:.6g}".replace("-", "\N{MINUS SIGN}"))
 

@@ -15,7 +15,7 @@ from matplotlib.patches import Patch, Polygon
 from ..program import FloatArray
 from . import style
 from .scene import Places, Scene, SlideTrack
-from .shapes import BLOCK, SLOT, rounded
+from .shapes import BLOCK, SLOT, rounded_outline
 from .style import Look
 
 Kind = TypeVar("Kind", bound=Patch)
@@ -94,7 +94,7 @@ class SlotPart(MovingPart):
         self.artists = (self.face,)
 
     def move(self, at: Places) -> None:
-        self.face.set_xy(rounded(np.array([at[name] for name in self.points]), SLOT * self.size))
+        self.face.set_xy(rounded_outline(np.array([at[name] for name in self.points]), SLOT * self.size))
 
 
 def rails(ax: Axes, scene: Scene, look: Look) -> None:

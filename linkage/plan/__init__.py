@@ -14,7 +14,7 @@ from .members import (
     with_inner,
     written_out,
 )
-from .missing import Mask, called, failures, missing_words, negative, opening
+from .missing import Mask, failures, missing_words, name_or_pins, negative, opening
 from .part import Part, check_circuits, has_no_axes, with_parts
 from .plan import Plan
 from .reading import ArrayReading, Reading

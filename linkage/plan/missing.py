@@ -50,7 +50,7 @@ def opening(plan: Members, name: str) -> str:
     return member.sentence() if isinstance(member, Step) else f"{name} = {member}"
 
 
-def called(plan: Members, name: str) -> str:
+def name_or_pins(plan: Members, name: str) -> str:
     """Return a member's name; a pin of a group goes by the names of all its pins."""
     member = plan.members[name]
     group = member.companions if isinstance(member, Point) else ()

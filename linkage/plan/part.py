@@ -385,7 +385,7 @@ class Renamed(Renaming):
                     found[dotted] = Drawn(strokes).renewed(_name=dotted)
                 continue
             with about(dotted):
-                found[dotted] = self._placed(name, dotted, member)
+                found[dotted] = self._member_in_part(name, dotted, member)
         if left_out:
             self._check_left(left_out, found)
         return found
@@ -400,7 +400,7 @@ class Renamed(Renaming):
                     said = f"{self.part.name} = {self.part}: {lost}=None, but {own} = {self.plan.unbound[own]} needs it"
                     raise DefinitionError(f"{said}; leave that out, too, {own}=None.", member=self.part.name)
 
-    def _placed(self, name: str, dotted: str, member: Member) -> Member:
+    def _member_in_part(self, name: str, dotted: str, member: Member) -> Member:
         """Return a member with its name in the whole, where the part stands, with the dimensions that are given."""
         given = self.part.given
         if name in given and isinstance(member, (Stroke, Dimension)) and not is_number(given[name]):

@@ -54,7 +54,7 @@ class Table:
             error = unknown("Unit", unit, UNITS, where=f"{self.title}: {where}, {name}")
             raise DefinitionError(f'{error} Write "" where none of them fits; the number is then shown in SI as it is.')
         entry = DesignVariable(name, default, kind, where, unit)
-        checked(entry, default)
+        value_in_range(entry, default)
         self.entries[name], self.defaults[name] = entry, float(default)
         self.spellings[name] = (name, 1)
 
@@ -107,7 +107,7 @@ class Table:
                 owner, sign = self.spellings[each]
                 if by.setdefault(owner, name) != name:
                     raise DefinitionError(f"{self.title}: {by[owner]} and {name} both set {owner}; leave one of them out.")
-                values[owner] = checked(self.entries[owner], signed(part, sign, self.entries[owner]))
+                values[owner] = value_in_range(self.entries[owner], signed(part, sign, self.entries[owner]))
         return values
 
     def _pairs(self, name: str, value: npt.ArrayLike) -> list[tuple[str, npt.ArrayLike]]:
@@ -152,7 +152,7 @@ def signed(value: float | npt.ArrayLike, sign: int, entry: DesignVariable) -> Nu
     return float(sign * array) if array.ndim == 0 else read_only(sign * array)
 
 
-def checked(entry: DesignVariable, value: Numbers) -> Numbers:
+def value_in_range(entry: DesignVariable, value: Numbers) -> Numbers:
     """Return a value that the variable may take; raise DefinitionError for NaN, infinity and what is out of its range."""
     low, high = RANGES.get(entry.kind, (-LARGEST, LARGEST))
     if low <= value <= high if type(value) is float else np.all((np.asarray(value) >= low) & (np.asarray(value) <= high)):

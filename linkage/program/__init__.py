@@ -16,5 +16,5 @@ from .node import Closure, Graph, Level, Node
 from .numba_backend import compiled_loop, pays_compiled
 from .operations import ARRAYS, FLOATS, NO_VALUE
 from .schedule import Schedule, ancestors, lowered, replaced
-from .text import GUARDED, TEMPLATES, Dialect, function
+from .text import GUARDED, TEMPLATES, Dialect, function_text
 from .traced import Comparison, Notes, Traced, claim, elementwise, is_traced, node_of

@@ -15,7 +15,7 @@ from ..vectors import FloatArray, Numbers
 from .cache import compiled
 from .operations import FLOATS, NO_VALUE, QUICK
 from .schedule import Schedule
-from .text import GUARDED, PYTHON, Dialect, function
+from .text import GUARDED, PYTHON, Dialect, function_text
 
 
 @final
@@ -40,8 +40,8 @@ class PlainFloats:
 
     def _text(self, dialect: Dialect) -> str:
         plan = self.plan
-        text = function("design", plan.design_inputs, plan.design, plan.passed, dialect)
-        return text + function("pose", [*plan.passed, *plan.pose_inputs], plan.pose, (*plan.outputs, *plan.guards), dialect)
+        text = function_text("design", plan.design_inputs, plan.design, plan.passed, dialect)
+        return text + function_text("pose", [*plan.passed, *plan.pose_inputs], plan.pose, (*plan.outputs, *plan.guards), dialect)
 
     def design(self, values: Sequence[float]) -> tuple[float, ...]:
         """Return what the pose part needs of a design; that of the latest is kept."""

@@ -17,7 +17,7 @@ from .cache import compiled
 from .node import Level, Node
 from .operations import ARRAYS, FLOATS
 from .schedule import Schedule, rewritten
-from .text import GUARDED, function
+from .text import GUARDED, function_text
 
 #: Operations that have no place for a result: they make a new array.
 MAKERS = ("pick", "component", "solve")
@@ -54,7 +54,7 @@ class NumpyBlocks:
     @cached_property
     def _design(self) -> tuple[Callable[..., Sequence[float]], Callable[..., Sequence[Numbers]]]:
         plan = self.plan
-        text = function("design", plan.design_inputs, plan.design, plan.passed, GUARDED)
+        text = function_text("design", plan.design_inputs, plan.design, plan.passed, GUARDED)
         return compiled(text, FLOATS)["design"], compiled(text, ARRAYS)["design"]
 
     def passed(self, design: Sequence[Numbers]) -> list[Numbers]:

@@ -32,7 +32,7 @@ def flat(columns: Sequence[Column]) -> list[FloatArray]:
         raise DefinitionError(f"The columns' shapes do not fit each other: {shapes}.") from None
 
 
-def cells(column: Column, values: FloatArray) -> list[str]:
+def column_texts(column: Column, values: FloatArray) -> list[str]:
     """Return a column's numbers as text, with its number of decimals."""
     digits = column.shown_digits
     return [NO_VALUE if np.isnan(value) else f"{value:z.{digits}f}" for value in values.tolist()]
@@ -65,7 +65,7 @@ def text_table(columns: Sequence[Column], width: int | None = None) -> Iterator[
 
     With a `width` [characters] a table that is too wide is cut into blocks, the first column repeated in each.
     """
-    texts = [cells(column, values) for column, values in zip(columns, flat(columns), strict=True)]
+    texts = [column_texts(column, values) for column, values in zip(columns, flat(columns), strict=True)]
     for number, block in enumerate(column_blocks(columns, texts, checked_width(width), len(GAP))):
         if number:
             yield ""
@@ -89,7 +89,7 @@ def rich_tables(columns: Sequence[Column], width: int | None = None) -> Iterator
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
-    texts = [cells(column, values) for column, values in zip(columns, flat(columns), strict=True)]
+    texts = [column_texts(column, values) for column, values in zip(columns, flat(columns), strict=True)]
     room = checked_width(width)
     for block in column_blocks(columns, texts, None if room is None else room + 1, PADDING):
         table = Table(box=SIMPLE_HEAD, header_style="bold", show_edge=False)

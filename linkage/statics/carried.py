@@ -199,7 +199,7 @@ class LoadAt:
         if self.is_affine and self.program is not None and self.fixed is not None and not self.plan.solved:
             values = self._run(self.program, {**self.designs, **strokes}, count)
             if values is not None:
-                return largest(values[0], values[1], *self.fixed)
+                return greatest_load(values[0], values[1], *self.fixed)
         return self.most(self.motion(strokes))
 
     def _run(self, kernel: Kernel, inputs: Mapping[str, Any], count: int) -> FloatArray | None:
@@ -224,7 +224,7 @@ class LoadAt:
         bounds = self.bounds(motion)
         low, high = (np.stack([np.broadcast_to(each[at], motion.shape) for each in bounds]) for at in (0, 1))
         own, share = self.forces(motion)
-        found = largest(own, share, low, high)
+        found = greatest_load(own, share, low, high)
         for at, name in enumerate(self.bounded if not self.is_affine else ()):
             found[at] = self._found(motion, name, share[at], low[at], high[at])
         return found
@@ -241,12 +241,12 @@ class LoadAt:
             return np.where(share > 0.0, out, back)
 
         alone = force(np.zeros(motion.shape))
-        found = largest(alone, share, low, high)
+        found = greatest_load(alone, share, low, high)
         for _ in range(ROUNDS):
             known = np.isfinite(found) & (found > 0.0)
             guess = np.where(known, found, 1.0)
             slope = (force(guess) - alone) / guess
-            new = np.where(known, largest(alone, slope, low, high), found)
+            new = np.where(known, greatest_load(alone, slope, low, high), found)
             is_settled = bool(np.all(np.abs(new - found)[known] <= SAME * np.abs(new)[known]))
             found = new
             if is_settled:
@@ -254,7 +254,7 @@ class LoadAt:
         return found
 
 
-def largest(own: FloatArray, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+def greatest_load(own: FloatArray, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
     """Return the greatest load for which own + share load stays within low..high; 0 where that does not hold without it."""
     with np.errstate(divide="ignore", invalid="ignore"):
         load = np.where(share > IDLE, (high - own) / share, np.where(share < -IDLE, (low - own) / share, np.inf))

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..motion import Motion
-from ..motion.evaluation import part_of_input, pieces
+from ..motion.evaluation import grid_blocks, part_of_input
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
 from .agreement import assumed_joints
@@ -249,7 +249,7 @@ def frictions_at(
     lever, coefficient = np.stack([each.lever for each in frictions]), np.stack([each.coefficient for each in frictions])
     q, locked = np.zeros((len(frictions), poses.count)), np.zeros(poses.count, bool)
     places = poses.full(np.arange(poses.count, dtype=float)).reshape(motion._grid.size)
-    for band, part in pieces(*motion._grid.size, PIECE):
+    for band, part in grid_blocks(*motion._grid.size, PIECE):
         inputs = {name: part_of_input(value, band, part, name in poses.plan.table.entries) for name, value in given.items()}
         good = np.isfinite(places[band, part])
         at = places[band, part][good].astype(int)

@@ -244,7 +244,7 @@ class MonteCarloRun:
             store = np.empty((len(bound), width, self.count))
             for first in range(0, self.poses.pose_count, width):
                 part = slice(first, min(first + width, self.poses.pose_count))
-                self._take(bound, self._traced([quantities[key] for key in bound], part, store), first, found)
+                self._take(bound, self._values_traced([quantities[key] for key in bound], part, store), first, found)
         for key, quantity in quantities.items():
             if key not in bound:
                 parts = [self.poses.of_function(self._block(block), quantity).T for block in blocks(self.count, self.poses.pose_count)]
@@ -265,7 +265,7 @@ class MonteCarloRun:
         found = number_bound(self.poses.base.plan, quantity)
         return id(quantity) if found is None else found.key
 
-    def _traced(self, traced: Sequence[Measured | Worst], part: slice, store: FloatArray) -> FloatArray:
+    def _values_traced(self, traced: Sequence[Measured | Worst], part: slice, store: FloatArray) -> FloatArray:
         """Return quantities at some of the poses, shape (quantities, poses, designs), in the array that is there for them."""
         place = store[:, : part.stop - part.start]
 

@@ -35,7 +35,7 @@ from ..quantities import PoseCondition, Quantity, Reference, is_number, name_of,
 from ..quantities import x as x_of
 from ..quantities import y as y_of
 from ..statics.applied import case_of
-from ..statics.carried import SLIPPING, TIPPING, LoadAt, largest
+from ..statics.carried import SLIPPING, TIPPING, LoadAt, greatest_load
 from ..units import show
 from .checks import check_one_design
 from .climb import Climb
@@ -269,7 +269,7 @@ class FurtherLimit:
             return np.broadcast_to(np.asarray(motion.value(self.most), float), motion.shape)
         own = self._margin(motion, loads.own)
         share = (self._margin(motion, loads.beside(PROBE)) - own) / PROBE
-        return largest(own, share, np.zeros(()), np.asarray(np.inf))
+        return greatest_load(own, share, np.zeros(()), np.asarray(np.inf))
 
     def _margin(self, motion: Motion, acting: object) -> FloatArray:
         asked = self.margin if isinstance(self.margin, Quantity) else self.margin.under(acting, keep=True)

@@ -17,7 +17,21 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError, FileError, cited, is_yes
-from ..quantities import Axes, Member, Number, Operand, Quantity, Reference, Stroke, is_number, label, name_of, needs, quantity, spelled
+from ..quantities import (
+    Axes,
+    Member,
+    Number,
+    Operand,
+    Quantity,
+    Reference,
+    Stroke,
+    is_number,
+    label,
+    name_of,
+    needs,
+    quantity,
+    spelled,
+)
 from ..quantities.axes import NOTHING, negated, plus
 from ..quantities.quantity import plain
 from ..steps import Link
@@ -52,7 +66,7 @@ class Outline(Member):
         closed: bool = True, filled: bool = True, hatched: bool = False,
     ) -> None:  # fmt: skip
         self.points = outline_corners(points, "Outline", least=2)
-        self.on = carrier(on, "Outline")
+        self.on = carrying_points(on, "Outline")
         self.closed = is_yes("Outline: closed", closed)
         self.filled, self.hatched = is_yes("Outline: filled", filled) and self.closed, is_yes("Outline: hatched", hatched)
 
@@ -150,7 +164,7 @@ class Outline(Member):
         return words | ({"hatched": "True"} if self.hatched else {})
 
     def __str__(self) -> str:
-        return written("Outline", [f"[{', '.join(map(corner_text, self.points))}]"], self.on, self.options())
+        return outline_text("Outline", [f"[{', '.join(map(corner_text, self.points))}]"], self.on, self.options())
 
 
 @final
@@ -167,7 +181,7 @@ class CircleOutline(Outline):
             raise DefinitionError(f"Outline.circle: it stands about {label(centre)} and on={cited(on)} as well; leave on= out.")
         self.at: Any = centre if centre is not None else corner_of(at, "Outline.circle(at=...)")
         self.radius = length_above_zero(radius, "Outline.circle(radius=...)")
-        self.on = carrier(on, "Outline.circle")
+        self.on = carrying_points(on, "Outline.circle")
         self.closed, self.filled, self.hatched = True, is_yes("Outline.circle: filled", filled), False
 
     @property
@@ -197,7 +211,7 @@ class CircleOutline(Outline):
     def __str__(self) -> str:
         place = corner_text(self.at) if isinstance(self.at, tuple) else repr(name_of(self.at))
         options = {} if self.filled else {"filled": "False"}
-        return written("Outline.circle", [f"at={place}", f"radius={spelled(self.radius)}"], self.on, options)
+        return outline_text("Outline.circle", [f"at={place}", f"radius={spelled(self.radius)}"], self.on, options)
 
 
 @final
@@ -205,11 +219,11 @@ class LineOutline(Outline):
     """An open line; `Outline.line` makes it."""
 
     def __init__(self, points: Sequence[Corner], *, on: Reference | Sequence[Reference] | None = None, hatched: bool = True) -> None:
-        self.points, self.on = outline_corners(points, "Outline.line", least=2), carrier(on, "Outline.line")
+        self.points, self.on = outline_corners(points, "Outline.line", least=2), carrying_points(on, "Outline.line")
         self.closed, self.filled, self.hatched = False, False, is_yes("Outline.line: hatched", hatched)
 
     def __str__(self) -> str:
-        return written("Outline.line", list(map(corner_text, self.points)), self.on, {} if self.hatched else {"hatched": "False"})
+        return outline_text("Outline.line", list(map(corner_text, self.points)), self.on, {} if self.hatched else {"hatched": "False"})
 
 
 class PlacedFile(Outline):
@@ -223,7 +237,7 @@ class PlacedFile(Outline):
     def _place(self, path: str, on: object, at: Corner, angle: Operand) -> None:
         if not path.strip():
             raise DefinitionError(f"{self.form}: the path of the file is missing.")
-        self.path, self.on = path, carrier(on, self.form)
+        self.path, self.on = path, carrying_points(on, self.form)
         self.at, self.angle = corner_of(at, f"{self.form}(at=...)"), quantity(angle)
 
     def moved(self, corner: Callable[[Quantity, Quantity], tuple[Quantity, Quantity]], axes: Axes) -> Self:
@@ -246,7 +260,7 @@ class PlacedFile(Outline):
     def in_radians(self) -> tuple[Quantity, ...]:
         return (self.angle,)
 
-    def _placed(self, points: Array, value: Value) -> Array:
+    def _on_its_points(self, points: Array, value: Value) -> Array:
         """Return points of the file [m] where they are drawn."""
         cos, sin = np.cos(value(self.angle)), np.sin(value(self.angle))
         return np.asarray(points @ np.array([[cos, sin], [-sin, cos]]) + [value(each) for each in self.at])
@@ -282,13 +296,13 @@ class DxfOutline(PlacedFile):
 
     def lines(self, value: Value) -> tuple[Array, ...]:
         """Return its lines; FileError where the file cannot be read, DefinitionError where there are no lines in it."""
-        return tuple(self._placed(self.scale * each, value) for each in dxf_lines(self.path, self.layers))
+        return tuple(self._on_its_points(self.scale * each, value) for each in dxf_lines(self.path, self.layers))
 
     def __str__(self) -> str:
         options = {"filled": "True"} if self.filled else {}
         scale = [] if self.scale == 1e-3 else [f"scale={self.scale!r}"]
         layers = [f"layers={list(self.layers)!r}"] if self.layers else []
-        return written("Outline.dxf", [repr(self.path), *self._placing(), *scale, *layers], self.on, options)
+        return outline_text("Outline.dxf", [repr(self.path), *self._placing(), *scale, *layers], self.on, options)
 
 
 @final
@@ -318,11 +332,11 @@ class ImageOutline(PlacedFile):
     def under(self, value: Value) -> tuple[str, Array, float] | None:
         """Return the same with corners of a square; the picture's height is its own."""
         unit = value(self.width) * np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
-        return self.path, self._placed(unit, value), self.opacity
+        return self.path, self._on_its_points(unit, value), self.opacity
 
     def __str__(self) -> str:
         opacity = {} if self.opacity == 0.5 else {"opacity": repr(self.opacity)}
-        return written("Outline.image", [repr(self.path), f"width={spelled(self.width)}", *self._placing()], self.on, opacity)
+        return outline_text("Outline.image", [repr(self.path), f"width={spelled(self.width)}", *self._placing()], self.on, opacity)
 
 
 # What it is given, and how that is written.
@@ -353,7 +367,7 @@ def length_above_zero(given: object, what: str) -> Quantity:
     return quantity(plain(given))
 
 
-def carrier(given: object, what: str) -> tuple[Reference, ...]:
+def carrying_points(given: object, what: str) -> tuple[Reference, ...]:
     """Return the points that carry an outline; DefinitionError for more than two, or one of them twice."""
     if given is None:
         return ()
@@ -388,7 +402,7 @@ def corner_text(corner: Sequence[Quantity]) -> str:
     return f"({', '.join(map(spelled, corner))})"
 
 
-def written(what: str, words: Sequence[str], on: Sequence[Reference], options: Mapping[str, str]) -> str:
+def outline_text(what: str, words: Sequence[str], on: Sequence[Reference], options: Mapping[str, str]) -> str:
     """Return an outline as it is written."""
     names = [each if isinstance(each, str) else label(each) for each in on]
     carried = [f"on={' '.join(names)!r}"] if names else []

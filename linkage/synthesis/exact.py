@@ -275,7 +275,7 @@ class CouplerTask:
     in_order: bool = True
 
 
-def judged(one: Pivoted, other: Pivoted, asked: CouplerTask, *, both_drives: bool = True) -> ExactMachine:
+def judged_machine(one: Pivoted, other: Pivoted, asked: CouplerTask, *, both_drives: bool = True) -> ExactMachine:
     """Return the machine of two guided pins of a coupler, driven by the pin that takes it through all points, else by the first.
 
     Of two drives that do, one that turns fully goes first.

@@ -14,7 +14,7 @@ from ..motion import Motion
 from ..quantities import is_whole
 from ..shown import ShownList
 from ..study.checks import check_one_design
-from .exact import ComplexArray, CouplerTask, ExactMachine, Pivoted, judged
+from .exact import ComplexArray, CouplerTask, ExactMachine, Pivoted, judged_machine
 from .tasks import check_point
 
 RIGID = 1e-9
@@ -46,7 +46,7 @@ def cognates(machine: Mechanism, of: str = "P", *, count: int = 73) -> ShownList
     second = Pivoted(o + P - A, o), Pivoted(w + share * (B - C), w)
     third = Pivoted(w + (1.0 - share) * (A - O), w), Pivoted(c + P - B, c)
     asked = CouplerTask(P, in_order=False)
-    return ShownList([judged(*pins, asked) for pins in (second, third)])
+    return ShownList([judged_machine(*pins, asked) for pins in (second, third)])
 
 
 def carrying(machine: Mechanism, motion: Motion, of: str) -> tuple[FourBar, complex]:

@@ -13,7 +13,7 @@ from ..errors import DefinitionError, StudyError, cited
 from ..language import said
 from ..program import FloatArray
 from ..quantities import is_number
-from .exact import ComplexArray, CouplerTask, ExactMachine, ExactSynthesis, Pivoted, exact_synthesis, is_without_links, judged
+from .exact import ComplexArray, CouplerTask, ExactMachine, ExactSynthesis, Pivoted, exact_synthesis, is_without_links, judged_machine
 from .tasks import check_radians, table_of
 
 FREE = ("crank", "follower")
@@ -56,7 +56,7 @@ def freudenstein(pairs: object, *, free: str = "follower", ground: float = 1.0) 
             first = int(np.argmin(rows[:, 0]))  # where a sweep begins, so that psi has no turn too many
             zero = float(np.angle(follower.places[first] - follower.centre) - rows[first, 1])
             asked = CouplerTask(0.5 * (crank.places + follower.places), given=rows[:, 0], follower_zero=zero)
-            found.append(judged(crank, follower, asked, both_drives=False))
+            found.append(judged_machine(crank, follower, asked, both_drives=False))
     title = said("Four-bars for {count} pairs of angles", count=len(rows))
     return exact_synthesis(title, found, max(len(rows) - 2, len(found)))
 

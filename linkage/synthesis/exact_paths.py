@@ -17,7 +17,7 @@ import numpy.typing as npt
 from ..errors import DefinitionError, StudyError, cited
 from ..language import said
 from ..program import FloatArray
-from .exact import ComplexArray, CouplerTask, ExactMachine, ExactSynthesis, Pivoted, exact_synthesis, is_without_links, judged
+from .exact import ComplexArray, CouplerTask, ExactMachine, ExactSynthesis, Pivoted, exact_synthesis, is_without_links, judged_machine
 from .tasks import table_of
 
 POINTS = 5
@@ -56,10 +56,10 @@ def five_point(pivots: object, points: object, *, in_order: bool = True) -> Exac
     every = solutions_of(own, own.conj())
     found: list[ExactMachine] = []
     for z in real_ones(every, own):
-        A, B = (each * (b - a) + a for each in pins(z, own))
+        A, B = (each * (b - a) + a for each in pin_places(z, own))
         one, other = Pivoted(A, a), Pivoted(B, b)
         if not is_without_links(one, other, abs(b - a)):
-            found.append(judged(one, other, CouplerTask(targets, in_order=bool(in_order))))
+            found.append(judged_machine(one, other, CouplerTask(targets, in_order=bool(in_order))))
     title = said("Four-bars on two pivots through five points")
     return exact_synthesis(title, found, len(every))
 
@@ -351,7 +351,7 @@ def residuals(state: FloatArray, own: ComplexArray) -> tuple[FloatArray, FloatAr
     return values, slopes
 
 
-def pins(z: tuple[complex, complex], own: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
+def pin_places(z: tuple[complex, complex], own: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
     """Return the places (5,) of both pins in the pivots' axes."""
     turned = np.concatenate([[1.0], turnings(*z, own)])
     turned = turned / abs(turned)

@@ -35,7 +35,7 @@ from .exact import (
     angles_of_reach,
     exact_synthesis,
     is_without_links,
-    judged,
+    judged_machine,
 )
 from .exact_functions import real_roots
 from .tasks import PoseTask, check_radians, table_of
@@ -606,4 +606,4 @@ def pair_machines(body: PosedBody, links: Sequence[GuidingLink], *, in_order: bo
 
 def machine_of(body: PosedBody, one: GuidingLink, other: GuidingLink, *, in_order: bool) -> ExactMachine:
     """Return the machine of two links, judged."""
-    return judged(one.pivoted, other.pivoted, CouplerTask(body.z, body=body.rows[:, 2], in_order=in_order))
+    return judged_machine(one.pivoted, other.pivoted, CouplerTask(body.z, body=body.rows[:, 2], in_order=in_order))

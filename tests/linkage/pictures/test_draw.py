@@ -38,7 +38,7 @@ from linkage.pictures.curves import limit_crossings
 from linkage.pictures.drawing import BodyPart, MarkPart
 from linkage.pictures.poses import draw_machine
 from linkage.pictures.scene import Scene
-from linkage.pictures.shapes import hull, rounded
+from linkage.pictures.shapes import hull, rounded_outline
 from linkage.pictures.sheet import sheet
 from linkage.pictures.strokes import stroke_words
 from linkage.pictures.symbols import hatched
@@ -143,7 +143,7 @@ def test_hull_of_a_straight_body_is_its_ends(turn):
 def test_outline_keeps_its_distance(points, radius):
     places = np.array(points, float)
     corners = places[hull(places)]
-    outline = rounded(corners, radius)
+    outline = rounded_outline(corners, radius)
     ends = np.roll(corners, -1, axis=0)
     along = ends - corners
     share = np.einsum("okc,kc->ok", outline[:, None] - corners, along) / np.einsum("kc,kc->k", along, along)

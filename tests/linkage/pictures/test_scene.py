@@ -17,7 +17,7 @@ from linkage.pictures.drawing import BodyPart, MarkPart
 from linkage.pictures.labels import LabelPart
 from linkage.pictures.poses import empty_page
 from linkage.pictures.scene import Scene, rigid_together
-from linkage.pictures.shapes import plate_form, rounded
+from linkage.pictures.shapes import plate_form, rounded_outline
 from linkage.pictures.symbols import hatched
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.front_loader import FrontLoader
@@ -109,7 +109,7 @@ def test_the_line_around_a_hollow_form_keeps_its_distance():
     corners = shares @ points
     assert len(corners) > 4
     assert_allclose(shares.sum(axis=1), 1.0)
-    line = rounded(corners, 0.1)
+    line = rounded_outline(corners, 0.1)
     ends = np.roll(corners, -1, axis=0) - corners
     share = np.einsum("okc,kc->ok", line[:, None] - corners, ends) / np.einsum("kc,kc->k", ends, ends)
     nearest = corners + np.clip(share, 0, 1)[..., None] * ends

@@ -50,7 +50,7 @@ def curves(ax: Axes, across: str, up: str) -> None:
     ax.set_xlabel(across, fontsize=style.LABEL, color=style.INK)
     ax.set_title(up, fontsize=style.LABEL, color=style.INK)
     ax.grid(color=style.GRID, linewidth=0.6)
-    ax.legend(fontsize=style.LABEL, frameon=False)
+    ax.legend(fontsize=style.SMALL, frameon=False)
 
 
 def mower_lift() -> Figure:
@@ -69,7 +69,7 @@ def mower_lift() -> Figure:
 
 def hitch() -> Figure:
     """Return the hitch and its capacity."""
-    figure, axes = sheet()
+    figure, axes = sheet(high=3.2)
     pair = ThreePointHitch(), ThreePointHitch(**FLAT_HITCH)
     machines(axes, pair, "S")
     for machine, colour, name in zip(pair, (BEFORE, AFTER), ("before", "after"), strict=True):
@@ -81,7 +81,7 @@ def hitch() -> Figure:
 
 def balancer() -> Figure:
     """Return the balancer with header 1, and the reactions of all headers."""
-    figure, axes = sheet()
+    figure, axes = sheet(high=3.6)
     pair: tuple[HeaderBalancer, HeaderBalancer] = with_header(1), steady_balancer(1)
     machines(axes, pair, "h")
     for number, dashes in zip((1, 2, 3), ((1, 0), (5, 2), (1, 1)), strict=True):

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from ..language import translated
 from ..pictures.scene import Scene
-from ..pictures.sheet import length_text
+from ..pictures.sheet import ticks_of_length
 from ..units import factor, shown_in
 from .content import Illustration
 
@@ -44,7 +44,7 @@ def in_one_unit(ax: Axes) -> None:
     unit = shown_in("mm") if shown_in("m") != "m" else "m"
     for axis, name in ((ax.xaxis, "x"), (ax.yaxis, "y")):
         if unit != "m":
-            axis.set_major_formatter(length_text(factor(unit)))
+            axis.set_major_formatter(ticks_of_length(factor(unit)))
             axis.set_label_text(f"{name}, {translated(unit)}")
 
 

@@ -13,6 +13,7 @@ from ..frozen import FrozenDict, refuses_changes
 from ..language import said, said_of
 from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
 from ..shown import Shown
+from ..steps import Step
 from ..units import UNITS, deg, display_unit, show, shown_number, unit_sign
 
 
@@ -225,8 +226,13 @@ def assembly_error(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mappi
 
     `reading` holds the failing poses, `mask` all of them (designs first, strokes last), `strokes` their values.
     """
-    name, lost = next(failures(plan, reading, (int(mask.sum()),)))
-    words, shortfall = missing_words(plan, name, reading, lost)
+    name, lost = next(failures(plan, reading, (int(mask.sum()),)), ("", None))
+    if lost is None:  # the kernel refuses what the reading places by luck
+        closing = [each for each, step in plan.of_kind(Step).items() if step.closes and each in reading.sines]
+        name = min(closing, key=lambda each: float(np.min(np.abs(reading.sines[each]))))
+        words, shortfall = "rounding leaves no digit of its place, so near is it to a dead point. Change a length.", float("nan")
+    else:
+        words, shortfall = missing_words(plan, name, reading, lost)
     text = f"{opening(plan, name)} cannot be assembled {where_words(plan, mask, strokes)}:\n{words}{stop}"
     return AssemblyError(text, point=name, mask=mask, shortfall=shortfall)
 

@@ -281,7 +281,7 @@ class PlacedWording:
         texts = np.array(boxes).reshape(-1, 4)
         costs = spot_costs(self.spots, self.half, texts, points, inside) + 0.04 * np.arange(len(self.spots))
         inner = (self.leaders[:, :, None] > texts[:, :2]) & (self.leaders[:, :, None] < texts[:, 2:])
-        costs[FIRST_LED :] += LEADING + CROSSED_TEXT * inner.all(axis=3).any(axis=1).sum(axis=1)
+        costs[FIRST_LED :] += LEADING + CROSSED_TEXT * np.any(np.all(inner, axis=3), axis=1).sum(axis=1)
         self.place = int(np.argmin(costs))
 
     def write(self, ax: Axes) -> None:
@@ -386,8 +386,8 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray) ->
     column, row = min(product(range(len(across)), range(len(up))), key=cost)
     x, y = float(across[column]), float(up[row])
     half, colour = 0.2 * pad, layer.keys[0][0] if len(layer.keys) == 1 else style.INK
-    across, up = [x, x, x, x + length, x + length, x + length], [y + half, y - half, y, y, y - half, y + half]
-    bar = ax.plot(across, up, color=colour, linewidth=1.6, zorder=19.0, solid_joinstyle="miter")
+    outline = np.array([[x, x, x, x + length, x + length, x + length], [y + half, y - half, y, y, y - half, y + half]])
+    bar = ax.plot(*outline, color=colour, linewidth=1.6, zorder=19.0, solid_joinstyle="miter")
     bar[0].set_gid(f"scale {layer.unit}")
     text = ax.text(
         x + 0.5 * length, y + 0.25 * pad, f"{value:g} {layer.sign}", fontsize=style.SMALL, color=style.INK, ha="center", va="bottom",

@@ -16,9 +16,8 @@ let cell = best, cells = [], heads = [];
 function written() {
   chart.replaceChildren();
   const head = child(chart, "thead"), top = child(head, "tr"), row = child(head, "tr"), body = child(chart, "tbody");
-  Object.assign(child(top, "th", told().down), { className: "axis" });
+  Object.assign(child(top, "th", told().down), { className: "axis", rowSpan: 2 });
   Object.assign(child(top, "th", told().across), { className: "axis", colSpan: across });
-  child(row, "td");
   heads = data.x.map((x) => Object.assign(child(row, "th", lengthText(x)), { scope: "col" }));
   cells = []; heads.push(...data.y.map((y, k) => {
     const line = child(body, "tr"), label = Object.assign(child(line, "th", lengthText(y)), { scope: "row" });

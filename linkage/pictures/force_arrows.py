@@ -190,7 +190,7 @@ def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], words: Mapp
             here = sum(1 for other in turns if np.allclose(other.at, each.at))
             turns.append(replace(each, radius=each.radius + 1.4 * here))
     unit = "kN" if current_system() or largest >= 1000.0 or most >= 1000.0 else "N"
-    used = {each.colour for each in (*shown, *turns)}
+    used = {each.colour for each in shown} | {each.colour for each in turns}
     keys = tuple((colour, text) for colour, text in words.items() if colour in used)
     return ArrowLayer(shown, shown_in(unit), keys, tuple(turns), sense=sense if used else "")
 

@@ -46,9 +46,9 @@ def make_room(figure: Figure, ax: Axes) -> None:
     """Make a figure wider where the numbers at its axes are so long that they would hang over its edges; the sheet keeps its size."""
     canvas: Any = FigureCanvasAgg(figure)  # matplotlib declares no types for its methods
     renderer, whole = canvas.get_renderer(), figure.get_figwidth()
-    covered = [axis.get_tightbbox(renderer) for axis in (ax.xaxis, ax.yaxis)]
-    left = max(0.0, EDGE - min(each.x0 for each in covered) / figure.dpi)
-    right = max(0.0, EDGE + max(each.x1 for each in covered) / figure.dpi - whole)
+    covered = [each for axis in (ax.xaxis, ax.yaxis) if (each := axis.get_tightbbox(renderer)) is not None]
+    left = max(0.0, EDGE - min((each.x0 for each in covered), default=0.0) / figure.dpi)
+    right = max(0.0, EDGE + max((each.x1 for each in covered), default=0.0) / figure.dpi - whole)
     if left + right > 0.0:
         x, y, wide, high = ax.get_position(original=True).bounds
         figure.set_figwidth(whole + left + right)

@@ -23,6 +23,10 @@ from . import style
 from .scene import Bounds
 
 
+MOST_TICKS, EACH_TICK = 11, 0.36
+"""Ticks of an axis at the most, and the room of each along it [inch]."""
+
+
 def sheet(ax: Axes, box: Bounds) -> None:
     """Set up axes for a mechanism within a box [m]; they show more of the plane where their shape is another."""
     left, right, bottom, top = fitted_to(ax, box)
@@ -56,14 +60,18 @@ def panels(size: tuple[float, float], across: int, down: int = 1, count: int | N
 
 @final
 class RoundValues(MaxNLocator):
-    """Ticks at round values of a unit that is so much of SI."""
+    """Ticks at round values of a unit that is so much of SI, no more of them than have room along their axis."""
 
     def __init__(self, unit: float) -> None:
-        super().__init__(11, steps=[1, 2, 5, 10])
+        super().__init__(MOST_TICKS, steps=[1, 2, 5, 10])
         self.unit = unit
 
     def tick_values(self, vmin: float, vmax: float) -> Any:
         """Return the ticks between two values [SI]."""
+        axes: Any = self.axis.axes  # matplotlib declares no types for an axis' axes
+        box = axes.get_window_extent()
+        long = (box.width if self.axis is axes.xaxis else box.height) / axes.figure.dpi
+        self.set_params(nbins=int(np.clip(long / EACH_TICK, 2, MOST_TICKS)))
         return np.asarray(super().tick_values(vmin / self.unit, vmax / self.unit)) * self.unit
 
 

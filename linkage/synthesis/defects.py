@@ -68,8 +68,13 @@ def circuit_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
     unit = stroke_display_unit(fit.plan, timing.stroke, "mm")
     gaps = lost_stretches(mask, closed=bool(timing.turn))
     ends = [[show(float(timing.start + timing.span * each / last), unit, 4) for each in gap] for gap in gaps]
-    where = said(" and ").join(said("{stroke} = {low} and {high}", stroke=timing.stroke, low=low, high=high) for low, high in ends)
-    lost = said("it cannot be assembled between {where}", where=where)
+    where = said(" and ").join(
+        said("at {stroke} = {value}", stroke=timing.stroke, value=low)
+        if low == high
+        else said("between {stroke} = {low} and {high}", stroke=timing.stroke, low=low, high=high)
+        for low, high in ends
+    )
+    lost = said("it cannot be assembled {where}", where=where)
     if len(groups) < 2:
         return lost
     if is_of_circuits(fit):

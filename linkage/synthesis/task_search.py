@@ -584,7 +584,10 @@ class TaskSearch:
         except LinkageError as error:
             return " ".join(str(error).split()).rstrip(".")
         lost = [answer for answer in answers if answer.ok is False]
-        return f"{lost[0].question} is missed: {lost[0]}".rstrip(".") if lost else ""
+        if not lost:
+            return ""
+        told = str(lost[0]).rstrip(".")
+        return told if lost[0].question is reachable else f"{lost[0].question} is missed: {told}"
 
     def answer(self, machine: Mechanism, ends: Ends, k: int) -> SynthesisedMachine:
         """Return a design with all that is said of it."""

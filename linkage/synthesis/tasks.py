@@ -10,7 +10,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, is_yes
 from ..frozen import frozen, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..motion.kinds import measure_of
@@ -88,9 +88,9 @@ class PathTask:
             closed = different >= 3 and bool(np.array_equal(found[0], found[-1]))
         elif closed and different < 3:
             raise DefinitionError(f"{what}: closed=True: a closed curve has at least three different points; give more of it.")
-        vars(self).update(
-            points=found, of=of, at=timed_strokes("PathTask", at, len(found)), in_order=bool(in_order), closed=bool(closed)
-        )  # fmt: skip
+        timed = timed_strokes("PathTask", at, len(found))
+        ordered, shut = is_yes(f"{what}: in_order", in_order), is_yes(f"{what}: closed", closed)
+        vars(self).update(points=found, of=of, at=timed, in_order=ordered, closed=shut)
 
     def rows(self, machine: Mechanism) -> TaskRows:
         """Return what is wanted of a machine."""
@@ -171,7 +171,8 @@ class PoseTask:
         for each in of.values() if is_by_class(of) else [of]:
             if not isinstance(each, str) or len(each.split()) != 2:
                 raise DefinitionError(f'{what}: two points of the body are expected, such as of="C D".')
-        vars(self).update(parts, of=of, at=timed_strokes("PoseTask", at, len(parts["x"])), length=length, in_order=bool(in_order))
+        timed, ordered = timed_strokes("PoseTask", at, len(parts["x"])), is_yes(f"{what}: in_order", in_order)
+        vars(self).update(parts, of=of, at=timed, length=length, in_order=ordered)
 
     def rows(self, machine: Mechanism) -> TaskRows:
         """Return what is wanted of a machine."""

@@ -626,7 +626,7 @@ def test_figures_show_the_moments():
     at_end = np.interp(180.0, given.get_xdata(), given.get_ydata())
     assert_allclose(at_end, 71.90517119002105, rtol=1e-10)
     texts = [text.get_text() for text in figure.axes[1].texts]
-    assert texts == ["least 0.0\nat 84.7°", "most 34.5\nat 15.0°"]
+    assert texts == ["least 0.0 kNm\nat 84.7°", "most 34.5 kNm\nat 15.0°"]
 
 
 def test_figures_show_ends_and_worst_movements():

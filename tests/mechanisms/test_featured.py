@@ -42,7 +42,7 @@ def panels(figure: Figure) -> dict[str, str]:
 def test_a_machine_is_plotted_by_what_it_is_about_with_its_limits():
     drawn = panels(plot(MowerLift()))
     assert list(drawn) == ["kz", "pd, kgf/cm²"]
-    assert "kz = 1" in drawn["kz"] and "p_max = 155 kgf/cm2" in drawn["pd, kgf/cm²"]
+    assert "kz = 1" in drawn["kz"] and "p_max = 155 kgf/cm²" in drawn["pd, kgf/cm²"]
 
 
 def test_columns_named_of_a_machine_are_those_of_its_table_with_its_limits():

@@ -4,8 +4,9 @@
 import numpy as np
 import pytest
 
-from linkage import LEFT, Crank, Dimension, Dyad, Ground, Mechanism, Stroke, distance
+from linkage import LEFT, AssemblyError, Crank, Dimension, Dyad, Ground, Mechanism, Stroke, distance, reachable
 from linkage.motion.margins import assembly_error_at, least_margins
+from mechanisms.classics.stephenson_one import StephensonOne
 from tests import shipped
 
 
@@ -143,3 +144,16 @@ def test_what_is_missing_is_told():
     assert "D = Dyad(A, B) cannot be assembled at u = " in str(error) and "mm short of AB" in str(error)
     assert assembly_error_at(motion, {"u": 0.0, "v": 0.0}) is None
     assert found.strokes["u"] == pytest.approx(at[0], abs=1e-6) and error.shortfall == pytest.approx(short, rel=1e-3)
+
+
+@pytest.mark.filterwarnings("ignore::linkage.SingularWarning")
+def test_a_place_of_which_rounding_leaves_nothing_is_refused_in_words():
+    """Two pins, D and E, some 1e-9 of a length apart carry the dyad F: the kernel refuses what single poses may place by luck."""
+    pins = {"O.x": -0.07040283471334927, "O.y": 0.052643158764272904, "C.x": -0.07040283504851487, "C.y": 0.052643158229778095}
+    arms = {"OA": 0.08, "OD": 0.030000000123835906, "AOD": -0.807292749188036, "AB": 0.06, "CB": 0.07143855315087186}
+    rest = {"CE": 0.03, "BE": 0.04143855315087196, "DF": 0.079727390759203, "EF": 0.07972739073512683, "DP": 0.07}
+    machine = StephensonOne(**pins, **arms, **rest, FDP=0.5235987755982988)
+    (answer,) = machine.answers([reachable])
+    assert answer.ok is False and "F = Dyad(D, E) cannot be assembled" in answer.lost.sentence
+    with pytest.raises(AssemblyError, match=r"at a change point at 2000 of 2000 strokes.*lost in rounding"):
+        machine.at(phi=np.linspace(3.1431, 3.14315, 2000))

@@ -583,7 +583,7 @@ class TooLong(ThreePointHitch):
 def test_a_joint_that_is_dragged_out_of_reach_names_the_step_and_what_is_missing(chromium, written):
     with Shown(chromium, written(TooLong(), at={"S": (0.0, 0.45)})) as shown:
         shown("hydrolinkage.set({ at: { S: 0.3 } })")
-        drag(shown, "B", (400, -400))
+        drag(shown, "B", (-100, -400))
         assert shown.state["at"]["S"] == pytest.approx(0.4083, abs=1e-3)
         assert re.search(r"B stops here: B = Dyad\(A, O\) is [\d.]+\u2009mm short", shown.text("#message"))
 

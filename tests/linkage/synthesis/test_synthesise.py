@@ -233,6 +233,8 @@ def test_what_cannot_be_asked_is_said(given, words):
         (lambda: PathTask([(0, 1), (0, 2)], of="P", at=[0.1]), "1 strokes for 2 points"),
         (lambda: PoseTask([0], [1], [1, 2], of="A B"), "one length"),
         (lambda: PoseTask([0], [1], [1], of="A"), "two points"),
+        (lambda: PathTask([(0, 1), (0, 2)], of="P", in_order="no"), "in_order='no': True or False is expected"),
+        (lambda: PathTask([(0, 1), (0, 2), (1, 2)], of="P", closed=1), "closed=1: True or False is expected"),
         (lambda: PoseTask([0, 0], [1, 1], [30, 1], of="A B"), "30 is an angle in radians"),
         (lambda: FunctionTask([0.1, 0.2], [30, 45], of="psi").rows(FourBar()), "30 is an angle in radians"),
         (lambda: FunctionTask([0.1, 0.2], [0.2], of="psi"), "2 strokes for 1 points"),

@@ -169,4 +169,4 @@ def test_a_gap_between_the_poses_that_are_looked_at_is_found(short, runs_over):
     if runs_over:
         assert "of a change point; its Grashof margin is 1e-06 mm" in found.best.sentence
     else:
-        assert "lost at phi = 180.70 deg" in found.misses[0].why
+        assert "lost at phi = 180.70 deg" in found.misses[0].why and "reachable" not in found.misses[0].why

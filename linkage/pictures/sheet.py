@@ -22,7 +22,6 @@ from ..units import factor, shown_in
 from . import style
 from .scene import Bounds
 
-
 MOST_TICKS, EACH_TICK = 11, 0.36
 """Ticks of an axis at the most, and the room of each along it [inch]."""
 
@@ -66,12 +65,16 @@ class RoundValues(MaxNLocator):
         super().__init__(MOST_TICKS, steps=[1, 2, 5, 10])
         self.unit = unit
 
+    def __call__(self) -> Any:
+        """Return the ticks of the axis [SI]."""
+        axis: Any = self.axis  # matplotlib declares other things here, too
+        box = axis.axes.get_window_extent()
+        long = (box.width if axis is axis.axes.xaxis else box.height) / axis.axes.figure.dpi
+        self.set_params(nbins=int(np.clip(long / EACH_TICK, 2, MOST_TICKS)))
+        return super().__call__()
+
     def tick_values(self, vmin: float, vmax: float) -> Any:
         """Return the ticks between two values [SI]."""
-        axes: Any = self.axis.axes  # matplotlib declares no types for an axis' axes
-        box = axes.get_window_extent()
-        long = (box.width if self.axis is axes.xaxis else box.height) / axes.figure.dpi
-        self.set_params(nbins=int(np.clip(long / EACH_TICK, 2, MOST_TICKS)))
         return np.asarray(super().tick_values(vmin / self.unit, vmax / self.unit)) * self.unit
 
 

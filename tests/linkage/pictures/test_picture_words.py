@@ -114,6 +114,16 @@ def test_ticks_stand_at_round_values_of_the_unit():
     assert step[0] == pytest.approx(5.0)
 
 
+@pytest.mark.parametrize(("wide", "most"), [(2.2, 6), (10.0, 11)])
+def test_ticks_have_room_along_their_axis(wide, most):
+    figure = draw(MowerLift().sweep(3))
+    figure.set_figwidth(wide)
+    ax = figure.axes[0]
+    figure.canvas.draw()
+    low, high = ax.get_xlim()
+    assert 2 <= sum(low <= each <= high for each in ax.get_xticks()) <= most
+
+
 def test_points_of_a_construction_have_small_names():
     motion = Loaded().sweep(3)
     scene = Scene(motion)

@@ -209,6 +209,8 @@ def stroke_steps(machine: Mechanism, name: str, count: int, every: str | None) -
     step = si_value(every, stroke_measure(machine.plan, name), "--every")
     if not 0.0 < step < np.inf or abs(end - start) / step > MOST:
         raise DefinitionError(f"--every {every}: a step of {name} is expected, more than nothing, such as --every 25mm.")
+    if step > abs(end - start):
+        raise DefinitionError(f"--every {every}: this step is longer than the stroke {name}; write its unit, such as --every 25mm or 5deg.")
     values = start + np.copysign(step, end - start) * np.arange(int(abs(end - start) / step + 1e-9) + 1)
     return values if abs(values[-1] - end) < 1e-6 * step else np.append(values, end)
 

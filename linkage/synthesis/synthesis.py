@@ -44,6 +44,8 @@ ALIKE = 1e-6
 """Errors that differ by less than this part are the same."""
 EXACT = 1e-9
 """Of a task's size: a fit that misses by no more is exact."""
+END = 1e-9
+"""Of a side of the box: a dimension so near to its end stands there."""
 MISSES = 8
 """Machines that are no answers but come near, that are told at the most."""
 ROUND = 97
@@ -250,14 +252,16 @@ class Synthesis(Shown):
         stroke = fit.timing.stroke
         unit = stroke_display_unit(plan, stroke, "mm")
         strokes = [heading_with_unit((f"{stroke} {place}", unit)) for place in range(1, fit.rows.count + 1)]
-        return ["rank", "error", "rms", "most", "worst", heading_with_unit(("transmission", "deg")), *names, *strokes]
+        missed = [with_unit(each, miss_unit(fit)) for each in ("rms", "most")]
+        return ["rank", "error", *missed, "worst", heading_with_unit(("transmission", "deg")), *names, *strokes]
 
     def table_rows(self) -> list[list[str]]:
-        """Return the rows of the answers' table, errors in SI, full precision."""
+        """Return the rows of the answers' table, `error` in SI, full precision."""
         if self.classes:
             return rows_of_classes(self)
         plan, space = self.problem.plan, self.problem.space
-        by = factor(shown_in(stroke_display_unit(plan, self.fits[0].timing.stroke, "mm")))
+        by, unit = factor(shown_in(stroke_display_unit(plan, self.fits[0].timing.stroke, "mm"))), miss_unit(self.fits[0])
+        missed = factor(shown_in(unit)) if unit else 1.0
         rows = []
         for rank, each in enumerate(self.solutions, 1):
             sides = space.sides(each.combination)
@@ -265,7 +269,8 @@ class Synthesis(Shown):
                 sides[name.removesuffix(ENDING)] if is_side(name) else each.machine[name] / factor(shown_in(unit_of(plan, name)))
                 for name in tried_names(space)
             ]
-            numbers = [each.error, each.rms, each.most, each.worst, each.transmission / deg, *values, *(each.strokes / by)]
+            off = [each.error, each.rms / missed, each.most / missed, each.worst]
+            numbers = [*off, each.transmission / deg, *values, *(each.strokes / by)]
             rows.append([str(rank), *map(answer_cell, numbers)])
         return rows
 
@@ -422,7 +427,20 @@ def machine_words(
     if np.isfinite(angle):
         parts.append(said("least transmission angle {angle}, of {joint}", angle=show(angle, "deg", 3), joint=joint))
     parts += change_point_words(angle, four_bars)
+    if error > exact_error(fit.rows):
+        parts += end_of_box_words(fit, at)
     return "; ".join(parts) + "."
+
+
+def end_of_box_words(fit: Fit, at: FloatArray) -> list[str]:
+    """Return which dimensions of a design stand at an end of the box; none where none does."""
+    unit = at[: fit.n]
+    ends = np.flatnonzero(np.minimum(unit, 1.0 - unit) <= END).tolist()
+    values = fit.space.values(unit)
+    named = ", ".join(f"{fit.space.variables[k].name} = {fit.space.variables[k].show(values[k])}" for k in ends)
+    if len(ends) == 1:
+        return [said("{setting} is at its end of the box", setting=named)]
+    return [said("{settings} are at their ends of the box", settings=named)] if ends else []
 
 
 def miss_unit(fit: Fit) -> str:

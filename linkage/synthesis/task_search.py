@@ -15,6 +15,7 @@ from ..frozen import frozen
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
+from ..motion.kinds import measure_of
 from ..motion.measures import Constraint, Given, Measure, conditions_of, in_case, mean_in_cases, reachable, words_of
 from ..plan import Mask
 from ..program import FloatArray, fixed_backend
@@ -50,7 +51,7 @@ from .synthesis import (
 )
 from .task_error import moving_stroke
 from .task_work import LONG, RACE, Combination, DescentWork, LayWork, LookWork, PolishWork, RaceWork, SearchRows, Stages, Through
-from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, task_named_in, task_of, timed_as
+from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, check_radians, task_named_in, task_of, timed_as
 
 STARTS = 64
 POLISHED, FEW = 8, 3
@@ -205,13 +206,14 @@ def catalogue_for(
 
 def check_unit_of_points(machine: Mechanism, rows: TaskRows, space: Space) -> None:
     """Raise DefinitionError for points so far away that they are of another unit."""
-    if len(rows.quantities) < 2:
+    lengths = [measure_of(machine.plan, each) == "length" for each in rows.quantities]
+    if not any(lengths):
         return
     ends = [abs(end) for each in space.variables if each.unit == "mm" for end in (each.low, each.high)]
-    far, size = float(np.abs(rows.wanted[:2]).max()), max([size_of_machine(machine), *ends])
+    far, size = float(np.nanmax(np.abs(rows.wanted[lengths]))), max([size_of_machine(machine), *ends])
     if far > 5.0 * FAR * size:  # a path may be out of reach, and is told so
-        told = f"points as far as {far:.6g} m from the origin, where no length is above {size:.6g} m"
-        raise DefinitionError(f"{machine.plan.title}: {told}; points are in m, write np.array(points) * mm if these are millimetres.")
+        told = f"lengths as far as {far:.6g} m from zero, where no length is above {size:.6g} m"
+        raise DefinitionError(f"{machine.plan.title}: {told}; they are in m, write np.array(...) * mm if these are millimetres.")
 
 
 def check_moved(problem: Problem, rows: TaskRows, stroke: str) -> None:
@@ -226,6 +228,8 @@ def check_moved(problem: Problem, rows: TaskRows, stroke: str) -> None:
 
 def check_timed(problem: Problem, timing: Timing, at: FloatArray | None) -> None:
     """Raise DefinitionError for timed points outside the part of the stroke that is looked at; a crank goes round."""
+    if at is not None and timing.turn:
+        check_radians(problem.plan.title, f"the strokes of {timing.stroke}", at)
     if at is None or timing.turn:
         return
     low, high = sorted((timing.start, timing.start + timing.span))
@@ -355,7 +359,8 @@ class TaskSearch:
         found = []
         for (_, own), each, fit, runs in zip(parts, found_of_parts(laid, parts), fits, whole, strict=True):
             places = standing_apart(own["unit"], each["error"], RACING * self.many)
-            found.append(Starts(fit, each["at"][places], each["base"][places], int(runs.sum()), self.that_keep(fit, each)))
+            drawn = runs[len(runs) - self.population :]  # without the machine itself
+            found.append(Starts(fit, each["at"][places], each["base"][places], int(drawn.sum()), self.that_keep(fit, each)))
         return self.raced(stages, found)
 
     def raced(self, stages: Stages, first: Sequence[Starts]) -> list[Starts]:

@@ -194,6 +194,8 @@ def test_a_table_runs_along_the_machines_path(said, own):
     assert said("table", "two.py", "--csv", "-", "--count", "5", "--over", "back")[1] == out
     assert strokes_in(said("table", "two.py", "--csv", "-", "--count", "2")[1])[0] == (0.0, 57.29578)  # which of both is not said
     assert strokes_in(said("table", "crane.py", "--csv", "-", "--at", "a=0.3")[1])[0] == (17.188734, 0.0)
+    code, _, complaint = said("table", "mower_lift", "--every", "100")
+    assert code == 2 and "this step is longer than the stroke S; write its unit" in complaint
     code, _, complaint = said("table", "crane.py", "--every", "1deg")
     assert code == 2 and "the rows run along a path; give --count" in complaint
 

@@ -19,6 +19,7 @@ from linkage import (
     mm,
     synthesise,
     transmission,
+    y,
 )
 from linkage.motion.measures import Given
 from linkage.study.problem import Problem
@@ -185,13 +186,22 @@ def test_what_reaches_no_point_is_told():
     assert "no machine that runs was found" in str(found)
 
 
+def test_dimensions_at_an_end_of_the_box_are_named():
+    points = FourBar(OA=0.04, AP=0.05).at(phi=np.linspace(0.3, 3.5, 6))["P"].T
+    task = PathTask(points, of="P", at=np.linspace(0.3, 3.5, 6))
+    short = synthesise(FourBar(), path=task, vary={"OA": (0.02, 0.038), "AP": (0.03, 0.06)}, starts=4)
+    assert short.best.sentence.endswith("OA = 38 mm is at its end of the box.")
+    both = synthesise(FourBar(), path=task, vary={"OA": (0.02, 0.038), "AP": (0.03, 0.04)}, starts=4)
+    assert both.best.sentence.endswith("OA = 38 mm, AP = 40 mm are at their ends of the box.")
+
+
 def test_a_table_and_a_drawing(tmp_path):
     found = synthesise(Bar(), path=PathTask(np.array(papers.EIGHTEEN) * mm, of="P"), vary=box(50 * mm), timed="steps", starts=16)
     found.csv(tmp_path / "answers.csv")
     with open(tmp_path / "answers.csv", newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     assert len(rows) == len(found.solutions)
-    assert float(rows[0]["error"]) == found.error
+    assert float(rows[0]["error"]) == found.error and float(rows[0]["rms, mm"]) == found.best.rms / mm
     assert_allclose([float(rows[0][f"phi {k}, deg"]) for k in (1, 18)], found.best.strokes[[0, -1]] / deg)
     coarse = found.rounded(0.1 * mm, 1 * deg)
     assert coarse.error > found.error
@@ -212,6 +222,9 @@ def test_a_table_and_a_drawing(tmp_path):
         ({"path": PathTask([(0, 1)], of="P"), "timed": "step"}, "is expected"),
         ({"path": PathTask([(0, 1)], of="P"), "rank": "OA"}, "one number of a design"),
         ({"function": FunctionTask([0.1], [0.2], of="psi"), "timed": False}, "leave it out"),
+        ({"function": FunctionTask([30, 50, 70], [1, 1.2, 1.4], of="psi")}, r"strokes of phi: 30 is an angle in radians.*write 30 \* deg"),
+        ({"path": PathTask(np.array([(30, 60), (15, 70)]) * mm, of="P", at=[30, 60])}, "strokes of phi: 30 is an angle in radians"),
+        ({"function": FunctionTask([0.5, 1, 1.5], [60, 70, 80], of=y("P"))}, r"lengths as far as 80 m .* \* mm if these are millimetres"),
         ({"function": FunctionTask([0.1], [0.2], of=distance("O", "C"))}, r"distance\(O, C\) does not move with phi"),
         ({"motion": PoseTask([0.1], [0.2], [0.3], of="A O")}, "of='O': a point that moves is expected"),
         ({"path": PathTask([(0, 1)], of="P"), "over": {"phi": 0.3}}, "holds all of them; leave one of phi out"),
@@ -273,7 +286,7 @@ def test_one_point_at_equal_steps():
 
 
 def test_millimetres_for_metres_are_said():
-    with pytest.raises(DefinitionError, match=r"points are in m, write np.array\(points\) \* mm"):
+    with pytest.raises(DefinitionError, match=r"lengths as far as .* write np.array\(...\) \* mm"):
         bar_task(4, unit=1e3)
 
 

@@ -12,6 +12,8 @@ from ..plan import Mask
 from ..program import FloatArray
 from .line import Index
 
+BEGIN = 1e-3
+"""The damping of a first step."""
 LEAST = 1e-14
 """The damping of a step, at least: with it a singular system of equations has a solution."""
 EASED, GROWTH = 0.5, 2.0
@@ -32,7 +34,7 @@ def descended(
     steps: int,
     *,
     enough: float = 0.0,
-    begin: float = 1e-3,
+    begin: float = BEGIN,
     settled: float = -1.0,
     ahead: Look | None = None,
 ) -> tuple[FloatArray, FloatArray]:

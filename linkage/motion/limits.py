@@ -229,7 +229,7 @@ def assembly_error(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mappi
     name, lost = next(failures(plan, reading, (int(mask.sum()),)), ("", None))
     if lost is None:  # the kernel refuses what the reading places by luck
         closing = [each for each, step in plan.of_kind(Step).items() if step.closes and each in reading.sines]
-        name = min(closing, key=lambda each: float(np.min(np.abs(reading.sines[each]))))
+        name = min(closing, key=lambda each: float(np.min(np.abs(reading.sines[each]))), default=[*plan.points][-1])
         words, shortfall = "rounding leaves no digit of its place, so near is it to a dead point. Change a length.", float("nan")
     else:
         words, shortfall = missing_words(plan, name, reading, lost)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import unwarned
 from ..motion import Grid, Request, stroke_display_unit
-from ..motion.descent import descended
+from ..motion.descent import BEGIN, descended
 from ..motion.line import Index
 from ..motion.requests import slope
 from ..plan import Mask, Plan
@@ -214,7 +214,7 @@ class Fit:
         *,
         through: Callable[[FloatArray], Mask] | None = None,
         held: Sequence[int] = (),
-        begin: float = 1e-3,
+        begin: float = BEGIN,
     ) -> tuple[FloatArray, FloatArray]:
         """Return where the misses are least near starts (m, n + w), and the sums of their squares (m,), infinite out of reach.
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..errors import LinkageError
 from ..mechanism import Mechanism
+from ..motion.descent import BEGIN
 from ..plan import Mask
 from ..program import FloatArray
 from ..study.checkpoint import Checkpoint
@@ -197,7 +198,7 @@ class DescentWork(FitWork):
                 break
             before = error[going]
             left = (self.most * len(at) - fit.problem.count.designs) / (2.0 * len(going))  # a step looks at one design or two
-            steps, begin = STEPS if turn < TURNS else LONG, AGAIN if turn else 1e-3
+            steps, begin = STEPS if turn < TURNS else LONG, AGAIN if turn else BEGIN
             at[going], error[going] = fit.descend(at[going], base[going], int(np.clip(left, 1, steps)), through=through, begin=begin)
             going = going[(error[going] < (1.0 - 1e-9 if turn < TURNS else WORTH) * before) & ~self.led(fit, at, error)[going]]
         return {"at": at}

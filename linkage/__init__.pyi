@@ -128,4 +128,5 @@ from .units import litre as litre
 from .units import mm as mm
 from .vectors import LEFT as LEFT
 from .vectors import RIGHT as RIGHT
+from .verdict import Remark as Remark
 from .verdict import Verdict as Verdict

@@ -49,6 +49,7 @@ from .quantities import Member, Stroke, is_name, keywords, needs
 from .shown import Shown, ShownList
 from .steps import Drawn
 from .vectors import Numbers
+from .verdict import Remark, Verdict
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -390,8 +391,8 @@ class Mechanism(Shown, metaclass=MechanismType):
         return columns_of(motion)
 
     @of_a_design
-    def verdicts(self, motion: Motion | None = None, *, over: object = None, acting: Acting | None = None) -> list[str]:
-        """Return what an engineer should know of this design: `Verdict`s and sentences; of a batch, how many designs fail.
+    def verdicts(self, motion: Motion | None = None, *, over: object = None, acting: Acting | None = None) -> list[Verdict]:
+        """Return what an engineer should know of this design, as `Verdict`s and `Remark`s; of a batch, how many designs fail.
 
         Of a motion over all that it covers, without one over `overs` or what is given as `over`; under all load cases that occur, in all
         movements, on both sides of cylinders. It is whether the machine is assembled, its dead points, what its members say, such as
@@ -404,12 +405,12 @@ class Mechanism(Shown, metaclass=MechanismType):
         judge = self.judge(over if motion is None else motion, acting)
         own: object = self.rules(judge.places[0].sampled if motion is None else motion)
         if not isinstance(own, (list, tuple)) or not all(isinstance(each, str) for each in own):
-            raise DefinitionError(f"{self.plan.title}: rules(motion) gives {cited(own)}; a list of sentences is expected.")
-        return ShownList([*judge_verdicts(judge), *own])
+            raise DefinitionError(f"{self.plan.title}: rules(motion) gives {cited(own)}; a list of Verdicts and sentences is expected.")
+        return ShownList([*judge_verdicts(judge), *(each if isinstance(each, Verdict) else Remark(each) for each in own)])
 
     @of_a_design
-    def rules(self, motion: Motion) -> list[str]:
-        """Return what this machine's own rules say of a motion, `Verdict`s and sentences, added to the general ones."""
+    def rules(self, motion: Motion) -> Sequence[str]:
+        """Return what this machine's own rules say of a motion, added to the general ones: `Verdict`s; a plain sentence is a `Remark`."""
         return []
 
     @property

@@ -41,7 +41,7 @@ from .statics.table import max_headings
 from .study import Front, Optimum, Survey
 from .synthesis import Synthesis
 from .units import show
-from .verdict import Verdict
+from .verdict import Remark, Verdict
 
 MOST_ROWS, MOST_COLUMNS = 11, 12
 """The most poses and columns of a motion that are listed; of more, these many spread over it, and the first columns."""
@@ -204,6 +204,11 @@ def _(forces: PinForces) -> str:
 def _(verdict: Verdict) -> str:
     colour = "#1a7f37" if verdict.ok else "#c62828"
     return f'<div style="border-left:4px solid {colour};padding:.2em .6em;margin:.3em 0">{escape(str(verdict))}</div>'
+
+
+@html_of.register
+def _(remark: Remark) -> str:
+    return f"<div>{escape(remark)}</div>"
 
 
 @html_of.register

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Self, final
+from typing import Any, ClassVar, Self, final
 
 from .errors import DefinitionError, cited
 from .language import heading_of, said
 from .shown import Shown
 
 
-@final
 class Verdict(str, Shown):
     """One rule: its name, whether it is kept, and a sentence with the numbers and, where it is not kept, the remedy.
 
@@ -19,6 +18,9 @@ class Verdict(str, Shown):
     """
 
     __slots__ = ("answer", "heading", "ok", "rule", "sentence")
+
+    is_rule: ClassVar[bool] = True
+    """Whether it counts among the rules that are kept or not."""
 
     rule: str
     ok: bool | None
@@ -36,9 +38,13 @@ class Verdict(str, Shown):
                 raise DefinitionError(f"Verdict: its {what} is {cited(text)}; write Verdict(rule, ok, sentence), both in words.")
         named = heading or heading_of(rule)
         mark = "--  " if ok is None else said("ok  ") if ok else said("FAIL")
-        verdict = super().__new__(cls, f"{mark} {named}: {sentence}")
-        verdict.rule, verdict.ok, verdict.sentence, verdict.heading = rule, None if ok is None else bool(ok), sentence, named
-        verdict.answer = answer
+        return cls._made(f"{mark} {named}: {sentence}", rule, None if ok is None else bool(ok), sentence, named, answer)
+
+    @classmethod
+    def _made(cls, text: str, rule: str, ok: bool | None, sentence: str, heading: str, answer: object) -> Self:
+        """Return it with its parts; `text` is the line that is printed."""
+        verdict = super().__new__(cls, text)
+        verdict.rule, verdict.ok, verdict.sentence, verdict.heading, verdict.answer = rule, ok, sentence, heading, answer
         return verdict
 
     def named(self, name: str) -> Self:
@@ -47,7 +53,7 @@ class Verdict(str, Shown):
 
     def answered(self, answer: object) -> Self:
         """Return it with what the judge found."""
-        return type(self)(self.rule, self.ok, self.sentence, self.heading, answer)
+        return self._made(str(self), self.rule, self.ok, self.sentence, self.heading, answer)
 
     def __bool__(self) -> bool:
         return self.ok is True
@@ -57,3 +63,46 @@ class Verdict(str, Shown):
 
     def __reduce__(self) -> tuple[type[Self], tuple[str, bool | None, str, str]]:
         return type(self), (self.rule, self.ok, self.sentence, self.heading)
+
+
+@final
+class Remark(Verdict):
+    """A sentence about a machine that is no rule: something to know, neither kept nor broken.
+
+    It is printed as the sentence alone, its rule is "remark", its heading is empty and `ok` is None. It counts as true, so that
+    `all(machine.verdicts())` asks the rules only.
+    """
+
+    __slots__ = ()
+
+    is_rule = False
+
+    def __new__(cls, sentence: str) -> Self:
+        """Return a remark.
+
+        Parameters
+        ----------
+        sentence : str
+            What is to be known, in words.
+
+        Raises
+        ------
+        DefinitionError
+            The sentence is empty or no text.
+        """
+        if not isinstance(sentence, str) or not sentence:
+            raise DefinitionError(f"Remark: its sentence is {cited(sentence)}; write Remark(sentence), in words.")
+        return cls._made(sentence, "remark", None, sentence, "", None)
+
+    def named(self, name: str) -> Self:
+        """Return it as it is: a sentence says itself what it is about."""
+        return self
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __repr__(self) -> str:
+        return f"Remark({self.sentence!r})"
+
+    def __reduce__(self) -> tuple[type[Self], tuple[str]]:  # type: ignore[override]
+        return type(self), (self.sentence,)

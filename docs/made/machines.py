@@ -142,11 +142,11 @@ def told(machine: Mechanism) -> Iterator[str]:
     yield from equation_lines(machine)
 
 
-def verdict_list(verdicts: Iterable[str]) -> str:
-    """Return verdicts as a list, each marked as kept or not where it says so."""
+def verdict_list(verdicts: Iterable[Verdict]) -> str:
+    """Return verdicts as a list, each rule marked as kept or not."""
     rows = ['<ul class="verdicts">']
     for each in verdicts:
-        kind = "" if not isinstance(each, Verdict) else ' class="ok"' if each.ok else ' class="fails"'
+        kind = "" if not each.is_rule else ' class="ok"' if each.ok else ' class="fails"'
         rows.append(f"<li{kind}>{as_html(str(each))}</li>")
     return "\n".join([*rows, "</ul>"])
 

@@ -110,18 +110,17 @@ POSES = 21
 """Poses over a stroke of which a command does not say how many."""
 
 
-def judged_code(verdicts: Sequence[str], options: Namespace) -> int:
-    """Return the exit code of what was judged: 1 where that is asked for and a verdict fails; a plain sentence does not.
+def judged_code(verdicts: Sequence[Verdict], options: Namespace) -> int:
+    """Return the exit code of what was judged: 1 where that is asked for and a verdict fails.
 
     Rules that say nothing do not fail; how many there are is said.
     """
     if not options.check:
         return 0
-    judged = [each for each in verdicts if isinstance(each, Verdict)]
-    silent = sum(each.ok is None for each in judged)
+    silent = sum(each.is_rule and each.ok is None for each in verdicts)
     if silent:
         say_remark(said_of(silent, "{n} rule says nothing: nothing is left to judge.", "{n} rules say nothing: nothing is left to judge."))
-    return FAILED if any(each.ok is False for each in judged) else 0
+    return FAILED if any(each.ok is False for each in verdicts) else 0
 
 
 def design(machine: type[Mechanism], texts: Sequence[str]) -> Mechanism:

@@ -99,7 +99,7 @@ STANDARD = re.compile(rf"\b(?:ISO(?:/TS|/TR)?|EN|DIN|GOST|{RUSSIAN}|ASABE|SAE|JI
 GRAVITY = "ISO 80000-4"
 
 
-def standards_section(subject: ReportSubject, verdicts: Iterable[str]) -> Section:
+def standards_section(subject: ReportSubject, verdicts: Iterable[Verdict]) -> Section:
     """Return the section of the standards that rules and inputs of a report cite, with what each is used for."""
     uses: dict[str, list[str]] = {}
 
@@ -108,7 +108,7 @@ def standards_section(subject: ReportSubject, verdicts: Iterable[str]) -> Sectio
             uses.setdefault(name, []).append(use)
 
     for each in verdicts:
-        if isinstance(each, Verdict):
+        if each.is_rule:
             cite(each.sentence, said("rule: {rule}", rule=each.heading))
     for name, note in subject.notes.items():
         cite(note, said("source of {name}", name=name))

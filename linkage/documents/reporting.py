@@ -266,7 +266,7 @@ def checked_limits(limits: Mapping[str, Sequence[object]], columns: Sequence[str
 # What the machine itself judges.
 
 
-def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object]]) -> tuple[Section, Mark, Sequence[str]]:
+def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object]]) -> tuple[Section, Mark, Sequence[Verdict]]:
     """Return the section of a machine's verdicts over all that it runs, with its worst places, how many rules are kept, and all of them."""
     title = said("Verdicts")
     try:
@@ -279,7 +279,7 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
     if not found:
         none = Paragraph(said("This machine declares no rules of its own."))
         return Section(title, (none,)), Mark(None, said("no rules declared")), ()
-    judged = [each for each in found if isinstance(each, Verdict)]
+    judged = [each for each in found if each.is_rule]
     domain = Paragraph(said("Judged over {domain}, in all load cases and directions of motion that occur there.", domain=subject.domain))
     heads = (said("rule"), said("result"), said("what was found"))
     table = TableBlock(said("Rules, over all that the machine runs"), heads, tuple(map(verdict_row, found)), "llm")
@@ -299,11 +299,9 @@ def rules_mark(judged: Sequence[Verdict]) -> Mark:
     return Mark(False if kept + silent < len(judged) else None if silent else True, word)
 
 
-def verdict_row(verdict: str) -> tuple[Cell, ...]:
-    """Return a verdict as cells: its rule, whether it is kept, its sentence; of a plain sentence only that."""
-    if isinstance(verdict, Verdict):
-        return verdict.heading, verdict_mark(verdict.ok), verdict.sentence
-    return "", Mark(None, "–"), verdict
+def verdict_row(verdict: Verdict) -> tuple[Cell, ...]:
+    """Return a verdict as cells: its rule, whether it is kept, its sentence; of a remark only that."""
+    return verdict.heading, verdict_mark(verdict.ok) if verdict.is_rule else Mark(None, "–"), verdict.sentence
 
 
 def verdict_mark(ok: bool | None) -> Mark:

@@ -11,7 +11,7 @@ import numpy as np
 from ..language import said
 from ..quantities import Member
 from ..units import deg, show
-from ..verdict import Verdict
+from ..verdict import Remark, Verdict
 from . import stroke_search
 from .answer import Answer, share_text
 from .judge import Judge, Question
@@ -46,7 +46,7 @@ class HasVerdicts(Member):
         """
 
 
-def judge_verdicts(judge: Judge) -> list[str]:
+def judge_verdicts(judge: Judge) -> list[Verdict]:
     """Return what can be said of any machine over all that it runs; of a batch, how many designs fail."""
     if any(map(np.ndim, judge.designs.values())):
         return batch_verdicts(judge)
@@ -61,13 +61,13 @@ def judge_verdicts(judge: Judge) -> list[str]:
 # -- geometry ----------------------------------------------------------------------------------------------
 
 
-def geometry_verdicts(judge: Judge) -> list[str]:
+def geometry_verdicts(judge: Judge) -> list[Verdict]:
     """Return whether one design is assembled over all that it runs, its dead points, and its least transmission angle where it is poor."""
     if not judge.plan.strokes or not judge.plan.moving:
         return []
     if not judge.is_reached:
         return assembly_verdicts(judge)
-    return [*assembly_verdicts(judge), *dead_points_over(judge), *transmission_words(judge)]
+    return [*assembly_verdicts(judge), *dead_points_over(judge), *transmission_remarks(judge)]
 
 
 def dead_points_over(judge: Judge) -> list[Verdict]:
@@ -82,7 +82,7 @@ def dead_points_over(judge: Judge) -> list[Verdict]:
     return [each for known in found.values() for each in dict.fromkeys(one for one in known if not one.ok) or known[:1]]
 
 
-def assembly_verdicts(judge: Judge) -> list[str]:
+def assembly_verdicts(judge: Judge) -> list[Verdict]:
     """Return whether it is assembled wherever it runs; where not, how much is lost, what is missing in the deepest place, a remedy."""
     if not judge.plan.strokes or not judge.plan.moving:
         return []
@@ -153,7 +153,7 @@ def transmissions(judge: Judge) -> dict[str, Measure]:
     return {name: least(transmission(name)) for name in joints}
 
 
-def transmission_words(judge: Judge) -> list[str]:
+def transmission_remarks(judge: Judge) -> list[Remark]:
     """Return the least transmission angle, where it is poor; it is no fault as such, a toggle lives of it."""
     asked = transmissions(judge)
     found = [
@@ -162,12 +162,11 @@ def transmission_words(judge: Judge) -> list[str]:
     if not found:
         return []
     angle, joint, where = min(found, key=lambda each: each[0])
-    return [
-        said(
-            "The least transmission angle is {angle}, of {joint} {place}: below {poor} pin forces and play grow.",
-            angle=show(angle, "deg", 3), joint=joint, place=where.place, poor=show(POOR, "deg", 3),
-        )
-    ]  # fmt: skip
+    text = said(
+        "The least transmission angle is {angle}, of {joint} {place}: below {poor} pin forces and play grow.",
+        angle=show(angle, "deg", 3), joint=joint, place=where.place, poor=show(POOR, "deg", 3),
+    )  # fmt: skip
+    return [Remark(text)]
 
 
 # -- members -----------------------------------------------------------------------------------------------
@@ -181,14 +180,14 @@ def member_verdicts(judge: Judge) -> list[Verdict]:
     return [verdict if count[verdict.rule] == 1 else verdict.named(name) for name, verdict in found]
 
 
-def batch_verdicts(judge: Judge) -> list[str]:
+def batch_verdicts(judge: Judge) -> list[Verdict]:
     """Return, rule by rule, how many designs of a batch fail, with what is said of the first of these."""
     reached = [place.motion.reached.reshape(-1, int(np.prod(place.motion._stroke_shape))) for place in judge.places]
     whole, total = np.all([each.all(axis=1) for each in reached], axis=0), len(reached[0])
     lost = np.flatnonzero(~whole)
     text = said("{n} of {total} designs cannot be assembled over the whole motion", n=lost.size, total=total)
     text += said("; the first is design {number}.", number=lost[0] + 1) if lost.size else "."
-    found: list[str] = [Verdict("assembly", not lost.size, text)]
+    found = [Verdict("assembly", not lost.size, text)]
     if not speakers(judge.plan, HasVerdicts):
         return found
     if total > JUDGED:
@@ -197,11 +196,11 @@ def batch_verdicts(judge: Judge) -> list[str]:
             most=JUDGED,
             total=total,
         )
-        return [*found, text]
+        return [*found, Remark(text)]
     failed: dict[str, list[tuple[int, str]]] = {}
     answers: dict[str, list[Answer]] = {}
     for number in np.flatnonzero(np.any([each.any(axis=1) for each in reached], axis=0)).tolist():
-        for verdict in member_verdicts(judge.of_design(number).lost_allowed()):
+        for verdict in (each for each in member_verdicts(judge.of_design(number).lost_allowed()) if each.is_rule):
             failed.setdefault(verdict.rule, [])
             if verdict.answer is not None and np.isfinite(verdict.answer.value):
                 answers.setdefault(verdict.rule, []).append(verdict.answer)

@@ -644,6 +644,7 @@ def verdicts_in_systems(
     return found
 
 
-def verdict_parts(said: str) -> tuple[int, str, str]:
+def verdict_parts(verdict: Verdict) -> tuple[int, str, str]:
     """Return whether a verdict is kept, what it is called and what it says."""
-    return (3 if said.ok is None else int(said.ok), said.heading, said.sentence) if isinstance(said, Verdict) else (2, "", str(said))
+    mark = int(verdict.ok) if verdict.ok is not None else 3 if verdict.is_rule else 2
+    return mark, verdict.heading, verdict.sentence

@@ -36,6 +36,7 @@ from linkage import (
 )
 from linkage.quantities import Function, Quantity
 from linkage.steps import Point
+from linkage.verdict import Verdict
 
 from .drive_duty import clipped
 from .drive_report import drive_columns, drive_verdicts, featured_drive
@@ -104,7 +105,7 @@ class DrivenArm(Mechanism):
         """Return what the drive has over the moment asked for, which may not fall below zero, folding, and opening."""
         return featured_drive("folding", "opening")
 
-    def rules(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[Verdict]:
         """Return whether the drive carries the arm over a motion, and whether the cylinder is as long as that takes."""
         return drive_verdicts(motion)
 

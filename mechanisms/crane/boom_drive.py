@@ -9,6 +9,7 @@ import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
 from linkage import Column, Crank, Dimension, Featured, Ground, Mechanism, Moment, Motion, MPa, OnLink, Stroke, deg, distance, mm
+from linkage.verdict import Verdict
 
 from .drive_duty import clipped
 from .drive_report import drive_columns, drive_verdicts, featured_drive
@@ -72,6 +73,6 @@ class BoomDrive(Mechanism):
         """Return what the drive has over the moment asked for, which may not fall below zero."""
         return featured_drive("lifting")
 
-    def rules(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[Verdict]:
         """Return whether the drive carries the boom over a motion, and whether the cylinder is as long as that takes."""
         return drive_verdicts(motion)

@@ -125,7 +125,7 @@ def answers_over(motion: Motion, questions: list[Question]) -> list[Answer]:
     return Judge(motion.plan, motion.designs, [motion]).answers(questions)
 
 
-def drive_verdicts(motion: Motion) -> list[str]:
+def drive_verdicts(motion: Motion) -> list[Verdict]:
     """Return whether the drive carries what is asked, and its least lever; that its cylinder is long enough its own verdict says."""
     return [*(each.verdict for each in worst_movements(motion)), lever_verdict(motion)]
 

@@ -169,11 +169,11 @@ class CraneSkeleton(Mechanism):
         point = name.removesuffix("_x").removesuffix("_y")
         return not self.plan.reaches(name if name in self.plan.members else point).isdisjoint(self.strokes)
 
-    def rules(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[Verdict]:
         """Return which of the source's conditions on the skeleton this design keeps, with what is to spare; of a batch nothing."""
         if any(np.ndim(value) for value in self.dimensions.values()):
             return []
-        return [*self.judged()]
+        return self.judged()
 
     @classmethod
     def conditions(cls, reading: str) -> dict[str, str]:

@@ -35,6 +35,7 @@ from linkage import (
 from linkage.language import said
 from linkage.quantities import Quantity
 from linkage.units import MPa, deg, mm
+from linkage.verdict import Verdict
 
 from .report import crosshead_verdicts, grapple_columns, grapple_verdicts
 
@@ -156,9 +157,9 @@ class Grapple(Mechanism):
         """Return the moment given over the one that the stem takes, which holds it from 1 on, and the path of the lever's end A."""
         return Featured("M_g/M_1", ["A"], {"M_g/M_1": (1.0, said("too weak for the stem"), "below")})
 
-    def rules(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[Verdict]:
         """Return what an engineer should know: moment over the stems, way past the hinge, opening, stroke, E, the cylinder's size."""
-        return [*grapple_verdicts(motion)]
+        return grapple_verdicts(motion)
 
 
 class InnerGrapple(Grapple):
@@ -219,6 +220,6 @@ class CrossheadGrapple(Grapple):
 
     lift = Cylinder(E, K, bore="bore", rod="rod", closed="closed", stroke=S, works="rod")
 
-    def rules(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[Verdict]:
         """Return what an engineer should know: moment over the stems, place over the housing, opening, stroke, hinge."""
-        return [*crosshead_verdicts(motion)]
+        return crosshead_verdicts(motion)

@@ -31,6 +31,7 @@ from linkage.language import said
 from linkage.loads import PinFriction, Support, Weight
 from linkage.loads.element import Formulas
 from linkage.units import deg, kg, kgf_cm2, litre, mm
+from linkage.verdict import Remark, Verdict
 
 from .criteria import criteria
 from .following import reaction_columns, stroke_at, write_reaction
@@ -130,11 +131,11 @@ class HeaderBalancer(Mechanism):
         valve = (float(self["valve"]), said("the relief valve opens"), "above")
         return Featured("F_R free", ["R"], {"F_R free": (0.0, said("the shoe lifts off"), "below"), "P": valve})
 
-    def rules(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[Verdict]:
         """Return the paper's five criteria in words, over the following range of one design."""
         if motion._design_shape:
-            return [said("The criteria are judged for one design at a time; this motion has a batch of them.")]
-        return [*criteria(motion)]
+            return [Remark(said("The criteria are judged for one design at a time; this motion has a batch of them."))]
+        return criteria(motion)
 
 
 # The improved mechanism of figure 6: an arm that grows while the header rises matches needed and given pressure.

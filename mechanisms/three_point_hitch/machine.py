@@ -33,6 +33,7 @@ from linkage import (
 from linkage.language import noted, said
 from linkage.loads.element import Formulas
 from linkage.units import MPa, deg, g0, kg, litre, minute, mm
+from linkage.verdict import Verdict
 
 from .capacity import capacity, lifted, write_capacity
 from .report import rules
@@ -113,9 +114,9 @@ class ThreePointHitch(Mechanism):
         limits = {"capacity": (weight, said("weight of the implement"), "below")} if weight > 0.0 else {}
         return Featured("capacity", ["G"], limits)
 
-    def rules(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[Verdict]:
         """Return what an engineer should know: capacity and its weakest point, pressure, oil, upper link, mast, front axle."""
-        return [*rules(self, motion)]
+        return rules(self, motion)
 
 
 # Hitch categories 1 to 3: the dimensions that ISO 730 fixes, and hitches of such proportions.

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import simpson
 from scipy.optimize import minimize
 
-from linkage import RIGHT, DefinitionError, Dyad, OnLink, Verdict, Weight, deg, ratio
+from linkage import RIGHT, DefinitionError, Dyad, OnLink, Weight, deg, ratio
 from linkage.motion import lowest
 from linkage.study import Target, settings_for
 from mechanisms.crane.arm_drive import (
@@ -581,7 +581,7 @@ def test_bad_duties_are_refused_in_words(asked, words):
 
 def by_rule(machine, motion=None):
     """Return the verdicts by their rules."""
-    return {each.rule: each for each in machine.verdicts(motion) if isinstance(each, Verdict)}
+    return {each.rule: each for each in machine.verdicts(motion) if each.is_rule}
 
 
 def test_verdicts_of_the_boom():

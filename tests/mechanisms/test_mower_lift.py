@@ -19,7 +19,6 @@ from linkage import (
     Spring,
     Turn,
     Vector,
-    Verdict,
     Weight,
     kgf,
     kgf_cm2,
@@ -180,7 +179,7 @@ def verdict(count=11, **dimensions):
 
 def rules(lift, motion):
     """Return the verdicts by their rules."""
-    return {each.rule: each for each in lift.verdicts(motion) if isinstance(each, Verdict)}
+    return {each.rule: each for each in lift.verdicts(motion) if each.is_rule}
 
 
 def test_verdict_as_printed():

@@ -101,7 +101,7 @@ USES = [
     ("save @ a.toml", "lever.py:Levr; lever.py:OWN", ("hydrolinkage: Machine", "is unknown in lever.py.", "Known: Lever.")),
     ("table three.py", "", ("a list of Column(name, values, unit) is expected.",)),
     ("table raises.py", "", ("hydrolinkage: Lever.columns(motion) raises AttributeError: A motion has",)),
-    ("show verdict.py", "", ("hydrolinkage: Lever: rules(motion) gives 3; a list of sentences is expected.",)),
+    ("show verdict.py", "", ("hydrolinkage: Lever: rules(motion) gives 3; a list of Verdicts and sentences is expected.",)),
     ("plot three.py turn -o a.png", "", ("a list of Column(name, values, unit) is expected.",)),
     ("animate three.py -o a.gif", "", ("a list of Column(name, values, unit) is expected.",)),
     ("show", "", ("hydrolinkage: the following arguments are required: NAME; see hydrolinkage show --help.",)),

@@ -47,7 +47,6 @@ from linkage.language import language
 from linkage.motion import Column, places_text
 from linkage.reports import results, run_of
 from linkage.units import bar, display_unit, mm, show
-from linkage.verdict import Verdict
 from mechanisms.classics.jansen import Jansen
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.stephenson_three import StephensonThreeFar
@@ -279,7 +278,7 @@ def test_pin_forces_are_those_of_the_whole_box_in_all_cases(grab):
 
 
 def test_rules_are_those_of_the_verdicts_and_the_mark_counts_them(grab):
-    verdicts = [each for each in Grab().verdicts() if isinstance(each, Verdict)]
+    verdicts = [each for each in Grab().verdicts() if each.is_rule]
     (grid,) = grids(grab, "what was found")
     assert [row[2] for row in grid.rows if row[0]] == [each.sentence for each in verdicts]
     kept = sum(each.ok is True for each in verdicts)
@@ -292,7 +291,7 @@ def test_a_rule_that_says_nothing_is_counted_apart():
         lift = Cylinder("A", "B", bore=80 * mm, rod=45 * mm, works="rod")
 
     document = report_document(Idle())
-    silent = sum(each.ok is None for each in Idle().verdicts() if isinstance(each, Verdict))
+    silent = sum(each.ok is None for each in Idle().verdicts() if each.is_rule)
     assert silent and document.verdict.word.endswith(f", {silent} say nothing" if silent > 1 else ", 1 says nothing")
     (grid,) = grids(document, "what was found")
     assert {row[1].word for row in grid.rows} >= {"says nothing"}
@@ -309,7 +308,7 @@ def test_members_have_their_ends_over_all_that_the_machine_runs(grab):
 
 def test_worst_places_are_those_of_the_answers(grab):
     (grid,) = grids(grab, "situation", "strokes")
-    answers = {each.heading: each for each in Grab().verdicts() if isinstance(each, Verdict) and each.answer is not None}
+    answers = {each.heading: each for each in Grab().verdicts() if each.answer is not None}
     assert 0 < len(grid.rows) <= 10
     for rule, mark, value, share, _, strokes in grid.rows:
         answer = answers[rule].answer

@@ -34,8 +34,8 @@ class Lift(Boom):
 
 def by_rule(verdicts):
     """Return verdicts by rule; each is there once."""
-    found = {each.rule: each for each in verdicts if isinstance(each, Verdict)}
-    assert len(found) == sum(isinstance(each, Verdict) for each in verdicts)
+    found = {each.rule: each for each in verdicts if each.is_rule}
+    assert len(found) == sum(each.is_rule for each in verdicts)
     return found
 
 
@@ -63,7 +63,7 @@ def test_a_poor_transmission_angle_is_told_and_fails_nothing():
     class Flat(Boom):
         S = Stroke(0.0, 0.40)
 
-    words = [each for each in Flat().verdicts(Flat().sweep(9)) if not isinstance(each, Verdict)]
+    words = [each for each in Flat().verdicts(Flat().sweep(9)) if not each.is_rule]
     assert len(words) == 1 and words[0].startswith("The least transmission angle is ")
     motion = Flat().at(S=0.4)
     assert f"{np.degrees(motion.transmission_angle('B')):.3g} deg" in words[0]
@@ -154,7 +154,8 @@ def test_a_variants_further_members_are_judged_and_shown_beside_the_machines_own
             return [*super().rules(motion), "And this."]
 
     *general, last = Owned().verdicts(Owned().sweep(3))
-    assert last == "This is mine." and {"assembly", "standard size", "buckling"} <= set(by_rule(general))
+    assert last == "This is mine." == last.sentence and last.rule == "remark" and all([last])
+    assert {"assembly", "standard size", "buckling"} <= set(by_rule(general))
     assert {"lifting", "oil", "holding", "lowering"} <= set(by_rule(Pumped().verdicts(Pumped().sweep(3))[:-1]))
     assert Again().verdicts(Again().sweep(3))[-2:] == ["This is mine.", "And this."]
     with pytest.raises(DefinitionError, match=r"Silent.verdicts replaces what is said of every machine; name it rules\(self, motion\)"):

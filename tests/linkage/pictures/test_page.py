@@ -31,7 +31,6 @@ from linkage import (
     SliderDyad,
     Stroke,
     Target,
-    Verdict,
     Weight,
     angle,
     deg,
@@ -265,7 +264,7 @@ def test_a_page_opens_in_silence_and_asks_for_nothing_but_itself(chromium, writt
         assert shown.said == []
         assert shown.asked == [file.as_uri()]
         verdicts = ThreePointHitch().verdicts()
-        count = sum(isinstance(each, Verdict) for each in verdicts)
+        count = sum(each.is_rule for each in verdicts)
         assert shown.text("#badge") == f"{count} of {count} verdicts hold"
         assert shown("document.querySelectorAll('#told li').length") == len(verdicts)
 
@@ -1007,7 +1006,7 @@ def test_what_every_machine_is_given_is_followed(chromium, written):
 
 def test_a_delivered_design_that_asks_too_much_is_told_so(chromium, written, tmp_path):
     heavy = Lifting(**{"load.mass": 9000.0})
-    assert any(each.ok is False for each in heavy.verdicts(heavy.sweep(101)) if isinstance(each, Verdict))
+    assert any(each.ok is False for each in heavy.verdicts(heavy.sweep(101)) if each.is_rule)
     with Shown(chromium, page(heavy, tmp_path / "heavy.html")) as shown:
         failing = [each["text"] for each in shown("hydrolinkage.verdicts()") if each["ok"] is False]
         assert any("bar" in each and "not above" in each for each in failing) and any("not below 1" in each for each in failing)
@@ -1030,7 +1029,7 @@ class Hanging(Mechanism):
 
 def test_holding_is_followed_on_both_sides_and_never_green_above_the_valve(chromium, written):
     """The load pulls: 502 of 170 bar stand in the rod side, where the working side has none."""
-    verdicts = {each.rule: each for each in Hanging().verdicts() if isinstance(each, Verdict)}
+    verdicts = {each.rule: each for each in Hanging().verdicts() if each.is_rule}
     assert verdicts["holding"].ok is False
     with Shown(chromium, written(Hanging())) as shown:
         (holding,) = (each for each in shown("hydrolinkage.verdicts()") if each["rule"] == "holding")
@@ -1054,7 +1053,7 @@ class Rubbing(Hanging):
 
 
 def test_what_the_page_does_not_follow_is_named_and_never_green(chromium, written):
-    rules = [each.rule for each in Rubbing().verdicts() if isinstance(each, Verdict)]
+    rules = [each.rule for each in Rubbing().verdicts() if each.is_rule]
     with Shown(chromium, written(Rubbing())) as shown:
         assert "lifting" in rules and "lifting" not in [each["rule"] for each in shown("hydrolinkage.data.judge.questions")]
         assert shown("(given) => hydrolinkage.set(given)", {"design": {"load.mass": 90.0}})
@@ -1068,7 +1067,7 @@ def test_what_the_page_does_not_follow_is_named_and_never_green(chromium, writte
 
 def test_groups_count_among_dead_points(chromium, written):
     machine = StephensonThreeFar()
-    (verdict,) = (each for each in machine.verdicts() if isinstance(each, Verdict) and each.rule == "dead points")
+    (verdict,) = (each for each in machine.verdicts() if each.rule == "dead points")
     away = min(float(each) for each in re.findall(r"([\d.]+) deg beyond", verdict.sentence))
     with Shown(chromium, written(machine)) as shown:
         (dead,) = (each["text"] for each in shown("hydrolinkage.verdicts()") if each["rule"] == "dead point")
@@ -1153,7 +1152,7 @@ def test_the_page_of_a_motion_runs_along_its_path(chromium, tmp_path):
         assert shown("document.getElementById('run').selectedOptions[0].textContent") == "place"
         told = shown("hydrolinkage.verdicts()")
         assert told[0]["text"] == "assembled over the whole stroke, place from 1 to 9"
-        told = {each.rule: each.sentence for each in LevelLoader(OB=1.11).verdicts(motion) if isinstance(each, Verdict)}
+        told = {each.rule: each.sentence for each in LevelLoader(OB=1.11).verdicts(motion) if each.is_rule}
         assert [each[2] for each in data["verdicts"] if each[1] in told] == [*told.values()]
 
 

@@ -17,11 +17,11 @@ from linkage.language import noted, said
 from linkage.loads import Acting, ForceElement, LoadCase
 from linkage.mechanism import Mechanism
 from linkage.motion import Column, Judge, Motion, columns_of, least
-from linkage.statics import LawRequest, elements_of, same
+from linkage.statics import LawRequest, elements_of, pull_direction, same
 from linkage.units import g0, show
 from linkage.verdict import Verdict
 
-from .inputs import Array, direction_of, proper_share
+from .inputs import Array, proper_share
 from .judged import line_verdicts
 from .lift import LiftCircuit
 from .member import Ram, found_in
@@ -64,7 +64,7 @@ class CapacityCommand(Command):
 
         def capacity(motion: Motion) -> Array:
             """Return it along the stroke."""
-            return circuit.capacity(motion, point, along=along, share=share, cylinder=ram, case=case)
+            return circuit.lifted(motion, point, along=along, share=share, cylinder=ram, case=case)
 
         whole = over.moved(over.strokes)
         columns = [*strokes_and_point(over, point), *ram.columns_in(whole, case), Column(FURTHER, capacity(whole), "kN", 3)]
@@ -73,7 +73,7 @@ class CapacityCommand(Command):
             print(f"{machine.plan.title}: {ram.name} lifts at {point} {way}, beside the machine's own loads. Pressures are gauge.\n")
         write_table(columns, over.reached.size, options.csv)
         judge = machine.judge(judged_over(machine, options), Acting(case=case))
-        asked = capacity_request(ram, Acting(), circuit, point, along, share)
+        asked = capacity_request(ram, Acting(), circuit, point, pull_direction(along), share)
         found = [capacity_verdict(judge, asked, point), *line_verdicts(circuit, judge), *ram.verdicts(judge)]
         if options.csv != "-":
             print("", *found, sep="\n")
@@ -135,7 +135,7 @@ def along_of(text: str) -> tuple[float, float]:
         x, y = (float(each) for each in parts)
     except ValueError:
         raise DefinitionError(f"--along {text}: two numbers are expected, x and y, such as 0,1 for upwards.") from None
-    direction_of((x, y))
+    pull_direction((x, y), "--")
     return x, y
 
 
@@ -154,7 +154,9 @@ def capacity_verdict(judge: Judge, asked: LawRequest, point: str) -> Verdict:
     """Return the least capacity at a point over all that a judge looks at, and where."""
     found = judge.answer(least(asked))
     if np.isnan(found.value):
-        text = said("the load at {point} drives, or does nothing: it is not limited by this cylinder.", point=point)
+        text = said(
+            "the load at {point} drives, or does nothing: it is not limited by this cylinder. Is --along the wrong way round?", point=point
+        )
         return Verdict(FURTHER, None, text, answer=found)
     if found.value <= 0.0:
         text = said("nothing more is lifted at {point} {where}: the machine alone is too heavy there.", point=point, where=found.place)

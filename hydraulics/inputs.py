@@ -18,7 +18,7 @@ from linkage.loads import ForceElement, Poses
 from linkage.loads.element import value_text
 from linkage.plan import ArrayReading
 from linkage.program import Comparison, is_traced
-from linkage.quantities import Quantity, quantity, real
+from linkage.quantities import Quantity, quantity
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -201,15 +201,3 @@ def proper_share(share: float) -> None:
     """Raise DefinitionError for a share of the pressure that is not above 0 and up to 1."""
     if not 0.0 < one_number(share, "share") <= 1.0:
         raise DefinitionError(f"share = {share:.6g} of the pressure is not in 0 to 1; 0.9 is how tractors are tested.")
-
-
-def direction_of(along: tuple[float, float]) -> Array:
-    """Return a direction of length one, shape (2,); DefinitionError where it has no length."""
-    try:
-        unit = real(along)
-    except ValueError:
-        unit = np.zeros(2)
-    size = float(np.hypot(*unit)) if unit.shape == (2,) else 0.0
-    if not (np.isfinite(size) and size > 0.0):
-        raise DefinitionError(f"along={cited(along)} has no length; write one such as (0, 1).")
-    return unit / size

@@ -20,14 +20,13 @@ from typing import Any, ClassVar, Unpack, cast, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, one_word
+from linkage.errors import DefinitionError, UntracedError, one_word
 from linkage.frozen import refuses_changes
 from linkage.language import with_and
 from linkage.loads import (
     Acting,
     Case,
     Declared,
-    Force,
     ForceElement,
     Load,
     Loads,
@@ -42,13 +41,26 @@ from linkage.loads.element import Formulas
 from linkage.motion import Condition, Judge, Motion, Question
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import AnyMotion, elements_of, member_thrust, motion_in_case, same
+from linkage.statics import (
+    PROBE,
+    AnyMotion,
+    direction_at,
+    elements_of,
+    is_steady,
+    member_limits,
+    member_thrust,
+    motion_in_case,
+    plan_of,
+    pull_direction,
+    pulling,
+    pump_thrust,
+    same,
+)
 from linkage.verdict import Verdict
 
 from .floating import Feeds
 from .inputs import (
     Array,
-    direction_of,
     efficient,
     follows,
     in_cubic_metres,
@@ -236,6 +248,9 @@ class PumpLine(LiftLine):
         """Return that each of its cylinders lifts, holds and goes back."""
         return line_conditions(self, judge)
 
+    def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
+        return {}
+
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the verdicts on lifting, oil, holding and lowering."""
         try:
@@ -306,28 +321,92 @@ class PumpLine(LiftLine):
         point: str,
         loads: Loads = None,
         *,
-        along: tuple[float, float] = (0.0, 1.0),
+        along: tuple[Any, Any] = (0.0, 1.0),
         share: float = 1.0,
         cylinder: Reference | None = None,
         case: Case = None,
         acting: Acting | None = None,
     ) -> Array:
-        """Return the largest load [N] at a point that the pump lifts beside the machine's own, shape (...), at a `share` of its pressure.
+        """Return the largest load at a point that the pump lifts beside the machine's own.
 
-        The load pulls against the direction `along`; the machine's own `loads` are those declared unless others are given ([] for
-        none). NaN where the load drives or does nothing: not limited by this cylinder; 0 where the machine alone is too heavy. Declared
-        friction counts with the load's own share. Source: Dyuzhev, Kotov, Chuprynin (2008), (28).
+        Parameters
+        ----------
+        motion : Motion
+            Poses; designs first, strokes last.
+        point : str
+            Where the load pulls.
+        loads : list, optional
+            The machine's own loads: those declared unless others are given, [] for none.
+        along : tuple, optional
+            The direction (x, y) against which the load pulls, of any length: two numbers, quantities, or arrays that broadcast against
+            the motion. `a = angle(Q, T)` and `along=(-np.sin(a), np.cos(a))` stand square to QT, and turn with it.
+        share : float, optional
+            Share of the pump's pressure.
+        cylinder : str or Cylinder, optional
+            One of several cylinders; by default the one that lifts least counts.
+        case, acting : optional
+            Load case, or what acts in one.
+
+        Returns
+        -------
+        ndarray
+            Loads [N], shape (...). 0 where the machine alone is too heavy, or a member fails without a load, such as a rope that is
+            slack. NaN where the load drives or does nothing and no member limits it.
+
+        Raises
+        ------
+        DefinitionError
+            The load drives the cylinders, or does nothing, at all poses: the direction is the wrong way round.
+
+        Notes
+        -----
+        Members' own conditions limit it, too: a rope that would push, a closed line that runs empty, a holding valve. Declared friction
+        counts with the load's own share. Source: Dyuzhev, Kotov, Chuprynin (2008), (28).
         """
+        found = self.lifted(motion, point, loads, along=along, share=share, cylinder=cylinder, case=case, acting=acting)
+        if isinstance(motion, Motion) and motion.reached.any() and not np.any(motion.reached & ~np.isnan(found)):
+            way = pull_direction(along)
+            turned = f"write along=({0.0 - way[0]:g}, {0.0 - way[1]:g})" if is_steady(way) else "turn it round"
+            names = with_and(ram.name or str(ram) for ram in self.meant(motion, cylinder))
+            what = f"{motion.plan.title}: {self.name or 'the circuit'}: a load at {point} along that direction drives {names}"
+            raise DefinitionError(f"{what} at every pose, or does not move with it, so that nothing limits it; {turned} for the other way.")
+        return found
+
+    def lifted(
+        self, motion: AnyMotion, point: str, loads: Loads = None, *, along: tuple[Any, Any] = (0.0, 1.0), share: float = 1.0,
+        cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None, limit: int | None = None,
+    ) -> Array:  # fmt: skip
+        """Return the same, NaN where nothing limits it; by one `limit` alone: the number of a member's condition, else the pump's."""
         require_poses(motion)
         proper_share(share)
-        unit = direction_of(along)
+        unit = pull_direction(along)
+        unit = direction_at(unit, motion) if isinstance(motion, Motion) and not is_steady(unit) else unit
         given = situation_of("capacity", acting, loads=loads, case=case)
-        return least_of([self._capacity(motion, point, unit, share, ram, given) for ram in self.meant(motion, cylinder)])
+        limits = member_limits(plan_of(motion), given.case)
+        chosen = limits if limit is None else limits[limit : limit + 1]
+        if chosen and not isinstance(motion, Motion):
+            raise UntracedError(f"the capacity at {point} is limited by {chosen[0].name}, too")
+        own = [element for _, element in elements_of(motion.plan, given.loads)]
 
-    def _capacity(self, motion: AnyMotion, point: str, unit: Array, share: float, ram: Ram, acting: Acting) -> Array:
-        own = [element for _, element in elements_of(motion.plan, acting.loads)]
+        def beside(load: Array | float) -> Acting:
+            """Return the machine's own loads with a load there."""
+            return replace(given, loads=[*own, pulling(point, unit, load, motion)])
+
+        rams = self.meant(motion, cylinder) if limit is None or limit >= len(limits) else ()
+        most = [self._lifted_by(ram, motion, beside, share, own) for ram in rams]
+        for each in chosen:
+            load = each.greatest_load(cast(Motion, motion), beside)
+            most.append(np.where(np.isfinite(load), load, np.nan))
+        return least_of(most)
+
+    def _lifted_by(self, ram: Ram, motion: AnyMotion, beside: Any, share: float, own: Sequence[ForceElement]) -> Array:
+        """Return the largest load that one cylinder lifts; `beside(load)` is what acts with one."""
         size = ram.sized(motion)
-        lever = member_thrust(motion, ram, Acting([Force(point, (-unit[0], -unit[1]))]))  # what one newton there asks of it
+        if ram.closed_thrust(motion, beside(0.0)) is None:
+            lever = member_thrust(motion, ram, Acting([beside(1.0).loads[-1]]))  # what one newton there asks of it
+        else:
+            alone, loaded = (pump_thrust(motion, ram, beside(load)) for load in (0.0, PROBE))
+            lever = (loaded - alone) / PROBE
         sense = np.sign(lever) if size.works == "both" else np.full(np.shape(lever), float(size.sense))
         lifts, lever = lever * sense > IDLE, lever * sense
         low, high = self.bounds_of(ram, motion, True, share=share)
@@ -335,8 +414,8 @@ class PumpLine(LiftLine):
 
         def carried(load: Array) -> Array:
             """Return the thrust that the machine and a load there need, in the direction in which it lifts."""
-            loads = [*own, Force(point, (-unit[0] * load, -unit[1] * load))]
-            out, back = both_ways(ram, None, motion, replace(acting, loads=loads))
+            ways = [replace(beside(load), direction=way, rates=None) for way in ("extending", "retracting")]
+            out, back = (pump_thrust(motion, ram, way) for way in ways)
             return np.where(sense > 0.0, out, -back)
 
         alone, safe = carried(np.zeros(motion.shape)), np.where(lifts, lever, 1.0)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass, replace
-from typing import ClassVar, Unpack, final
+from typing import Any, ClassVar, Unpack, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -197,10 +197,17 @@ class LiftLine(Circuit):
 
     @abstractmethod
     def capacity(
-        self, motion: AnyMotion, point: str, loads: Loads = None, *, along: tuple[float, float] = (0.0, 1.0), share: float = 1.0,
+        self, motion: AnyMotion, point: str, loads: Loads = None, *, along: tuple[Any, Any] = (0.0, 1.0), share: float = 1.0,
         cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None,
     ) -> Array:  # fmt: skip
         """Return the largest load [N] at a point that the pump lifts beside the machine's own, shape (...)."""
+
+    @abstractmethod
+    def lifted(
+        self, motion: AnyMotion, point: str, loads: Loads = None, *, along: tuple[Any, Any] = (0.0, 1.0), share: float = 1.0,
+        cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None, limit: int | None = None,
+    ) -> Array:  # fmt: skip
+        """Return the same, NaN where nothing limits it; by one `limit` alone: the number of a member's condition, else the pump's."""
 
     @abstractmethod
     def holding(

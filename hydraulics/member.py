@@ -247,6 +247,12 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             return np.asarray(np.where(sense[()] < 0.0, -size.pull_area, size.push_area))
         return np.asarray(size.sense * size.area + 0.0 * sense)
 
+    def closed_thrust(self, motion: AnyMotion, acting: Acting) -> Array | None:
+        members = motion.plan.members
+        closed = [(line, chamber) for line, chamber in lines_of(self, members) if line.kind_in(members) == "closed"]
+        parts = [line.line_pressure(motion, acting) * chamber_area(chamber, self, motion) for line, chamber in closed]
+        return reduce(np.add, parts) if parts else None
+
     def number_written(self, name: str) -> Quantity:
         """Return a number of it as a quantity of its class."""
         given = quantity(self.given(name))
@@ -398,6 +404,12 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         elif "closed" in self.lengths_given:
             found["length"] = AllOf((least(ends) >= closed, *((most(ends) <= closed + stroke,) if "stroke" in self.lengths_given else ())))
         return found | ({"buckling": most(buckling_request(self.name, Acting())) <= 1.0} if carries_loads(judge) else {})
+
+    def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
+        return {rule: each for rule, each in self.conditions(judge).items() if rule not in ("length", "buckling")}
+
+    def load_remarks(self, judge: Judge) -> Mapping[str, Condition]:
+        return {rule: each for rule, each in self.conditions(judge).items() if rule in ("length", "buckling")}
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it fits wherever the machine runs, is of a standard size, and whether a rod that carries something buckles."""
@@ -1243,7 +1255,7 @@ def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:
 def carries_loads(judge: Judge) -> bool:
     """Return whether anything acts on a machine by itself, that no closed line locks."""
     motion = judge.motion
-    acts = any(each.loads(motion) or each.pushes(motion, AT_REST) for each in motion.plan.of_kind(ForceElement).values())
+    acts = any(each.loads(motion) or each.pushes(motion, AT_REST) for _, each in elements_of(motion.plan, judge.acting.loads))
     return acts and not lock_words(judge.plan)
 
 

@@ -15,7 +15,7 @@ from __future__ import annotations
 from abc import ABC
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import partial, reduce
 from math import pi
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
@@ -44,7 +44,7 @@ from linkage.loads import (
 )
 from linkage.loads.element import UNBOUNDED, Formulas
 from linkage.loads.two_point import end_forces
-from linkage.motion import Condition, Judge, Motion, Question, least, most
+from linkage.motion import Condition, Judge, Motion, Question, at, least, most
 from linkage.quantities import (
     AtPose,
     Distance,
@@ -75,6 +75,7 @@ from .member import (
     PISTON,
     ROD,
     SIDES,
+    AllOf,
     Chamber,
     Circuit,
     Ram,
@@ -689,7 +690,17 @@ class OilLine(PumpLine, GasLine):
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         if self.kind_of_line == "held":
             return PumpLine.conditions(self, judge)
-        return {"oil": least(self.pressure_request(judge.plan)) >= self._make_up(judge)} if self.kind_of_line == "closed" else {}
+        if self.kind_of_line != "closed":
+            return {}
+        pressure = self.pressure_request(judge.plan)
+        keeps = least(pressure) >= at(LawRequest(text=f"{self.name}.make_up", formula=partial(number_set, self, name="make_up")))
+        if not self.relieves(judge.plan):
+            return {"line": keeps}
+        opens = at(LawRequest(text=f"{self.name} relief", formula=partial(self.number, name="relief")))
+        return {"line": AllOf((keeps, most(pressure) <= opens))}
+
+    def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
+        return self.conditions(judge) if self.kind_of_line == "closed" else {}
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the verdicts on lifting, oil, holding and lowering of a held line, on the pressure of any other."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
 from functools import partial, reduce
-from typing import TypeAlias, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
@@ -18,10 +18,20 @@ from linkage.mechanism import Mechanism
 from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most
 from linkage.plan import Mask, Plan
 from linkage.quantities import Reference, distance, name_of
-from linkage.statics import AnyMotion, LawRequest, member_thrust, plan_in_case, same
+from linkage.statics import (
+    AnyMotion,
+    Direction,
+    LawRequest,
+    direction_words,
+    member_limits,
+    member_thrust,
+    plan_in_case,
+    pull_direction,
+    same,
+)
 
 from .cylinder import RamSize
-from .inputs import Array, direction_of, only_where, proper_share
+from .inputs import Array, only_where, proper_share
 from .line import LiftLine, WayBack, Work
 from .member import (
     PISTON,
@@ -348,7 +358,7 @@ def capacity(
     cylinder: Reference,
     point: Reference,
     *,
-    along: tuple[float, float] = (0.0, 1.0),
+    along: tuple[Any, Any] = (0.0, 1.0),
     share: float = 1.0,
     case: Case = None,
     circuit: Reference | None = None,
@@ -356,24 +366,23 @@ def capacity(
 ) -> LawRequest:
     """Return the request for the largest load [N] at a point that the pump lifts beside the machine's own: `circuit.capacity(motion, "G")`.
 
-    NaN where the load drives or does nothing, which is not limited by this cylinder and counts in no least value.
+    `along` is a direction of two numbers or quantities. NaN where the load drives or does nothing, which is not limited by this cylinder
+    and counts in no least value.
     """
     proper_share(share)
-    x, y = direction_of(along)
-    given, unit = situation_of("capacity", acting, case=case), (float(x) + 0.0, float(y) + 0.0)
+    given, unit = situation_of("capacity", acting, case=case), pull_direction(along)
     return capacity_request(name_of(cylinder), given, circuit_name(circuit), name_of(point), unit, float(share))
 
 
 def capacity_request(
-    cylinder: str | Ram, acting: Acting, circuit: Circuits, point: str, along: tuple[float, float], share: float
+    cylinder: str | Ram, acting: Acting, circuit: Circuits, point: str, along: Direction, share: float
 ) -> LawRequest:
     """Return the request for the largest load at a point that the pump lifts, along a direction of length one."""
-    lifted = Lifted(circuit, point, along, share)
-    upwards = None if along == (0.0, 1.0) else f"along=({along[0]:g}, {along[1]:g})"
-    options = upwards, None if share == 1.0 else f"share={share:g}"
+    lifted, words = Lifted(circuit, point, along, share), direction_words(along)
+    options = None if words == "(0, 1)" else f"along={words}", None if share == 1.0 else f"share={share:g}"
     return replace(
         circuit_request("capacity", cylinder, acting, circuit, lifted.capacity, (point,), options, measures="force"),
-        directions=no_direction, examine=partial(lifted.examine, cylinder), pieces_in=partial(whole_in_stages, cylinder),
+        directions=no_direction, examine=partial(lifted.examine, cylinder), pieces_in=partial(lifted.pieces, cylinder),
         unlimited_in=partial(formula_of_cylinder, lifted.is_driven, cylinder),
     )  # fmt: skip
 
@@ -381,12 +390,16 @@ def capacity_request(
 @final
 @dataclass(frozen=True, eq=False)
 class Lifted:
-    """On which circuit, at which point, along which direction and at which share of the pressure a load is lifted."""
+    """On which circuit, at which point, along which direction and at which share of the pressure a load is lifted.
+
+    `limit` is the number of the one thing that limits it: of members' conditions in their order, else the pump; None for all of them.
+    """
 
     circuit: Circuits
     point: str
-    along: tuple[float, float]
+    along: Direction
     share: float
+    limit: int | None = None
 
     def examine(self, cylinder: str | Ram, plan: Plan) -> None:
         """Raise DefinitionError where a plan has no such cylinder, circuit or point."""
@@ -396,7 +409,21 @@ class Lifted:
     def capacity(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         """Return the largest load that is lifted at a motion's poses [N]."""
         circuit = circuit_with(motion.plan, ram, self.circuit, "capacity")
-        return circuit.capacity(motion, self.point, along=self.along, share=self.share, cylinder=ram, acting=acting)
+        return circuit.lifted(motion, self.point, along=self.along, share=self.share, cylinder=ram, acting=acting, limit=self.limit)
+
+    def pieces(self, cylinder: str | Ram, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
+        """Return its smooth pieces: what the pump lifts, and what each member's condition leaves."""
+        count = len(member_limits(plan, request.situation.case))
+        if not count:
+            return whole_in_stages(cylinder, request, plan)
+
+        def alone(number: int) -> LawRequest:
+            one = replace(self, limit=number)
+            formula = partial(formula_of_cylinder, one.capacity, cylinder)
+            driven = partial(formula_of_cylinder, one.is_driven, cylinder)
+            return replace(request, known=(request.known, number), pieces_in=None, formula=formula, unlimited_in=driven)
+
+        return (*whole_in_stages(cylinder, alone(count), plan), *(SmoothPiece(alone(number)) for number in range(count)))
 
     def is_driven(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Mask:
         """Return the mask of poses at which the load drives or does nothing, so that the capacity has no bound."""

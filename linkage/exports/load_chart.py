@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import DefinitionError
-from ..language import translated
+from ..language import heading_of
 from ..motion import stroke_display_unit
 from ..pictures.load_chart import ChartText
 from ..study import WorkingField
@@ -49,7 +49,7 @@ def cell_rows(field: WorkingField) -> list[tuple[int, list[Any]]]:
         row: list[Any] = []
         for (_, unit), (name, value) in zip(columns, cell.items(), strict=True):
             if not isinstance(value, float):
-                row.append(translated(value) if name == "limiter" else value)
+                row.append(heading_of(value) if name == "limiter" else value)
             else:
                 shown = value / (weight if name == "load" else 1.0) / factor(unit)
                 row.append("" if np.isnan(value) else shown)

@@ -10,7 +10,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import ClassVar, Literal, TypeAlias, final, get_args
+from typing import Any, ClassVar, Literal, TypeAlias, final, get_args
 
 import numpy as np
 
@@ -80,6 +80,10 @@ class TwoPoint(ForceElement):
         parts = [(motion.ratio(B, wrt=name) - motion.ratio(A, wrt=name)) * rate for name, rate in rates.items()]
         arm, moved = motion[B] - motion[A], sum(parts[1:], parts[0])
         return np.asarray((arm[0] * moved[0] + arm[1] * moved[1]) / motion.distance(A, B))[()]
+
+    def closed_thrust(self, motion: Any, acting: Any) -> Array | None:
+        """Return, for what holds, what closed lines put on it in a situation [N]; None where there are none."""
+        return None
 
     def area_in(self, motion: Poses, sense: Array) -> Array:
         """Return, for what holds, its thrust at one unit of pressure [m2], where `sense` is 1 while it pushes and -1 while it pulls."""

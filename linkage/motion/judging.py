@@ -38,6 +38,14 @@ class HasVerdicts(Member):
         """Return those of its rules that are plain conditions, by the rules' names: what a page asks of a design that is changed."""
         return {}
 
+    def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return those conditions that limit a load in charts: all of them, but for what the bounds of forces say already."""
+        return self.conditions(judge)
+
+    def load_remarks(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return those that limit no load, and of which a chart says in how many places they fail."""
+        return {}
+
     @abstractmethod
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return what an engineer should know of it: what the judge answers over all that the machine runs, of one design.

@@ -77,6 +77,9 @@ class Planes(HasVerdicts):
         """Return that nothing touches."""
         return {"clearance": least(clearance()) >= 0.0} if pairs_of(judge.plan) else {}
 
+    def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
+        return {}
+
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether everything in one plane stays apart wherever the machine runs, with what comes nearest, and where."""
         if not pairs_of(judge.plan):

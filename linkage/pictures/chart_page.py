@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..language import language, translated
+from ..language import heading_of, language
 from ..motion import Motion, stroke_display_unit
 from ..program import FloatArray
 from ..study import WorkingField
@@ -96,14 +96,14 @@ def number_or_none(load: float) -> float | str | None:
 def words_of_chart(field: WorkingField, names: list[str], name: str) -> dict[str, Any]:
     """Return what a chart says in a language: of itself, of its limiters, of each cell that is out of reach."""
     with language(name):
-        spoken = replace(field, remarks=field.search.remarks)
+        spoken = replace(field, remarks=field.search.remarks(field.failing))
         text = ChartText(spoken)
         return {
             "title": text.title,
             "unit": typeset(unit_sign(text.unit)),
             "across": text.axes[0],
             "down": text.axes[1],
-            "limiters": [translated(each) for each in names],
+            "limiters": [heading_of(each) for each in names],
             "terms": text.terms(),
             "why": as_printed(spoken, spoken.why).tolist(),
         }

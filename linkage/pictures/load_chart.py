@@ -13,7 +13,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ..language import said, translated
+from ..language import heading_of, said, translated
+from ..motion.measures import words_of
+from ..quantities import is_number
+from ..statics import is_steady
 from ..study import WorkingField
 from ..study.load_rule import FACTORS, PLAIN_RULE
 from ..study.working_field import NOT_LIMITED, OUT_OF_REACH
@@ -38,7 +41,7 @@ class ChartText:
     @property
     def is_weight(self) -> bool:
         """Whether the load hangs, so that it is shown as a mass."""
-        return self.field.along == (0.0, 1.0)
+        return is_steady(self.field.along) and self.field.along == (0.0, 1.0)
 
     @property
     def unit(self) -> str:
@@ -84,8 +87,8 @@ class ChartText:
         """What the chart is of."""
         what = said("lift capacity at {point}", point=self.field.point)
         if not self.is_weight:
-            x, y = self.field.along
-            what = said("force at {point} against ({x}, {y})", point=self.field.point, x=f"{x:.3g}", y=f"{y:.3g}")
+            x, y = (f"{each:.3g}" if is_number(each) else words_of(each) for each in self.field.along)
+            what = said("force at {point} against ({x}, {y})", point=self.field.point, x=x, y=y)
         return f"{self.field.machine.plan.heading}: {what}, {unit_sign(self.unit)}"
 
     @property
@@ -102,7 +105,7 @@ class ChartText:
     def legend(self) -> list[str]:
         """Return the lines under the chart."""
         counts = self.counts
-        words = [f"{letter}  {translated(name)} ({counts[name]})" for name, letter in self.letters.items()]
+        words = [f"{letter}  {heading_of(name)} ({counts[name]})" for name, letter in self.letters.items()]
         return [*([said("limited by: {letters}", letters="    ".join(words))] if words else []), *self.terms()]
 
     def terms(self) -> list[str]:

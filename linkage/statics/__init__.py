@@ -5,10 +5,12 @@ from .force_requests import drive_force, pin_force, pin_forces_under, thrust_fro
 from .holding import each_once, lock_words, same, stroke_followed, tied_forces
 from .joint_forces import GlandForce, JointForce, PinForces, pin_forces
 from .law_requests import LawRequest, case_words
+from .member_limits import PROBE, member_limits
 from .poses import AnyMotion, plan_of
+from .pull import Direction, direction_at, direction_words, is_steady, pull_direction, pulling
 from .rope import Rope, tension
 from .supports import reaction
 from .table import PinLoad, judged_table, max_table, table_text
 from .traced_loads import TracedMotion, traced_loads
 from .vehicle import Standing, axle_load, ground_loads, slipping, standing, standing_supports
-from .work import driving_force, member_thrust
+from .work import driving_force, member_thrust, pump_thrust

@@ -1,40 +1,44 @@
 """What bounded elements carry of the machine's own loads and of a load at a point: affine in the load, so that two solves tell it all.
 
-An element is bounded where it says so, `ForceElement.bounds`: a cylinder by its circuit, a support by being able to push alone. With
-friction, and on lines whose cylinders share otherwise while they pull, the load is found by secants on the same bounds.
+An element is bounded where it says so, `ForceElement.bounds`: a cylinder by its circuit, a support by being able to push alone. Beside
+these forces stand the members' own conditions, those of their verdicts, pose by pose: a rope that would push, a line that runs empty.
+With friction, and on lines whose cylinders share otherwise while they pull, the load is found by secants on the same bounds.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, final
 
 import numpy as np
 
 from ..errors import DefinitionError, unwarned
 from ..language import noted
-from ..loads import Acting, Case, Force, ForceElement, Support, TwoPoint
-from ..motion import Motion
+from ..loads import Acting, Case, ForceElement, Support, TwoPoint
+from ..motion import Motion, Over
 from ..motion.grid import not_joined
+from ..motion.judge import Domain
 from ..motion.places import way_of
-from ..plan import Plan
+from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel
 from ..quantities import name_of
 from .applied import case_of
 from .holding import holders_of
+from .member_limits import PROBE, SAME, MemberLimit, bent_among, greatest_load, member_limits
 from .poses import AnyMotion
+from .pull import Direction, pulling
 from .traced_loads import TracedMotion
 from .vehicle import bare_loads, frame_supports, is_rough, standing_of, vehicle_of
-from .work import member_thrust
+from .work import pump_thrust
 
 TIPPING, SLIPPING = noted("tipping"), noted("slipping")
 """What a vehicle's supports limit a load by."""
-IDLE = 1e-12
-"""A force for each newton of the load that is this small is none."""
-ROUNDS, SAME = 16, 1e-13
-"""How often a load is put right where forces are not affine in it, and the share of itself by which it may still change."""
+ROUNDS = 16
+"""How often a load is put right where forces are not affine in it."""
+TRIED = 9
+"""At how many poses it is seen whether conditions are affine in the load."""
 
 
 @final
@@ -48,7 +52,7 @@ class LoadAt:
     plan: Plan
     designs: Mapping[str, Any]
     point: str
-    along: tuple[float, float]
+    along: Direction
     case: Case = None
     without: tuple[str, ...] = ()
     lifts: frozenset[str] | None = None
@@ -69,19 +73,30 @@ class LoadAt:
             return Acting(loads, case)
         return Acting(loads, self.case)
 
-    @property
-    def two(self) -> tuple[Acting, Acting]:
-        """The own loads, and one newton of the load."""
-        return self.own, Acting([self.pull(1.0)])
+    @cached_property
+    def limits(self) -> tuple[MemberLimit, ...]:
+        """The members' own conditions."""
+        return member_limits(self.plan, self.case) if self.bounded or self.supports else ()
 
-    def beside(self, load: FloatArray | float) -> Acting:
-        """Return the machine's own loads with a load [N], shaped as the motion."""
+    @cached_property
+    def bent(self) -> list[MemberLimit]:
+        """Those that are not affine in the load."""
+        motion = Domain(self.plan, self.designs, Over()).motion
+        ends, rows = {name: (np.min(each), np.max(each)) for name, each in motion.strokes.items()}, np.random.default_rng(1)
+        some = self.motion({name: rows.uniform(low, high, TRIED) for name, (low, high) in ends.items()})
+        return bent_among(self.limits, some, partial(self.beside, motion=some))
+
+    def failing(self, motion: Motion, load: FloatArray) -> dict[str, Mask]:
+        """Return at which poses conditions that limit no load fail under one [N], each by its name."""
+        found: dict[str, Mask] = {}
+        for each in member_limits(self.plan, self.case, are_remarks=True):
+            found[each.name] = found.get(each.name, False) | (each.spare(motion, self.beside(load, motion)) < 0.0)
+        return found
+
+    def beside(self, load: FloatArray | float, motion: AnyMotion) -> Acting:
+        """Return the machine's own loads with a load [N] at the poses of a motion, or shaped as these."""
         own = [*self.plan.of_kind(ForceElement)] if self.own.loads is None else [*self.own.loads]  # type: ignore[misc]
-        return replace(self.own, loads=[*own, self.pull(load)])
-
-    def pull(self, load: FloatArray | float) -> Force:
-        """Return the force of a load [N]."""
-        return Force(self.point, (-self.along[0] * load, -self.along[1] * load))
+        return replace(self.own, loads=[*own, pulling(self.point, self.along, load, motion)])
 
     # -- what bounds ---------------------------------------------------------------------------------------
 
@@ -93,9 +108,9 @@ class LoadAt:
     @cached_property
     def bounded(self) -> Mapping[str, TwoPoint]:
         """The cylinders that hold and say bounds, by name."""
-        found = {}
+        found, held = {}, holders_of(self.plan, ()).lines
         for name, element in self.plan.of_kind(TwoPoint).items():
-            if element.holds:
+            if element.holds and any(line.has(element) for line in held):
                 low, high = element.bounds(self.some, self.lifting(name), share=self.share)
                 if np.any(np.isfinite(low) | np.isfinite(high)) and not np.array_equal(low, high):
                     found[name] = element
@@ -125,12 +140,13 @@ class LoadAt:
 
     @cached_property
     def kinds(self) -> tuple[str, ...]:
-        """What each bounded force is limited by, in their order: the name of a cylinder, "tipping", "slipping"."""
-        return (*self.bounded, *(TIPPING for _ in self.outermost), *((SLIPPING, SLIPPING) if self.may_slip else ()))
+        """What each bounded force is limited by, in their order: the name of a cylinder, "tipping", "slipping", a member's condition."""
+        ground = (*(TIPPING for _ in self.outermost), *((SLIPPING, SLIPPING) if self.may_slip else ()))
+        return (*self.bounded, *ground, *(each.name for each in self.limits))
 
     def carried(self, motion: AnyMotion, acting: Acting) -> list[FloatArray]:
         """Return the bounded forces in a situation: thrusts, axle loads, what is left of the ground's friction either way [N]."""
-        found = [member_thrust(motion, each, acting) for each in self.bounded.values()]
+        found = [pump_thrust(motion, each, acting) for each in self.bounded.values()]
         if self.supports:
             ends = standing_of(motion, acting, self.outermost)
             found += [ends.reactions[name] for name in self.outermost]
@@ -140,11 +156,22 @@ class LoadAt:
                 found += [ground.friction - ground.along, ground.friction + ground.along]
         return found
 
+    def own_and_share(self, motion: AnyMotion) -> tuple[list[FloatArray], list[FloatArray]]:
+        """Return what each bounded force and each condition is by the own loads, and how it grows with the load."""
+        forces, loaded = self.carried(motion, self.own), self.beside(PROBE, motion)
+        if any(each.closed_thrust(motion, self.own) is not None for each in self.bounded.values()):
+            share = [(b - a) / PROBE for a, b in zip(forces, self.carried(motion, loaded), strict=True)]
+        else:
+            share = self.carried(motion, Acting([pulling(self.point, self.along, 1.0, motion)]))
+        own, beside = ([each.value(motion, acting) for each in self.limits] for acting in (self.own, loaded))
+        return [*forces, *own], [*share, *((b - a) / PROBE for a, b in zip(own, beside, strict=True))]
+
     def bounds(self, motion: Motion) -> list[tuple[FloatArray, FloatArray]]:
-        """Return between which two values each bounded force stands [N]."""
+        """Return between which two values each bounded force [N] and each condition stands."""
         found = [each.bounds(motion, self.lifting(name), share=self.share) for name, each in self.bounded.items()]
         found += [each.bounds(motion, False) for each in self.outermost.values()]
-        return [*found, *((np.zeros(()), np.asarray(np.inf)) for kind in self.kinds if kind == SLIPPING)]
+        slips = ((np.zeros(()), np.asarray(np.inf)) for kind in self.kinds if kind == SLIPPING)
+        return [*found, *slips, *(each.bounds(motion) for each in self.limits)]
 
     def lifting(self, name: str) -> bool:
         """Return whether an element lifts."""
@@ -169,7 +196,8 @@ class LoadAt:
     def program(self) -> Kernel | None:
         """The kernel of what each bounded element carries of the own loads, then of one newton of the load; None where there is none."""
         case = self.case if self.case is None or isinstance(self.case, str) else id(self.case)
-        key = ("carried", self.point, self.along, case, self.without, self.kinds)
+        way = tuple(each if isinstance(each, float) else each.identity for each in self.along)
+        key = ("carried", self.point, way, case, self.without, self.kinds)
         try:
             return self.plan.made(key, self._traced)
         except DefinitionError:
@@ -177,7 +205,7 @@ class LoadAt:
 
     def _traced(self, fork: Plan) -> Kernel:
         motion = TracedMotion(fork, fork.trace)
-        found = [each for acting in self.two for each in self.carried(motion, acting)]
+        found = [each for one in self.own_and_share(motion) for each in one]
         return Kernel([motion.node(np.asarray(each, object).item()) for each in found], [*motion.notes.assumed])
 
     @cached_property
@@ -196,7 +224,7 @@ class LoadAt:
         what it hangs on is not reached.
         """
         count = len(next(iter(strokes.values())))
-        if self.is_affine and self.program is not None and self.fixed is not None and not self.plan.solved:
+        if self.is_affine and not self.bent and self.program is not None and self.fixed is not None and not self.plan.solved:
             values = self._run(self.program, {**self.designs, **strokes}, count)
             if values is not None:
                 return greatest_load(values[0], values[1], *self.fixed)
@@ -214,7 +242,7 @@ class LoadAt:
             if found is not None:
                 return found
         with unwarned():
-            each = [one for acting in self.two for one in self.carried(motion, acting)]
+            each = [np.broadcast_to(one, motion.shape) for part in self.own_and_share(motion) for one in part]
         return np.array(each, float).reshape(2, len(self.kinds), motion.shape[0])
 
     def most(self, motion: Motion) -> FloatArray:
@@ -227,6 +255,10 @@ class LoadAt:
         found = greatest_load(own, share, low, high)
         for at, name in enumerate(self.bounded if not self.is_affine else ()):
             found[at] = self._found(motion, name, share[at], low[at], high[at])
+        first = len(self.kinds) - len(self.limits)
+        for at, each in enumerate(self.limits):
+            if each in self.bent:
+                found[first + at] = each.greatest_load(motion, partial(self.beside, motion=motion))
         return found
 
     def _found(self, motion: Motion, name: str, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
@@ -236,8 +268,8 @@ class LoadAt:
         def force(load: FloatArray) -> FloatArray:
             with unwarned():
                 if not self.lifting(name):
-                    return member_thrust(motion, element, self.beside(load))
-                out, back = (member_thrust(motion, element, replace(self.beside(load), direction=way)) for way in ways.values())
+                    return pump_thrust(motion, element, self.beside(load, motion))
+                out, back = (pump_thrust(motion, element, replace(self.beside(load, motion), direction=way)) for way in ways.values())
             return np.where(share > 0.0, out, back)
 
         alone = force(np.zeros(motion.shape))
@@ -252,11 +284,3 @@ class LoadAt:
             if is_settled:
                 break
         return found
-
-
-def greatest_load(own: FloatArray, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
-    """Return the greatest load for which own + share load stays within low..high; 0 where that does not hold without it."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        load = np.where(share > IDLE, (high - own) / share, np.where(share < -IDLE, (low - own) / share, np.inf))
-        found = np.where((own > high) | (own < low), 0.0, np.maximum(load, 0.0))
-    return np.where(np.isnan(own) | np.isnan(share), np.nan, found)

@@ -493,6 +493,9 @@ class AxleLoad(Tabled, HasVerdicts):
         found: dict[str, Condition] = {"axle load": least(axle_load(self.support.name)) >= 0.0}
         return found | ({"slipping": most(slipping()) <= 1.0} if self.judges_slipping(judge) else {})
 
+    def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
+        return {}
+
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return how much of its load the support keeps, and whether the vehicle slips."""
         try:

@@ -196,6 +196,12 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
     return poses.full(sum(own, thrust_of_need(need, holders, levers, member)))[()]
 
 
+def pump_thrust(motion: AnyMotion, element: TwoPoint, acting: Acting) -> FloatArray:
+    """Return what a cylinder carries [N] without what closed lines put on it, which its bounds do not tell."""
+    thrust, closed = member_thrust(motion, element, acting), element.closed_thrust(motion, acting)
+    return thrust if closed is None else thrust - closed
+
+
 def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> FloatArray | None:
     """Return the force of a closed tie by the work on what changes it, shape (...); None where the element keeps nothing.
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..errors import DefinitionError, cited, known_name, unwarned
 from ..frozen import FrozenDict, frozen, read_only, refuses_changes
-from ..language import noted, said
+from ..language import heading_of, noted, said
 from ..loads import Case, ForceElement, Weight
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over, Target
@@ -35,7 +35,9 @@ from ..quantities import PoseCondition, Quantity, Reference, is_number, name_of,
 from ..quantities import x as x_of
 from ..quantities import y as y_of
 from ..statics.applied import case_of
-from ..statics.carried import SLIPPING, TIPPING, LoadAt, greatest_load
+from ..statics.carried import SLIPPING, TIPPING, LoadAt
+from ..statics.member_limits import PROBE, greatest_load
+from ..statics.pull import Direction, direction_words, pull_direction
 from ..units import show
 from .checks import check_one_design
 from .climb import Climb
@@ -54,8 +56,6 @@ USUAL = {1: 0.05, 2: 0.7}
 """By how many are spare: those are the usual ones where the slopes of the others are regular to this share of what others' would be."""
 FEW, BEYOND = 6, 0.25
 """Steps of Newton from a pose near by, and how far past their ends strokes are followed there, in shares of their ranges."""
-PROBE = 1e4
-"""The load by which it is seen how a further limit follows it [N]."""
 
 
 @final
@@ -66,12 +66,13 @@ class WorkingField:
 
     `load` [N] is NaN out of reach, infinite where nothing limits it; `limiter` names what does: an element, a limit by its name,
     "tipping", "out of reach". `strokes` are those of the pose by name [m or rad], `of` the load that each limiter leaves [N], factors of
-    the rule included. `x` and `y` are the places [m]; `case`, `rule`, `remarks` say under what it holds.
+    the rule included. `x` and `y` are the places [m]; `case`, `rule`, `remarks` say under what it holds. `failing` says in how many cells
+    conditions fail that limit nothing, such as a rod that buckles.
     """
 
     machine: Mechanism
     point: str
-    along: tuple[float, float]
+    along: Direction
     x: FloatArray
     y: FloatArray
     load: FloatArray
@@ -81,6 +82,7 @@ class WorkingField:
     rule: LoadRule
     case: str
     remarks: tuple[str, ...]
+    failing: Mapping[str, int]
     search: FieldSearch
 
     @property
@@ -158,7 +160,7 @@ def working_field(
     x: object,
     y: object,
     *,
-    along: tuple[float, float] = (0.0, 1.0),
+    along: tuple[Any, Any] = (0.0, 1.0),
     hold: Mapping[str, float] | None = None,
     over: Over | Mapping[str, object] | None = None,
     keep: Sequence[Target] = (),
@@ -199,15 +201,6 @@ def axis_values(given: object, name: str, title: str) -> FloatArray:
     if np.unique(found).size < found.size:
         raise DefinitionError(f"{title}: {name}={cited(given)}: a place stands in it twice; give each once.")
     return frozen(found)
-
-
-def pull_direction(along: object, title: str) -> tuple[float, float]:
-    """Return a direction of length one; DefinitionError for none."""
-    parts = list(along) if isinstance(along, (list, tuple, np.ndarray)) else []
-    size = float(np.hypot(*parts)) if len(parts) == 2 and all(map(is_number, parts)) else 0.0
-    if not (np.isfinite(size) and size > 0.0):
-        raise DefinitionError(f"{title}: along={cited(along)} is no direction; write (x, y), such as (0, 1) for a load that hangs.")
-    return float(parts[0] / size), float(parts[1] / size)
 
 
 def names_among(given: object, what: str, known: Mapping[str, object], title: str, example: str) -> tuple[str, ...]:
@@ -268,7 +261,7 @@ class FurtherLimit:
         if self.most is not None:
             return np.broadcast_to(np.asarray(motion.value(self.most), float), motion.shape)
         own = self._margin(motion, loads.own)
-        share = (self._margin(motion, loads.beside(PROBE)) - own) / PROBE
+        share = (self._margin(motion, loads.beside(PROBE, motion)) - own) / PROBE
         return greatest_load(own, share, np.zeros(()), np.asarray(np.inf))
 
     def _margin(self, motion: Motion, acting: object) -> FloatArray:
@@ -341,11 +334,13 @@ class FieldSearch:
         still = {name: low for name, (low, high) in ranges.items() if low == high}
         hold = {**still, **hold} if isinstance(hold, Mapping) else hold or still
         check_strokes(plan, hold, targets, title)
+        way = pull_direction(along, f"{title}: ")
+        direction_words(way)  # refuses arrays, which are of the poses of a motion
         many = ManyPlaces.of(plan, machine.dimensions, targets, hold, where="working_field", ranges=ranges)
         elements = plan.of_kind(ForceElement)
         left = names_among(without, "without", elements, title, '"load"')
         lifting = None if lifts is None else frozenset(names_among(lifts, "lifts", elements, title, '"boom"'))
-        loads = LoadAt(plan, many.places.designs, name, pull_direction(along, title), case, left, lifting, rule.pressure)
+        loads = LoadAt(plan, many.places.designs, name, way, case, left, lifting, rule.pressure)
         label = case_of(plan, case).label if case is not None else ""
         if lifting is not None and not lifting <= set(loads.bounded):
             odd = next(each for each in (lifts or ()) if name_of(each) not in loads.bounded)
@@ -437,11 +432,11 @@ class FieldSearch:
         count = len(poses.place)
         kinds = self.loads.kinds
         found = self.loads.at(rows) if count else np.empty((len(kinds), 0))
-        factors = {TIPPING: self.rule.tipping, SLIPPING: self.rule.slipping}
+        factors = dict.fromkeys(self.loads.bounded, self.rule.hydraulic) | {TIPPING: self.rule.tipping, SLIPPING: self.rule.slipping}
         parts = []
         for kind in dict.fromkeys(kinds):
             own = found[[place for place, each in enumerate(kinds) if each == kind]]
-            parts.append(np.min(own, axis=0)[None] * factors.get(kind, self.rule.hydraulic))
+            parts.append(np.min(own, axis=0)[None] * factors.get(kind, 1.0))
         if self.limits and count:
             motion = self.loads.motion(rows)
             parts.append(np.array([each.load(motion, self.loads) for each in self.limits.values()]))
@@ -542,15 +537,18 @@ class FieldSearch:
         names = np.array([*self.names, NOT_LIMITED, OUT_OF_REACH])
         which = np.full(count, len(names) - 1)
         which[poses.place] = np.where(np.isfinite(load), np.argmin(of, axis=0) if len(of) else 0, len(names) - 2)
-        strokes = {name: full(values) for name, values in self.many.places.rows(poses.unit).items()}
+        rows = self.many.places.rows(poses.unit)
+        strokes = {name: full(values) for name, values in rows.items()}
+        failing = self.loads.failing(self.loads.motion(rows), np.where(np.isfinite(load), load, 0.0)) if len(load) else {}
+        counts = {name: int(np.sum(each)) for name, each in failing.items() if np.any(each)}
         return WorkingField(
             self.machine, self.point, self.loads.along, self.x, self.y, full(load), names[self.ordered(which)], FrozenDict(strokes),
-            FrozenDict({name: full(each) for name, each in zip(self.names, of, strict=True)}), self.rule, self.case, self.remarks, self,
+            FrozenDict({name: full(each) for name, each in zip(self.names, of, strict=True)}), self.rule, self.case,
+            self.remarks(counts), FrozenDict(counts), self,
         )  # fmt: skip
 
-    @property
-    def remarks(self) -> tuple[str, ...]:
-        """What a reader of the chart has to know: what acts beside the load, which strokes stand, what is spare."""
+    def remarks(self, failing: Mapping[str, int]) -> tuple[str, ...]:
+        """Return what a reader of the chart has to know: what acts beside the load, which strokes stand, what is spare, what fails."""
         plan, found = self.machine.plan, []
         left = self.loads.without
         staying = [
@@ -578,6 +576,7 @@ class FieldSearch:
             found.append(said("{names} where most is carried", names=names))
         if self.rule.tipping < 1.0 and TIPPING not in self.names:
             found.append(said("tipping is not judged: the machine has no supports"))
+        found += [said("{rule} fails in {n} of the cells", rule=heading_of(name), n=count) for name, count in failing.items()]
         return tuple(found)
 
     # -- what is out of reach ------------------------------------------------------------------------------

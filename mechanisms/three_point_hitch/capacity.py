@@ -54,7 +54,7 @@ def capacity(motion: Motion, point: str = "G", share: float = 1.0) -> FloatArray
 
     F_cyl = p_max area (29), I = dy/dS of the point. NaN where I is not above zero: not limited by this cylinder.
     """
-    return circuit_of(motion).capacity(motion, point, own_loads(motion), share=share)
+    return circuit_of(motion).lifted(motion, point, own_loads(motion), share=share)
 
 
 def lifted(point: str = "G", share: float = 1.0) -> LawRequest:
@@ -67,7 +67,7 @@ def lifted(point: str = "G", share: float = 1.0) -> LawRequest:
 
 def capacity_beside_own(point: str, share: float, motion: AnyMotion) -> FloatArray:
     """Return the lifting capacity over a motion's poses [N], beside the hitch's own loads."""
-    return lifting_circuit(motion.plan).capacity(motion, point, own_loads(motion), share=share)
+    return lifting_circuit(motion.plan).lifted(motion, point, own_loads(motion), share=share)
 
 
 def lifting_circuit(plan: Plan) -> LiftCircuit:
@@ -103,7 +103,7 @@ def behind(motion: Motion, distance: float = BEHIND, share: float = SHARE) -> Fl
         raise DefinitionError(f"distance={cited(distance)}: one number in m is expected, such as 0.61.")
     tested = {"FG": distance, "KFG": 90 * deg}
     moved = Motion(motion.plan, motion.designs | tested, motion.strokes, motion.unreachable)
-    return circuit_of(moved).capacity(moved, "G", own_loads(motion), share=share)
+    return circuit_of(moved).lifted(moved, "G", own_loads(motion), share=share)
 
 
 def stroke_per_newton(motion: Motion) -> FloatArray:

@@ -79,7 +79,9 @@ def test_capacity_is_the_papers_formula():
 
 def test_where_the_load_drives_it_is_not_limited():
     motion = LIFT.sweep(11)
-    assert np.isnan(circuit.capacity(motion, "G", along=(0.0, -1.0))).all()
+    assert np.isnan(circuit.lifted(motion, "G", along=(0.0, -1.0))).all()
+    with pytest.raises(DefinitionError, match=r"drives lift at every pose.*write along=\(0, 1\) for the other way"):
+        circuit.capacity(motion, "G", along=(0.0, -1.0))
     drives = pushing(-driving_force(motion))
     assert np.isnan(circuit.reserve(motion, drives)).all()
     assert_allclose(circuit.pressure_for(motion, drives), 0.0)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import prod
+from statistics import median
 from typing import Any, final
 
 import numpy as np
@@ -14,7 +15,7 @@ from ..errors import DefinitionError, cited, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint
-from ..plan import Plan
+from ..plan import Plan, plan_measure
 from ..program import FloatArray
 from ..quantities import is_number, label
 from ..units import show
@@ -27,7 +28,9 @@ from .varied import Varied
 
 MOST_COMBINATIONS = 100_000
 FAR = 20.0
-"""Times the largest length of a machine: a range that is wider was given in another unit."""
+"""Times the largest length of a machine, or of the other ranges: a range that is wider was given in another unit."""
+APART = 200.0
+"""Times the largest length of a machine: a range that ends so far away, and leaves out today's value, was given in another unit."""
 
 
 @final
@@ -74,12 +77,14 @@ class Space:
         variables: list[Varied] = []
         choices, names = [], []
         circles: dict[str, float] = {}
+        about: list[str] = []
         for name, given in vary.items():
             parts = name if isinstance(name, tuple) else (name,)
             sided = [sided_step(machine, part) for part in parts]
             for part, step in zip(parts, sided, strict=True):
                 if not step:
                     known_dimension(machine, part)
+            about += coordinates(machine.plan, parts) if isinstance(given, Around) else []
             if isinstance(given, Around) and given.is_round:
                 circles |= dict.fromkeys(points_encircled(machine.plan, parts), given.by)
             if not any(sided) and (isinstance(given, Around) or (isinstance(given, tuple) and len(parts) == 1 and len(given) in (2, 3))):
@@ -88,6 +93,7 @@ class Space:
                 owners = tuple(owner for part in parts for owner in owners_of(machine.plan, part))
                 choices.append((owners, rows_of(title, parts, given, owners)))
                 names.append(tuple(coordinates(machine.plan, parts)))
+        check_unit_of_ranges(machine, variables, about)
         check_once(machine, {part: None for name in vary for part in (name if isinstance(name, tuple) else (name,))})
         found = cls(tuple(variables), tuple(choices), tuple(names), point_regions(machine, regions, circles, variables))
         if found.count > MOST_COMBINATIONS:
@@ -224,16 +230,32 @@ def ranged(machine: Mechanism, names: Sequence[str], given: Around | tuple[Any, 
         if not all(is_number(each) for each in ends) or (step is not None and not 0.0 < step <= high - low):
             said = "write (low, high) or (low, high, step) in SI, the step above zero and within them, a list of choices, or around(...)"
             raise DefinitionError(f"{plan.title}: {name}={cited(given)} is no range; {said}.")
-        if unit_of(plan, name) == "mm" and high - low > FAR * size_of_machine(machine):
-            wide = f"{name} would range over {high - low:.6g} m, far more than the machine is large"
-            raise DefinitionError(f"{plan.title}: {wide}; lengths are in m, write 60 * mm if these are millimetres.")
         found.append(Varied(name, owner, float(sign), float(low), float(high), None if step is None else float(step), unit_of(plan, name)))
     return found
 
 
+def check_unit_of_ranges(machine: Mechanism, variables: Sequence[Varied], about: Collection[str]) -> None:
+    """Raise DefinitionError for a range of lengths that is far wider than the machine and the other ranges of its lengths.
+
+    What varies `about` a present value says nothing of a size, nor does a range of coordinates, which may be any about zero.
+    """
+    plan, size = machine.plan, size_of_machine(machine)
+    lengths = [each for each in variables if plan_measure(plan, each.owner) == "length"]
+    free = [each for each in lengths if each.name not in about and plan.table.entries[each.owner].kind != "coordinate"]
+    sizes = {each.name: each.high for each in free if each.low >= 0.0}
+    for each in lengths:
+        others = [high for name, high in sizes.items() if name != each.name]
+        now, far = each.sign * float(machine.dimensions[each.owner]), max(abs(each.low), abs(each.high))
+        if each.high - each.low > FAR * max(size, median(others) if len(others) > 1 else 0.0) or (
+            far > APART * size and not each.low <= now <= each.high
+        ):
+            wide = f"{each.name} would range from {each.low:.6g} to {each.high:.6g} m, far more than the machine is large"
+            raise DefinitionError(f"{plan.title}: {wide}; lengths are in m, write 60 * mm if these are millimetres.")
+
+
 def size_of_machine(machine: Mechanism) -> float:
     """Return the largest length or coordinate of a machine [m]."""
-    lengths = [name for name in machine.dimensions if unit_of(machine.plan, name) == "mm"]
+    lengths = [name for name in machine.dimensions if plan_measure(machine.plan, name) == "length"]
     return max((abs(float(machine.dimensions[name])) for name in lengths), default=1.0) or 1.0
 
 

@@ -152,7 +152,7 @@ class CurveCatalogue(Shown):
             laid = laid_onto(ClosedCurves.of(as_complex(paths)), curve, ANY_SIZE, **free)
             factor[best], by[best], distance[best] = laid.factor, laid.by, np.sqrt(laid.error) / curve.size
             order[:many] = best[np.argsort(distance[best], kind="stable")]
-        return numbers[order], likeness.applied(values, factor, by)[order], distance[order]
+        return numbers[order], likeness.applied(fit, values, factor, by)[order], distance[order]
 
     def population(self, fit: Fit, many: int) -> FloatArray:
         """Return the designs nearest to a task's curve, laid onto it, as unit coordinates (m, n) of its search, beyond 0 and 1 too."""

@@ -17,7 +17,7 @@ from ..steps import Step
 from ..study.sides import ENDING, on_sides
 from ..units import deg, show
 from ..vectors import Side
-from .fit import Fit
+from .fit import Fit, goes_one_way
 
 RUN = 721
 """Poses of a stroke at which is looked where a machine that does not run can be assembled."""
@@ -28,22 +28,15 @@ NEAR_GRASHOF = 0.01
 """Of the longest link: a margin that is less is told."""
 
 
-def sense_of(strokes: FloatArray) -> float:
-    """Return the way in which points are passed: 1.0 where the last one is not before the first, else -1.0."""
-    return 1.0 if strokes[-1] >= strokes[0] else -1.0
-
-
 def in_order(fit: Fit, at: FloatArray, base: FloatArray) -> bool:
     """Return whether a design comes to the points one after the other, to either side, within one turn or the stroke."""
-    strokes = fit.timing.strokes(base[None], at[None, fit.n :])[0]
-    steps, wide = np.diff(strokes) * sense_of(strokes), abs(fit.timing.span)
-    return bool((steps >= -1e-9 * wide).all() and abs(strokes[-1] - strokes[0]) <= (1.0 + 1e-9) * wide)
+    return goes_one_way(fit.timing.one_way(fit.timing.strokes(base[None], at[None, fit.n :]))[0], abs(fit.timing.span))
 
 
 def order_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
     """Return in which order a design comes to the points, within one turn or the stroke from the first one on: `1, 3, 2, 4-6`."""
-    strokes = fit.timing.strokes(base[None], at[None, fit.n :])[0]
-    along = (strokes - strokes[0]) * sense_of(strokes)
+    strokes = fit.timing.one_way(fit.timing.strokes(base[None], at[None, fit.n :]))[0]
+    along = (strokes - strokes[0]) * (1.0 if strokes[-1] >= strokes[0] else -1.0)
     along = np.mod(along + 1e-9, fit.timing.turn) if fit.timing.turn else along
     return point_ranges((np.argsort(along, kind="stable") + 1).tolist())
 

@@ -31,11 +31,11 @@ from ..study.sides import class_on_sides
 from ..units import show
 from ..vectors import LEFT, RIGHT, Side
 from .defects import point_ranges, points_on_circuits
+from .fit import TURN, goes_one_way, one_way_round, within_turn
 from .synthesis import TOLD
 
 ComplexArray: TypeAlias = npt.NDArray[np.complex128]
 
-TURN = 2.0 * pi
 NARROW = 1e-9
 """A stroke that is narrower [rad] is none."""
 CHANGE_POINT = 1e-9
@@ -342,7 +342,7 @@ def strokes_at_points(
     """Return the strokes at the points (n,) [rad], each within its way, and by how many turns those that are given are off (n,)."""
     fully = bool(ways) and ways[0].fully
     if asked.given is None and fully:
-        return np.asarray(np.mod(driven_angles, TURN)), np.zeros(len(number), int)
+        return within_turn(one_way_round(driven_angles), 0.0), np.zeros(len(number), int)
     turned = driven_angles if asked.given is None else asked.given
     lifted = np.array([each.lifted(turned) for each in ways])[number, np.arange(len(number))] if ways else turned
     if asked.given is None:
@@ -353,10 +353,7 @@ def strokes_at_points(
 
 def passes_in_order(strokes: FloatArray, *, fully: bool) -> bool:
     """Return whether strokes go one way, of a crank that turns fully within one turn."""
-    steps = np.diff(strokes)
-    if fully:
-        return min(float(np.mod(steps, TURN).sum()), float(np.mod(-steps, TURN).sum())) <= TURN * (1.0 + 1e-9)
-    return bool((steps >= 0.0).all() or (steps <= 0.0).all())
+    return goes_one_way(one_way_round(strokes) if fully else strokes, TURN)
 
 
 def stroke_ends(piece: DrivenPiece, strokes: FloatArray, asked: CouplerTask) -> tuple[float, float]:

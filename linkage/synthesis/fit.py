@@ -32,7 +32,37 @@ ENOUGH = 1e-15
 """Of a task's size: a miss that is smaller is rounding."""
 SETTLED = 1e-12
 """Of the sum of the squares of misses: a step that changes no more is at an end."""
+SEAM, ROUNDING = 1e-10, 1e-6
+"""Of a turn: an angle so near to where the turn begins stands there; an angle that is so little before another may be so by rounding."""
 WAY = RunOptions("numpy")
+
+
+def one_way_round(angles: FloatArray, turn: float = TURN) -> FloatArray:
+    """Return angles (..., n), each by whole turns after the one before it, the way round that is shorter in all."""
+    steps, back = np.diff(angles), ROUNDING * turn
+    forward, backward = (sense * (np.mod(sense * steps + back, turn) - back) for sense in (1.0, -1.0))
+    shorter = (forward.sum(axis=-1) <= -backward.sum(axis=-1))[..., None]
+    ahead = np.cumsum(np.where(shorter, forward, backward) - steps, axis=-1)
+    return np.concatenate([angles[..., :1], angles[..., 1:] + turn * np.round(ahead / turn)], axis=-1)
+
+
+def within_turn(angles: FloatArray, start: float, turn: float = TURN) -> FloatArray:
+    """Return angles (n,) by whole turns within one from `start` on, backward where `turn` is below zero.
+
+    All of them go by the same turns where they fit into one so; else each by itself.
+    """
+    along = (angles - start) / turn
+    turns = np.floor(along.min() + SEAM)
+    if along.max() - turns > 1.0 + SEAM:
+        turns = np.floor(along + SEAM)
+    low, high = sorted((start, start + turn))
+    return np.asarray(np.clip(angles - turns * turn, low, high))
+
+
+def goes_one_way(strokes: FloatArray, wide: float) -> bool:
+    """Return whether strokes (n,) follow one another to either side, the last no farther than `wide` from the first."""
+    steps = np.diff(strokes) * (1.0 if strokes[-1] >= strokes[0] else -1.0)
+    return bool((steps >= -1e-9 * wide).all() and abs(strokes[-1] - strokes[0]) <= (1.0 + 1e-9) * wide)
 
 
 @final
@@ -85,8 +115,19 @@ class Timing:
         return np.asarray((strokes - low) / wide)
 
     def within(self, strokes: FloatArray) -> FloatArray:
-        """Return strokes [SI] within the range, of a crank modulo a turn."""
-        return np.asarray(self.start + np.mod(strokes - self.start, self.turn)) if self.turn else strokes
+        """Return strokes (n,) [SI] within the range, of a crank by whole turns."""
+        return within_turn(strokes, self.start, self.span) if self.turn else strokes
+
+    def one_way(self, strokes: FloatArray) -> FloatArray:
+        """Return strokes (m, n) [SI], of a crank by whole turns, so that they follow one another where they can."""
+        return one_way_round(strokes, self.turn) if self.turn else strokes
+
+    def centred(self, own: FloatArray) -> FloatArray:
+        """Return unknowns (m, w), of a crank by whole turns, so that no end is near."""
+        if not (self.turn and self.width):
+            return own
+        turn = self.turn / abs(self.reach[1])
+        return np.asarray(own - turn * np.round((own.mean(axis=1, keepdims=True) - 0.5) / turn))
 
 
 @final
@@ -255,6 +296,15 @@ class Fit:
         found, off = descended(misses, slopes, at, steps, enough=enough, begin=begin, settled=SETTLED, ahead=bent)
         return found, squared(off)
 
+    def put_in_order(self, at: FloatArray, base: FloatArray) -> FloatArray:
+        """Return designs and their own unknowns (m, n + w), each stroke put where the one before it is if it comes before that."""
+        strokes, wide = self.timing.one_way(self.timing.strokes(base, at[:, self.n :])), abs(self.timing.span)
+        first = strokes[:, :1]
+        sense = np.where(strokes[:, -1:] >= first, 1.0, -1.0)
+        ordered = first + np.minimum(np.maximum.accumulate(sense * (strokes - first), axis=1), wide) * sense
+        moved = np.where(np.abs(ordered - strokes) > 1e-15 * wide, ordered, strokes)
+        return np.concatenate([at[:, : self.n], np.clip(self.timing.centred(self.timing.own(moved - base)), 0.0, 1.0)], axis=1)
+
     def errors(self, at: FloatArray, base: FloatArray) -> FloatArray:
         """Return the sums of the squares of the misses (m,), infinite out of reach."""
         return squared(self.misses(at, base)) if len(at) else np.zeros(0)
@@ -282,10 +332,9 @@ class FitSquares:
         self.fit, self.base, self.own = fit, base[None], np.array(at[fit.n :])
         self.own_lines = np.zeros((0, fit.width)), np.zeros(0)
         if in_order and fit.width > 1:
+            self.own = fit.put_in_order(at[None], self.base)[0, fit.n :]
             sense, every = 1.0 if self.own[-1] >= self.own[0] else -1.0, np.eye(fit.width)
-            self.own = np.array(sense * np.maximum.accumulate(sense * self.own))
-            turn = fit.timing.turn / fit.timing.reach[1] if fit.timing.turn else 1.0  # all within one turn
-            self.own = np.where(sense * (self.own - self.own[0]) > turn, self.own[0] + sense * turn, self.own)
+            turn = fit.timing.turn / abs(fit.timing.reach[1]) if fit.timing.turn else 1.0  # all within one turn
             lines = sense * np.concatenate([np.diff(every, axis=0), every[[0]] - every[[-1]]])
             self.own_lines = lines, np.append(np.zeros(fit.width - 1), turn)
         self.size = max(float(np.sqrt(fit.errors(at[None], self.base)[0])), SMALL * fit.rows.size)

@@ -7,15 +7,17 @@ Shift, turn and size of a plane figure on another one in closed form. Source: I.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import combinations
 from typing import Any, final
 
 import numpy as np
 
 from ..motion.line import Index
+from ..plan import plan_measure
 from ..program import FloatArray
 from .closed_curves import ClosedCurves, drawn_curve, laid_onto
-from .fit import Fit
+from .fit import TURN, Fit
 
 POPULATION = 1 << 12
 """Designs that are looked at first, of every combination of choices; fewer where there are many."""
@@ -29,6 +31,8 @@ CHUNK = 1 << 21
 """Numbers that are laid onto the task at a time."""
 KEPT_SHAPE = 1e-8
 """Of a path's size: what a shift, a turn or another size of the dimensions may change of its form."""
+MOST_ANGLES = 4
+"""Angles of which is tried whether they turn with the whole machine, at the most."""
 APART = 0.05
 """Starts are not nearer to one another than this part of the box's diagonal, while there are others."""
 
@@ -38,41 +42,48 @@ APART = 0.05
 class Likeness:
     """What moves, turns and scales a whole mechanism by its dimensions: which of it keeps the form of its paths.
 
-    `points` are the variables (x, y) of fixed points, `lengths` those of lengths, by their place. A turn adds to the stroke what it turns
-    by, where `with_stroke`.
+    `points` are the variables (x, y) of fixed points, `lengths` those of lengths, `angles` those of directions in the frame, by their
+    place. A turn adds to the stroke what it turns by, where `with_stroke`.
     """
 
     points: tuple[tuple[int, int], ...]
     lengths: tuple[int, ...]
-    shift: bool
-    scale: bool
-    turn: bool
-    with_stroke: bool
+    angles: tuple[int, ...] = ()
+    shift: bool = False
+    scale: bool = False
+    turn: bool = False
+    with_stroke: bool = False
 
     @classmethod
     def of(cls, fit: Fit, sample: FloatArray, *, timed: bool) -> Likeness:
         """Return what keeps the form of a task's path, tried on some designs (m, n) that are assembled over the whole stroke."""
-        entries, variables = fit.plan.table.entries, fit.space.variables
-        places = {each.name: place for place, each in enumerate(variables) if each.step is None}
-        lengths = tuple(place for name, place in places.items() if entries[variables[place].owner].kind == "length")
-        points = tuple(
-            (place, places[f"{name[:-2]}.y"])
-            for name, place in places.items()
-            if name.endswith(".x") and f"{name[:-2]}.y" in places and entries[variables[place].owner].kind == "coordinate"
-        )
-        nothing = cls(points, lengths, False, False, False, False)
+        variables = fit.space.variables
+        places = {each.owner: place for place, each in enumerate(variables) if each.step is None}
+        pairs = [(name, f"{name[:-2]}.y") for name in places if name.endswith(".x")]
+        given = [each.coordinates() for each in fit.plan.points.values()]
+        pairs += [(each[0][1].name, each[1][1].name) for each in given if each]
+        points = tuple(dict.fromkeys((places[x], places[y]) for x, y in pairs if x != y and x in places and y in places))
+        paired = {place for pair in points for place in pair}
+        entries = fit.plan.table.entries
+        measures = {name: plan_measure(fit.plan, name) for name in places if entries[name].kind != "coordinate"}
+        lengths = tuple(places[name] for name, what in measures.items() if what == "length" and places[name] not in paired)
+        turning = [places[name] for name, what in measures.items() if what == "angle"][:MOST_ANGLES]
+        nothing = cls(points, lengths)
         if not fit.rows.is_path or not len(sample):
             return nothing
-
-        def keeps(factor: complex, by: complex, ahead: float) -> bool:
-            return nothing._keeps(fit, sample, factor, by, ahead)
-
         size = fit.rows.size
-        shift = bool(points) and keeps(1.0, complex(0.3, -0.2) * size, 0.0)
-        scale = keeps(1.2, 0.0, 0.0)
-        plain = keeps(np.exp(0.4j), 0.0, 0.0)
-        ahead = not plain and not timed and fit.timing.turn > 0.0 and keeps(np.exp(0.4j), 0.0, 0.4)
-        return cls(points, lengths, shift, scale, plain or ahead, ahead)
+        shift = bool(points) and nothing._keeps(fit, sample, 1.0, complex(0.3, -0.2) * size, 0.0)
+        scale = nothing._keeps(fit, sample, 1.2, 0.0, 0.0)
+        found = replace(nothing, shift=shift, scale=scale)
+        crank = not timed and fit.timing.turn > 0.0
+        for count in range(len(turning) + 1):
+            for angles in combinations(turning, count):
+                turned = replace(found, angles=angles, turn=True)
+                if turned._keeps(fit, sample, np.exp(0.4j), 0.0, 0.0):
+                    return turned
+                if crank and turned._keeps(fit, sample, np.exp(0.4j), 0.0, 0.4):
+                    return replace(turned, with_stroke=True)
+        return found
 
     def _keeps(self, fit: Fit, sample: FloatArray, factor: complex, by: complex, ahead: float) -> bool:
         """Return whether paths of dimensions that are changed are the paths, changed."""
@@ -80,12 +91,13 @@ class Likeness:
         strokes = fit.timing.start + fit.timing.span * np.linspace(0.05, 0.9, 7)
         values = fit.space.values(sample)
         before, _ = fit.values(by_owner(fit, values), strokes, count)
-        after, _ = fit.values(by_owner(fit, self.applied(values, np.full(count, factor), np.full(count, by))), strokes + ahead, count)
+        changed = self.applied(fit, values, np.full(count, factor), np.full(count, by))
+        after, _ = fit.values(by_owner(fit, changed), strokes + ahead, count)
         wanted, found = factor * as_complex(before) + by, as_complex(after)
         size = np.abs(wanted).max() + abs(by)
         return bool(np.isfinite(found).all() and np.abs(found - wanted).max() <= KEPT_SHAPE * size)
 
-    def applied(self, values: FloatArray, factor: Any, by: Any) -> FloatArray:
+    def applied(self, fit: Fit, values: FloatArray, factor: Any, by: Any) -> FloatArray:
         """Return the variables (m, n) of mechanisms that are scaled and turned by complex factors, then shifted, (m,) each."""
         found = np.array(values, float)
         for x, y in self.points:
@@ -93,6 +105,10 @@ class Likeness:
             found[:, x], found[:, y] = moved.real, moved.imag
         for place in self.lengths:
             found[:, place] *= np.abs(factor)
+        for place in self.angles:
+            each = fit.space.variables[place]
+            turned, middle = values[:, place] + each.sign * np.angle(factor), 0.5 * (each.low + each.high)
+            found[:, place] = turned - TURN * np.round((turned - middle) / TURN)
         return found
 
     def sizes(self, fit: Fit, unit: FloatArray) -> FloatArray:
@@ -101,7 +117,8 @@ class Likeness:
         low, high = np.full(len(unit), 1e-9), np.full(len(unit), 1e9)
         with np.errstate(all="ignore"):
             for place, each in zip(self.lengths, variables, strict=True):
-                low, high = np.fmax(low, each.low / values[:, place]), np.fmin(high, each.high / values[:, place])
+                ends = np.sort([each.low / values[:, place], each.high / values[:, place]], axis=0)
+                low, high = np.fmax(low, ends[0]), np.fmin(high, ends[1])
             middle = np.sqrt(low * high)
         return np.array([np.where(low <= high, low, middle), np.where(low <= high, high, middle)])
 
@@ -181,13 +198,10 @@ def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: Any, *, 
 
 def laid_starts(likeness: Likeness, fit: Fit, unit: FloatArray, best: Best, own: FloatArray) -> FloatArray:
     """Return designs (m, n) laid as is best, in the box, with their points' own unknowns (m, w), together (m, n + w)."""
-    laid = likeness.applied(fit.space.values(unit), best.factor, best.by)
+    laid = likeness.applied(fit, fit.space.values(unit), best.factor, best.by)
     if likeness.with_stroke:
         own = own + np.angle(best.factor)[:, None] / fit.timing.reach[1]
-    if fit.timing.turn and fit.width:  # whole turns away from the ends
-        turn = fit.timing.turn / abs(fit.timing.reach[1])
-        own = own - turn * np.round((own.mean(axis=1, keepdims=True) - 0.5) / turn)
-    return np.concatenate([fit.space.within(laid), np.clip(own, 0.0, 1.0)], axis=1)
+    return np.concatenate([fit.space.within(laid), np.clip(fit.timing.centred(own), 0.0, 1.0)], axis=1)
 
 
 def along_closed_curve(likeness: Likeness, fit: Fit, unit: FloatArray, values: FloatArray) -> tuple[Best, FloatArray]:
@@ -220,7 +234,7 @@ def standing_apart(unit: FloatArray, error: FloatArray, many: int) -> Index:
 def poses_of(fit: Fit, timed: Any) -> int:
     """Return at how many poses of the stroke a population is looked at: of equal steps so many for each."""
     if timed == "steps" and fit.timing.turn:
-        return fit.rows.count * max(1, round(96 / fit.rows.count))
+        return fit.rows.steps_round * max(1, round(96 / fit.rows.steps_round))
     return 97 if not fit.timing.turn else 96
 
 
@@ -228,11 +242,12 @@ def patterns(fit: Fit, timed: Any, count: int) -> tuple[Index, FloatArray, Float
     """Return how the points may lie on the poses of a sweep: their poses (k, n), and what bases (k, n) and unknowns (k, w) that means."""
     timing, n = fit.timing, fit.rows.count
     if timed == "steps" and timing.turn:
-        step, way = count // n, np.arange(n)
+        around = fit.rows.steps_round
+        step, way = count // around, np.arange(n)
         first = np.tile(np.arange(count), 2)
         sense = np.repeat([1, -1], count)
         picks = np.mod(first[:, None] + sense[:, None] * step * way, count)
-        base = sense[:, None] * way * timing.span / n
+        base = sense[:, None] * way * timing.span / around
         return picks, base, timing.own(timing.start + timing.span * first[:, None] / count)
     shares = lengths_along(fit)
     rows = []

@@ -36,6 +36,7 @@ from .defects import branch_words, circuit_words, in_order, is_near_change_point
 from .fit import Fit, Timing
 from .starts import POPULATION, WHOLE_ENOUGH, Likeness, Starts, standing_apart
 from .synthesis import (
+    ALIKE,
     MISSES,
     NEAR,
     Miss,
@@ -482,6 +483,11 @@ class TaskSearch:
         """Return ends, with their errors and with which of them run over the whole stroke and keep the conditions."""
         with self.problem.count.without_limit():
             error = fit.errors(at, base)
+            if self.ordered and len(at):  # what rounding put out of order
+                ordered = fit.put_in_order(at, base)
+                after = fit.errors(ordered, base)
+                same = after <= (1.0 + ALIKE) * np.maximum(error, exact_error(self.rows))
+                at, error = np.where(same[:, None], ordered, at), np.where(same, after, error)
             good = fit.keeping(at) & np.isfinite(error) if len(at) else np.zeros(0, bool)
         return Ends(fit, at, base, error, good)
 

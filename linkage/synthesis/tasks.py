@@ -19,6 +19,9 @@ from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import angle, is_number, real, x, y
 
+SAME_PLACE = 1e-9
+"""Of a task's size: the last point is the first one again where it is so near to it."""
+
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -39,6 +42,12 @@ class TaskRows:
     def count(self) -> int:
         """How many points the task has."""
         return int(self.wanted.shape[1])
+
+    @property
+    def steps_round(self) -> int:
+        """How many equal steps go round: one for each point, but for the last where it is the first one again."""
+        back = self.off(np.repeat(self.wanted[None, :, -1:], self.count, axis=2))[0, :, 0]
+        return self.count - int(self.count > 3 and bool(np.abs(back).max() <= SAME_PLACE * self.size))
 
     @cached_property
     def size(self) -> float:
@@ -85,7 +94,7 @@ class PathTask:
         found = table_of(what, "points", points, 2)
         different = len(np.unique(found, axis=0))
         if closed is None:
-            closed = different >= 3 and bool(np.array_equal(found[0], found[-1]))
+            closed = different >= 3 and bool(np.abs(found[0] - found[-1]).max() <= SAME_PLACE * np.ptp(found, axis=0).max())
         elif closed and different < 3:
             raise DefinitionError(f"{what}: closed=True: a closed curve has at least three different points; give more of it.")
         timed = timed_strokes("PathTask", at, len(found))

@@ -49,6 +49,7 @@ from linkage.study.problem import Problem
 from linkage.study.solver import Local
 from linkage.study.space import Space
 from linkage.units import bar, kN
+from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.stephenson_three import StephensonThreeFar
 from tests.laws.random_machines import random_machine
 from tests.linkage.known_machines import BoomArm
@@ -544,6 +545,24 @@ def test_a_range_in_millimetres_is_told(far):
     name = "A" if not isinstance(far, tuple) else "OB"
     with pytest.raises(DefinitionError, match="far more than the machine is large"):
         optimise(Boom(), minimise=most("tilt"), vary={name: far})
+
+
+def test_a_range_is_measured_by_the_machine_and_by_the_other_ranges_of_lengths():
+    """Ranges of several lengths that agree are of one unit. One that does not is of another, or that leaves today's machine far away."""
+    small, lengths = FourBar(OA=0.4 * mm, AB=1.1 * mm, CB=0.9 * mm, AP=1 * mm, C=(1 * mm, 0.0)), ("OA", "AB", "CB")
+    wide = dict.fromkeys(lengths, (0.1 * mm, 50 * mm))
+    for vary in (wide, wide | {"C.x": (-50 * mm, 50 * mm)}):
+        assert [each.high for each in Space.of(small, vary).variables] == [50 * mm] * len(vary)
+    for machine, vary in (
+        (small, {"OA": (0.1, 50)}),
+        (small, wide | {"AB": (0.1, 50)}),
+        (small, wide | {"C": around(2)}),
+        (small, {f"{point}.{axis}": (-50 * mm, 50 * mm) for point in "OC" for axis in "xy"}),
+        (FourBar(), dict(zip(lengths, ((20, 60), (80, 150), (50, 120)), strict=True))),
+        (FourBar(), {"OA": (60, 60.5)}),
+    ):
+        with pytest.raises(DefinitionError, match="far more than the machine is large; lengths are in m"):
+            Space.of(machine, vary)
 
 
 def test_conditions_and_measures_have_no_truth_value():

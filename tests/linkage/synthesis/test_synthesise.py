@@ -7,10 +7,18 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import (
+    LEFT,
+    Crank,
     DefinitionError,
+    Dimension,
+    Dyad,
     FunctionTask,
+    Ground,
+    Mechanism,
+    OnLink,
     PathTask,
     PoseTask,
+    Stroke,
     StudyError,
     around,
     deg,
@@ -58,6 +66,44 @@ def test_eighteen_points_at_equal_steps_are_met_better_than_any_design_read():
     errors = [judged(each, papers.EIGHTEEN) for each in found.solutions]
     assert errors == sorted(errors) and len(errors) > 5
     assert "all 18 points in order, on one circuit and one branch; least transmission angle" in str(found)
+
+
+class PolarBar(Mechanism):
+    """The bar of the papers in their own variables: the frame's length and angle, the place of its first pivot. Its crank is 1 mm long."""
+
+    phi = Stroke(0.0, 2 * np.pi)
+    x0, y0, r1 = Dimension(0.0, unit="mm"), Dimension(0.0, unit="mm"), Dimension(2 * mm, unit="mm")
+    theta0 = Dimension(0.0, unit="deg")
+
+    O = Ground(x0, y0)
+    C = Crank(O, OC=r1, angle=theta0)
+
+    A = OnLink(O, C, OA=1 * mm, COA=phi)
+    B = Dyad(A, C, AB=2 * mm, CB=2.5 * mm, side=LEFT)
+    P = OnLink(A, B, AP=1 * mm, BAP=30 * deg)
+
+
+class PolarFrame(PolarBar):
+    """Its first pivot by coordinates, the crank's angle counted from the x axis."""
+
+    O = Ground(0.0, 0.0)
+    C = Crank(O, OC=2 * mm, angle="theta0")
+    A = Crank(O, OA=1 * mm, angle="phi")
+
+
+@pytest.mark.parametrize("kind", [PolarBar, PolarFrame])
+def test_eighteen_points_are_met_where_the_frame_is_a_length_and_an_angle(kind):
+    """In the papers' box, 75 times as wide as the machine that is drawn."""
+    names = {PolarBar: ("x0", "y0", "r1"), PolarFrame: ("O.x", "O.y", "OC")}[kind]
+    vary = {name: ends for name, ends in box(50 * mm).items() if "." not in name} | {"theta0": (-np.pi, np.pi)}
+    vary |= dict.fromkeys(names[:2], (-50 * mm, 50 * mm)) | {names[2]: (0.01 * mm, 50 * mm)}
+    found = synthesise(kind(), path=PathTask(np.array(papers.EIGHTEEN) * mm, of="P"), vary=vary, timed="steps", starts=4).best
+    x, y, far = (found.machine[name] for name in names)
+    ends = {"O.x": x, "O.y": y, "C.x": x + far * np.cos(found.machine["theta0"]), "C.y": y + far * np.sin(found.machine["theta0"])}
+    bar = Bar(**ends, **{name: found.machine[name] for name in ("OA", "AB", "CB", "AP", "BAP")})
+    phi = found.strokes - (found.machine["theta0"] if kind is PolarFrame else 0.0)
+    assert runs_by_its_own_circles(bar)
+    assert np.sum((places(bar, phi) - np.transpose(papers.EIGHTEEN) * mm) ** 2) <= 0.00902889 * SQUARE_MM
 
 
 def test_five_timed_points():

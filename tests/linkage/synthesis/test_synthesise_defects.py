@@ -1,13 +1,18 @@
 """What is no answer, and why: order, circuit, branch and what cannot be assembled, told in words; angles that wrap and closed curves."""
 
 import re
+from math import pi
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import FunctionTask, PathTask, PoseTask, deg, mm, synthesise
-from linkage.synthesis.defects import connected_parts, lost_stretches, point_ranges, points_on_circuits
+from linkage import FunctionTask, PathTask, PoseTask, Stroke, deg, mm, synthesise
+from linkage.motion.measures import Given
+from linkage.study.problem import Problem
+from linkage.study.space import Space
+from linkage.synthesis.defects import connected_parts, in_order, lost_stretches, point_ranges, points_on_circuits
+from linkage.synthesis.fit import Fit, Timing
 from mechanisms.classics.four_bar import FourBar
 from tests.linkage.synthesis.known_machines import runs, task_without_answer
 from tests.linkage.synthesis.synthesis_tasks import Bar, OtherBar, places
@@ -124,6 +129,119 @@ def test_a_closed_curve_of_which_the_last_point_is_the_first(timed):
     assert found.best.most <= 1e-9
     steps = np.abs(np.diff(np.unwrap(found.best.strokes)))
     assert_allclose(steps, 30 * deg, rtol=0, atol=1e-6)
+
+
+class FromBehind(FourBar):
+    """Its crank turns from -180 to 180 degrees."""
+
+    phi = Stroke(-pi, pi)
+
+
+class FromAThird(FourBar):
+    """Its turn begins at 60 degrees."""
+
+    phi = Stroke(pi / 3, pi / 3 + TURN)
+
+
+class Backward(FourBar):
+    """Its crank turns clockwise."""
+
+    phi = Stroke(TURN, 0.0)
+
+
+TURNING = (FourBar, FromBehind, FromAThird, Backward)
+LENGTHS = {"OA": (0.015, 0.06), "AB": (0.05, 0.18), "CB": (0.05, 0.18), "AP": (0.01, 0.12), "BAP": (-pi, pi)}
+
+
+def known_bar(kind, random):
+    """Return a random bar whose crank turns fully, by Grashof's rule with a margin."""
+    while True:
+        found = {name: random.uniform(0.02, 0.05) if name == "OA" else random.uniform(*ends) for name, ends in LENGTHS.items()}
+        sides = sorted([found["OA"], found["AB"], found["CB"], 0.1])
+        if sides[0] == found["OA"] and sides[0] + sides[3] < sides[1] + sides[2] - 0.004:
+            return kind(**found)
+
+
+def turn_of(machine, count):
+    """Return crank angles at equal steps of a machine's turn, the first one where it begins, shape (count,)."""
+    stroke = machine.plan.strokes["phi"]
+    return stroke.start + (stroke.end - stroke.start) * np.arange(count) / count
+
+
+def check_in_order(machine, strokes):
+    """Check that strokes lie within a machine's own and go round once, one way; those from its beginning do not go over its end."""
+    stroke = machine.plan.strokes["phi"]
+    low, high = sorted((stroke.start, stroke.end))
+    assert low <= strokes.min() and strokes.max() <= high
+    steps = np.diff(np.unwrap(strokes))
+    assert (steps > 0.0).all() or (steps < 0.0).all()
+    assert abs(steps.sum()) <= TURN * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("seeds", [(4, 7), pytest.param(range(48), marks=pytest.mark.slow)], ids=["some", "all"])
+def test_a_closed_curve_from_the_seam_of_the_turn_is_found_in_order(seeds):
+    """In whatever sense, from whichever point on, with the first point once or again at the end."""
+    for seed in seeds:
+        random = np.random.default_rng(seed)
+        known = known_bar(TURNING[seed % 4], random)
+        points = np.array(known.at(phi=turn_of(known, int(random.integers(6, 16))))["P"].T)
+        if seed % 2:
+            points = points[::-1]
+        points = np.roll(points, (0, 1, int(random.integers(len(points))))[seed % 3], axis=0)
+        again = bool(random.integers(2))
+        task = PathTask(np.concatenate([points, points[:1]]) if again else points, of="P", closed=None if again else True)
+        found = synthesise(type(known)(), path=task, vary=LENGTHS, starts=16, seed=seed)
+        assert found.best.most <= 1e-9, (seed, str(found))
+        check_in_order(found.machine, found.best.strokes)
+        assert "points in order, on one circuit" in found.best.sentence, seed
+
+
+def test_strokes_that_differ_by_whole_turns_or_rounding_are_in_one_order():
+    """An exact design's own unknowns, each moved by whole turns; two of them exchanged are no order."""
+    for seed in range(40):
+        random = np.random.default_rng(seed)
+        known, count = known_bar(TURNING[seed % 4], random), int(random.integers(4, 14))
+        at = turn_of(known, count)
+        at = np.roll(at[:: 1 if seed % 3 else -1], int(random.integers(count)))
+        at = np.append(at, at[0]) if seed % 2 else np.repeat(at, 2)
+        space = Space.of(known, LENGTHS)
+        problem = Problem(known, [Given(0.0)], [], space)
+        rows = PathTask(known.at(phi=at)["P"].T, of="P").rows(known)
+        fit = Fit(problem, rows, Timing.of(problem, "phi", False, len(at)))
+        noise = 1e-11 * random.standard_normal(len(at))
+        moved = at + noise + TURN * random.integers(-1, 2, len(at))
+        unit, base = space.unit(space.present(known)), np.zeros((1, len(at)))
+        start = np.concatenate([unit, fit.timing.own(moved)])[None]
+        ordered = fit.put_in_order(start, base)
+        assert_allclose(fit.misses(ordered, base), 0.0, rtol=0, atol=1e-10)
+        assert in_order(fit, ordered[0], base[0]), seed
+        strokes = fit.timing.within(fit.timing.strokes(base, ordered[:, fit.n :])[0])
+        assert_allclose(np.exp(1j * strokes), np.exp(1j * at), rtol=0, atol=1e-9)
+        own = np.array(ordered[0])
+        own[fit.n + 1], own[fit.n + 2] = own[fit.n + 2], own[fit.n + 1]
+        assert not in_order(fit, own, base[0]), seed
+
+
+def test_timed_points_functions_and_poses_over_the_seam():
+    """In order, whatever the way round and wherever the turn begins; at equal steps the first point may stand again at the end."""
+    for place, kind in enumerate(TURNING):
+        known = kind(OA=0.036, CB=0.085)
+        round_once = np.append(turn_of(known, 8), known.plan.strokes["phi"].end)
+        ways = [round_once, round_once[::-1], np.roll(round_once[:-1], 3), np.roll(round_once[:-1], 3)[::-1]]
+        at, steps = (ways[(place + k) % 4] for k in (0, 1))
+        pose, stepped = known.at(phi=at), known.at(phi=steps)
+        for task, strokes in (
+            ({"path": PathTask(pose["P"].T, of="P", at=at)}, at),
+            ({"function": FunctionTask(at, pose["psi"], of="psi")}, at),
+            ({"motion": PoseTask(*pose["A"], pose.angle("A", "B"), of="A B", at=at)}, at),
+            ({"motion": PoseTask(*stepped["A"], stepped.angle("A", "B"), of="A B"), "timed": "steps"}, steps),
+            ({"path": PathTask(stepped["P"].T, of="P"), "timed": "steps"}, steps),
+        ):
+            found = synthesise(kind(), vary={"OA": (0.03, 0.04), "CB": (0.08, 0.09)}, starts=2, limit=500, **task)
+            assert found.best.most <= 1e-9, (kind, task)
+            assert "points in order, on one circuit" in found.best.sentence
+            assert_allclose(np.exp(1j * found.best.strokes), np.exp(1j * strokes), rtol=0, atol=1e-6)
+            check_in_order(found.machine, found.best.strokes)
 
 
 @pytest.mark.parametrize("turns", [0, 1, -2])

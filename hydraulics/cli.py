@@ -10,7 +10,7 @@ import numpy as np
 
 from linkage.cli.command import Command, every_argument, machine_arguments, motion_arguments
 from linkage.cli.machines import find
-from linkage.cli.settings import check_argument, design, judged_code, judged_over, motion_at, over_argument, overs_of, si_value
+from linkage.cli.settings import check_argument, design, judged_over, motion_at, over_argument, overs_of, print_verdicts, si_value
 from linkage.cli.table import csv_argument, write_table
 from linkage.errors import DefinitionError, known_name
 from linkage.language import noted, said
@@ -74,10 +74,7 @@ class CapacityCommand(Command):
         write_table(columns, over.reached.size, options.csv)
         judge = machine.judge(judged_over(machine, options), Acting(case=case))
         asked = capacity_request(ram, Acting(), circuit, point, pull_direction(along), share)
-        found = [capacity_verdict(judge, asked, point), *line_verdicts(circuit, judge), *ram.verdicts(judge)]
-        if options.csv != "-":
-            print("", *found, sep="\n")
-        return judged_code(found, options)
+        return print_verdicts([capacity_verdict(judge, asked, point), *line_verdicts(circuit, judge), *ram.verdicts(judge)], options)
 
 
 def cylinder_of(machine: Mechanism, name: str | None) -> Ram:

@@ -21,13 +21,13 @@ from .settings import (
     check_argument,
     design,
     force_arguments,
-    judged_code,
     judged_over,
     motion_at,
     over_argument,
     overs_of,
     plain_value,
     poses_at,
+    print_verdicts,
 )
 from .table import csv_argument, pins_of, worst_pins, write_table
 
@@ -67,11 +67,7 @@ class ForcesCommand(Command):
             return 0
         print(f"\n{worst_pins(machine, over, acting)}\n")
         print(f"residual of equilibrium {pins.residual:.0e}", *pins.remarks, sep="\n")
-        if not options.check:
-            return 0
-        verdicts = machine.verdicts(over=over)
-        print("", *verdicts, sep="\n")
-        return judged_code(verdicts, options)
+        return print_verdicts(machine.verdicts(over=over), options) if options.check else 0
 
 
 def force_table(motion: Motion, pins: PinForces, acting: Acting, options: Namespace) -> Iterator[Column]:
@@ -115,8 +111,4 @@ class LimitsCommand(Command):
         print(f"mobility {machine.mobility}; Gruebler count {machine.gruebler}")
         for each in machine.four_bars:
             print(each)
-        if not options.check:
-            return 0
-        verdicts = geometry_verdicts(machine.judge(over))
-        print("", *verdicts, sep="\n")
-        return judged_code(verdicts, options)
+        return print_verdicts(geometry_verdicts(machine.judge(over)), options) if options.check else 0

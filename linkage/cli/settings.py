@@ -123,6 +123,13 @@ def judged_code(verdicts: Sequence[Verdict], options: Namespace) -> int:
     return FAILED if any(each.ok is False for each in verdicts) else 0
 
 
+def print_verdicts(verdicts: Sequence[Verdict], options: Namespace) -> int:
+    """Print verdicts below what a command shows, but not into CSV, and return the exit code."""
+    if getattr(options, "csv", None) != "-":
+        print("", *verdicts, sep="\n")
+    return judged_code(verdicts, options)
+
+
 def design(machine: type[Mechanism], texts: Sequence[str]) -> Mechanism:
     """Return a design of a machine under settings such as `OB=180mm`; DefinitionError for what is unknown or unfit."""
     return machine(**dict(parsed_setting(machine.plan, text) for text in texts))

@@ -25,12 +25,12 @@ from .settings import (
     columns_picked,
     design,
     force_arguments,
-    judged_code,
     judged_over,
     motion_at,
     over_argument,
     overs_of,
     plain_value,
+    print_verdicts,
     ratio_columns,
 )
 
@@ -76,12 +76,7 @@ class TableCommand(Command):
             print(f"\n{pins}")
         if options.limits:
             print(f"\n{poses.limits()}")
-        if not options.check:
-            return 0
-        verdicts = machine.verdicts(over=over)
-        if options.csv != "-":
-            print("", *verdicts, sep="\n")
-        return judged_code(verdicts, options)
+        return print_verdicts(machine.verdicts(over=over), options) if options.check else 0
 
 
 def column_names(text: str) -> list[str]:

@@ -95,7 +95,7 @@ class DrivenArm(Mechanism):
     inward = Moment("P T", M=-M_l2)
     case_1 = LoadCase("telescope in", only=[outward])
     case_2 = LoadCase("telescope out", only=[inward])
-    unfolding = Over(cases=["case_1", "case_2"])  # one moment at a time, (2.39)
+    unfolding = Over(psi=("psi_0", "psi_k"), cases=["case_1", "case_2"])  # one moment at a time, (2.39)
 
     def working(self, count: int = 101) -> Motion:
         """Return the motion from psi_0 to psi_k, at `count` poses."""
@@ -106,8 +106,8 @@ class DrivenArm(Mechanism):
         return featured_drive("folding", "opening")
 
     def rules(self, motion: Motion) -> list[Verdict]:
-        """Return whether the drive carries the arm over a motion, and whether the cylinder is as long as that takes."""
-        return drive_verdicts(motion)
+        """Return whether the drive carries the arm over a motion that its angle drives."""
+        return drive_verdicts(motion) if "psi" in motion.strokes else []
 
 
 class ArmDrive(DrivenArm):
@@ -160,6 +160,7 @@ class ArmDriveByCylinder(ArmDrive):
     T = OnLink("P", N, PT="l_p", NPT=ref("psi_0") - ref("alpha_20") - 180 * deg)
     alpha_2 = angle("P", N)
     psi = alpha_2 - ref("alpha_20") + ref("psi_0")
+    unfolding = Over(cases=["case_1", "case_2"])
 
 
 class BellCrankArmDrive(ArmDrive):
@@ -201,6 +202,7 @@ class BellCrankArmDriveByCylinder(BellCrankArmDrive):
     T = OnLink("P", N, PT="l_p", NPT=ref("psi_0") - ref("alpha_20") - 180 * deg)
     alpha_2 = angle("P", N)
     psi = alpha_2 - ref("alpha_20") + ref("psi_0")
+    unfolding = Over(cases=["case_1", "case_2"])
 
 
 class AngledBellCrankArmDrive(BellCrankArmDrive):

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import Column, Crank, Dimension, Featured, Ground, Mechanism, Moment, Motion, MPa, OnLink, Stroke, deg, distance, mm
+from linkage import Column, Crank, Dimension, Featured, Ground, Mechanism, Moment, Motion, MPa, OnLink, Over, Stroke, deg, distance, mm
 from linkage.verdict import Verdict
 
 from .drive_duty import clipped
@@ -60,6 +60,7 @@ class BoomDrive(Mechanism):
     load = Moment("O P", M=-M_l)  # it turns the boom down, clockwise
     lift = Cylinder(A, B, bore=D, rod=d, closed=l, stroke=S)
     circuit = LiftCircuit(lift, pressure=p, mechanical_efficiency=n)
+    raising = Over(phi=("phi_0", "phi_k"))
 
     def working(self, count: int = 101) -> Motion:
         """Return the motion from phi_0 to phi_k, at `count` poses."""
@@ -74,5 +75,5 @@ class BoomDrive(Mechanism):
         return featured_drive("lifting")
 
     def rules(self, motion: Motion) -> list[Verdict]:
-        """Return whether the drive carries the boom over a motion, and whether the cylinder is as long as that takes."""
+        """Return whether the drive carries the boom over a motion."""
         return drive_verdicts(motion)

@@ -15,7 +15,7 @@ from linkage import Column, DefinitionError
 from linkage.cli.chart import print_chart
 from linkage.cli.command import Command, progress_bar
 from linkage.cli.machines import find
-from linkage.cli.settings import design, pair, si_value
+from linkage.cli.settings import check_argument, design, over_argument, overs_of, pair, print_verdicts, si_value
 from linkage.cli.table import csv_argument, write_table
 from linkage.disk import check_place, in_words
 from linkage.errors import unknown
@@ -24,6 +24,7 @@ from . import DRIVE_FIGURES, FIGURES, crane_figure, drive_figure
 from .arm_drive import DrivenArm
 from .boom_drive import BoomDrive
 from .cylinders import arm_moment, boom_moment
+from .drive_design import SCHEMES
 from .duty import Duty
 from .flow import arm_drive_of, boom_drive_of, design_crane, design_skeleton
 from .load_map import envelope, load_map
@@ -59,38 +60,43 @@ class DesignedCrane(Command):
             "--reading", choices=(">=", "<="), default=">=", help="how (2.13) is read: the tip clears the guard, or comes as near"
         )
         parser.add_argument("--cab", metavar="6.9m", help="column's axis to cab: a back-broken skeleton, and no further stage")
+        parser.add_argument("--scheme", choices=SCHEMES, help="the arm's drive of the crane to design, as in fig. 2.13 (default a)")
         parser.add_argument("--skeleton", action="store_true", help="the skeleton and its masses alone, without drives and load map")
         parser.add_argument("--pins", action="store_true", help="the largest force of every pin in the load cases for strength too")
         csv_argument(parser)
         parser.add_argument(
             "--pictures", metavar="FOLDER", help=f"write the pictures there: {', '.join(FIGURES)}; of each drive {', '.join(DRIVE_FIGURES)}"
         )
+        over_argument(parser)
+        check_argument(parser)
 
     def run(self, options: Namespace) -> int:
         if options.skeleton or options.cab:
-            for name, given in {"--pictures": options.pictures, "--pins": options.pins, "--csv": options.csv}.items():
-                if given:
-                    raise DefinitionError(f"{name} is of a whole crane; leave --skeleton and --cab out.")
-            print_skeleton(bare_skeleton(options))
-            return 0
+            for name in ("pictures", "pins", "csv", "scheme"):
+                if getattr(options, name):
+                    raise DefinitionError(f"--{name} is of a whole crane; leave --skeleton and --cab out.")
+            skeleton = bare_skeleton(options)
+            print_skeleton(skeleton)
+            return print_verdicts(skeleton.verdicts(over=overs_of(skeleton, options.over)), options)
         folder = Path(options.pictures) if options.pictures else None
         if folder is not None:
             with in_words(folder):
                 folder.mkdir(parents=True, exist_ok=True)
             check_place(folder / "map.png")
-        drive = named_drive(options)
-        if drive is not None:
-            print_drive(drive, options)
-            draw_all(folder, drive_pictures(drive))
-            return 0
-        crane = named_crane(options) if options.machine else designed_crane(options)
-        print_skeleton(crane)
-        print_moments(crane)
-        print_map(crane, options)
-        if options.pins:
-            print(f"\n{strength_text(crane)}")
-        draw_all(folder, crane_pictures(crane))
-        return 0
+        machine = named_machine(options) if options.machine else designed_crane(options)
+        over = overs_of(machine, options.over)
+        if isinstance(machine, Crane):
+            print_skeleton(machine)
+            print_moments(machine)
+            print_map(machine, options)
+            if options.pins:
+                print(f"\n{strength_text(machine)}")
+        else:
+            motion = machine.working(2 * COUNT - 1)
+            write_table(machine.columns(motion), motion.reached.size, options.csv)
+        code = print_verdicts(machine.verdicts(over=over), options)
+        draw_all(folder, crane_pictures(machine) if isinstance(machine, Crane) else drive_pictures(machine))
+        return code
 
 
 Pictures: TypeAlias = Mapping[str, Callable[[], Any]]
@@ -140,37 +146,23 @@ def bare_skeleton(options: Namespace) -> CraneSkeleton:
     return found.machine
 
 
-def named_drive(options: Namespace) -> BoomDrive | DrivenArm | None:
-    """Return the drive that is named, on its own; None where a crane is, or nothing. DefinitionError for what goes with a crane only."""
-    machine = find(options.machine) if options.machine else None
-    if machine is None or not issubclass(machine, (BoomDrive, DrivenArm)):
-        return None
-    if options.pins:
-        raise DefinitionError(f"--pins are those of a whole crane; `forces {options.machine}` has what the pins of a drive carry.")
-    found = design(machine, options.settings)
-    assert isinstance(found, (BoomDrive, DrivenArm))
-    return found
-
-
-def print_drive(drive: BoomDrive | DrivenArm, options: Namespace) -> None:
-    """Print what a drive gives against what is asked of it over its angle, or write it as CSV, and its verdicts."""
-    motion = drive.working(2 * COUNT - 1)
-    write_table(drive.columns(motion), motion.reached.size, options.csv)
-    print("", *drive.verdicts(motion), sep="\n")
-
-
-def named_crane(options: Namespace) -> Crane:
-    """Return the crane that is named."""
+def named_machine(options: Namespace) -> Crane | BoomDrive | DrivenArm:
+    """Return the crane that is named, or the drive on its own; DefinitionError for another machine, or what goes with another."""
+    if options.scheme:
+        raise DefinitionError(f"--scheme {options.scheme} is of a crane to design; {options.machine} has its arm's drive.")
     machine = design(find(options.machine), options.settings)
-    if not isinstance(machine, Crane):
+    if not isinstance(machine, (Crane, BoomDrive, DrivenArm)):
         raise DefinitionError(f"{options.machine} is no crane with its cylinders; take crane, or a subclass of mechanisms.crane.Crane.")
+    if options.pins and not isinstance(machine, Crane):
+        raise DefinitionError(f"--pins are those of a whole crane; `forces {options.machine}` has what the pins of a drive carry.")
     return machine
 
 
 def designed_crane(options: Namespace) -> Crane:
     """Return the crane designed for the duty, each stage told."""
     with progress_bar("crane") as progress:
-        found = design_crane(duty_of_options(options), reading=options.reading, progress=progress or False)
+        duty, scheme = duty_of_options(options), options.scheme or "a"
+        found = design_crane(duty, scheme=scheme, reading=options.reading, progress=progress or False)
     print(*(f"{each}\n" for each in (found.skeleton, found.boom, found.arm)), sep="\n")
     return found.crane
 
@@ -186,8 +178,7 @@ def print_skeleton(crane: CraneSkeleton) -> None:
     for words, (length, height, mass) in members.items():
         numbers = float(crane[length]), crane.output(height) * 1e3, crane.output(mass)
         print("{:10} {:7.3f} m long, {:6.1f} mm high, {:7.1f} kg".format(words, *numbers))
-    print(f"{'crane':10} {crane.output('W'):.1f} kg with its drives; W_m = {crane.output('W_m'):.6f} m2\n")
-    print(*crane.judged(), sep="\n")
+    print(f"{'crane':10} {crane.output('W'):.1f} kg with its drives; W_m = {crane.output('W_m'):.6f} m2")
 
 
 def print_moments(crane: Crane) -> None:

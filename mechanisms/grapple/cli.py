@@ -9,7 +9,7 @@ from typing import Any
 from linkage import DefinitionError, Motion
 from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
 from linkage.cli.machines import find_like
-from linkage.cli.settings import check_argument, design, judged_code, motion_at, pair, si_value
+from linkage.cli.settings import check_argument, design, judged_over, motion_at, over_argument, pair, print_verdicts, si_value
 from linkage.cli.table import csv_argument, write_table
 from linkage.errors import unknown
 from linkage.language import said
@@ -43,21 +43,21 @@ class Gripping(Command):
         picture_argument(parser, "the figure")
         parser.add_argument("--figure", choices=FIGURES, help="which figure (default: stems)")
         motion_arguments(parser, 11)
+        over_argument(parser)
         check_argument(parser)
 
     def run(self, options: Namespace) -> int:
         machine = named_grapple(options) if options.design is None else designed_grapple(options)
         path = figure_path(options, type(machine), self.name)
-        over = motion_at(machine, options.strokes, options.count)
-        columns = machine.columns(over)
-        print(f"{layout_words(over)}\n{LEGEND}\n")
-        write_table(columns, over.reached.size, options.csv)
-        verdicts = machine.verdicts(over)
-        print("", *verdicts, sep="\n")
+        motion, over = motion_at(machine, options.strokes, options.count), judged_over(machine, options)
+        columns = machine.columns(motion)
+        print(f"{layout_words(motion)}\n{LEGEND}\n")
+        write_table(columns, motion.reached.size, options.csv)
+        code = print_verdicts(machine.verdicts(over=over), options)
         if path is not None:
             figure(options.figure or "stems", machine).savefig(path)
             print(path)
-        return judged_code(verdicts, options)
+        return code
 
 
 def named_grapple(options: Namespace) -> Grapple:

@@ -8,14 +8,13 @@ from pathlib import Path
 from linkage import DefinitionError, Motion
 from linkage.cli.command import Command, figure_path, machine_arguments, picture_argument, whole_number
 from linkage.cli.machines import find_like
-from linkage.cli.settings import parsed_setting
+from linkage.cli.settings import check_argument, over_argument, overs_of, parsed_setting, print_verdicts
 from linkage.cli.table import csv_argument, write_table
 from linkage.plan import Plan
 from linkage.units import kgf, parse, show
 
 from . import FIGURES, figure
 from .charge import HEADERS, charge_for
-from .criteria import criteria
 from .following import kgf_cm2_text, over_following, reaction_columns
 from .machine import HeaderBalancer
 from .measured import Deviation, deviations, read_measured
@@ -43,19 +42,22 @@ class Balance(Command):
         parser.add_argument("--measured", metavar="FILE", help='compare with measured values: columns "R_y, mm", "F_R up, kgf"')
         picture_argument(parser, "the figure")
         parser.add_argument("--figure", choices=FIGURES, help="which figure of the paper, such as 2a, or 2 for both its halves")
+        over_argument(parser)
+        check_argument(parser)
 
     def run(self, options: Namespace) -> int:
         machine = header_of(options)
-        path = figure_path(options, type(machine), self.name)
+        path, over, code = figure_path(options, type(machine), self.name), overs_of(machine, options.over), 0
         motion = machine.at(h=machine.strokes["h"].start)
         compared = deviations(motion, read_measured(options.measured)) if options.measured else []
         if options.table:
             print_settings(machine, options)
         if not options.table or options.header or options.pressure or options.reaction or compared:
-            print_header(motion, options, compared)
+            print_header(motion, options)
+            code = print_verdicts([*machine.verdicts(over=over), *(each.verdict for each in compared)], options)
         if path is not None:
             draw_figure(machine, options, path, compared)
-        return 0
+        return code
 
 
 def print_settings(machine: HeaderBalancer, options: Namespace) -> None:
@@ -66,20 +68,17 @@ def print_settings(machine: HeaderBalancer, options: Namespace) -> None:
     write_table(columns, len(columns[0].values), options.csv)
 
 
-def print_header(motion: Motion, options: Namespace, compared: list[Deviation]) -> None:
-    """Print the reactions of one header and the verdicts on it; beside the table of all headers the verdicts alone."""
+def print_header(motion: Motion, options: Namespace) -> None:
+    """Print the charge and the reactions of one header; beside the table of all headers the charge alone."""
     over = over_following(motion, options.count)
-    verdicts = [*criteria(motion), *(each.verdict for each in compared)]
     horizon = show(float(over["h_horizon"][0]), "mm", 4)
     alone = f"\nHeader {options.header} alone. " if options.header else "\nThe header that is set alone. "
-    charged = f"Charged to {kgf_cm2_text(float(motion.inputs['charge']))} at the horizon, h = {horizon}. Pressures are gauge.\n"
+    charged = f"Charged to {kgf_cm2_text(float(motion.inputs['charge']))} at the horizon, h = {horizon}. Pressures are gauge."
     print(f"{alone if options.table else ''}{charged}")
     if not options.table:
+        print()
         columns = reaction_columns(over)
         write_table(columns, len(columns[0].values), options.csv)
-        print()
-    for verdict in verdicts:
-        print(verdict)
 
 
 def header_of(options: Namespace) -> HeaderBalancer:

@@ -7,7 +7,7 @@ from argparse import ArgumentParser, Namespace
 from linkage import Column, DefinitionError, Motion, max_table, pin_forces
 from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
 from linkage.cli.machines import find_like
-from linkage.cli.settings import check_argument, design, judged_code, motion_at
+from linkage.cli.settings import check_argument, design, judged_over, motion_at, over_argument, print_verdicts
 from linkage.cli.table import csv_argument, write_table
 from linkage.statics import table_text
 
@@ -38,32 +38,31 @@ class Hitch(Command):
         picture_argument(parser, "the figure")
         parser.add_argument("--figure", choices=FIGURES, help="which figure (default: capacity, with --zones zones)")
         motion_arguments(parser, 11)
+        over_argument(parser)
         check_argument(parser)
 
     def run(self, options: Namespace) -> int:
         machine = hitch_of(options)
         path = figure_path(options, type(machine), self.name)
-        over = motion_at(machine, options.strokes, options.count)
+        motion, over = motion_at(machine, options.strokes, options.count), judged_over(machine, options)
         if options.category:
             print(f"{CATEGORIES[options.category]}.\n")
         if options.zones:
-            columns = zone_table(machine, over)
+            columns = zone_table(machine, motion)
         else:
-            eta = float(over.inputs["circuit.mechanical_efficiency"])
-            print(f"{pressure_words(over)}, eta {eta:.4g}. Pressures are gauge.\n{LEGEND}\n")
-            columns = capacity_columns(over)
-        write_table(columns, over.reached.size, options.csv)
+            eta = float(motion.inputs["circuit.mechanical_efficiency"])
+            print(f"{pressure_words(motion)}, eta {eta:.4g}. Pressures are gauge.\n{LEGEND}\n")
+            columns = capacity_columns(motion)
+        write_table(columns, motion.reached.size, options.csv)
         if options.pins:
-            print(f"\n{table_text(max_table([pin_forces(over)]))}")
+            print(f"\n{table_text(max_table([pin_forces(motion)]))}")
         if options.vertical:
-            print("", *(f"S = {S:.4f} m: {mast_words(machine, float(S))}" for S in over.strokes["S"].ravel()), sep="\n")
-        print()
-        verdicts = machine.verdicts(over)
-        print(*verdicts, sep="\n")
+            print("", *(f"S = {S:.4f} m: {mast_words(machine, float(S))}" for S in motion.strokes["S"].ravel()), sep="\n")
+        code = print_verdicts(machine.verdicts(over=over), options)
         if path is not None:
             figure(options.figure or ("zones" if options.zones else "capacity"), machine).savefig(path)
             print(path)
-        return judged_code(verdicts, options)
+        return code
 
 
 def hitch_of(options: Namespace) -> ThreePointHitch:

@@ -254,6 +254,7 @@ def test_command_refuses_in_words(run):
         (("--set", "L"), "write a name and a value"),
         (("mechanisms.crane:CraneSkeleton",), "is no crane with its cylinders"),
         ((NAMED, "--skeleton"), "has its skeleton already"),
+        ((NAMED, "--scheme", "b"), "is of a crane to design"),
     ):
         with pytest.raises(DefinitionError, match=message):
             run(*words)

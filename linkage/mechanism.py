@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies
-from .errors import DefinitionError, cited, is_yes, told, unknown
+from .errors import DefinitionError, cited, is_yes, known_name, told, unknown
 from .frozen import FrozenDict
 from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
@@ -105,6 +105,13 @@ def design_of_motion(motion: Motion) -> Mechanism:
             return each(**motion.designs)
         classes += each.__subclasses__()
     raise DefinitionError(f"{motion.plan.title}: the class of this motion is not there any more; give its machine.")
+
+
+def played_along(motion: Motion, at: object) -> tuple[Mechanism, Motion]:
+    """Return the design of a motion, and the motion that it is shown along; DefinitionError where `at` says another way."""
+    if at:
+        raise DefinitionError(f"{motion.plan.title}: a motion has its own way; at={cited(at)} goes with a machine.")
+    return design_of_motion(motion), motion
 
 
 def check_motion(machine: Mechanism, motion: object, what: str) -> None:
@@ -297,17 +304,23 @@ class Mechanism(Shown, metaclass=MechanismType):
         return {spellings[each][0] for each in (name, f"{name}.x", f"{name}.y") if each in spellings}
 
     @of_a_design
-    def sweep(self, count: int | None = None, /, *, unreachable: str = "raise", **strokes: object) -> Motion:
+    def sweep(self, count: int | None = None, /, *, over: object = None, unreachable: str = "raise", **strokes: object) -> Motion:
         """Return the motion over the whole stroke, at `count` poses.
 
         With several strokes each is named: `sweep(S1=101, S2=0.15)`, an int is a count, a float a value; two
-        counts give a grid. Raises AssemblyError where it cannot be assembled, unless `unreachable="nan"`.
+        counts give a grid. `over` is an `Over` or the name of a declared one, `sweep(401, over="digging")`: the motion runs along its path
+        at equal shares of the way, and keeps it, so that it is judged where it was declared. Raises AssemblyError where it cannot be
+        assembled, unless `unreachable="nan"`.
 
         Of one design along one stroke the whole way is looked at, however few the poses: AssemblyError for a stretch between two poses that
         cannot be assembled, SingularError for a change point. A stretch narrower than 1e-6 of the stroke may be reported as a change point,
         a clearance of less than 1e-12 of the links as none. What lies within 1e-7 of the stroke next to its ends is not passed. With
         `unreachable="nan"`, `motion.interruptions` lists them. Batches and several strokes are not searched in this way.
         """
+        if over is not None:
+            if strokes:
+                raise DefinitionError(f"{self.plan.title}: sweep(over=...) says where all strokes are; leave out {keywords(strokes)}.")
+            return self.judge(self._declared(over)).places[0].swept(count, unreachable)
         return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
 
     @of_a_design
@@ -432,13 +445,18 @@ class Mechanism(Shown, metaclass=MechanismType):
 
     def judge(self, over: object = None, acting: Acting | None = None) -> Judge:
         """Return who answers questions of this design, over what is given or what it runs."""
-        given = self.overs if over is None else over if isinstance(over, (list, tuple)) else (over,)
+        given = self.overs if over is None else list(map(self._declared, over if isinstance(over, (list, tuple)) else (over,)))
         known = [isinstance(each, (Over, Motion)) or is_strokes(each) for each in given]
         if not all(known) or not known:
             wrong = given[known.index(False)] if known else over
             raise DefinitionError(f"{self.plan.title}: over={cited(wrong)}: an Over is expected, such as Over(S=(0.0, 0.2)), or several.")
         overs = [Over(**each) if isinstance(each, Mapping) else each for each in given]
         return Judge(self.plan, self._values, overs, acting, self)
+
+    def _declared(self, over: object) -> Any:
+        """Return the `Over` of the class that a text names; anything else as it is."""
+        known = {each.name: each for each in self.overs if each.name}
+        return known[known_name("Over", over, known, where=self.plan.title)] if isinstance(over, str) else over
 
     @of_a_design
     def featured(self) -> Featured:

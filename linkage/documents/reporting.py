@@ -16,12 +16,13 @@ from ..errors import DefinitionError, LinkageError, cited, unknown, unwarned
 from ..language import current_language, heading_of, said, said_of, translated
 from ..language import language as spoken
 from ..loads import PLAIN_CASE, Acting, situation_of
-from ..mechanism import Mechanism
+from ..mechanism import Mechanism, played_along
 from ..motion import (
     Answer,
     Column,
     Constraint,
     Leaf,
+    Motion,
     MotionFunction,
     Request,
     least,
@@ -55,7 +56,7 @@ WRITERS: Mapping[str, Callable[[Document, Path], None]] = {".html": write_html, 
 
 
 def report(
-    machine: Mechanism,
+    machine: Mechanism | Motion,
     path: str | Path,
     *,
     language: str | None = None,
@@ -83,8 +84,8 @@ def report(
     It begins with a title block, a sketch, verdicts, tables and curves. Then stand the inputs with units and sources, assumptions, and the
     standards that are cited. The equations are numbered from `start` on, with numbers filled in. Pin forces stand in every load case and
     at the relief valve's pressure. Limits of motion, checks with their measured figures, the version and a hash of the inputs end it.
-    The same inputs give the same bytes. Tables and curves run along one stroke. What is judged is over all that the machine runs, its
-    `overs` or those of `over`.
+    The same inputs give the same bytes. Tables and curves run along one stroke, of a motion along its own path. What is judged is over all
+    that the machine runs, its `overs` or those of `over`; of a motion over its path.
 
     The title block shows `number`, `revision`, `date`, `client` and who `prepared`, `checked` and `approved` it; what is left out is an
     empty line to write on. `title_block` adds rows below it, `{"Order": "4711"}`. `language` is "en" or "ru", by default the current one.
@@ -96,13 +97,17 @@ def report(
     """
     check_name(path)
     place = Path(path)
+    given: Mapping[str, object] | Motion = at
+    if isinstance(machine, Motion):
+        over = machine if over is None else over
+        machine, given = played_along(machine, at)
     if place.suffix.lower() not in WRITERS:
         raise DefinitionError(f"{cited(str(path))}: a report's name ends in one of {', '.join(WRITERS)}, which chooses the format.")
     check_place(place)
     block = TitleBlock(number, revision, date, client, prepared, checked, approved)
     shown = units if units is not None or current_system() else own_system(machine)
     document = report_document(
-        machine, language=language, units=shown, case=case, at=at, over=over, acting=acting, count=count, columns=columns, trace=trace,
+        machine, language=language, units=shown, case=case, at=given, over=over, acting=acting, count=count, columns=columns, trace=trace,
         limits=limits, title_block=title_block, start=start, block=block,
     )  # fmt: skip
     with speaking(language, shown):
@@ -116,7 +121,7 @@ def report_document(
     language: str | None = None,
     units: str | None = None,
     case: object = None,
-    at: At = NOTHING,
+    at: At | Motion = NOTHING,
     over: object = None,
     acting: Acting | None = None,
     count: int = 11,

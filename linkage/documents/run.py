@@ -42,7 +42,7 @@ class ReportSubject:
     judge: Judge
 
     @classmethod
-    def at(cls, machine: Mechanism, at: At, count: int, over: object = None, acting: Acting | None = None) -> ReportSubject:
+    def at(cls, machine: Mechanism, at: At | Motion, count: int, over: object = None, acting: Acting | None = None) -> ReportSubject:
         """Return what is reported; DefinitionError for a batch, a count that is none, an unknown case; AssemblyError out of reach."""
         require_mechanism(machine)
         title = machine.plan.title

@@ -13,7 +13,7 @@ from .line import highest, last_holding
 from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst
 from .motion import Motion, OnePose, each_at_its_stroke, out_of_reach, require_motion
-from .over import OPTIONS, Over
+from .over import OPTIONS, Over, Run
 from .planes import Planes, clearance, pair_at
 from .poles import whole_body
 from .pose_requests import condition, transmission

@@ -19,7 +19,7 @@ from ..language import said
 from ..loads import FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
-from ..quantities import PoseCondition, Quantity, Ref
+from ..quantities import PoseCondition, Quantity, Ref, is_whole, keywords
 from ..vectors import Numbers
 from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
 from .box import values_a_stroke
@@ -47,7 +47,7 @@ from .measures import (
     words_of,
 )
 from .motion import Motion
-from .over import ALLOWED, Over, with_strokes
+from .over import ALLOWED, Over, Run, with_strokes
 from .requests import Request, SmoothPiece, identity_of
 from .search import extremum, strokes_moved
 from .strokes import at_values
@@ -148,9 +148,10 @@ class Domain:
         self.over = over if isinstance(over, Over) else over.over
         self.plan, self.designs = plan, designs
         with unwarned():
-            strokes = self.over.places(plan, self.number) if given is None else with_strokes(given.strokes)
             own = given is not None and given._grid.per_design
-            self.motion = Motion(plan, designs, strokes, "nan", per_design=own)
+            poses = None if given is None or given.is_swept else given.strokes
+            strokes = self.over.places(plan, self.number) if poses is None else with_strokes(poses)
+            self.motion = Motion(plan, designs, strokes, "nan", per_design=own, over=self.over)
 
     def number(self, quantity: str | Quantity) -> float:
         """Return the value of a design variable by its name, or of a quantity of the design [SI]; DefinitionError where designs differ."""
@@ -185,6 +186,30 @@ class Domain:
             axes = np.meshgrid(*(np.linspace(ends[name].min(), ends[name].max(), count) for name in self.running), indexing="ij")
             values = dict(zip(self.running, axes, strict=True))
             return self.motion.moved({name: values.get(name, value[0]) for name, value in ends.items()})
+
+    def swept(self, count: int | None, unreachable: str) -> Motion:
+        """Return the motion over it, which keeps the `Over`: at so many equal shares of the way (101), or at its poses alone.
+
+        DefinitionError where it is a box in which several strokes run: that is no one way.
+        """
+        title, shape = f"{self.plan.title}: sweep(over={self.over.name or self.over})", self.over.shape
+        strokes, tangent = {name: np.ravel(value) for name, value in self.motion.strokes.items()}, None
+        if shape == "poses" and count is not None:
+            raise DefinitionError(f"{title}: it has {self.motion.reached.size} poses and nothing between them; leave out the count.")
+        if shape != "poses":
+            if len(self.running) != 1 and not self.is_path:
+                ways = keywords(dict.fromkeys(self.running or self.plan.strokes, 11))
+                what = f"{title}: {len(self.running)} strokes run in this box"
+                raise DefinitionError(f"{what}; write sweep({ways}), or sweep over an Over.path.")
+            number = 101 if count is None else count
+            if not is_whole(number) or number < 2:
+                raise DefinitionError(f"{title}: {cited(count)}: a whole number of poses is expected, 2 at least.")
+            held = {name: float(value[0]) for name, value in strokes.items()}
+            run = Run({name: tuple(strokes[name].tolist()) for name in self.running}, held)
+            moved, going = run.at(np.linspace(0.0, 1.0, number))
+            strokes = {name: np.broadcast_to(moved[name], (number,)) for name in strokes}
+            tangent = None if shape == "box" else {name: going.get(name, np.zeros(number)) for name in strokes}
+        return Motion(self.plan, self.designs, strokes, unreachable, tangent=tangent, over=self.over)
 
     @property
     def is_path(self) -> bool:

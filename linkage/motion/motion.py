@@ -53,7 +53,7 @@ class Motion(Shown):
     Arrays are component-first, designs before strokes: a position has the shape (2, *designs, *strokes).
     Raises AssemblyError where a pose cannot be assembled, unless `unreachable="nan"`. With `per_design` the arrays of strokes begin with
     the shape of the designs, each of which has strokes of its own; `joining` says how angles are made continuous, `tangent` how several
-    strokes go on along a path.
+    strokes go on along a path, `over` where the machine is looked at: the declared path of a sweep along it.
     """
 
     _limits_of: ClassVar[Callable[[Any], Limits]] = stroke_search.limits
@@ -69,6 +69,7 @@ class Motion(Shown):
         per_design: bool = False,
         joining: Joining | None = None,
         tangent: Mapping[str, FloatArray] | None = None,
+        over: Over | None = None,
     ) -> None:
         is_made = isinstance(plan, Plan) and isinstance(designs, Mapping) and isinstance(strokes, Mapping)
         if not is_made or designs.keys() != plan.table.entries.keys() or strokes.keys() != plan.strokes.keys():
@@ -77,7 +78,7 @@ class Motion(Shown):
         self._grid = Grid(plan, designs, strokes, per_design=per_design, joining=joining)
         self.plan, self.unreachable = plan, unreachable
         self.shape, self._design_shape = self._grid.shape, self._grid.design_shape
-        self._tangent = tangent
+        self._tangent, self._over = tangent, over
         self._held: tuple[Motion, str] | None = None
         self._values: dict[Hashable, FloatArray] = {}
         self._kept: dict[Hashable, Any] = {}
@@ -109,14 +110,21 @@ class Motion(Shown):
 
     @property
     def over(self) -> Over:
-        """Where it is looked at: of one stroke its range, of several in arrays of one axis their path, of a grid the box.
+        """Where it is looked at: what it was swept over, else one stroke's range, the path of several in one axis, the box of a grid.
 
         DefinitionError where each design of a batch has strokes of its own: there is no one place to look at.
         """
+        if self._over is not None:
+            return self._over
         if self._grid.per_design and self._design_shape:
             what = "in this motion each design has strokes of its own, and what is looked for between poses is looked for over the same"
             raise DefinitionError(f"{self.plan.title}: {what} strokes of all designs; take the designs one by one, or give one Over.")
         return over_of(self.strokes, self._grid.per_design)
+
+    @property
+    def is_swept(self) -> bool:
+        """Whether it was swept over an `Over`, which it keeps."""
+        return self._over is not None
 
     @property
     def inputs(self) -> dict[str, Any]:
@@ -250,21 +258,29 @@ class Motion(Shown):
         return found.reshape((*self._design_shape, *(1,) * len(self._stroke_shape)))
 
     @property
-    def tangent(self) -> Mapping[str, FloatArray] | None:
-        """How several strokes go on along a path of poses, by name, shape (poses,) or (*designs, poses); None where the poses are no path.
+    def is_path(self) -> bool:
+        """Whether the poses go along a path: a declared one, or one on which several strokes move together."""
+        moving = sum(bool(np.any(value[..., 1:] != value[..., :-1])) for value in self.strokes.values() if value.ndim)
+        return moving > 1 and len(self._stroke_shape) == 1 if self._over is None else moving > 0 and self._over.shape == "path"
 
-        Half the way from the pose before to the pose after [SI]: its signs and ratios mean something, its length does not.
+    @property
+    def tangent(self) -> Mapping[str, FloatArray] | None:
+        """How the strokes go on along a path of poses, by name, shape (poses,) or (*designs, poses); None where the poses are no path.
+
+        The way from a pose to the next that differs from it, at the end from the one before [SI]: its signs and ratios mean something, its
+        length does not. It is one-sided, so that rounding never decides which way a stroke goes.
         """
         if self._tangent is not None or not self._grid.joins_itself:
             return self._tangent
-        if len(self.strokes) < 2 or len(self._stroke_shape) != 1 or self._stroke_shape[0] < 2:
+        if not self.is_path or self._stroke_shape[0] < 2:
             return None
-        # of second order at the ends too; a stroke that is held stays exactly so
-        is_pair = self._stroke_shape[0] == 2
-        return {
-            name: np.gradient(value, axis=-1, edge_order=1 if is_pair else 2) * ~np.all(value == value[..., :1], axis=-1, keepdims=True)
-            for name, value in self.strokes.items()
-        }
+        steps = {name: np.diff(value, axis=-1) for name, value in self.strokes.items()}
+        moves = np.array([step.reshape(-1, step.shape[-1]) for step in steps.values()])
+        going = np.flatnonzero((np.isfinite(moves).all(axis=0) & moves.any(axis=0)).any(axis=0))
+        if not going.size:
+            return steps | dict.fromkeys(steps, np.zeros(self.shape))
+        ahead = going[np.minimum(np.searchsorted(going, np.arange(self._stroke_shape[0])), len(going) - 1)]
+        return {name: step[..., ahead] for name, step in steps.items()}
 
     # -- ratios, velocities, gradients -------------------------------------------------------------------
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, ClassVar, Self, final
 
 import numpy as np
@@ -26,6 +27,8 @@ ALLOWED = "allowed"
 @final
 class Over(Member):
     """Where a machine is looked at. Declared in the class it is what the machine really runs: `loading = Over.path(phi=[...], t=[...])`.
+
+    `machine.sweep(101, over="loading")` is the motion along it: what is drawn, animated and reported of that motion runs there.
 
     `Over(phi=(15 * deg, 80 * deg), t=0.0)` is a box: a pair runs, a number is held, strokes that are not named run over their range.
     `Over.path(phi=[...], psi=[...])` are straight legs through places in this order, `Over.poses(...)` these poses and nothing between.
@@ -217,6 +220,53 @@ class Over(Member):
 
     def __repr__(self) -> str:
         return str(self)
+
+
+@final
+@dataclass(frozen=True)
+class Run:
+    """The values that each moving stroke passes, as many each, and the values of those held [m or rad]."""
+
+    ways: Mapping[str, tuple[float, ...]]
+    held: Mapping[str, float]
+
+    @property
+    def stroke(self) -> str:
+        """The stroke that moves; of several the first."""
+        return next(iter(self.ways))
+
+    @property
+    def marks(self) -> FloatArray:
+        """The share of the way at which each value is passed, 0 to 1; of several strokes the one that moves most of its travel counts."""
+        steps = np.array([np.abs(np.diff(way)) / (np.ptp(way) or 1.0) for way in self.ways.values()]).max(axis=0)
+        lengths = np.cumsum(steps)
+        return np.concatenate([[0.0], lengths / lengths[-1]])
+
+    def at(self, shares: FloatArray) -> tuple[dict[str, Any], dict[str, FloatArray]]:
+        """Return all strokes at shares of the way (n,), 0 to 1, and how those that run go on: as on the leg that begins there."""
+        marks = self.marks
+        legs = np.flatnonzero(np.diff(marks) > 0.0)  # on a hold nothing moves
+        leg = legs[np.clip(np.searchsorted(marks[legs], shares, side="right") - 1, 0, None)]
+        strokes = {name: np.interp(shares, marks, way) for name, way in self.ways.items()}
+        return {**self.held, **strokes}, {name: np.diff(way)[leg] for name, way in self.ways.items()}
+
+    def over(self, shares: FloatArray) -> dict[str, Any]:
+        """Return all strokes at shares of the way, shape (n,), 0 to 1: what `at` takes; the values passed are among them."""
+        passed = np.array(shares, float)
+        for mark in self.marks[1:-1]:
+            passed[np.argmin(np.abs(passed - mark))] = mark
+        return {**self.held, **{name: np.interp(passed, self.marks, way) for name, way in self.ways.items()}}
+
+    @property
+    def is_path(self) -> bool:
+        """Whether it is more than one stroke from end to end: several together, or one that passes other values on its way."""
+        return len(self.ways) > 1 or len(self.ways[self.stroke]) != 2
+
+    def divided(self, count: int) -> dict[str, Any]:
+        """Return all strokes at so many poses or a few more: what is passed, and as many poses between any two of them."""
+        legs = len(self.ways[self.stroke]) - 1
+        place = np.linspace(0.0, legs, legs * max(1, -(-(count - 1) // legs)) + 1)
+        return {**self.held, **{name: np.interp(place, np.arange(legs + 1), way) for name, way in self.ways.items()}}
 
 
 def ends_text(value: object) -> str:

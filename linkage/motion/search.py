@@ -221,15 +221,17 @@ class Legs:
 
     corners: Mapping[str, FloatArray]
     counts: tuple[int, ...]
+    is_path: bool
 
     @classmethod
-    def of(cls, strokes: Mapping[str, FloatArray]) -> Legs:
-        """Return the way that poses cover, whatever their number.
+    def of(cls, motion: Motion) -> Legs:
+        """Return the way that the poses of a motion cover, whatever their number.
 
         A single stroke, and a grid in which a single one moves, goes from its least to its greatest value. Several strokes in arrays
         of one axis go from pose to pose, where poses on a straight line are no corners. From one sample to the next no stroke moves
         more than 1/4096 of its range.
         """
+        strokes = motion.strokes
         values = np.array([np.ravel(value) for value in strokes.values()])
         if len(values) == 1 or next(iter(strokes.values())).ndim > 1:
             values = np.stack([values.min(axis=1), values.max(axis=1)], axis=1)
@@ -239,12 +241,7 @@ class Legs:
         lengths = np.abs(np.diff(scaled[:, places], axis=1)).max(axis=0)
         share = SAMPLES * min(1.0, LONGEST / max(float(lengths.sum()), 1e-300))
         counts = tuple(int(count) for count in np.maximum(np.ceil(share * lengths - 1e-6), 2.0))
-        return cls({name: value[places] for name, value in zip(strokes, values, strict=True)}, counts)
-
-    @property
-    def is_path(self) -> bool:
-        """Whether it is a path, on which several strokes go on together."""
-        return len(self.corners) > 1 and any(np.ptp(at) > 0.0 for at in self.corners.values())
+        return cls({name: value[places] for name, value in zip(strokes, values, strict=True)}, counts, motion.is_path)
 
     def strokes(self, leg: Index, t: FloatArray) -> dict[str, FloatArray]:
         """Return the strokes [SI] at places, shape as these; exact at the corners."""
@@ -317,7 +314,7 @@ class OnLegs:
 
     def __init__(self, motion: Motion, f: Function, sense: float = 1.0, *, everywhere: bool = False) -> None:
         self.motion, self.f, self.sense, self.everywhere = motion, f, sense, everywhere
-        self.route = Legs.of(motion.strokes)
+        self.route = Legs.of(motion)
         self.leg, self.t = leg, t = samples(self.route.counts)
         self.first = Motion(
             motion.plan, motion.designs, self.route.strokes(leg, t), "nan", joining=joined_in_order, tangent=self.route.tangent(leg)

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..disk import check_place, replacing_text
 from ..errors import DefinitionError, cited
-from ..mechanism import Mechanism, design_of_motion, require_mechanism
+from ..mechanism import Mechanism, played_along, require_mechanism
 from ..motion import Column, Motion, RequestLike, live_text
 from ..reports import NOTHING, At
 from ..study import WorkingField
@@ -98,9 +98,8 @@ def page_html(
     if isinstance(machine, Synthesis):
         return task_page(machine, count=count, language=language, at=at, **given)
     if isinstance(machine, Motion):
-        if at:
-            raise DefinitionError(f"{machine.plan.title}: page(motion): a motion has its poses; at= goes with a machine.")
-        machine, given = design_of_motion(machine), given | {"along": machine}
+        machine, along = played_along(machine, at)
+        given = given | {"along": along}
     require_mechanism(machine)
     requests = PageRequests(machine, frame_count(count), at=at, **given)
     live = live_text(machine.plan, requests.by_name, name="engine")

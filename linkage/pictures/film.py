@@ -20,7 +20,8 @@ from PIL import Image
 from ..disk import check_place, replacing, spoken
 from ..errors import DefinitionError, FileError, LinkageError, cited
 from ..language import said
-from ..mechanism import Mechanism, require_mechanism
+from ..mechanism import Mechanism, played_along, require_mechanism
+from ..motion import Motion
 from ..program import FloatArray
 from ..reports import NOTHING, At
 from . import style
@@ -40,14 +41,14 @@ Progress: TypeAlias = Callable[[int, int], None]
 
 
 def animate(
-    machine: Mechanism,
+    machine: Mechanism | Motion,
     path: str | Path,
     *,
     count: int = 60,
     column: str | None = None,
     trace: Sequence[str] | None = None,
     limit: Sequence[object] | None = None,
-    at: At = NOTHING,
+    at: At | Motion = NOTHING,
     progress: Progress | None = None,
 ) -> Path:
     """Return the path of the animation it wrote: a .gif, an .mp4 (extra `video`) or an .html page that works offline.
@@ -55,12 +56,15 @@ def animate(
     The mechanism runs over its first stroke, there and back (a full turn goes round), at `count` poses; beside it the live
     curve of a column of its results. `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))` says where one runs [m or rad],
     and `at=dict(lift=(0.0, 0.6, 0.6), tilt=(0.1, 0.1, 0.0))` how several run together, from value to value; strokes not named are at
-    mid-stroke. `trace` names points whose paths are drawn; `limit` is the column's limit, `(value [SI], text, "above" or "below")`.
+    mid-stroke. A motion along one path, `machine.sweep(101, over="digging")`, is played along that path. `trace` names points whose paths
+    are drawn; `limit` is the column's limit, `(value [SI], text, "above" or "below")`.
     What is not given is what the machine is about (`Mechanism.featured`), else the last column that changes, no path and no limit.
     `progress(done, total)` is called as it goes. An existing
     file is replaced whole, or left as it was. Raises DefinitionError for another kind of file, a batch of designs or an unknown
     name, FileError for a path that cannot be written.
     """
+    if isinstance(machine, Motion):
+        machine, at = played_along(machine, at)
     require_mechanism(machine)
     if not isinstance(path, (str, os.PathLike)):
         raise DefinitionError(f"{cited(path)} is no path of a file; give one that ends in .gif, .mp4 or .html.")
@@ -77,7 +81,8 @@ def animate(
     report = progress or (lambda done, total: None)
     if kind == ".html":
         report(1, 2)
-        page(machine, target, column=column, trace=trace, limit=limit, at=at, count=max(poses, COUNT))
+        shown: dict[str, Any] = {"column": column, "trace": trace, "limit": limit, "count": max(poses, COUNT)}
+        page(at, target, **shown) if isinstance(at, Motion) else page(machine, target, at=at, **shown)
         report(2, 2)
         return target
     played = playback(machine, poses, column, at=at)

@@ -153,12 +153,12 @@ class Playback:
     is_turn: bool
 
 
-def playback(machine: Mechanism, count: int, column: str | None = None, *, at: At = NOTHING, eased: bool = True) -> Playback:
+def playback(machine: Mechanism, count: int, column: str | None = None, *, at: At | Motion = NOTHING, eased: bool = True) -> Playback:
     """Return what is played over one stroke or several together, the others held: `count` poses, there and back.
 
     `at` holds strokes at a value, or says which values those that move pass [m or rad]; without it the
-    first stroke runs over its range and the others are at mid-stroke. A full turn that ends where it began goes
-    round. Eased, the poses stand closer at the ends, so that even frames start and stop softly. Poses out of reach are
+    first stroke runs over its range and the others are at mid-stroke. A full turn that ends where it began goes round, and so does a path
+    that ends where it began. Eased, the poses stand closer at the ends, so that even frames start and stop softly. Poses out of reach are
     left out; raises AssemblyError where none is in reach.
     """
     run = run_of(machine, at)
@@ -167,7 +167,7 @@ def playback(machine: Mechanism, count: int, column: str | None = None, *, at: A
     motion = machine.at(unreachable="nan", **values)
     if not motion.reached.any():
         machine.at(**values)
-    turn = turn and ends_where_begun(motion)
+    turn = (turn or run.is_path) and bool(motion.reached.all()) and ends_where_begun(motion)
     there = [int(pose) for pose in np.flatnonzero(motion.reached)]
     return Playback(motion, tuple(there if turn else there + there[-2:0:-1]), column_shown(machine, motion, column), turn)
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from .. import motion as between
 from ..errors import DefinitionError, cited, unknown
 from ..language import said, with_and
 from ..mechanism import Mechanism
-from ..motion import Motion, Request, out_of_reach, require_motion
+from ..motion import Judge, Motion, Request, Run, out_of_reach, require_motion
 from ..program import FloatArray
 from ..quantities import as_mapping, is_number, real
 from ..units import show, shown_number
@@ -75,50 +74,15 @@ At: TypeAlias = Mapping[str, Any]
 NOTHING: At = MappingProxyType({})
 
 
-@final
-@dataclass(frozen=True)
-class Run:
-    """The values that each moving stroke passes, as many each, and the values of those held [m or rad]."""
-
-    ways: Mapping[str, tuple[float, ...]]
-    held: Mapping[str, float]
-
-    @property
-    def stroke(self) -> str:
-        """The stroke that moves; of several the first."""
-        return next(iter(self.ways))
-
-    @property
-    def marks(self) -> FloatArray:
-        """The share of the way at which each value is passed, 0 to 1; of several strokes the one that moves most of its travel counts."""
-        steps = np.array([np.abs(np.diff(way)) / (np.ptp(way) or 1.0) for way in self.ways.values()]).max(axis=0)
-        return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()])
-
-    def over(self, shares: FloatArray) -> dict[str, Any]:
-        """Return all strokes at shares of the way, shape (n,), 0 to 1: what `at` takes; the values passed are among them."""
-        passed = np.array(shares, float)
-        for mark in self.marks[1:-1]:
-            passed[np.argmin(np.abs(passed - mark))] = mark
-        return {**self.held, **{name: np.interp(passed, self.marks, way) for name, way in self.ways.items()}}
-
-    @property
-    def is_path(self) -> bool:
-        """Whether it is more than one stroke from end to end: several together, or one that passes other values on its way."""
-        return len(self.ways) > 1 or len(self.ways[self.stroke]) != 2
-
-    def divided(self, count: int) -> dict[str, Any]:
-        """Return all strokes at so many poses or a few more: what is passed, and as many poses between any two of them."""
-        legs = len(self.ways[self.stroke]) - 1
-        place = np.linspace(0.0, legs, legs * max(1, -(-(count - 1) // legs)) + 1)
-        return {**self.held, **{name: np.interp(place, np.arange(legs + 1), way) for name, way in self.ways.items()}}
-
-
 def run_along(motion: Motion) -> tuple[Run, int]:
     """Return what moves along a motion of one axis, through all its places, and the number from 0 of the first of them.
 
-    Of one that is not reached at all its places it is the longest part that is. DefinitionError for a grid, a batch, fewer than two places.
+    Of a sweep along an `Over.path` these are the places of the path. Of one that is not reached everywhere it is the longest part that is.
+    DefinitionError for a grid, a batch, fewer than two places.
     """
     title, shape = require_motion(motion).plan.title, motion.shape
+    if motion.is_swept and motion.over.shape == "path":
+        motion = Judge(motion.plan, motion.designs, [motion]).places[0].motion  # the places that its `Over` names
     if len(shape) != 1 or motion._design_shape:
         said = f"one design along one path is expected, and this motion is of shape {shape}"
         raise DefinitionError(f"{title}: {said}; choose one path of it.")
@@ -131,14 +95,18 @@ def run_along(motion: Motion) -> tuple[Run, int]:
     return Run(moving, {name: way[0] for name, way in ways.items() if name not in moving}), first
 
 
-def run_of(machine: Mechanism, at: At = NOTHING) -> Run:
+def run_of(machine: Mechanism, at: At | Motion = NOTHING) -> Run:
     """Return what moves: the strokes that `at` gives two values or more, else the first that it does not hold, over its range.
+
+    Of a motion it is its own way, as `run_along` has it.
 
     Several strokes run together, in straight lines from value to value. Strokes that are not given are at mid-stroke.
     DefinitionError where nothing is left to move, or where strokes that run together do not pass as many values each.
     """
     one = first_stroke(machine)
     title = machine.plan.title
+    if isinstance(at, Motion):
+        return run_along(at)[0]
     if not isinstance(at, Mapping):
         raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at={as_mapping({one: 0.1})}.")
     given = {name: stroke_way(machine, name, value) for name, value in at.items()}
@@ -150,10 +118,6 @@ def run_of(machine: Mechanism, at: At = NOTHING) -> Run:
     if not (ways or free):
         raise DefinitionError(f"{title}: every stroke is held, so that nothing moves; give {one} two values, its run.")
     moving = ways or {free[0]: (machine.strokes[free[0]].start, machine.strokes[free[0]].end)}
-    for leg in range(len(next(iter(moving.values()))) - 1):
-        if all(way[leg] == way[leg + 1] for way in moving.values()):
-            name, way = next(iter(moving.items()))
-            raise DefinitionError(f"{title}: nothing moves from {name} = {way[leg]:.6g} to {way[leg + 1]:.6g}; leave the second out.")
     held = stroke_middles(machine) | {name: values[0] for name, values in given.items()}
     return Run(moving, {name: value for name, value in held.items() if name not in moving})
 

@@ -302,7 +302,7 @@ class LoadsAlone(ForceElement):
 def rates_in(motion: Motion, acting: Acting, drive: str | None = None) -> Rates:
     """Return how the strokes move in a situation; `drive` is the one that moves where several could and the situation names none.
 
-    Along a path of several strokes they move as the path's tangent goes. DefinitionError where nobody says which one moves, and for
+    Along a path they move as the path's tangent goes. DefinitionError where nobody says which one moves, and for
     rates that go against the direction.
     """
     require_motion(motion)
@@ -328,6 +328,5 @@ class OnPath(Protocol):
 
 
 def path_tangent(motion: OnPath) -> dict[str, FloatArray]:
-    """Return how strokes change along a path on which several of them move, shaped as the poses; empty where it is none."""
-    moving = {name: rate for name, rate in (motion.tangent or {}).items() if np.any(rate != 0.0)}
-    return moving if len(moving) > 1 else {}
+    """Return how the strokes that move change along a path, shaped as the poses; empty where it is none."""
+    return {name: rate for name, rate in (motion.tangent or {}).items() if np.any(rate != 0.0)}

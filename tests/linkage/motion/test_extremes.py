@@ -411,7 +411,7 @@ def test_the_way_of_a_path_is_known_at_every_pose():
     assert greatest(motion, against).value == 1.0
     found = lowest(motion, against)
     assert (found.value, found.strokes) == (-1.0, {"u": 1.0, "v": 0.2})
-    np.testing.assert_array_equal(np.sign(motion.tangent["u"]), [1.0, 1.0, -1.0])
+    np.testing.assert_array_equal(np.sign(motion.tangent["u"]), [1.0, -1.0, -1.0])
     assert Lift().sweep(3).tangent is None and Crane().sweep(u=3, v=4).tangent is None
 
 

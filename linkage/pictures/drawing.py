@@ -169,6 +169,10 @@ class MarkPart(MovingPart):
             each.place(self.mark.placed(each.corners, at))
 
 
+FINE = 4000
+"""The pixels of the longer side of a picture under a machine that are drawn at the most; of a finer one several are one."""
+
+
 @final
 class Underlay:
     """A picture from a file that lies under a mechanism, as wide as its corners say [m]; its height is its own."""
@@ -195,8 +199,11 @@ def read_picture(path: str) -> FloatArray:
     try:
         with Image.open(path) as file:
             wide, high = file.size
-        if wide * high > MOST_PIXELS:
-            raise FileError(f"{path}: {pixels_text(wide, high)}; make it smaller, {MOST_PIXELS / 1e6:.0f} million pixels at most.")
+            if wide * high > MOST_PIXELS:
+                raise FileError(f"{path}: {pixels_text(wide, high)}; make it smaller, {MOST_PIXELS / 1e6:.0f} million pixels at most.")
+            if max(wide, high) > FINE:  # finer than any sheet; matplotlib would take 50 bytes a pixel
+                plain = file if file.mode in ("L", "RGB", "RGBA") else file.convert("RGBA")
+                return np.asarray(plain.reduce(-(-max(wide, high) // FINE)).convert("RGBA"))
         return np.asarray(imread(path))
     except Image.DecompressionBombError as error:
         raise FileError(f"{path}: more pixels than can be drawn; make it smaller, {MOST_PIXELS / 1e6:.0f} million at most.") from error

@@ -14,6 +14,8 @@ from ..errors import DefinitionError, FileError
 
 MOST = 20_000
 """Corners that are drawn of a drawing, and lines that are looked at; more do not fit into a picture."""
+LARGEST, SMALLEST = 1e12, 1e-9
+"""The largest coordinate of a drawing [its units], and the least size of it beside its largest coordinate, that can be drawn."""
 DEEP = 16
 """How deep blocks may stand in blocks."""
 
@@ -37,9 +39,11 @@ def dxf_lines(path: str, layers: Sequence[str] = ()) -> list[npt.NDArray[np.floa
     every = list(islice(unblocked(space, path), MOST + 1))
     if len(every) > MOST:
         raise DefinitionError(f"{path}: its blocks, inserted, are more than {MOST} lines, which no picture shows; take some of them out.")
+    every = [each for each in every if each.dxftype() != "INSERT"]
     entities = [each for each in every if not layers or each.dxf.layer in layers]
-    span = span_of(list(curves.make_path(each).control_vertices() for each in drawable(entities, curves)))
-    found = [polyline(curves.make_path(each), 1e-3 * span) for each in drawable(entities, curves)]
+    paths = list(drawable(entities, curves, path))
+    span = span_of(paths, path)
+    found = [polyline(each, 1e-3 * span) for each in paths]
     found = [each for each in found if len(each) > 1]
     if not found:
         on = f" on {', '.join(layers)}; its layers: {', '.join(sorted({each.dxf.layer for each in every}))}" if layers else ""
@@ -50,13 +54,13 @@ def dxf_lines(path: str, layers: Sequence[str] = ()) -> list[npt.NDArray[np.floa
 
 
 def unblocked(space: Any, path: str, around: tuple[str, ...] = ()) -> Iterator[Any]:
-    """Yield the entities of a space, those of inserted blocks too; FileError for a block that stands in itself, or too deep in others.
+    """Yield the entities of a space, inserted blocks and what is in them; FileError for one that stands in itself, or too deep in others.
 
     `around` names the blocks that the space stands in, from the outermost one.
     """
     for each in space:
+        yield each
         if each.dxftype() != "INSERT":
-            yield each
             continue
         name = str(each.dxf.name)
         if name in around:
@@ -66,22 +70,34 @@ def unblocked(space: Any, path: str, around: tuple[str, ...] = ()) -> Iterator[A
         yield from unblocked(each.virtual_entities(), path, (*around, name))
 
 
-def drawable(entities: Sequence[Any], curves: Any) -> Iterator[Any]:
-    """Yield the entities that are lines or curves."""
+def drawable(entities: Sequence[Any], curves: Any, path: str) -> Iterator[Any]:
+    """Yield the paths of the entities that are lines or curves; DefinitionError for one whose sizes cannot be drawn."""
     for each in entities:
         try:
-            curves.make_path(each)
+            with np.errstate(all="ignore"):
+                yield curves.make_path(each)
         except TypeError:
             continue
-        yield each
+        except (ArithmeticError, ValueError) as error:
+            remedy = f"its sizes cannot be drawn, up to {LARGEST:.0e} are; take it out, or draw in a larger unit"
+            raise DefinitionError(f"{path}: {each.dxftype()}: {str(error).rstrip('.')}: {remedy}.") from error
 
 
-def span_of(outlines: Sequence[Any]) -> float:
-    """Return the larger side of the box around some corners; 1 where there is none."""
-    places = np.array([(each.x, each.y) for corners in outlines for each in corners] or [(0.0, 0.0), (1.0, 0.0)])
-    return float(np.ptp(places, axis=0).max()) or 1.0
+def span_of(paths: Sequence[Any], path: str) -> float:
+    """Return the larger side of the box around some paths; 1 where there is none. DefinitionError for one that cannot be drawn."""
+    places = np.array([(each.x, each.y) for one in paths for each in one.control_vertices()] or [(0.0, 0.0), (1.0, 0.0)])
+    largest = float(np.max(np.abs(places)))
+    if not largest <= LARGEST:
+        size = f"{largest:.3g}" if np.isfinite(largest) else "no finite number"
+        what = f"{path}: a coordinate of it is {size}, and up to {LARGEST:.0e} are drawn"
+        raise DefinitionError(f"{what}; take that line out, or draw in a larger unit.")
+    span = float(np.ptp(places, axis=0).max()) or 1.0
+    if span < SMALLEST * largest:
+        what = f"{path}: it is {span:.3g} wide and stands {largest:.3g} away from its origin, which leaves no digits"
+        raise DefinitionError(f"{what}; move the drawing to its origin.")
+    return span
 
 
 def polyline(path: Any, distance: float) -> npt.NDArray[np.float64]:
-    """Return a path's corners, shape (n, 2), no farther than a distance from its curves."""
-    return np.array([(each.x, each.y) for each in path.flattening(distance)], float).reshape(-1, 2)
+    """Return a path's corners, shape (n, 2), no farther than a distance from its curves, up to one more than can be drawn."""
+    return np.array([(each.x, each.y) for each in islice(path.flattening(distance), MOST + 1)], float).reshape(-1, 2)

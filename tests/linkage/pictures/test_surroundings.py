@@ -1,5 +1,6 @@
 """What stands around a mechanism: declared, drawn with what carries it, kept in files, and without any effect on what is computed."""
 
+import math
 import struct
 import warnings
 import zlib
@@ -11,14 +12,16 @@ import pytest
 from matplotlib import image
 from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
+from PIL import Image
 
 from linkage import LEFT, Crank, DefinitionError, Dimension, FileError, Ground, Link, Mechanism, OnLink, Outline, Stroke, Weight, deg, draw
 from linkage.files import from_dict, load, to_dict, to_toml
 from linkage.pictures import mechanism
 from linkage.pictures.browser_data import mark_data
-from linkage.pictures.drawing import MarkPart
+from linkage.pictures.drawing import MarkPart, read_picture
 from linkage.pictures.scene import Scene
 from linkage.statics import driving_force
+from linkage.surroundings.dxf import dxf_lines
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.scissor_lift import ScissorLift
 from mechanisms.crane import Crane
@@ -332,3 +335,49 @@ def test_blocks_that_stand_in_themselves_or_too_deep_are_refused(tmp_path):
     bushy = {f"B{k}": [f"B{k + 1}"] * 4 for k in range(10)} | {"B10": []}
     with pytest.raises(DefinitionError, match="more than 20000 lines"):
         drawn_from(bushy)
+
+
+def test_sizes_of_a_drawing_are_bounded_before_it_is_drawn(tmp_path):
+    ezdxf = pytest.importorskip("ezdxf", reason="drawings are read with ezdxf")
+
+    def lines(add):
+        drawing, path = ezdxf.new(), tmp_path / "sizes.dxf"
+        add(drawing.modelspace(), drawing)
+        drawing.saveas(path)
+        return dxf_lines(str(path))
+
+    def blocks(space, drawing):
+        for k in range(12):
+            block = drawing.blocks.new(f"B{k}")
+            for _ in range(10 * (k > 0)):
+                block.add_blockref(f"B{k - 1}", (0, 0))
+        space.add_blockref("B11", (0, 0))
+
+    refused = {
+        "a coordinate of it": [
+            lambda space, _: space.add_circle((0, 0), 1e300), lambda space, _: space.add_line((0, 0), (math.nan, 1)),
+            lambda space, _: space.add_ellipse((0, 0), (1e250, 0), 0.5),
+        ],
+        "cannot be drawn": [lambda space, _: space.add_circle((0, 0), math.inf)],
+        "leaves no digits": [lambda space, _: space.add_circle((1e11, 0), 1.0)],
+        "more than 20000 lines": [blocks],
+    }  # fmt: skip
+    for words, each_of in refused.items():
+        for add in each_of:
+            with pytest.raises(DefinitionError, match=words):
+                lines(add)
+    for radius in (1e-6, 1e9):
+        (circle,) = lines(lambda space, _, radius=radius: space.add_circle((radius, 0), radius))
+        assert_allclose(np.hypot(circle[:, 0] - radius, circle[:, 1]), radius, rtol=2e-3)
+        assert len(circle) < 200
+
+
+def test_a_fine_photo_takes_little_memory(tmp_path):
+    """Of 9000 pixels in a row three are one; where they lie stays."""
+    path = tmp_path / "fine.png"
+    photo = Image.new("L", (9000, 900), 255)
+    photo.paste(0, (0, 0, 4500, 900))
+    photo.save(path)
+    pixels = read_picture(str(path))
+    assert pixels.shape == (300, 3000, 4)
+    assert_allclose([pixels[150, 100, 0], pixels[150, 2900, 0]], [0, 255])

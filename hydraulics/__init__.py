@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from linkage.language import add_catalogue
+from linkage.star import declare_public
 
 from .accumulator import Accumulator as Accumulator
 from .accumulator import AccumulatorBlock as AccumulatorBlock
@@ -45,3 +46,5 @@ from .valve import load_pressure as load_pressure
 from .valve import pilot_pressure as pilot_pressure
 
 add_catalogue("hydraulics", Path(__file__).with_name("locale"))
+
+declare_public(globals())

@@ -24,6 +24,7 @@ from typing import Any, Self
 
 from .errors import DefinitionError, cited, known_name, unknown
 from .language import noted, translated
+from .star import declare_public
 
 
 class Amount(float):
@@ -334,3 +335,5 @@ def show(value: float, unit: str, digits: int | str = 6) -> str:
     """
     text = shown_number(value, unit, digits)
     return f"{text} {unit_sign(unit)}" if unit else text
+
+declare_public(globals())

@@ -14,7 +14,7 @@ from linkage import steps
 ROOT = Path(__file__).parents[1]
 
 FLOORS = (
-    ("errors", "units", "vectors", "disk", "frozen", "pickling", "language", "plugins", "shown", "verdict"),
+    ("errors", "units", "vectors", "disk", "frozen", "pickling", "language", "plugins", "shown", "star", "verdict"),
     ("quantities",),
     ("steps", "loads", "surroundings"),
     ("program",),

@@ -1,5 +1,6 @@
 """Pins, links and slides turned into steps; groups solved and continued along the stroke."""
 
+from ..star import declare_public
 from .angle_continuation import NONE_SOLVED, ambiguous_angle, with_angles
 from .assemble import assembled
 from .chain_parts import chain_parts
@@ -8,3 +9,5 @@ from .live import angles_text, constants_text, groups_text, json_of
 from .modes import Assembly, assemblies, members_on_sides
 from .newton import Newton
 from .sketch import places_at
+
+declare_public(globals())

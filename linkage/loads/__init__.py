@@ -1,10 +1,11 @@
 """Force elements: what acts on a mechanism, declared like its points. Forces in N, gravity downwards.
 
-    positive thrust pushes the ends of the driven length apart     A o--->[=====]<---o B   the pins push back
-    a weight pulls down, a spring longer than its free length pulls its ends together
-    a moment turns its link counter-clockwise; a support pushes its point along its direction
+positive thrust pushes the ends of the driven length apart     A o--->[=====]<---o B   the pins push back
+a weight pulls down, a spring longer than its free length pulls its ends together
+a moment turns its link counter-clockwise; a support pushes its point along its direction
 """
 
+from ..star import declare_public
 from .acting import PLAIN, Acting, ActingKeywords, Case, HasLoads, Loads, situation_of, takes_situation
 from .case import PLAIN_CASE, LoadCase
 from .element import (
@@ -34,3 +35,5 @@ from .friction import GuideFriction, PinFriction
 from .point import Force, LinkMass, Moment, Support, Weight
 from .rope import Pulley, RopePath
 from .two_point import Actuator, Between, Damper, DrawnAs, Halves, Spring, TwoPoint
+
+declare_public(globals())

@@ -1,5 +1,6 @@
 """Where everything is over the stroke: positions, ratios, angles, distances."""
 
+from ..star import declare_public
 from .answer import Answer, Lost, places_text
 from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
 from .featured import Featured
@@ -25,3 +26,5 @@ from .search import Extremum, Span, below_zero, greatest, lowest, reached
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values
 from .table import Column, Tabled, columns_of, speakers
 from .target import Target
+
+declare_public(globals())

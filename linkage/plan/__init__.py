@@ -1,5 +1,6 @@
 """The ordered steps, their dimensions, and their program."""
 
+from ..star import declare_public
 from .bodies import Body, merged
 from .chain import ChainBody, KinematicChain, Pair, arm_joint, arm_points, gruebler, holds_an_arm, strokes_alone
 from .measure import plan_measure
@@ -20,3 +21,5 @@ from .plan import Plan
 from .reading import ArrayReading, Reading
 from .table import DesignVariable, Table
 from .trace import NEAR, REGULAR, Guard, Loop, Nearness, Trace
+
+declare_public(globals())

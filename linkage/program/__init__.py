@@ -1,5 +1,6 @@
 """The traced straight-line program, its derivatives and its kernels."""
 
+from ..star import declare_public
 from ..vectors import FloatArray, pick
 from .cache import compiled
 from .derivatives import Tangent, gradient, jacobian
@@ -18,3 +19,5 @@ from .operations import ARRAYS, FLOATS, NO_VALUE
 from .schedule import Schedule, ancestors, lowered, replaced
 from .text import GUARDED, TEMPLATES, Dialect, function_text
 from .traced import Comparison, Notes, Traced, claim, elementwise, is_traced, node_of
+
+declare_public(globals())

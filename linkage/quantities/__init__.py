@@ -1,5 +1,6 @@
 """Scalars of a mechanism: strokes, dimensions, outputs, and arithmetic of them."""
 
+from ..star import declare_public
 from .arithmetic import TAKEN, Arithmetic
 from .axes import Axes
 from .curve import Curve, CurveValue
@@ -40,3 +41,5 @@ from .quantity import (
     signed_terms,
     spelled,
 )
+
+declare_public(globals())

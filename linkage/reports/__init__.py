@@ -1,5 +1,6 @@
 """Results as text: tables, values with units, stroke ranges in words."""
 
+from ..star import declare_public
 from .live_columns import column_requests, is_column
 from .ranges import (
     NOTHING,
@@ -17,3 +18,5 @@ from .ranges import (
 from .results import force_columns, is_loaded, results
 from .table import rich_tables, text_table, write_csv
 from .values import design_rows, stroke_rows
+
+declare_public(globals())

@@ -1,5 +1,6 @@
 """Construction steps: each places one thing from things already placed."""
 
+from ..star import declare_public
 from .crank import Crank
 from .dyad import Dyad
 from .ground import Carried, Ground
@@ -12,3 +13,5 @@ from .pin import Drawn, Group, Pin, drawn
 from .primitives import Arrow, Axis, CosineAngle, Offset, Turn, Vector, triangle
 from .sliders import GuideCross, PinSlotDyad, SliderDyad, YokeDyad
 from .step import UNBOUND, Assignment, Bar, Contour, Point, Step
+
+declare_public(globals())

@@ -1,6 +1,7 @@
 """Studies: the search for better dimensions, extremes over a box, wanted values, tolerances, and surveys of millions of designs."""
 
 from ..motion import Target
+from ..star import declare_public
 from .box import Box
 from .infeasible import InfeasibleError
 from .load_rule import ISO_10567, ISO_14397_1, OECD_2, LoadRule
@@ -15,3 +16,5 @@ from .targets import Solutions
 from .tolerances import Tolerance, sigma, spread
 from .working_field import WorkingField, working_field
 from .zone import Zone, zone
+
+declare_public(globals())

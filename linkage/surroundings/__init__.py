@@ -1,5 +1,6 @@
 """What stands around a mechanism and is only drawn: a wheel, the ground, a bucket, a photograph."""
 
+from ..star import declare_public
 from .convex import Corners, convex_pieces, crosses_itself, signed_area
 from .outline import CircleOutline as CircleOutline
 from .outline import Corner as Corner
@@ -8,3 +9,5 @@ from .outline import ImageOutline as ImageOutline
 from .outline import LineOutline as LineOutline
 from .outline import Outline as Outline
 from .outline import numbers_at
+
+declare_public(globals())

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from linkage.star import declare_public
+
 from .arm_drive import AngledBellCrankArmDrive as AngledBellCrankArmDrive
 from .arm_drive import ArmDrive as ArmDrive
 from .arm_drive import ArmDriveByCylinder as ArmDriveByCylinder
@@ -73,3 +75,6 @@ def crane_figure(name: str, crane: Crane | None = None) -> Figure:
     from .figures import crane_figure
 
     return crane_figure(name, crane)
+
+
+declare_public(globals())

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from linkage.star import declare_public
+
 from .design import Combination as Combination
 from .design import design as design
 from .design import feasible as feasible
@@ -37,3 +39,6 @@ def figure(name: str, grapple: Grapple | None = None) -> Figure:
     from .figures import figure
 
     return figure(name, grapple)
+
+
+declare_public(globals())

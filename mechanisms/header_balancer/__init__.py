@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from linkage.star import declare_public
+
 from .charge import HEADERS as HEADERS
 from .charge import WAYS as WAYS
 from .charge import Way as Way
@@ -40,3 +42,6 @@ def figure(number: int | str, machine: HeaderBalancer | None = None, measured: S
     from .figures import figure
 
     return figure(number, machine, measured)
+
+
+declare_public(globals())

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from linkage.star import declare_public
+
 from .capacity import Weakest as Weakest
 from .capacity import at_hitch_points as at_hitch_points
 from .capacity import behind as behind
@@ -43,3 +45,6 @@ def figure(name: str, hitch: ThreePointHitch | None = None) -> Figure:
     from .figures import figure
 
     return figure(name, hitch)
+
+
+declare_public(globals())

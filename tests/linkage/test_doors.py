@@ -68,3 +68,28 @@ def test_every_name_of_the_door_is_there():
         linkage.Dyed  # noqa: B018 - the name itself is what is tried
     with pytest.raises(ImportError, match="cannot import name 'Dyed'"):
         exec("from linkage import Dyed")
+
+
+def doors():
+    """Yield the name of every package, and of the module of units, which is imported by a star as well."""
+    for root in ("linkage", "hydraulics", "mechanisms"):
+        for path in (ROOT / root).rglob("__init__.py"):
+            yield ".".join(path.parent.relative_to(ROOT).parts)
+    yield "linkage.units"
+
+
+def test_a_star_behind_the_front_door_hides_none_of_its_names():
+    """Whatever is loaded: of a door that is loaded late its own function may stand in its place, but never a module."""
+    for name in sorted(doors()):
+        space = {}
+        exec("from linkage import *", space)
+        known = {each: space[each] for each in linkage.__all__}
+        module = import_module(name)
+        exec(f"from {name} import *", space)
+        assert set(module.__all__) <= space.keys(), name
+        assert not [each for each, value in space.items() if inspect.ismodule(value)], name
+        for each, value in known.items():
+            assert space[each] is value or (each in LATE and inspect.isfunction(space[each])), f"{name} hides {each}"
+        assert not {"Path", "annotations", "declare_public", "TYPE_CHECKING", "Sequence"} & set(module.__all__), name
+    for each in ("standing", "optimise"):
+        assert inspect.isfunction(getattr(linkage, each))

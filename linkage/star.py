@@ -1,0 +1,20 @@
+"""What `from package import *` brings: the names of a package's door, and no module."""
+
+from __future__ import annotations
+
+from types import FunctionType, ModuleType
+
+
+def declare_public(door: dict[str, object]) -> None:
+    """Set `__all__` in the `globals()` of a module: its public names but modules, and classes and functions of other packages.
+
+    Type checkers do not run it: they find the names by themselves.
+    """
+    root = str(door["__name__"]).partition(".")[0]
+
+    def is_foreign(each: object) -> bool:
+        return isinstance(each, (type, FunctionType)) and each.__module__.partition(".")[0] != root
+
+    hidden = ("annotations", "TYPE_CHECKING", declare_public.__name__)
+    named = {name: each for name, each in door.items() if name[0] != "_" and name not in hidden}
+    door["__all__"] = [name for name, each in named.items() if not isinstance(each, ModuleType) and not is_foreign(each)]

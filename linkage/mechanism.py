@@ -44,7 +44,7 @@ from .motion import (
     sweep_values,
 )
 from .plan import Body, Part, Plan, check_circuits, with_parts
-from .program import FloatArray, RunOptions
+from .program import BackendName, FloatArray, Language, RunOptions
 from .quantities import Member, Stroke, is_name, keywords, needs
 from .shown import Shown, ShownList
 from .steps import Drawn
@@ -363,7 +363,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         *,
         out: FloatArray | None = None,
         unreachable: str = "raise",
-        backend: str | None = None,
+        backend: BackendName | None = None,
         threads: int = 1,
         per_design: object = False,
         **strokes: object,
@@ -372,8 +372,8 @@ class Mechanism(Shown, metaclass=MechanismType):
 
         One array a request, shape (2, *designs, *strokes) of a point, (*designs, *strokes) of a quantity. Designs share the strokes, or
         have their own `per_design`, as in `at`. `out`, shape (components, *designs, *strokes), takes the results; the arrays returned are
-        its rows. `backend` is "numpy", "numba"
-        or "floats"; without it the quickest for the work, on one thread. Poses are taken one by one: unlike `at` it does not look for
+        its rows. `backend` is "numpy", "numba" or "floats", or a class of your own that runs a schedule; without it the quickest for the
+        work, on one thread. Poses are taken one by one: unlike `at` it does not look for
         change points between them. Raises AssemblyError out of reach and SingularError for ratios at a dead point, unless
         `unreachable="nan"`.
         """
@@ -390,9 +390,10 @@ class Mechanism(Shown, metaclass=MechanismType):
         return PoseFunction(self.plan, self._values, of)
 
     @of_a_design
-    def source(self, of: Sequence[RequestLike], *, language: str = "c", name: str = "poses") -> str:
+    def source(self, of: Sequence[RequestLike], *, language: str | Language = "c", name: str = "poses") -> str:
         """Return values and ratios as the text of a function in "c" or "javascript", for a controller or a page of one's own.
 
+        `language` may be a `linkage.program.Language` of your own.
         Dimensions and strokes are its arguments, in the order that its first comment gives, SI and radians; NaN out of reach. Pins
         that are found by iteration have no closed form and are refused by name.
         """

@@ -74,7 +74,7 @@ class Plugins(Generic[T]):
     """All entries of one kind, by name: those of this package, and those that others bring in a group of entry points.
 
     `what` begins the sentence on an entry that is not as it should be, "The exporter"; `made` returns what an entry's object stands for,
-    None where it is none, and `expected` says then what it should be.
+    None where it is none, and `expected` says then what it should be. Where a name is taken, such an object may be given as it is.
     """
 
     def __init__(self, group: str, what: str, made: Callable[[object], T | None], expected: str, own: Mapping[str, T]) -> None:
@@ -103,6 +103,10 @@ class Plugins(Generic[T]):
                 raise DefinitionError(f"{title} is {self.expected}.")
             self._loaded[entry] = found
         return self._loaded[entry]
+
+    def given(self, value: object) -> T | None:
+        """Return what an object that is given instead of a name stands for; None for a name, and for what is no such object."""
+        return None if isinstance(value, str) else self.made(value)
 
     def loaded(self) -> tuple[dict[str, T], list[str]]:
         """Return all that there are by name; and of those that cannot be loaded, why not."""

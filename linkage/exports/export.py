@@ -144,20 +144,20 @@ class Svg(Exporter):
 EXPORTERS = Plugins[Exporter](
     plugins.EXPORTERS,
     "The exporter",
-    lambda found: found() if isinstance(found, type) and issubclass(found, Exporter) else None,
+    lambda found: found if isinstance(found, Exporter) else found() if isinstance(found, type) and issubclass(found, Exporter) else None,
     "no subclass of linkage.exports.Exporter",
     {"xlsx": Workbook(), "csv": Csv(), "dxf": Dxf(), "svg": Svg()},
 )
 """The kinds of files there are, by the names of their formats."""
 
 
-def exporter_of(file: Path, format: str | None = None) -> Exporter:
-    """Return what writes a file: the format that is named, else the one that the ending of the file's name says.
+def exporter_of(file: Path, format: str | Exporter | None = None) -> Exporter:
+    """Return what writes a file: the format that is named or given, else the one that the ending of the file's name says.
 
     DefinitionError where there is none, naming those that are installed.
     """
     if format is not None:
-        return EXPORTERS[known_name("Format", format, EXPORTERS, where="export(...)")]
+        return EXPORTERS.given(format) or EXPORTERS[known_name("Format", format, EXPORTERS, where="export(...)")]
     own = [each for each in EXPORTERS.own.values() if each.suffix == file.suffix.lower()]
     if own:
         return own[0]
@@ -179,7 +179,7 @@ def export(
     what: Mechanism | Motion | WorkingField,
     path: Place,
     *,
-    format: str | None = None,
+    format: str | Exporter | None = None,
     at: Mapping[str, object] = NOTHING,
     count: int = 101,
     trace: Sequence[str] = (),
@@ -197,6 +197,7 @@ def export(
     * Of a working field .csv has a row each cell, .xlsx the chart as it is printed, too.
 
     Other kinds of files come with packages that are installed; `format="mjcf"` says by its name which kind is meant, whatever the ending.
+    An `Exporter` of your own may be given as it is, `format=Gcode()`.
 
     An existing file is replaced whole, or left as it was. Raises DefinitionError for another kind of file, for what does not go with
     it, for a batch of designs, and where the extra is not installed. AssemblyError stands for poses out of reach, FileError for a path

@@ -517,9 +517,9 @@ def one_value(value: object, name: str, title: str) -> FloatArray:
 # Values and ratios as the text of a function in another language: for a controller, or a page of one's own.
 
 
-def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], language: str, name: str) -> str:
+def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], language: object, name: str) -> str:
     """Return requests as text in a language; see Mechanism.source."""
-    writer = LANGUAGES[one_word("language", language, tuple(LANGUAGES))]
+    writer = LANGUAGES.given(language) or LANGUAGES[one_word("language", language, tuple(LANGUAGES))]
     if not (isinstance(name, str) and name.isascii() and name.isidentifier()):
         raise DefinitionError(f"name={name!r}: a function's name is expected, such as poses.")
     if name in writer.words.split():

@@ -9,7 +9,7 @@ from .foreign import Language, ProgramText
 from .interpret import LAST, Iterated, disturbed, interpret, scatter
 from .intervals import Enclosure, enclosures
 from .javascript import Inputs, arrow_function, function_body, number, short_names
-from .kernel import BACKEND, QUICKEST, Backend, Kernel, Result, RunOptions, fixed_backend
+from .kernel import BACKEND, QUICKEST, Backend, BackendName, Kernel, Result, RunOptions, fixed_backend
 from .languages import LANGUAGES
 from .linear import solve_arrays
 from .loop import HEAD, NUMBA, lane_loop

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, final
+from typing import Protocol, TypeAlias, final
 
 import numpy as np
 
@@ -54,13 +54,14 @@ class Result:
 @final
 @dataclass(frozen=True)
 class RunOptions:
-    """How a kernel is run: "floats", "numpy", "numba" or what a package brings, by itself the quickest; and on how many threads."""
+    """How a kernel is run: by the back end of a name or a class of one's own, by itself the quickest; and on how many threads."""
 
-    backend: str | None = None
+    backend: BackendName | None = None
     threads: int = 1
 
     def __post_init__(self) -> None:
-        if self.backend is not None and not (isinstance(self.backend, str) and (self.backend in OWN or self.backend in ADDED)):
+        is_known = isinstance(self.backend, str) and (self.backend in OWN or self.backend in ADDED)
+        if self.backend is not None and not is_known and ADDED.given(self.backend) is None:
             *others, last = map(quoted, [*OWN, *ADDED])
             raise DefinitionError(f"backend={self.backend!r}: say {', '.join(others)} or {last}, or nothing for the quickest.")
         if not isinstance(self.threads, int) or isinstance(self.threads, bool) or self.threads < 1:
@@ -82,6 +83,8 @@ class Backend(Protocol):
         """Fill values and guards: what the schedule's inputs are, a float or an array each, stands in their order."""
 
 
+BackendName: TypeAlias = str | Callable[[Schedule], Backend]
+"""A back end by its name, or the class or function of a schedule that makes one."""
 OWN = ("numpy", "numba", "floats")
 ADDED = Plugins[Callable[[Schedule], Backend]](
     plugins.BACKENDS, "The back end", lambda found: found if callable(found) else None, "no function of a schedule", {}
@@ -105,7 +108,7 @@ class Kernel:
         self.plan = schedule(outputs, guards)
         self._unseen = np.full(len(self.plan.guards), math.inf)
         self._spent = 0
-        self._added: dict[str, Backend] = {}
+        self._added: dict[BackendName, Backend] = {}
 
     def __call__(
         self, inputs: Mapping[str, Numbers], out: FloatArray | None = None, way: RunOptions = QUICKEST, size: tuple[int, int] | None = None
@@ -134,9 +137,9 @@ class Kernel:
             return self.fused
         if name is None:
             self._spent += m * n
-        elif name not in OWN:
+        elif not isinstance(name, str) or name not in OWN:
             if name not in self._added:
-                self._added[name] = ADDED[name](self.plan)
+                self._added[name] = (ADDED[name] if isinstance(name, str) else name)(self.plan)
             return self._added[name]
         return self.arrays
 

@@ -24,7 +24,7 @@ class SourceWriter(Protocol):
 LANGUAGES = Plugins[SourceWriter](
     plugins.LANGUAGES,
     "The language",
-    lambda found: found() if isinstance(found, type) and issubclass(found, Language) else None,
+    lambda found: found if isinstance(found, Language) else found() if isinstance(found, type) and issubclass(found, Language) else None,
     "no subclass of linkage.program.Language",
     {"c": C(), "javascript": JavaScript()},
 )

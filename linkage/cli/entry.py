@@ -38,7 +38,6 @@ HOMES = {
     "save": "show:SaveCommand",
     "optimise": "optimise:OptimiseCommand",
     "synthesise": "synthesise:SynthesiseCommand",
-    "catalogue": "catalogue:CatalogueCommand",
     "study": "study:StudyCommand",
     "new": "new:NewCommand",
     "doctor": "doctor:DoctorCommand",

@@ -23,21 +23,20 @@ from ..errors import FileError
 FOLDER = "HYDROLINKAGE_CACHE"
 
 
-def cache_folder(kind: str = "kernels") -> Path:
-    """Return the user's folder for compiled programs, or for what else is kept; HYDROLINKAGE_CACHE names another.
+def cache_folder() -> Path:
+    """Return the user's folder for compiled programs; HYDROLINKAGE_CACHE names another.
 
     RuntimeError where the user has no home.
     """
     if os.environ.get(FOLDER):
-        named = Path(os.environ[FOLDER]).absolute()
-        return named if kind == "kernels" else named / kind
+        return Path(os.environ[FOLDER]).absolute()
     if sys.platform == "win32":
         base = os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local"
     elif sys.platform == "darwin":
         base = Path.home() / "Library" / "Caches"
     else:
         base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(base) / "hydrolinkage" / kind
+    return Path(base) / "hydrolinkage" / "kernels"
 
 
 def is_own(folder: Path) -> bool:

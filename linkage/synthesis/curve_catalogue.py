@@ -1,4 +1,4 @@
-"""A catalogue of closed curves: where a point of a class goes in one turn of the crank, of many designs, kept in the user's cache.
+"""A catalogue of closed curves: where a point of a class goes in one turn of the crank, of many designs.
 
 A curve is looked up by its Fourier descriptors, which no place, turn, size and start changes. Source: J. R. McGarva, Rapid search and
 selection of path generating mechanisms from a library, Mech. Mach. Theory 29 (1994) 223-235.
@@ -6,25 +6,17 @@ selection of path generating mechanisms from a library, Mech. Mach. Theory 29 (1
 
 from __future__ import annotations
 
-import json
-import re
-import warnings
-import zipfile
 from dataclasses import dataclass, field
-from io import BytesIO
-from pathlib import Path
 from typing import final
 
 import numpy as np
 
-from ..disk import in_words, read, replacing
-from ..errors import DefinitionError, FileError, cited
+from ..errors import DefinitionError, cited
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion.line import Index
 from ..motion.measures import Given
 from ..program import FloatArray
-from ..program.cache import FOLDER, cache_folder
 from ..quantities import is_whole
 from ..shown import Shown
 from ..study.checkpoint import digest
@@ -37,8 +29,6 @@ from .fit import WHOLE, Fit, Timing
 from .starts import Likeness, as_complex
 from .tasks import PathTask
 
-FORM = 1
-"""The form of the file; one of another form is made anew."""
 CURVES, MOST_CURVES = 1 << 16, 1 << 24
 """Curves of a catalogue of which no number is said, and the most."""
 NEIGHBOURS = 2048
@@ -70,7 +60,7 @@ class CurveCatalogue(Shown):
     """Closed curves of a point, of designs that run their whole turn: `catalogue.nearest(points)`.
 
     `kind` says whose they are. `units` (m, k) are the designs, `amplitudes` (m, 2 h) the sizes of their descriptors, `looked` how many
-    designs were looked at, `seed` that of their sequence; `file` is where it is kept, None where it could not be.
+    designs were looked at, `seed` that of their sequence.
     """
 
     kind: CurveClass
@@ -78,16 +68,12 @@ class CurveCatalogue(Shown):
     amplitudes: FloatArray = field(repr=False)
     looked: int
     seed: int
-    file: Path | None
 
     def __len__(self) -> int:
         return len(self.units)
 
     def __str__(self) -> str:
-        return said(
-            "{title}: {count} closed curves of {looked} designs, in {file}",
-            title=self.kind.title, count=len(self), looked=self.looked, file=self.file or "-",
-        )  # fmt: skip
+        return said("{title}: {count} closed curves of {looked} designs", title=self.kind.title, count=len(self), looked=self.looked)
 
     __repr__ = __str__
 
@@ -176,13 +162,38 @@ def curve_catalogue(
     executor: Executor | None = None,
     progress: bool | Progress = False,
 ) -> CurveCatalogue:
-    """Return the catalogue of a point's closed curves, from the user's cache, or made and kept there: `curve_catalogue(FourBar(), "P")`.
+    """Make a catalogue of the closed curves of a point: `curve_catalogue(FourBar(), "P")`.
 
-    It holds `count` curves of designs whose crank turns its whole turn. All lengths and fixed points vary, and all angles that you do not
-    `hold`; the place, turn and size of the whole machine do not matter. Without a count the largest that is there is returned, of at least
-    65,536 curves, or one of so many is made. `executor` is that of `survey`, `progress=True` shows a bar. The same seed gives the same.
+    It holds curves of designs whose crank turns its whole turn. The place, turn and size of the whole machine do not matter.
 
-    Raises DefinitionError where no crank turns the machine, StudyError where no design runs.
+    Parameters
+    ----------
+    machine : Mechanism
+        A design of the class. All its lengths and fixed points vary, and all angles but those of `hold`.
+    of : str
+        The point.
+    hold : str or list of str, optional
+        Angles that stay as the design has them.
+    count : int, optional
+        How many curves, by default 65,536, which takes some seconds.
+    seed : int, optional
+        That of the sequence of designs; the same seed gives the same curves.
+    executor : Executor, optional
+        That of `survey`.
+    progress : bool or function, optional
+        True shows a bar.
+
+    Returns
+    -------
+    CurveCatalogue
+        Give it to as many searches as you like, `synthesise(..., starts=catalogue)`.
+
+    Raises
+    ------
+    DefinitionError
+        No crank turns the machine, or an argument is none.
+    StudyError
+        No design runs its whole turn.
     """
     kind = CurveClass.for_point(machine, of, hold)
     if count is not None and not (is_whole(count) and 1 <= count <= MOST_CURVES):
@@ -191,70 +202,6 @@ def curve_catalogue(
         raise DefinitionError(f"{kind.title}: seed={cited(seed)}: a whole number is expected, at least 0.")
     check_progress(progress)
     check_executor(executor)
-    file = catalogue_file(kind, most_kept(kind, seed) if count is None else count, seed)
-    there = None if file is None else kept(kind, file)
-    if there is not None:
-        return there
     with progress_told(progress, kind.title) as tell:
-        units, amplitudes, looked = kind.made(count or CURVES, seed, executor, tell)
-    found = CurveCatalogue(kind, units, amplitudes, looked, seed, file)
-    return found if file is not None and keep(found, file) else CurveCatalogue(kind, units, amplitudes, looked, seed, None)
-
-
-# The file of a catalogue.
-
-
-def catalogue_file(kind: CurveClass, count: int, seed: int) -> Path | None:
-    """Return where a catalogue is kept, in the user's cache; None where the user has no home."""
-    machine = type(kind.machine)
-    held = {name: kind.others[name] for name in kind.hold}
-    key = digest(f"{machine.__module__}.{machine.__qualname__} {kind.of} {held}")[:12]
-    name = "-".join(re.sub(r"[^A-Za-z0-9]+", "-", each) for each in (machine.__name__, kind.of, key))
-    try:
-        return cache_folder("curves") / f"{name}-{count}-{seed}.npz"
-    except RuntimeError:
-        return None
-
-
-def most_kept(kind: CurveClass, seed: int) -> int:
-    """Return how many curves the largest catalogue of a class has that is kept, or that is to be made."""
-    usual = catalogue_file(kind, CURVES, seed)
-    if usual is None:
-        return CURVES
-    there = usual.parent.glob(usual.name.replace(f"-{CURVES}-{seed}.npz", f"-*-{seed}.npz"))
-    return max([CURVES, *(int(number) for number in (each.stem.split("-")[-2] for each in there) if number.isdecimal())])
-
-
-def keep(found: CurveCatalogue, file: Path) -> bool:
-    """Write a catalogue whole, or leave what is there; return whether it was written, and warn where it was not."""
-    note = json.dumps({"form": FORM, "looked": found.looked, "seed": found.seed, **found.kind.facts}, sort_keys=True).encode()
-    try:
-        with in_words(file.parent):
-            file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        with replacing(file) as stream:
-            np.savez(stream, note=np.frombuffer(note, np.uint8), units=found.units, amplitudes=found.amplitudes)
-    except FileError as error:
-        warnings.warn(f"{error} The catalogue is not kept; name a folder that can be written in {FOLDER}.", stacklevel=3)
-        return False
-    return True
-
-
-def kept(kind: CurveClass, file: Path) -> CurveCatalogue | None:
-    """Return the catalogue of a file; None where there is none, with a warning where it is damaged, or of another form of the class."""
-    if not file.exists():
-        return None
-    try:
-        with np.load(BytesIO(read(file)), allow_pickle=False) as arrays:
-            note = json.loads(arrays["note"].tobytes())
-            units, amplitudes = arrays["units"], arrays["amplitudes"]
-        looked, seed, form = int(note.pop("looked")), int(note.pop("seed")), note.pop("form")
-        shapes = units.shape == (len(units), len(kind.variables)) and amplitudes.shape == (len(units), 2 * HARMONICS)
-        same = form == FORM and note == kind.facts
-        sound = shapes and len(units) > 0 and units.dtype == amplitudes.dtype == np.float32
-    except (FileError, OSError, ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile):
-        same, sound = True, False
-    if same and sound:
-        return CurveCatalogue(kind, units, amplitudes, looked, seed, file)
-    what = "it is of another form of the class" if not same else "it is damaged"
-    warnings.warn(f"{file}: {what}; the catalogue is made anew.", stacklevel=3)
-    return None
+        units, amplitudes, looked = kind.made(CURVES if count is None else count, seed, executor, tell)
+    return CurveCatalogue(kind, units, amplitudes, looked, seed)

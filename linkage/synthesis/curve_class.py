@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, final
@@ -15,7 +14,6 @@ from ..motion import Grid
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, RunOptions
 from ..quantities import x, y
-from ..study.checkpoint import digest, plan_text
 from ..study.checks import check_one_design
 from ..study.measured import traced_number
 from ..study.sampling import all_placed
@@ -70,17 +68,14 @@ class ShapeVariable:
 class CurveClass:
     """A machine whose first two fixed points stand 1 m apart, and what of it varies: lengths, further fixed points, angles.
 
-    What its places do not hang on stays as it is, and the angles that are `hold`. `fixed` are the two points, `others` the dimensions
-    that stay and on which places hang.
+    What its places do not hang on stays as it is, and the angles that are held. `fixed` are the two points.
     """
 
     machine: Mechanism
     of: str
-    hold: tuple[str, ...]
     stroke: str
     variables: tuple[ShapeVariable, ...]
     fixed: Mapping[str, float]
-    others: Mapping[str, float]
 
     @classmethod
     def for_point(cls, machine: Mechanism, of: Any, hold: Any = ()) -> CurveClass:
@@ -109,27 +104,12 @@ class CurveClass:
                 variables.append(ShapeVariable(name, entries[name].kind, middle - ABOUT, middle + ABOUT))
         if not variables:
             raise DefinitionError(f"{title}: nothing that {of} hangs on can vary; give its links lengths as numbers.")
-        vary = {each.owner for each in variables}
-        others = {name: float(machine.dimensions[name]) for name in entries if name in used and name not in fixed and name not in vary}
-        return cls(machine.replaced(**fixed), of, tuple(sorted(held)), stroke, tuple(variables), fixed, others)
+        return cls(machine.replaced(**fixed), of, stroke, tuple(variables), fixed)
 
     @property
     def title(self) -> str:
         """The machine's title and the point."""
         return f"{self.machine.plan.title}, {self.of}"
-
-    @property
-    def facts(self) -> dict[str, Any]:
-        """What makes two catalogues alike, by name, as JSON holds it."""
-        facts = {
-            "members": digest(plan_text(self.machine)),
-            "of": self.of,
-            "others": dict(self.others),
-            "box": [[each.owner, each.low, each.high] for each in self.variables],
-            "taken": [HARMONICS, POSES, EDGE],
-        }
-        found: dict[str, Any] = json.loads(json.dumps(facts))
-        return found
 
     def made(self, count: int, seed: int, executor: Executor | None, tell: Progress) -> tuple[FloatArray, FloatArray, int]:
         """Return values (count, k) and amplitudes (count, 2 h) of designs that run their whole turn, and how many were looked at.

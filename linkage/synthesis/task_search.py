@@ -109,7 +109,7 @@ def synthesise(
     `limit` is how many designs are looked at before the best so far comes back. `executor` and `folder` are those of `survey`:
     populations and local searches go through any executor, to the same bits as in this process, and with a folder the same call goes on
     where another one stopped. `progress=True` shows a bar. `starts="catalogue"`, for a closed path that is not timed: from the nearest
-    curves of `curve_catalogue(machine, of)`, or of one that is given, in place of a population; one that is not there is made first.
+    curves of `curve_catalogue(machine, of)`, or of one that is given, in place of a population.
 
     Instead of one machine there may be a list of classes or designs, `synthesise([FourBar, SliderCrank], ...)`, or none: then it is all
     installed ones that name a point of a coupler, `Featured(coupler="P")`, and need no iteration. Each begins a quarter of `starts`. The

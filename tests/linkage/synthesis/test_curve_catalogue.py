@@ -1,4 +1,4 @@
-"""The catalogue of closed curves: all in it runs, a curve finds itself however it is moved; its file, and what a synthesis makes of it."""
+"""The catalogue of closed curves: all in it runs, a curve finds itself however it is moved; and what a synthesis makes of it."""
 
 from concurrent.futures import ThreadPoolExecutor
 from math import pi
@@ -25,8 +25,7 @@ from linkage import (
     synthesise,
 )
 from linkage.synthesis.closed_curves import ClosedCurves, drawn_curve, laid_onto
-from linkage.synthesis.curve_catalogue import catalogue_file
-from linkage.synthesis.curve_class import CurveClass, CurveMeasure
+from linkage.synthesis.curve_class import CurveMeasure
 from mechanisms.classics.four_bar import FourBar, TripleRocker
 from mechanisms.classics.stephenson_one import StephensonOne
 from tests.benchmarks import bench_catalogue
@@ -49,19 +48,10 @@ class SixBar(Mechanism):
     Q = OnLink(P, F, PQ=0.15, FPQ=-30 * deg)
 
 
-@pytest.fixture(autouse=True)
-def cache(tmp_path, monkeypatch):
-    """The user's cache, empty."""
-    monkeypatch.setenv("HYDROLINKAGE_CACHE", str(tmp_path / "cache"))
-    return tmp_path / "cache" / "curves"
-
-
 @pytest.fixture(scope="module")
-def four_bars(tmp_path_factory):
+def four_bars():
     """A catalogue of four-bars."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("HYDROLINKAGE_CACHE", str(tmp_path_factory.mktemp("cache")))
-        return curve_catalogue(FourBar(), "P", count=3000)
+    return curve_catalogue(FourBar(), "P", count=3000)
 
 
 def turned(machine, of, count):
@@ -148,65 +138,13 @@ def test_the_same_seed_gives_the_same_bits_whoever_does_the_work(four_bars):
     assert other.seed == 1 and not np.array_equal(other.units, four_bars.units)
 
 
-def test_it_is_kept_and_read_again(cache):
+def test_it_says_how_far_it_is_and_how_many_it_holds(monkeypatch):
     told = []
     first = curve_catalogue(FourBar(), "P", count=300, progress=lambda done, total: told.append((done, total)))
     assert told[0] == (0, 300) and told[-1] == (300, 300)
-    assert first.file.parent == cache and [*cache.iterdir()] == [first.file]
-    time = first.file.stat().st_mtime_ns
-    again = curve_catalogue(FourBar(OA=0.05), "P", count=300)
-    assert_array_equal(again.units, first.units)
-    assert (again.looked, again.seed, again.file) == (first.looked, 0, first.file)
-    assert first.file.stat().st_mtime_ns == time
-    assert "300 closed curves of" in str(again)
-
-
-def test_the_largest_is_taken_where_no_count_is_said(cache, monkeypatch):
-    monkeypatch.setattr("linkage.synthesis.curve_catalogue.CURVES", 300)
-    assert len(curve_catalogue(FourBar(), "P", count=200)) == 200
-    assert len(curve_catalogue(FourBar(), "P")) == 300
-    assert len(curve_catalogue(FourBar(), "P", count=400)) == 400
-    assert len(curve_catalogue(FourBar(), "P")) == 400
-    assert len(curve_catalogue(FourBar(), "P", seed=1)) == 300
-    assert len([*cache.iterdir()]) == 4
-
-
-@pytest.mark.parametrize("harm", ["cut", "changed", "empty", "another file", "no numbers"])
-def test_a_damaged_file_is_made_anew_with_a_word(cache, harm):
-    first = curve_catalogue(FourBar(), "P", count=300)
-    content = first.file.read_bytes()
-    middle = len(content) // 2
-    first.file.write_bytes({
-        "cut": content[:middle],
-        "changed": content[:middle] + bytes([content[middle] ^ 1]) + content[middle + 1 :],
-        "empty": b"",
-        "another file": b"PK" + bytes(100),
-        "no numbers": b"\x93NUMPY" + bytes(100),
-    }[harm])  # fmt: skip
-    with pytest.warns(UserWarning, match="it is damaged; the catalogue is made anew"):
-        again = curve_catalogue(FourBar(), "P", count=300)
-    assert_array_equal(again.units, first.units)
-    assert first.file.read_bytes() == content
-
-
-def test_an_older_class_is_made_anew_with_a_word():
-    kind = CurveClass.for_point(FourBar(), "P")
-    first = curve_catalogue(FourBar(), "P", count=300)
-    with np.load(first.file) as arrays:
-        parts = dict(arrays)
-    note = parts["note"].tobytes().replace(b'"form": 1', b'"form": 0')
-    np.savez(first.file, **(parts | {"note": np.frombuffer(note, np.uint8)}))
-    with pytest.warns(UserWarning, match="another form of the class; the catalogue is made anew"):
-        curve_catalogue(FourBar(), "P", count=300)
-    assert catalogue_file(kind, 300, 0) == first.file
-
-
-def test_one_that_cannot_be_kept_is_there_all_the_same(tmp_path, monkeypatch):
-    (tmp_path / "file").write_text("no folder")
-    monkeypatch.setenv("HYDROLINKAGE_CACHE", str(tmp_path / "file"))
-    with pytest.warns(UserWarning, match="The catalogue is not kept"):
-        found = curve_catalogue(FourBar(), "P", count=300)
-    assert found.file is None and len(found) == 300
+    assert len(first) == 300 and str(first) == f"FourBar, P: 300 closed curves of {first.looked} designs"
+    monkeypatch.setattr("linkage.synthesis.curve_catalogue.CURVES", 200)
+    assert len(curve_catalogue(FourBar(OA=0.05), "P")) == 200
 
 
 def test_angles_that_are_held_stay():
@@ -214,7 +152,7 @@ def test_angles_that_are_held_stay():
     assert [each.owner for each in found.kind.variables] == ["OA", "AB", "CB", "AP"]
     assert float(found.design(5)["BAP"]) == 0.2
     other = curve_catalogue(FourBar(BAP=0.3), "P", hold="BAP", count=300)
-    assert other.file != found.file and float(other.design(5)["BAP"]) == 0.3
+    assert float(other.design(5)["BAP"]) == 0.3
 
 
 @pytest.mark.parametrize(("bar", "points"), known_bars(3, seed=29))
@@ -227,14 +165,13 @@ def test_a_closed_curve_in_a_machine_out(four_bars, bar, points):
     found.machine.sweep(721)
 
 
-def test_the_word_makes_and_keeps_one(cache, monkeypatch):
+def test_the_word_makes_one(monkeypatch):
     monkeypatch.setattr("linkage.synthesis.curve_catalogue.CURVES", 500)
     ((bar, points),) = known_bars(1, seed=3)
     vary = {"OA": (0.01, 0.08), "AB": (0.05, 0.2), "CB": (0.05, 0.2), "AP": (0.01, 0.15)}
     vary |= {f"{point}.{axis}": (-0.2, 0.2) for point in "OC" for axis in "xy"}
     task = PathTask(points, of="P", closed=True)
     one, two = (synthesise(FourBar(BAP=bar["BAP"]), path=task, vary=vary, starts="catalogue") for _ in range(2))
-    assert len([*cache.iterdir()]) == 1
     assert [each.error for each in one.solutions] == [each.error for each in two.solutions]
     assert one.best.most <= 1e-9 and float(one.machine["BAP"]) == bar["BAP"]
 

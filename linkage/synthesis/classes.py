@@ -1,11 +1,11 @@
-"""Synthesis over several classes: each is searched on equal terms first, then more is spent on those that promise most."""
+"""Synthesis over several classes: each is searched, one after the other, and their answers are ranked together."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -18,19 +18,9 @@ from ..study.optimise import check_counts
 from ..study.space import size_of_machine
 from ..study.survey import check_progress, progress_told
 from .exact import REGISTERED
-from .synthesis import MISSES, Synthesis, SynthesisedMachine, is_one_design, links_of, told_error
+from .synthesis import MISSES, Synthesis, SynthesisedMachine, links_of, told_error
 from .tasks import PathTask, PoseTask, Task, of_class, task_named_in, task_of
 
-SHARES = 4
-"""Parts into which the searches of a class are divided: the first is every class's own, the others go by promise."""
-HOPE = 0.01
-"""Of the best answer's error: what nears a task by less promises no more."""
-BETTERED = 0.99
-"""Of the least error: what a share must come below to count as one that betters it."""
-IDLE = 4.0
-"""By which factor a class promises less after each share that betters nothing."""
-NEXT = 1_000_003
-"""What is added to the seed for each further share of a class."""
 SHORTEST, LONGEST, ASIDE = 0.05, 5.0, 5.0
 """Of a task's size: between which lengths vary where nothing is said, and how far fixed points from its middle."""
 POSES = 97
@@ -49,36 +39,41 @@ def synthesised_classes(
     progress: Any,
     options: Mapping[str, Any],
 ) -> Synthesis:
-    """Return what several classes can, each searched by `one`, the synthesis of one machine; see `synthesise`.
+    """Return what several classes can, each searched by `one`, the synthesis of one machine, one after the other; see `synthesise`.
 
     `by_class` are what may be said class by class; `options` go to each search as they are.
     """
     designs = designs_of_classes(machines)
-    is_catalogue = starts == "catalogue"
-    check_counts("synthesise", SHARES if is_catalogue else starts, seed, limit)
+    check_counts("synthesise", 1 if starts == "catalogue" else starts, seed, limit)
     check_progress(progress)
-    classes = [SearchedClass.of(each, asked, by_class) for each in designs]
-    share = starts if is_catalogue else max(starts // SHARES, 1)
-    total = len(classes) * (1 if is_catalogue else starts // share)
-    with progress_told(progress, said_of(len(classes), "{n} class", "{n} classes")) as tell:
-        for number in range(total):
-            first = number < len(classes)
-            going = [each for each in classes if not each.found] if first else classes
-            left = None if limit is None else limit - sum(each.spent for each in classes)
-            if (left is not None and left < 1) or (not first and nothing_to_better(classes, by_class)):
-                break
-            tell(number, total)
-            best = min((each.error for own in classes for each in own.found), default=np.inf)
-            chosen = going[0] if first else min(classes, key=lambda each: each.promise(best))
-            allowed = left if left is None else max(left // max(len(going), 1), 1) if first else left
-            chosen.search(one, share, seed, allowed, options)
-        tell(total, total)
-    return compared(classes, limit)
+    searches = [search_of_class(each, asked, by_class) for each in designs]
+    found: list[Synthesis] = []
+    with progress_told(progress, said_of(len(searches), "{n} class", "{n} classes")) as tell:
+        for number, (machine, own) in enumerate(searches):
+            tell(number, len(searches))
+            left = None if limit is None else max((limit - sum(each.evaluations for each in found)) // (len(searches) - number), 1)
+            kept = dict(options)
+            if kept.get("folder") is not None:
+                kept["folder"] = os.path.join(kept["folder"], f"{machine.plan.title}-{number + 1}")
+            found.append(one(machine, starts=starts, seed=seed, limit=left, **own, **kept))
+        tell(len(searches), len(searches))
+    return compared(found, limit)
 
 
-def nothing_to_better(classes: Sequence[SearchedClass], by_class: Mapping[str, object]) -> bool:
-    """Return whether an answer fits exactly, so that no other one can be better; not where answers are ranked by something else too."""
-    return by_class["rank"] is None and any(each.is_exact for each in classes)
+def search_of_class(
+    machine: Mechanism, asked: Sequence[tuple[str, Any, type]], by_class: Mapping[str, Any]
+) -> tuple[Mechanism, dict[str, Any]]:
+    """Return a machine, and what its search is given: the task in its own names, and what is said of its class alone or of all."""
+    task = task_named_in(machine, task_of(machine.plan.title, asked))
+    task.rows(machine)  # refuses what is no point of it
+    options = {name: of_class(value, type(machine)) for name, value in by_class.items()}
+    if options["vary"] is None:
+        machine = laid_machine(machine, task)
+        options["vary"] = default_box(machine, task)
+    if options["subject_to"] is None:
+        options["subject_to"] = ()
+    keyword = next(name for name, value, _ in asked if value is not None)
+    return machine, {**options, keyword: task}
 
 
 def designs_of_classes(given: object) -> list[Mechanism]:
@@ -108,86 +103,13 @@ def shipped_machines() -> list[Mechanism]:
     return sorted(found.values(), key=lambda each: (links_of(each), each.plan.title))
 
 
-# A class, and what was found of it.
-
-
-@final
-class SearchedClass:
-    """A class that is searched: its machine, what it is searched with, and what its shares of the budget found."""
-
-    def __init__(self, machine: Mechanism, options: Mapping[str, object]) -> None:
-        self.machine, self.options = machine, options
-        self.found: list[Synthesis] = []
-        self.least, self.idle = np.inf, 0
-
-    @classmethod
-    def of(cls, machine: Mechanism, asked: Sequence[tuple[str, Any, type]], by_class: Mapping[str, Any]) -> SearchedClass:
-        """Return a class with the task in its own names, and with what is said of it alone or of all."""
-        task = task_named_in(machine, task_of(machine.plan.title, asked))
-        task.rows(machine)  # refuses what is no point of it
-        options = {name: of_class(value, type(machine)) for name, value in by_class.items()}
-        if options["vary"] is None:
-            machine = laid_machine(machine, task)
-            options["vary"] = default_box(machine, task)
-        if options["subject_to"] is None:
-            options["subject_to"] = ()
-        keyword = next(name for name, value, _ in asked if value is not None)
-        return cls(machine, {**options, keyword: task})
-
-    def search(self, one: Callable[..., Synthesis], starts: Any, seed: int, limit: int | None, options: Mapping[str, Any]) -> None:
-        """Search on, from new starts."""
-        share = len(self.found)
-        if options.get("folder") is not None:
-            options = {**options, "folder": os.path.join(options["folder"], f"{self.machine.plan.title}-{share + 1}")}
-        found = one(self.machine, starts=starts, seed=seed + NEXT * share, limit=limit, **self.options, **options)
-        self.found.append(found)
-        hope = min([found.error, *(each.error for each in found.misses)])
-        self.idle = 0 if hope < BETTERED * self.least else self.idle + 1
-        self.least = min(self.least, hope)
-
-    def promise(self, best: float) -> tuple[float, float]:
-        """Return what is hoped for from another share, an error [SI^2]: the least that came near, more after each that bettered nothing.
-
-        `best` is the error of the best answer of all classes; where there is none yet, those come first that were searched in vain least.
-        """
-        if np.isfinite(best):
-            return max(self.least, HOPE * best) * IDLE**self.idle, 0.0
-        return float(self.idle), self.least
-
-    @property
-    def is_exact(self) -> bool:
-        """Whether an answer fits exactly."""
-        return any(each.error <= each.exact for each in self.found)
-
-    @property
-    def spent(self) -> int:
-        """How many designs were looked at."""
-        return sum(each.evaluations for each in self.found)
-
-    def joined(self) -> Synthesis:
-        """Return what all shares found, each design once."""
-        first, exact = self.found[0], self.found[0].exact
-        solutions: list[SynthesisedMachine] = []
-        every = [answer for found in self.found for answer in found.solutions]
-        for each in sorted(every, key=lambda one: (*ranking(one, exact), one.error)):
-            n = first.fit_of(each).n
-            near = [one for one in solutions if one.combination == each.combination]
-            if not any(is_one_design(each.at[:n], one.at[:n], each.error, one.error, exact) for one in near):
-                solutions.append(each)
-        misses = sorted((miss for found in self.found for miss in found.misses), key=lambda miss: miss.error)
-        limits = [each.limit for each in self.found if each.limit is not None]
-        sums = {name: sum(getattr(each, name) for each in self.found) for name in ("population", "running", "starts", "evaluations")}
-        return replace(first, solutions=tuple(solutions), misses=tuple(misses[:MISSES]), limit=sum(limits) or None, **sums)
-
-
 def ranking(each: SynthesisedMachine, exact: float) -> tuple[float, float]:
     """Return by what answers are ranked: the error to three digits, then what is asked."""
     return told_error(each.error, exact), 0.0 if np.isnan(each.ranked) else each.ranked
 
 
-def compared(classes: Sequence[SearchedClass], limit: int | None) -> Synthesis:
+def compared(found: list[Synthesis], limit: int | None) -> Synthesis:
     """Return what was found of all classes, ranked over all; of answers of the same error the one of fewer links first."""
-    found = [each.joined() for each in classes if each.found]
     every = [(own, answer) for own in found for answer in own.solutions]
     every.sort(key=lambda one: (*ranking(one[1], one[0].exact), links_of(one[1].machine), one[1].error))
     order = {id(own): place for place, (own, _) in reversed([*enumerate(every)])}

@@ -112,13 +112,12 @@ def synthesise(
     curves of `curve_catalogue(machine, of)`, or of one that is given, in place of a population.
 
     Instead of one machine there may be a list of classes or designs, `synthesise([FourBar, SliderCrank], ...)`, or none: then it is all
-    installed ones that name a point of a coupler, `Featured(coupler="P")`, and need no iteration. Each begins a quarter of `starts`. The
-    other quarters go one by one to the class whose least error, of an answer or a miss, promises most. After each quarter without an
-    improvement that promise counts four times less. It ends when the budget of all is spent or an answer is exact. `solutions` are ranked
-    over all classes, of the same error those of fewer links first; `table` compares the classes. `vary`, `subject_to`, `regions`, `rank`,
-    `over` and the task's `of` may be dictionaries by class, `vary={FourBar: {...}}`. If `vary` leaves a class out, the machine is brought
-    to the task's size s, and all varies that moves its point. Lengths go from 0.05 to 5 s, angles by a turn, fixed points by 5 s to either
-    side of the task's middle. For a function s is the machine's longest length.
+    installed ones that name a point of a coupler, `Featured(coupler="P")`, and need no iteration. Each is searched from all `starts`, one
+    after the other, and has an equal part of a `limit`. `solutions` are ranked over all classes, of the same error those of fewer links
+    first; `table` compares the classes. `vary`, `subject_to`, `regions`, `rank`, `over` and the task's `of` may be dictionaries by class,
+    `vary={FourBar: {...}}`. If `vary` leaves a class out, the machine is brought to the task's size s, and all varies that moves its point.
+    Lengths go from 0.05 to 5 s, angles by a turn, fixed points by 5 s to either side of the task's middle. For a function s is the
+    machine's longest length.
 
     Raises DefinitionError for what cannot be asked, or a folder of another task. Where no machine that runs was found, `solutions` are
     none and `misses` say why.

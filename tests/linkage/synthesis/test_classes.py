@@ -1,7 +1,7 @@
-"""Synthesis over several classes: the class that a path is of is found and ranked first, and the budget goes by promise."""
+"""Synthesis over several classes: the class that a path is of is found and ranked first, and each has its part of a limit."""
 
 import csv
-from dataclasses import replace
+import os
 
 import numpy as np
 import pytest
@@ -22,8 +22,8 @@ from linkage import (
     synthesise,
     transmission,
 )
-from linkage.synthesis.classes import SearchedClass, default_box, designs_of_classes, laid_machine, shipped_machines, synthesised_classes
-from linkage.synthesis.synthesis import Miss, swept_size
+from linkage.synthesis.classes import default_box, designs_of_classes, laid_machine, search_of_class, shipped_machines, synthesised_classes
+from linkage.synthesis.synthesis import swept_size
 from linkage.synthesis.tasks import task_named_in
 from mechanisms.classics.four_bar import DragLink, FourBar
 from mechanisms.classics.slider_crank import SliderCrank
@@ -109,85 +109,18 @@ def test_the_same_seed_gives_the_same_bits():
     assert one.evaluations == two.evaluations and one.table == two.table
 
 
-# The budget.
-
-
-@pytest.fixture(scope="module")
-def tiny():
-    return synthesise(FourBar(), path=PathTask(POINTS, of="P"), vary=BAR, starts=1, limit=600)
-
-
-def spent(errors, tiny, *, answers=None, starts=16, limit=None, each=100):
-    """Return which classes are searched, one after the other, where the misses of their searches have errors, and some have an answer."""
+def test_every_class_has_an_equal_part_of_what_is_left_of_a_limit():
     asked = []
 
-    class Other(FourBar):
-        pass
-
-    class Third(FourBar):
-        pass
-
-    machines = [FourBar, Other, Third][: len(errors)]
-
     def one(machine, *, starts, seed, limit, **options):
-        kind = machines.index(type(machine))
-        error = errors[kind][min(asked.count(kind), len(errors[kind]) - 1)]
-        asked.append(kind)
-        seeds.append((kind, seed, starts, limit))
-        best = tuple(replace(tiny.best, error=(answers or {})[kind]) for _ in range(kind in (answers or {})))
-        return replace(tiny, solutions=best, misses=(Miss(machine, error, "."),), evaluations=each, starts=starts)
+        asked.append((starts, seed, limit, options["folder"]))
+        return synthesise(machine, path=options["path"], vary=BAR, starts=1, limit=min(limit, 300))
 
-    seeds = []
     by_class = {"vary": BAR, "subject_to": (), "rank": None, "over": None}
     task = [("path", PathTask(POINTS), PathTask), ("function", None, FunctionTask), ("motion", None, PoseTask)]
-    synthesised_classes(one, machines, task, by_class, starts, 7, limit, False, {})
-    return asked, seeds
-
-
-def test_every_class_begins_with_the_same_share_and_the_rest_goes_by_promise(tiny):
-    asked, seeds = spent([[0.9**k for k in range(12)], [3.0], [1000.0]], tiny, answers={1: 3.0})
-    assert asked[:3] == [0, 1, 2] and len(asked) == 12
-    assert asked[3:].count(0) == 9  # it betters itself every time
-    assert {starts for _, _, starts, _ in seeds} == {4}
-    own = [seed for kind, seed, _, _ in seeds if kind == 0]
-    assert own[0] == 7 and len(set(own)) == len(own)
-
-
-def test_a_class_that_betters_nothing_makes_way_for_others(tiny):
-    asked, _ = spent([[1.0], [3.0], [1e9]], tiny, answers={0: 1.0, 1: 3.0})
-    assert asked[3:] == [0, 1, 0, 1, 0, 1, 0, 1, 0]
-    asked, _ = spent([[1.0], [3.0], [1e9]], tiny)  # where nothing runs, all go on in turn
-    assert asked[3:] == [0, 1, 2, 0, 1, 2, 0, 1, 2]
-
-
-def test_hope_that_no_answer_bears_out_ends(tiny):
-    """A class whose misses are exact but never answers does not take what another one is answered by."""
-    asked, _ = spent([[0.0], [3.0], [5.0]], tiny, answers={1: 2.0, 2: 5.0})
-    assert asked[3:9] == [0, 0, 0, 0, 1, 2]
-
-
-def test_a_limit_is_one_of_all_classes(tiny):
-    asked, seeds = spent([[1.0], [3.0]], tiny, limit=450)
-    assert asked == [0, 1, 0, 1, 0]
-    assert [limit for *_, limit in seeds] == [225, 350, 250, 150, 50]
-
-
-def test_nothing_is_spent_where_an_answer_is_exact(tiny):
-    class Exact(FourBar):
-        pass
-
-    answers = []
-
-    def one(machine, *, starts, seed, limit, **options):
-        answers.append(type(machine))
-        if type(machine) is not Exact:
-            return replace(tiny, solutions=())
-        return replace(tiny, solutions=(replace(tiny.best, error=0.0),))
-
-    by_class = {"vary": BAR, "subject_to": (), "rank": None, "over": None}
-    found = synthesised_classes(one, [FourBar, Exact], [("path", PathTask(POINTS), PathTask)], by_class, 16, 0, None, False, {})
-    assert answers == [FourBar, Exact]
-    assert found.error == 0.0
+    found = synthesised_classes(one, [FourBar, DragLink], task, by_class, 16, 7, 4000, False, {"folder": "kept"})
+    spent = found.classes[0].evaluations if found.classes[0].start.plan.title == "FourBar" else found.classes[1].evaluations
+    assert asked == [(16, 7, 2000, os.path.join("kept", "FourBar-1")), (16, 7, 4000 - spent, os.path.join("kept", "DragLink-2"))]
 
 
 # What is said class by class, and what is not said.
@@ -222,12 +155,12 @@ def test_what_is_said_of_a_class_goes_to_it_alone():
         "over": {"phi": (0.0, 1.0)},
     }
     task = [("path", PathTask(POINTS, of={FourBar: "P", SliderCrank: "B"}), PathTask)]
-    bar, slider, drag = (SearchedClass.of(machine, task, by_class) for machine in (FourBar(), SliderCrank(), DragLink()))
-    assert bar.options["path"].of == drag.options["path"].of == "P" and slider.options["path"].of == "B"
-    assert bar.options["vary"] is drag.options["vary"] is BAR and slider.options["vary"] == {"OA": (0.02, 0.05)}
-    assert len(bar.options["subject_to"]) == 1 and slider.options["subject_to"] == ()
-    assert bar.options["regions"] is None and slider.options["regions"] == {"O": None}
-    assert bar.options["over"] == slider.options["over"] == {"phi": (0.0, 1.0)}
+    bar, slider, drag = (search_of_class(machine, task, by_class)[1] for machine in (FourBar(), SliderCrank(), DragLink()))
+    assert bar["path"].of == drag["path"].of == "P" and slider["path"].of == "B"
+    assert bar["vary"] is drag["vary"] is BAR and slider["vary"] == {"OA": (0.02, 0.05)}
+    assert len(bar["subject_to"]) == 1 and slider["subject_to"] == ()
+    assert bar["regions"] is None and slider["regions"] == {"O": None}
+    assert bar["over"] == slider["over"] == {"phi": (0.0, 1.0)}
 
 
 def test_machines_that_are_installed_are_the_list_where_none_is_given():

@@ -609,7 +609,7 @@ def least_of(each: Sequence[Array]) -> Array:
 def taken_by(ram: Ram, motion: Motion) -> Array:
     """Return the oil [m3] that a cylinder takes over a motion's range of lengths, one a design."""
     ram.travel(motion)  # refuses a motion without a pose
-    low, high = (each.reshape(*each.shape, *(1,) * len(motion._stroke_shape)) for each in ram.extent(motion))
+    low, high = (each.reshape((*each.shape, *(1,) * len(motion._stroke_shape))) for each in ram.extent(motion))
     return for_designs(motion, ram.taken(motion, low, high))
 
 

@@ -275,8 +275,9 @@ class Stop:
 
     def sizes(self, force: FloatArray, way: FloatArray) -> Iterator[tuple[tuple[str, ...], tuple[str, ...], FloatArray]]:
         """Yield, of each joint that transmits a force, what tells it apart, its cells, and the size of its force [N]."""
-        for joint, *along in zip(self.own.joints, self.units[0].joints, self.units[1].joints, strict=True):
+        across, up = ({(each.point, each.on, each.by, each.kind): each.force for each in unit.joints} for unit in self.units)
+        for joint in self.own.joints:
             if joint.has_force:
-                total = joint.force + force * (way[0] * along[0].force + way[1] * along[1].force)
-                key = (joint.point, joint.on, joint.by, joint.kind)
+                key = (joint.point, joint.on, joint.by, joint.kind)  # the pins of what presses by itself answer to no stop
+                total = joint.force + force * (way[0] * across.get(key, 0.0) + way[1] * up.get(key, 0.0))
                 yield key, (joint.point, translated(joint.kind), frame(joint.on), frame(joint.by)), np.hypot(*total)

@@ -334,6 +334,11 @@ class Condition(ABC):
     def __bool__(self) -> NoReturn:
         raise DefinitionError(f"{self}: a condition is neither true nor false before a machine is looked at; write two, not a <= q <= b.")
 
+    def __le__(self, other: object) -> NoReturn:
+        raise DefinitionError(f"{self} is a condition, kept or not, and is not compared with {cited(other)}; write it alone.")
+
+    __ge__ = __lt__ = __gt__ = __le__
+
 
 @final
 @dataclass(frozen=True, eq=False, repr=False)

@@ -672,6 +672,8 @@ def above_zero(size: FloatArray) -> FloatArray:
 
 def where_negative(values: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
     """Return x where values (n,) are below zero, else y."""
+    if values.dtype != object:
+        return np.where(values < 0.0, x, y)
     return cast(FloatArray, elementwise(lambda each, a, b: np.where(each < 0.0, a, b), (values, x, y)))
 
 

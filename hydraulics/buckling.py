@@ -29,7 +29,7 @@ from linkage.program import is_traced
 from linkage.units import MPa, show
 from linkage.verdict import Verdict
 
-from .cylinder import next_rod, standard_rods
+from .cylinder import chosen_series
 from .inputs import LONGEST, Array, in_metres, one_number, pose_values, positive
 
 MOUNTINGS = MappingProxyType({noted("pin-pin"): 1.0, noted("fixed-pin"): 0.699156, noted("fixed-fixed"): 0.5, noted("fixed-free"): 2.0})
@@ -101,15 +101,15 @@ class Buckling:
         if not np.any(use > 0.0):
             return self.judged(1.0, 0.0)
         worst = int(np.nanargmax(use))
-        return self.judged(float(long.flat[worst]), float(push.flat[worst]))
+        remedy = self.remedy_words(next(iter(self.thicker(long, push)), None))
+        return self.judged(float(long.flat[worst]), float(push.flat[worst]), remedy=remedy)
 
     def judged(
-        self, length: float, thrust: float, where: str = "", unbounded: bool = False, bore: float | None = None, *, stage: int = 0
+        self, length: float, thrust: float, where: str = "", unbounded: bool = False, *, stage: int = 0, remedy: str = ""
     ) -> Verdict:
         """Return the verdict at one length [m] and thrust of one cylinder [N], at a place in words; `unbounded`: it grows from there.
 
-        `bore` is that of the cylinder [m]: where it is known a rod that is named as the remedy suits it. `stage` is the number of the
-        telescope's stage that is the rod.
+        `stage` is the number of the telescope's stage that is the rod, `remedy` what stands behind a failing verdict.
         """
         if unbounded:
             text = said("the thrust grows without bounds {where}: no rod holds there; keep away from that pose.", where=where)
@@ -132,22 +132,24 @@ class Buckling:
                 "{thrust} on stage {stage} of {rod}, the slenderest that is out, {length} long ({mounting}){where}, "
                 "buckling at {limit}: safety {safety:.3g}, at least {least:g}", stage=stage, **given,
             )  # fmt: skip
-        return Verdict("buckling", ok, f"{says}{'' if ok else self._remedy(length, thrust, bore, bool(stage))}.")
+        return Verdict("buckling", ok, f"{says}{'' if ok else remedy}.")
 
-    def _remedy(self, length: float, thrust: float, bore: float | None, is_stage: bool) -> str:
-        thicker = self
-        try:
-            while thicker.allowed(length) < thrust:
-                thicker = replace(thicker, rod=next_rod(thicker.rod))
-        except DefinitionError:
-            if is_stage:
-                return said("; no stage up to 360 mm holds: shorten the telescope or use more of them")
-            return said("; no standard rod holds: shorten the cylinder or use more of them")
-        if bore is not None and thicker.rod > max(standard_rods(bore), default=0.0):
-            return said("; no rod that suits the bore holds: take a larger bore, shorten the cylinder or use more of them")
+    def thicker(self, length: ArrayLike, thrust: ArrayLike) -> list[float]:
+        """Return the standard rods [m] above this one that hold at lengths [m] and thrusts [N] of one cylinder; they broadcast."""
+        rods = (rod for rod in chosen_series().rods if rod > self.rod * (1.0 + 1e-9))
+        return [rod for rod in rods if not np.any(np.asarray(thrust) > replace(self, rod=rod).allowed(length))]
+
+    def remedy_words(self, rod: float | None, *, is_bore_small: bool = False, is_stage: bool = False) -> str:
+        """Return the remedy in words: a rod or stage that holds [m], or None; `is_bore_small` where thicker rods do not suit the bore."""
+        if rod is not None and is_stage:
+            return said("; a stage of {rod} holds", rod=show(rod, "mm", 4))
+        if rod is not None:
+            return said("; a rod of {rod} holds", rod=show(rod, "mm", 4))
         if is_stage:
-            return said("; a stage of {rod} holds", rod=show(thicker.rod, "mm", ".0f"))
-        return said("; a rod of {rod} holds", rod=show(thicker.rod, "mm", ".0f"))
+            return said("; no standard stage holds that slides in the one before: shorten the telescope or use more of them")
+        if is_bore_small:
+            return said("; no rod that suits the bore holds: take a larger bore, shorten the cylinder or use more of them")
+        return said("; no standard rod holds: shorten the cylinder or use more of them")
 
 
 def never_pushed() -> Verdict:

@@ -18,9 +18,9 @@ from itertools import product
 from typing import NamedTuple
 
 from linkage.errors import DefinitionError, cited
-from linkage.units import mm
+from linkage.units import inch, mm, shown_in, shown_number
 
-from .cylinder import BORES_MM, RODS_MM, is_pair
+from .cylinder import INCH, chosen_series, series_of
 from .inputs import all_finite, in_metres, not_negative, one_number, positive, stroke_in_metres
 
 # Basic series of piston strokes, mm.
@@ -28,8 +28,11 @@ from .inputs import all_finite, in_metres, not_negative, one_number, positive, s
 # Source: ISO 4393, as makers' catalogues reproduce it, to 500 mm. Above it makers go on with the preferred numbers R10 (ISO 3); mobile
 # cylinders are made in any stroke, so that a list of one's own is often the better one.
 
-STROKES_MM = (25, 40, 50, 80, 100, 125, 160, 200, 250, 320, 400, 500)
-LONGER_MM = (630, 800, 1000, 1250, 1600, 2000)
+STROKES = tuple(each * mm for each in (25, 40, 50, 80, 100, 125, 160, 200, 250, 320, 400, 500))
+LONGER = tuple(each * mm for each in (630, 800, 1000, 1250, 1600, 2000))
+# Whole inches, as makers of inch cylinders stock them; no standard says them.
+INCH_STROKES = tuple(each * inch for each in (1, 2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 18, 20))
+INCH_LONGER = tuple(each * inch for each in (24, 30, 36, 48, 60, 72))
 
 MOST_ROWS = 1_000_000
 
@@ -43,12 +46,17 @@ class CatalogueRow(NamedTuple):
     closed: float
 
     def __str__(self) -> str:
-        return f"cylinder {self.bore / mm:.4g}/{self.rod / mm:.4g} x {self.stroke / mm:.4g} mm, {self.closed / mm:.4g} mm closed"
+        bore, rod, stroke, closed = (shown_number(each, "mm", 4) for each in self)
+        return f"cylinder {bore}/{rod} x {stroke} {shown_in('mm')}, {closed} {shown_in('mm')} closed"
 
 
 def standard_strokes(longer: bool = False) -> tuple[float, ...]:
-    """Return the basic strokes of ISO 4393 [m], ascending; `longer` goes on with the preferred numbers R10 to 2 m."""
-    return tuple(stroke * mm for stroke in (*STROKES_MM, *(LONGER_MM if longer else ())))
+    """Return the basic strokes of ISO 4393 [m], ascending; `longer` goes on with the preferred numbers R10 to 2 m.
+
+    Where the system of units has inches they are whole ones.
+    """
+    basic, more = (INCH_STROKES, INCH_LONGER) if chosen_series() is INCH else (STROKES, LONGER)
+    return (*basic, *more) if longer else basic
 
 
 def catalogue(
@@ -61,30 +69,33 @@ def catalogue(
     """Return the cylinders of all pairs of bore and rod, in all strokes, by bore, rod and stroke: rows that `optimise` varies.
 
     Without `bores` and `rods` those of ISO 3320, without `strokes` those of ISO 4393 [m]; of the pairs the ones whose areas are in the
-    ratios of ISO 3320. `dead` is what a cylinder is longer between its pins, drawn in, than its stroke: a length [m], or (length, factor)
-    for length + factor x bore. DefinitionError if no row is left, for numbers that are not above zero, or that were given in millimetres.
+    ratios of that standard. Where the system of units has inches they are those of NFPA T3.6.7, with strokes of whole inches. `dead` is
+    what a cylinder is longer between its pins, drawn in, than its stroke: a length [m], or (length, factor) for length + factor x bore.
+    DefinitionError if no row is left, for numbers that are not above zero, or that were given in millimetres.
     """
     constant, factor = dead_length(dead)
     rows = []
-    sizes = [series(bores, BORES_MM, "Bore"), series(rods, RODS_MM, "Rod"), series(strokes, STROKES_MM, "Stroke")]
+    standard = chosen_series()
+    sizes = [listed(bores, standard.bores, "Bore"), listed(rods, standard.rods, "Rod"), listed(strokes, standard_strokes(), "Stroke")]
     if len(sizes[0]) * len(sizes[1]) * len(sizes[2]) > MOST_ROWS:
         raise DefinitionError(f"The catalogue would have more than {MOST_ROWS} rows; give fewer bores, rods or strokes.")
     for bore, rod, stroke in product(*sizes):
-        if is_pair(bore, rod):
+        if series_of(bore, rod).is_pair(bore, rod):
             stroke_in_metres(stroke, "Stroke", bore)
             rows.append(CatalogueRow(bore, rod, stroke, round(stroke + constant + factor * bore, 9)))
     if not rows:
-        raise DefinitionError("The catalogue has no row: no rod suits a bore by the ratios of ISO 3320; give others, or leave rods= out.")
+        what = f"The catalogue has no row: no rod suits a bore by the ratios of {standard.name}"
+        raise DefinitionError(f"{what}; give others, or leave rods= out.")
     return rows
 
 
-def series(given: Sequence[float] | None, standard: Sequence[int], what: str) -> list[float]:
-    """Return sizes [m], ascending, each once: those given, else those of a standard [mm]."""
+def listed(given: Sequence[float] | None, standard: Sequence[float], what: str) -> list[float]:
+    """Return sizes [m], ascending, each once: those given, else those of a standard."""
     if given is None:
-        return [each * mm for each in standard]
+        return [*standard]
     sizes = positive(given, what)
     if sizes.ndim != 1:
-        raise DefinitionError(f"{what} = {cited(given)}: a list is expected, such as [{standard[-4]} * mm].")
+        raise DefinitionError(f"{what} = {cited(given)}: a list is expected, such as [{standard[-4] / mm:.6g} * mm].")
     in_metres(sizes, what) if what != "Stroke" else stroke_in_metres(sizes, what)
     return sorted({float(each) for each in sizes})
 

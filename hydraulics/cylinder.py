@@ -19,51 +19,96 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from math import pi
-from typing import Literal, TypeAlias, final
+from typing import Literal, NamedTuple, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, known_name
 from linkage.frozen import keep_own, refuses_changes
-from linkage.units import kN, mm
+from linkage.units import inch, mm, show, shown_in, shown_number
 
 from .inputs import Array, in_metres, one_number, pose_values, positive
 
 # Standard cylinder bores and piston rods.
 #
-# Source: ISO 3320 (metric series of bores and rods, and the ratios of the two areas), as makers' catalogues reproduce it.
+# Source: ISO 3320 (metric series of bores and rods, and the ratios of the two areas), NFPA T3.6.7 (inch series of square-head cylinders),
+# as makers' catalogues reproduce them.
 
-BORES_MM = (
-    8, 10, 12, 16, 20, 25, 32, 40, 50, 63, 80, 90, 100, 110, 125, 140, 160, 180, 200, 220, 250, 280, 320, 360, 400, 450, 500,
-)  # fmt: skip
-RODS_MM = (
-    4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 63, 70, 80, 90, 100, 110, 125, 140, 160, 180, 200,
-    220, 250, 280, 320, 360,
-)  # fmt: skip
-RATIOS = (1.06, 5.0)
-"""The least and the largest ratio of piston area to annulus in the standard's series."""
 
+@final
+@refuses_changes
+@dataclass(frozen=True)
+class Series:
+    """A standard's series of bores and rods [m], ascending, and the least and the greatest ratio of piston area to annulus of its pairs."""
+
+    name: str
+    bores: tuple[float, ...]
+    rods: tuple[float, ...]
+    ratios: tuple[float, float]
+
+    def is_pair(self, bore: float, rod: float) -> bool:
+        """Return whether a rod suits a bore [m] by the ratio of their areas."""
+        return rod < bore and self.ratios[0] <= bore**2 / (bore**2 - rod**2) <= self.ratios[1]
+
+    def beside(self, size: float, name: str) -> tuple[float, ...]:
+        """Return the sizes [m] next to one that is not of the series, of its "bores" or "rods"; empty where it is of it."""
+        listed: tuple[float, ...] = getattr(self, name)
+        if any(abs(size - each) < SAME_SIZE for each in listed):
+            return ()
+        return (*[each for each in listed if each < size][-1:], *[each for each in listed if each > size][:1])
+
+    def rods_for(self, bore: float) -> tuple[float, ...]:
+        """Return the rods [m] that suit a bore [m]."""
+        return tuple(rod for rod in self.rods if self.is_pair(bore, rod))
+
+
+METRIC = Series(
+    "ISO 3320",
+    tuple(each * mm for each in (
+        8, 10, 12, 16, 20, 25, 32, 40, 50, 63, 80, 90, 100, 110, 125, 140, 160, 180, 200, 220, 250, 280, 320, 360, 400, 450, 500,
+    )),
+    tuple(each * mm for each in (
+        4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 63, 70, 80, 90, 100, 110, 125, 140, 160, 180, 200,
+        220, 250, 280, 320, 360,
+    )),
+    (1.06, 5.0),
+)  # fmt: skip
+INCH = Series(
+    "NFPA T3.6.7",
+    tuple(each * inch for each in (1.0, 1.125, 1.5, 2.0, 2.5, 3.25, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 14.0)),
+    tuple(each * inch for each in (0.5, 0.625, 1.0, 1.375, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 7.0, 8.0, 10.0)),
+    (1.028, 2.05),
+)
+SAME_SIZE = 1e-9  # m: a size that is met to rounding is of a series
 SAME = 1.0 + 1e-9
 
 
+def chosen_series() -> Series:
+    """Return the series that sizes are offered of: that of inches where lengths are shown in inches, else the metric one."""
+    return INCH if shown_in("mm") == "in" else METRIC
+
+
+def series_of(bore: float, rod: float) -> Series:
+    """Return the series that a bore and a rod [m] are looked up in: the chosen one, unless it has neither and the other has one of them."""
+    chosen = chosen_series()
+    other = METRIC if chosen is INCH else INCH
+    had = {each.name: sum(not each.beside(size, name) for size, name in ((bore, "bores"), (rod, "rods"))) for each in (chosen, other)}
+    return other if had[other.name] > had[chosen.name] else chosen
+
+
 def standard_bores() -> tuple[float, ...]:
-    """Return the bores of ISO 3320 [m], ascending."""
-    return tuple(bore * mm for bore in BORES_MM)
+    """Return the standard bores [m], ascending: of ISO 3320, of NFPA T3.6.7 where the system of units has inches."""
+    return chosen_series().bores
 
 
 def standard_rods(bore: float) -> tuple[float, ...]:
-    """Return the rods of ISO 3320 [m], ascending, that suit a bore [m]: piston area 1.06 to 5 times the annulus.
+    """Return the standard rods [m], ascending, that suit a bore [m], of the series that `standard_bores` is of.
 
-    DefinitionError for a bore not above zero.
+    By ISO 3320 the piston's area is 1.06 to 5 times the annulus. DefinitionError for a bore not above zero.
     """
     in_metres(positive(one_number(bore, "Bore"), "Bore"), "Bore")
-    return tuple(rod * mm for rod in RODS_MM if is_pair(bore, rod * mm))
-
-
-def is_pair(bore: float, rod: float) -> bool:
-    """Return whether a rod suits a bore [m]: piston area 1.06 to 5 times the annulus, the ratios of ISO 3320."""
-    return rod < bore and RATIOS[0] <= bore**2 / (bore**2 - rod**2) <= RATIOS[1]
+    return chosen_series().rods_for(bore)
 
 
 def next_bore(bore: float) -> float:
@@ -73,7 +118,7 @@ def next_bore(bore: float) -> float:
 
 def next_rod(rod: float) -> float:
     """Return the smallest standard rod [m] above a rod [m]; DefinitionError where there is none."""
-    return _next(rod, tuple(rod * mm for rod in RODS_MM), "rod")
+    return _next(rod, chosen_series().rods, "rod")
 
 
 def _next(size: float, series: tuple[float, ...], what: str) -> float:
@@ -81,7 +126,7 @@ def _next(size: float, series: tuple[float, ...], what: str) -> float:
     larger = [standard for standard in series if standard > size * SAME]
     if not larger:
         raise DefinitionError(
-            f"No standard {what} of ISO 3320 is above {size / mm:.6g} mm, the largest is {series[-1] / mm:.0f} mm; "
+            f"No standard {what} of {chosen_series().name} is above {show(size, 'mm')}, the largest is {show(series[-1], 'mm', 4)}; "
             "use more cylinders or a higher pressure."
         )
     return larger[0]
@@ -110,10 +155,6 @@ class RamSize(ABC):
     @abstractmethod
     def pull_area(self) -> float | Array:
         """The area that pulls the ends together: all annuli, m2; none for what is single acting."""
-
-    @abstractmethod
-    def with_bore(self, bore: float) -> RamSize:
-        """Return the same with another bore [m]."""
 
     @property
     def area(self) -> float | Array:
@@ -185,6 +226,13 @@ class RamSize(ABC):
         return speed[()]
 
 
+class SingleSize(NamedTuple):
+    """A bore and a rod [m] of one design."""
+
+    bore: float
+    rod: float
+
+
 @final
 @refuses_changes
 @dataclass(frozen=True)
@@ -208,7 +256,7 @@ class CylinderSize(RamSize):
         if np.any(np.greater_equal(self.rod, self.bore)):
             rod, bore = np.broadcast_arrays(self.rod, self.bore)
             thick = rod >= bore
-            rods, bores = f"Rod {rod[thick][0] / mm:.6g} mm", f"bore {bore[thick][0] / mm:.6g} mm"
+            rods, bores = f"Rod {show(rod[thick][0], 'mm')}", f"bore {show(bore[thick][0], 'mm')}"
             raise DefinitionError(f"{rods} is not smaller than {bores}; exchange them or take a thinner rod.")
         count = one_number(self.count, "Count of cylinders")
         if not 1.0 <= count <= MOST or count != int(count):
@@ -218,7 +266,8 @@ class CylinderSize(RamSize):
     def __str__(self) -> str:
         many = "1 cylinder" if self.count == 1 else f"{self.count} cylinders"
         side = {"both": "both sides", "regenerative": "both sides on one line"}.get(self.works, f"{self.works} side")
-        return f"{many} {self.bore / mm:.4g}/{self.rod / mm:.4g} mm, {side}"
+        bore, rod = (shown_number(float(each), "mm", 4) for each in (self.bore, self.rod))
+        return f"{many} {bore}/{rod} {shown_in('mm')}, {side}"
 
     @property
     def piston_area(self) -> float | Array:
@@ -243,8 +292,12 @@ class CylinderSize(RamSize):
     def pull_area(self) -> float | Array:
         return self.count * self.rod_area
 
-    def with_bore(self, bore: float) -> CylinderSize:
-        return CylinderSize(bore, self.rod, self.count, self.works)
+    @property
+    def single(self) -> SingleSize:
+        """Bore and rod of one design; DefinitionError for a batch."""
+        if np.size(self.bore) != 1 or np.size(self.rod) != 1:
+            raise DefinitionError("Cylinder sizes are judged for one design at a time; this motion has several.")
+        return SingleSize(float(np.ravel(self.bore)[0]), float(np.ravel(self.rod)[0]))
 
     def next_size(self) -> CylinderSize:
         """Return the same with the next standard bore; DefinitionError where there is none."""
@@ -263,5 +316,6 @@ class CylinderSize(RamSize):
             if size is not None and (size.pull_area if pulls else size.area) * limit >= force:
                 return size
         raise DefinitionError(
-            f"No standard bore of ISO 3320 gives {force / kN:.4g} kN with {self.count} of {self}; use more cylinders or a higher pressure."
+            f"No standard bore of {chosen_series().name} gives {show(force, 'kN', 4)} with {self.count} of {self}; "
+            "use more cylinders or a higher pressure."
         )

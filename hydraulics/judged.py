@@ -6,7 +6,7 @@ each of its own movements, on both of its sides; the judge looks between the pos
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, final
 
@@ -23,6 +23,7 @@ from linkage.verdict import Verdict
 from .inputs import not_negative, one_number
 from .line import LiftLine, LineValve
 from .member import PISTON, SIDES, AllOf, Ram, carries_loads, one_design, thrust_request
+from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
 from .requests import going_back_request, pressure_request, reserve_request
 
 ENDLESS = 1e-4
@@ -241,22 +242,36 @@ class LiftingCylinder:
         found = self.judge.answer(most(pressure_request(*self.asked, is_needed=True)))
         if found.unbounded or not np.isfinite(found.value):
             return said("No pressure and no bore lifts there; keep away from that pose.")
-        needed = self.show(found.value)
+        needed = show_enough(float(found.value), self.unit)
+        if self.circuit.relieves(self.judge.plan) and found.value > float(self.circuit.held(self.judge.motion)):
+            needed = said("{pressure}, at its relief valve as well", pressure=needed)
         if len(self.circuit.rams(self.judge.motion)) > 1:
             return said("It needs {needed}, or larger bores on this line.", needed=needed)
         if self.ram.is_single_acting:
             return said("It needs {needed}, or larger stages.", needed=needed)
-        for bore in self.ram.larger_bores(self.judge.motion, reserve):
-            gained = self.judge.answer(least(reserve_request(*self.asked, bore=bore))).value
-            if gained >= 1.0:
-                text = said(
-                    "It needs {needed}, or a bore of {bore}, with a reserve of {gained:.2f}.",
-                    needed=needed,
-                    bore=show(bore, "mm", ".0f"),
-                    gained=gained,
-                )
-                return text
-        return said("It needs {needed}; no standard bore is large enough.", needed=needed)
+        counts = said("; both sides are on one line, so that the rod counts and not the bore") if self.ram.side == "regenerative" else ""
+        larger = self.ram.larger(self.judge.motion)
+        if larger and not can_be_set(self.judge, self.ram, larger[0]):
+            return said("It needs {needed}, or a larger size{counts}.", needed=needed, counts=counts)
+        found_with = self.mended(larger, reserve, lambda ram: [least(reserve_request(ram, Acting(), self.circuit)) >= 1.0])
+        if found_with is None:
+            rod = said("It needs {needed}; no standard rod is thick enough{counts}.", needed=needed, counts=counts)
+            return rod if counts else said("It needs {needed}; no standard bore is large enough.", needed=needed)
+        sizes, (gained,) = found_with
+        return said(
+            "It needs {needed}, or {size}, with a reserve of {gained:.2f}{counts}.",
+            needed=needed, size=size_words(sizes), gained=gained.value, counts=counts,
+        )  # fmt: skip
+
+    def mended(
+        self, larger: Sequence[Sizes], reserve: float, questions: Callable[[Ram], Sequence[Question]]
+    ) -> tuple[Sizes, list[Answer]] | None:
+        """Return the first of some larger sizes that keeps conditions, with the answers; what is tried first has the missing area."""
+        now = self.ram.sized(self.judge.motion)
+        areas = [float(np.ravel(replace(now, **sizes).area)[0]) for sizes in larger]  # type: ignore[type-var]
+        wanted = float(np.ravel(now.area)[0]) / reserve
+        start = next((place for place, area in enumerate(areas) if area >= wanted * (1.0 - 1e-9)), len(areas))
+        return smallest(self.judge, self.ram, larger, start, questions)
 
     # -- holding and going back ----------------------------------------------------------------------------
 
@@ -289,8 +304,23 @@ class LiftingCylinder:
         if all(each.ok for each in found):
             text = said("with the pump off, {stands}: not above {valve}.", stands=stands, valve=valve)
             return Verdict("holding", True, text, answer=worst)
-        text = said("with the pump off, {stands}: above {valve}; take a larger bore.", stands=stands, valve=valve)
+        remedy = self.holds_with(asked, worst)
+        text = said("with the pump off, {stands}: above {valve}; {remedy}.", stands=stands, valve=valve, remedy=remedy)
         return Verdict("holding", False, text, answer=worst)
+
+    def holds_with(self, asked: Sequence[Condition], worst: Answer) -> str:
+        """Return what makes it hold, in words: a larger size, of a single cylinder on a line with the pressure that it then holds."""
+        if self.ram.is_single_acting:
+            return said("take larger stages")
+        larger, limit = self.ram.larger(self.judge.motion), float(self.circuit.held(self.judge.motion))
+        alone = len(self.circuit.rams(self.judge.motion)) == 1
+        found = self.mended(larger, limit / float(worst.value), lambda ram: asked) if alone else None
+        size = said("take a thicker rod") if self.ram.side == "regenerative" else said("take a larger bore")
+        if found is None:
+            return size
+        sizes, answers = found
+        holds = max(answers, key=lambda each: float(each.value))
+        return said("{remedy}: with {size} it is up to {pressure}", remedy=size, size=size_words(sizes), pressure=self.show(holds.value))
 
     def going_back(self, resistance: float = 0.0) -> Verdict:
         """Return whether it goes back by itself against the resistance of the returning oil; where not, what the other side must give.
@@ -325,17 +355,18 @@ class LiftingCylinder:
                 where=where, against=against, push=self.show(push.value), place=push.place,
             )  # fmt: skip
             return Verdict("lowering", False, text, answer=push)
+        needed = show_enough(float(judge.answer(most(self.back(resistance, "whole push"))).value), self.unit)
         if self.ram.side == "both":
             enough = push.value <= float(self.circuit.supply(judge.motion)) * (1.0 + 1e-9)
             text = said(
                 "{direction}, the load does not drive it back {where} {against}: the other side must push with up to {push}, {place}.",
                 direction=said("extending") if self.way_back == "extending" else said("retracting"), where=where, against=against,
-                push=self.show(push.value), place=push.place,
+                push=needed, place=push.place,
             )  # fmt: skip
             return Verdict("lowering", enough, text, answer=push)
         text = said(
             "it does not sink by itself {where} {against}: the other side must push with up to {push}, {place}.",
-            where=where, against=against, push=self.show(push.value), place=push.place,
+            where=where, against=against, push=needed, place=push.place,
         )  # fmt: skip
         return Verdict("lowering", False, text, answer=push)
 

@@ -73,7 +73,7 @@ from .inputs import (
 )
 from .judged import line_conditions, line_questions, line_verdicts
 from .line import Choice, Holding, LiftLine, Lowering, WayBack, Work
-from .member import Circuit, Ram, Reading, by_other_lines, line_thrust, lines_of, the_cylinder, thrust_along
+from .member import PISTON, Circuit, Ram, Reading, by_other_lines, line_thrust, lines_of, the_cylinder, thrust_along
 from .standing import is_blocked, shut_verdicts, standing_pressure
 
 
@@ -92,8 +92,8 @@ class PumpLine(LiftLine):
         """Return the same for the equations."""
 
     @abstractmethod
-    def pump_pressure(self, plan: Declared) -> Parameter:
-        """Return the pump's pressure as it is given."""
+    def pump_given(self, plan: Declared, name: str) -> Parameter:
+        """Return a number of the pump, such as its pressure, as it is given."""
 
     def loads(self, motion: Poses) -> list[Load]:
         return []
@@ -237,6 +237,21 @@ class PumpLine(LiftLine):
             return np.asarray(np.maximum(standing_pressure(self, motion, acting), 0.0))[()]
         return self._pressure(motion, self.work_of(ram, motion, acting))
 
+    def _pushes_out(self, cylinder: Ram, members: Mapping[str, Member]) -> bool:
+        """Return whether its pump pushes a cylinder out: it has the piston side, and no line of the cylinder is shut."""
+        has_piston = any(each.side == PISTON and same(ram, cylinder) for ram, each in self.filling(members))
+        return has_piston and self.kind_open(members) == "held" and not is_blocked(cylinder, members)
+
+    def loses_out(self, cylinder: Ram, plan: Declared) -> bool:
+        given = self.pump_given(plan, "mechanical_efficiency") if self._pushes_out(cylinder, plan.members) else 1.0
+        return follows(given) or given != 1.0
+
+    def efficiency_out(self, cylinder: Ram, motion: AnyMotion) -> Array | float:
+        return self.efficiency(motion, "mechanical") if self._pushes_out(cylinder, motion.plan.members) else 1.0
+
+    def pressure_out(self, cylinder: Ram, motion: AnyMotion) -> Array | None:
+        return self.held(motion) if self._pushes_out(cylinder, motion.plan.members) else None
+
     def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
         return self.reserve(motion, cylinder=cylinder, acting=acting)
 
@@ -260,7 +275,7 @@ class PumpLine(LiftLine):
 
     def unit_in(self, judge: Judge) -> str:
         """Return the unit in which its pressures are shown: that of the dimension which its pump's pressure follows, else bar."""
-        pressure = self.pump_pressure(judge.plan)
+        pressure = self.pump_given(judge.plan, "pressure")
         given = judge.plan.members.get(pressure) if isinstance(pressure, str) else pressure
         return str(getattr(given, "unit", "")) or "bar"
 
@@ -473,7 +488,8 @@ class PumpLine(LiftLine):
         against, k_m = fitted(motion, not_negative(resistance, "Return resistance")), self.efficiency(motion, "mechanical")
         found = [WayBack.of(ram, self, motion, given, ram.way_back(motion, given), against, k_m) for ram in self.meant(motion, cylinder)]
         push = np.max([each.push for each in found], axis=0)
-        return Lowering(np.min([each.working for each in found], axis=0), np.maximum(push, 0.0), np.asarray(push < 0.0))
+        needed = np.max([np.where(each.push > 0.0, each.push + each.tank, 0.0) for each in found], axis=0)
+        return Lowering(np.min([each.working for each in found], axis=0), needed, np.asarray(push < 0.0))
 
 
 @final
@@ -556,8 +572,8 @@ class LiftCircuit(PumpLine):
     def oil(self, motion: Motion) -> Array:
         return self.taken(motion)
 
-    def pump_pressure(self, plan: Declared) -> Parameter:
-        return self.pressure
+    def pump_given(self, plan: Declared, name: str) -> Parameter:
+        return cast(Parameter, getattr(self, name))
 
     def relieves(self, plan: Declared) -> bool:
         return self.relief is not None

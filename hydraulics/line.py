@@ -18,12 +18,12 @@ from linkage.loads import Acting, ActingKeywords, Case, Declared, ForceElement, 
 from linkage.motion import Answer, HasVerdicts, Motion
 from linkage.plan import Mask
 from linkage.quantities import Reference
-from linkage.statics import AnyMotion
+from linkage.statics import AnyMotion, motion_in_case
 from linkage.units import show
 
 from .cylinder import RamSize
 from .inputs import Array
-from .member import Circuit, Ram, line_thrust
+from .member import Circuit, Ram, by_other_lines, line_thrust
 
 
 class Choice(ActingKeywords, total=False):
@@ -118,23 +118,28 @@ class WayBack:
     """A cylinder on its way back against a resistance of the returning oil [Pa].
 
     Friction acts against it: the load brings T k_m where it drives and takes T / k_m where it resists. `working` is the pressure that the
-    load alone makes in the side that empties, `push` what the other side must give, below zero where the load does it by itself [Pa].
+    load alone makes in the side that empties, `push` what the other side must give beyond what a tank has there, below zero where the
+    load does it by itself, `tank` what that has [Pa].
     """
 
     working: Array
     push: Array
+    tank: Array
 
     @classmethod
     def of(
         cls, ram: Ram, line: Circuit, motion: AnyMotion, acting: Acting, way: str, against: Array | float, k_m: Array
     ) -> WayBack:  # fmt: skip
         """Return how a cylinder goes back at a motion's poses: `way` is "extending" or "retracting", its own direction."""
-        size, thrust = ram.sized(motion, way), line_thrust(ram, line, motion, replace(acting, direction=way, rates=None))
-        drives = thrust if way == "retracting" else -thrust
+        acting, sense = replace(acting, direction=way, rates=None), -1.0 if way == "retracting" else 1.0
+        size, drives = ram.sized(motion, way), -sense * line_thrust(ram, line, motion, acting, with_tanks=False) + 0.0
         empties, other = (size.outward_area, size.pull_area) if way == "retracting" else (size.pull_area, size.outward_area)
         other = empties if ram.is_single_acting else other  # nothing pushes it back: what is missing where it empties
+        drained = by_other_lines(ram, line, motion_in_case(motion, acting), None, True)
+        helps = np.zeros(()) if drained is None else sense * drained
         brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
-        return cls(np.asarray(np.maximum(brings, 0.0) / empties)[()], np.asarray((against * empties - brings) / other)[()])
+        push = (against * empties - brings - helps) / other
+        return cls(np.asarray(np.maximum(brings + helps, 0.0) / empties)[()], np.asarray(push)[()], np.asarray(helps / other)[()])
 
 
 class LineValve(ForceElement, HasVerdicts):

@@ -5,7 +5,7 @@
 >>> print(f"{lift.size.thrust(160 * bar) / kN:.1f} kN; {lift.size.pressure_for(200 * kN) / bar:.1f} bar")
 304.1 kN; 105.2 bar
 >>> print(lift.standard())
-FAIL standard size: bore 110 mm and rod 60 mm; the rod is not of ISO 3320, next to it are 56 and 63 mm.
+cylinder: bore 110 mm and rod 60 mm; the rod is not of ISO 3320, next to it: 56 and 63 mm.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, known_name, unknown, unwarned
 from linkage.frozen import refuses_changes
-from linkage.language import noted, said, said_of, with_and
+from linkage.language import noted, said, with_and
 from linkage.loads import (
     AT_REST,
     DIRECTIONS,
@@ -75,21 +75,19 @@ from linkage.quantities import (
     distance,
     label,
     name_of,
-    needs,
     quantity,
 )  # fmt: skip
 from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, lock_words, member_thrust, motion_in_case, same
-from linkage.steps import Link
-from linkage.units import mm, show, shown_number, unit_sign
-from linkage.verdict import Verdict
+from linkage.units import show, shown_number, unit_sign
+from linkage.verdict import Remark, Verdict
 
 from .barrel import HELD, MASSES, BarrelAndRod
 from .buckling import Buckling, never_pushed
-from .cylinder import BORES_MM, RODS_MM, CylinderSize, RamSize, Works, standard_bores, standard_rods
+from .cylinder import SAME_SIZE, CylinderSize, RamSize, Works, chosen_series, series_of, standard_rods
 from .inputs import Array, follows, number_set, one_number, only_where, positive, stroke_in_metres
+from .names import names_behind
+from .remedy import Sizes, can_be_set, show_enough, smallest
 
-TRIES = 4
-"""Standard bores that are tried as a remedy, from the first that may do."""
 LENGTHS: Mapping[str, str] = MappingProxyType({"stroke": "Stroke of the cylinder", "closed": "Closed length of the cylinder"})
 """What its lengths are called in words."""
 Side: TypeAlias = Literal["piston", "rod"]
@@ -195,16 +193,16 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Write the area of the side that works, and return its symbol with the area of the other side [m2]."""
 
     @abstractmethod
-    def larger_bores(self, motion: Poses, reserve: float) -> list[float]:
-        """Return the standard bores to try [m] where a reserve is below 1, from the first that may give it; none where it has no series."""
+    def larger(self, motion: Poses) -> list[Sizes]:
+        """Return the standard sizes that give more force, ascending, as a remedy takes them; none where it has no series."""
 
     @abstractmethod
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return what is said of its size over all that a judge looks at."""
 
     @abstractmethod
-    def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return whether it buckles over all that a judge looks at."""
+    def slender_part(self, motion: Poses, direction: str | None = None) -> tuple[str, int, Sequence[float]]:
+        """Return the name of the size that buckles at a pose, the number of the stage that it is, 0 for a rod, and what it may be [m]."""
 
     # -- what it is ----------------------------------------------------------------------------------------
 
@@ -337,11 +335,6 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return UNBOUNDED if circuit is None else circuit.bounds_of(self, motion, lifting, share=share)
 
     @property
-    def _both_joined(self) -> bool:
-        """Whether one line fills both of its sides."""
-        return self.side == "regenerative"
-
-    @property
     def driven(self) -> tuple[str, ...]:
         """The directions in which the side that works drives it."""
         return {"rod": ("retracting",), "both": ("extending", "retracting")}.get(self.side, ("extending",))
@@ -368,7 +361,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         along, size = thrust if side == PISTON else -thrust, self.sized(motion, acting.direction)
         balance = along / (size.outward_area if side == PISTON else size.pull_area)
         least = balance if below else 0.0
-        if acting.movement == FRICTIONLESS or (self.side not in (side, "both") and not self._both_joined):
+        if acting.movement == FRICTIONLESS or (self.side not in (side, "both") and self.side != "regenerative"):
             return np.asarray(np.maximum(balance, least))[()]
         found = pressure_of(self, motion, acting) if circuit is None else circuit.pressure_in(self, motion, acting)
         return np.where(along > 0.0, found, least) + 0.0 * thrust
@@ -491,19 +484,19 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return np.asarray(low.value), np.asarray(high.value)
 
     def _reaches(self, judge: Judge, low: float, high: float, closed: float, opened: float) -> Verdict:
-        faults = []
-        if closed > low + TOLERANCE:
-            much = show(closed - low, "mm", ".1f")
-            faults.append(said("it is {much} too long closed: take one with a shorter closed length", much=much))
-        if opened < high - TOLERANCE:
-            missing = show(high - opened, "mm", ".1f")
-            if high - closed <= closed:
-                faults.append(said("{missing} are missing open: take a longer stroke", missing=missing))
-            else:
-                faults.append(
-                    said("{missing} are missing open: no cylinder comes out by more than it is long closed: move its pins", missing=missing)
-                )
-        elif np.isfinite(opened) and opened - closed > closed:
+        faults, fitting = self._too_long(low, closed)
+        missing = high - (fitting + opened - closed)
+        if missing > TOLERANCE:
+            shown = show_enough(missing - TOLERANCE, "mm", ".1f")
+            open_too = said("{missing} are missing open", missing=shown)
+            if faults:  # one that is shorter closed is shorter open, too
+                own = show_enough(max(high - opened, 0.0), "mm", ".1f")
+                open_too = said("{own} are missing open, {missing} with a shorter closed length", own=own, missing=shown)
+            remedy = said("take a longer stroke")
+            if high - fitting > fitting:
+                remedy = said("no cylinder comes out by more than it is long closed: move its pins")
+            faults.append(f"{open_too}: {remedy}")
+        elif np.isfinite(opened) and opened - closed > fitting:
             stroke = show(opened - closed, "mm", ".1f")
             faults.append(said("it cannot come out by {stroke}, more than it is long closed: move its pins", stroke=stroke))
         says = said(
@@ -513,12 +506,19 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         out = said(" and {opened} open", opened=show(opened, "mm", ".1f")) if np.isfinite(opened) else ""
         return Verdict("length", not faults, f"{'; '.join([f'{says}{out}', *faults])}.")
 
+    def _too_long(self, low: float, closed: float) -> tuple[list[str], float]:
+        """Return whether it is too long closed, in words, and the closed length that its least length leaves it [m]."""
+        if closed <= low + TOLERANCE:
+            return [], closed
+        much = show_enough(closed - low - TOLERANCE, "mm", ".1f")
+        return [said("it is {much} too long closed: take one with a shorter closed length", much=much)], low
+
     def _travels(self, travel: float, stroke: float) -> Verdict:
         way, given = show(travel, "mm", ".1f"), show(stroke, "mm", ".1f")
         says = said("{pins} changes by {travel}, the stroke is {stroke}", pins=self._pins, travel=way, stroke=given)
         if travel <= stroke + TOLERANCE:
             return Verdict("length", True, f"{says}.")
-        short = said("; {missing} are missing: take a longer stroke", missing=show(travel - stroke, "mm", ".1f"))
+        short = said("; {missing} are missing: take a longer stroke", missing=show_enough(travel - stroke - TOLERANCE, "mm", ".1f"))
         return Verdict("length", False, f"{says}{short}.")
 
     def buckling(self, motion: Motion, loads: Loads = None, *, case: Case = None, acting: Acting | None = None) -> list[Verdict]:
@@ -530,6 +530,48 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         one_design(motion, str(self))
         return self.buckling_verdicts(judge_of(motion, situation_of("buckling", acting, loads=loads, case=case)))
 
+    def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return whether it buckles over all that a judge looks at, and what it does against a stop."""
+        worst = judge.answer(most(buckling_request(self, Acting())) <= 1.0)
+        if np.isnan(worst.value) or not worst.value > 0.0:
+            return [never_pushed(), *self.stopped(judge)]
+        with unwarned():  # the verdict itself says what comes of it
+            place, acting = judge.there(worst), judge.situation(worst)
+            push, length = float(self.rod_push(place, acting)), float(place.distance(self.A, self.B))
+            name, stage, sizes = self.slender_part(place, acting.direction)
+            bar = Buckling(float(self.thickness(place, acting.direction)), self.mounting, self.safety)
+        remedy = "" if worst.ok or worst.unbounded else self.thicker_words(judge, bar, name, sizes, length, push)
+        found = bar.judged(length, push, worst.place, bool(worst.unbounded), stage=stage, remedy=remedy)
+        return [found.answered(worst), *self.stopped(judge)]
+
+    def thicker_words(self, judge: Judge, bar: Buckling, name: str, sizes: Sequence[float], length: float, push: float) -> str:
+        """Return the one of some sizes with which it holds wherever the machine runs, in words; at one place a bar tells where to begin."""
+        thicker = [size for size in sizes if size > bar.rod * (1.0 + 1e-9)]
+        if thicker and not can_be_set(judge, self, {name: thicker[0]}):
+            return said("; take a thicker one")
+        enough = bar.thicker(length, push)
+        start = next((place for place, size in enumerate(thicker) if size in enough), len(thicker))
+        tried = [{name: size} for size in thicker]
+        found = smallest(judge, self, tried, start, lambda ram: [most(buckling_request(ram, Acting())) <= 1.0])
+        return bar.remedy_words(None if found is None else found[0][name], is_bore_small=bool(enough), is_stage=name != "rod")
+
+    def stopped(self, judge: Judge) -> list[Verdict]:
+        """Return with what force a pump pushes it against a stop where it is longest, and how far that is from buckling."""
+        pushing = [(each, each.pressure_out(self, judge.motion)) for each in circuits_among(judge.plan.members)]
+        given = [(float(np.ravel(pressure)[0]), each.unit_in(judge)) for each, pressure in pushing if pressure is not None]
+        longest = judge.answer(most(distance(self.A, self.B)))
+        if not given or np.isnan(longest.value):
+            return []
+        place, (pressure, unit) = judge.there(longest), max(given)
+        bar = Buckling(float(self.thickness(place, "extending")), self.mounting, self.safety)
+        force, limit = pressure * float(self.sized(place, "extending").outward_area) / self.count, float(bar.critical(longest.value))
+        text = said(
+            "Against a stop {ram} pushes with {force} at {pressure}; {length} long it buckles at {limit}: safety {safety:.3g}.",
+            ram=self.name or self, force=show(force, "kN", 4), pressure=show(pressure, unit, 4), length=show(longest.value, "mm", ".0f"),
+            limit=show(limit, "kN", 4), safety=limit / force,
+        )  # fmt: skip
+        return [Remark(text)]
+
     @takes_situation
     def buckling_use(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
         """Return the utilisation of a rod, shape (...): a cylinder's push times the safety over the force at which it buckles; 0 in a pull.
@@ -539,12 +581,23 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         acting = situation_of("buckling_use", loads=loads, **situation)
         if acting.direction is not None:
             return self._use(motion, acting)
-        ways = DIRECTIONS if changes_in_motion(motion, acting.loads) else DIRECTIONS[:1]
+        ways = DIRECTIONS if changes_in_motion(motion, acting.loads) else (None,)
         return reduce(np.maximum, [self._use(motion, replace(acting, direction=way)) for way in ways])
+
+    def rod_push(self, motion: AnyMotion, acting: Acting) -> Array:
+        """Return what one of its rods is pushed with [N]: T / k_m while a pump pushes it out, as it is taken to do without a direction."""
+        push = member_thrust(motion, self, acting) / self.count
+        if acting.direction not in (None, "extending"):
+            return push
+        motion = motion_in_case(motion, acting)
+        share: Any = 1.0
+        for each in circuits_among(motion.plan.members):
+            share = np.minimum(share, each.efficiency_out(self, motion))
+        return np.asarray(push / share)[()]
 
     def _use(self, motion: AnyMotion, acting: Acting, *, below: bool = False) -> Array:
         """Return the utilisation in one direction, in a pull 0 or `below`."""
-        push = member_thrust(motion, self, acting) / self.count
+        push = self.rod_push(motion, acting)
         bar = Buckling(1.0, self.mounting, self.safety)
         allowed = bar.critical_of(self.thickness(motion, acting.direction), motion.distance(self.A, self.B)) / self.safety
         return push / allowed if below else np.where(push > 0.0, push / allowed, 0.0) + 0.0 * push
@@ -681,10 +734,6 @@ class Cylinder(BarrelAndRod, Ram):
         return tuple(name for name in LENGTHS if getattr(self, name) is not None)
 
     def closed_and_stroke(self, motion: Poses) -> tuple[Array | None, Array | None]:
-        """Return its closed length and its stroke as a motion's designs have them [m], to broadcast against it; None where not given.
-
-        DefinitionError for one that is not above zero, that is given in millimetres, or that follows a stroke of the machine.
-        """
         bore = self.sized(motion).bore
         closed, stroke = (self._length(motion, name, bore) for name in ("closed", "stroke"))
         return closed, stroke
@@ -703,30 +752,34 @@ class Cylinder(BarrelAndRod, Ram):
         return () if given is None else (quantity(given) if follows(given) else f"{self.name}.{name}",)
 
     def offers(self, thrust: float, pressure: float, length: float | None = None) -> list[CylinderSize]:
-        """Return the standard sizes (ISO 3320) that give a thrust [N] at a pressure: the smallest bore, each rod that suits.
+        """Return the standard sizes that give a thrust [N] at a pressure: the smallest bore, each rod that suits.
 
         With a `length` between the pins [m] only rods that do not buckle under a positive thrust. DefinitionError where no bore is enough.
         """
         if length is not None:
             one_number(length, "Length between the ends")
-        thin = CylinderSize(self.size.bore, min(self.size.rod, RODS_MM[0] * mm), self.count, self.side)
+        thin = CylinderSize(self.size.bore, min(float(self.size.rod), chosen_series().rods[0]), self.count, self.side)
         bore = float(thin.sized_for(thrust, pressure).bore)
         sizes = [CylinderSize(bore, rod, self.count, self.side) for rod in standard_rods(bore)]
-        enough = [size for size in sizes if one_area(size, thrust) * pressure >= abs(thrust)]
+        pulls = self.side == "both" and thrust < 0.0
+        enough = [size for size in sizes if float(size.pull_area if pulls else size.area) * pressure >= abs(thrust)]
         push = max(thrust, 0.0) / self.count
         return [size for size in enough if length is None or Buckling(float(size.rod), self.mounting, self.safety).allowed(length) >= push]
 
-    def larger_bores(self, motion: Poses, reserve: float) -> list[float]:
-        size = one_size(self.sized(motion))
-        rod = size.rod if self.side == "rod" else 0.0
-        wanted = np.sqrt((size.bore**2 - rod**2) / reserve + rod**2)
-        bores = [bore for bore in standard_bores() if bore > max(size.bore, size.rod) * (1.0 + 1e-9)]
-        return [bore for bore in bores if bore >= 0.9 * wanted][:TRIES]
+    def larger(self, motion: Poses) -> list[Sizes]:
+        size, series = self.sized(motion).single, chosen_series()
+        bores = [bore for bore in series.bores if bore > size.bore * (1.0 + 1e-9)]
+        if self.side != "regenerative":
+            return [{"bore": bore} for bore in bores]
+        found: list[Sizes] = []
+        for rod in (each for each in series.rods if each > size.rod * (1.0 + 1e-9)):
+            wide = next((bore for bore in (size.bore, *bores) if series.is_pair(bore, rod)), 0.0)
+            found += [{"rod": rod} if wide == size.bore else {"bore": wide, "rod": rod}] if wide else []
+        return found
 
     # -- what it says --------------------------------------------------------------------------------------
 
     def sides_written(self, written: Formulas, thrust: Array) -> tuple[Array, Array]:
-        """Write the area of the side that works, and return its symbol with the area of the other side [m2]."""
         bore, rod = self.number(written, "bore"), self.number(written, "rod")
         piston, annulus = (self.count * written.pi / 4.0 * each for each in (bore**2, bore**2 - rod**2))
         if self.side == "regenerative":
@@ -739,28 +792,21 @@ class Cylinder(BarrelAndRod, Ram):
         return written.line(f"A_{self.name}", working, "m2"), other
 
     def standard(self, motion: Poses | None = None) -> Verdict:
-        """Return whether bore and rod are of ISO 3320; where not, what is next to them."""
-        size = one_size(self.size if motion is None else self.sized(motion))
-        faults = []
-        if beside := _near(size.bore, BORES_MM):
-            text = said_of(
-                len(beside), "the bore is not of ISO 3320, next to it is {near}", "the bore is not of ISO 3320, next to it are {near}",
-                near=_listed(beside),
-            )  # fmt: skip
-            faults.append(text)
-        if beside := _near(size.rod, RODS_MM):
-            text = said_of(
-                len(beside), "the rod is not of ISO 3320, next to it is {near}", "the rod is not of ISO 3320, next to it are {near}",
-                near=_listed(beside),
-            )  # fmt: skip
-            faults.append(text)
-        suits = any(abs(rod - size.rod) < 1e-9 for rod in standard_rods(size.bore))
-        if not faults and not suits:
-            faults = [said("this rod does not suit this bore; it may have {rods}", rods=_listed(standard_rods(size.bore)))]
+        """Return whether bore and rod are a pair of ISO 3320 or NFPA T3.6.7; where not, what is next to them."""
+        size = (self.size if motion is None else self.sized(motion)).single
+        series = series_of(size.bore, size.rod)
+        beside, rods = [series.beside(size.bore, "bores"), series.beside(size.rod, "rods")], series.rods_for(size.bore)
         says = said("bore {bore} and rod {rod}", bore=show(size.bore, "mm", 4), rod=show(size.rod, "mm", 4))
+        if not any(beside) and any(abs(rod - size.rod) < SAME_SIZE for rod in rods):
+            return Verdict("standard size", True, said("{says} are a pair of {series}.", says=says, series=series.name))
+        faults = []
+        if beside[0]:
+            faults.append(said("the bore is not of {series}, next to it: {near}", series=series.name, near=_listed(beside[0])))
+        if beside[1]:
+            faults.append(said("the rod is not of {series}, next to it: {near}", series=series.name, near=_listed(beside[1])))
         if not faults:
-            return Verdict("standard size", True, said("{says} are a pair of ISO 3320.", says=says))
-        return Verdict("standard size", False, f"{'; '.join([says, *faults])}.")
+            faults = [said("this rod does not suit this bore; it may have {rods}", rods=_listed(rods))]
+        return Remark(f"{self.name or said('cylinder')}: {'; '.join([says, *faults])}.")
 
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
         return [self.standard(judge.motion), *self._side_verdicts(judge)]
@@ -788,17 +834,8 @@ class Cylinder(BarrelAndRod, Ram):
             text = said('the load pushes {name} with {force}, {where}: its rod side holds no push; say works="both" or "piston".', **given)
         return [Verdict("side", None, text, answer=found)]
 
-    def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
-        size = one_size(self.sized(judge.motion))
-        rod = Buckling(size.rod, self.mounting, self.safety)
-        worst = judge.answer(most(buckling_request(self, Acting())) <= 1.0)
-        if np.isnan(worst.value) or not worst.value > 0.0:
-            return [never_pushed()]
-        with unwarned():  # the verdict itself says what comes of it
-            place, acting = judge.there(worst), judge.situation(worst)
-            push = float(member_thrust(place, self, acting)) / self.count
-            length = float(place.distance(self.A, self.B))
-        return [rod.judged(length, push, worst.place, bool(worst.unbounded), size.bore).answered(worst)]
+    def slender_part(self, motion: Poses, direction: str | None = None) -> tuple[str, int, Sequence[float]]:
+        return "rod", 0, standard_rods(self.sized(motion).single.bore)
 
 
 @final
@@ -874,7 +911,13 @@ def thrust_text(named: Hashable, acting: Acting) -> str:
 def buckling_request(cylinder: str | Ram, acting: Acting, *, below: bool = False) -> LawRequest:
     """Return the request for how far a cylinder's rod is used against buckling; `below` zero it goes on in a pull."""
     found = cylinder_request("buckling", cylinder, acting, partial(rod_use, below=below), after=("below zero" if below else None,))
-    return replace(found, pieces_in=partial(buckling_pieces, cylinder))
+    return replace(found, pieces_in=partial(buckling_pieces, cylinder), directions=partial(pushed_directions, cylinder))
+
+
+def pushed_directions(cylinder: str | Ram, plan: Plan) -> tuple[str, ...] | None:
+    """Return the direction in which a rod is pushed hardest, where that is known: while a pump pushes it out with losses; else None."""
+    ram = cylinder_in(cylinder, plan)
+    return ("extending",) if any(each.loses_out(ram, plan) for each in circuits_among(plan.members)) else None
 
 
 def buckling_pieces(cylinder: str | Ram, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
@@ -1096,6 +1139,22 @@ class Circuit(ForceElement, HasVerdicts):
         """Return between which two thrusts [N] it lets one of its cylinders stand; unbounded unless it says so."""
         return UNBOUNDED
 
+    def unit_in(self, judge: Judge) -> str:
+        """Return the unit in which its pressures are shown."""
+        return "bar"
+
+    def loses_out(self, cylinder: Ram, plan: Declared) -> bool:
+        """Return whether the mechanical efficiency of its pump counts while that pushes a cylinder out."""
+        return False
+
+    def efficiency_out(self, cylinder: Ram, motion: AnyMotion) -> Array | float:
+        """Return the mechanical efficiency with which its pump pushes a cylinder out; 1 where none does."""
+        return 1.0
+
+    def pressure_out(self, cylinder: Ram, motion: AnyMotion) -> Array | None:
+        """Return the highest pressure with which it pushes a cylinder out against a stop [Pa gauge]; None where no pump does."""
+        return None
+
     def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
         """Return the greatest rod force of one of its cylinders over the needed one, shape (...); None where no pump feeds it."""
         return None
@@ -1221,32 +1280,6 @@ def lines_giving(members: Mapping[str, Member]) -> dict[str, Circuit]:
     return found
 
 
-def named_in(reference: Reference) -> Iterable[str]:
-    """Return the name of what is referred to, or the names that it is made of where it has none."""
-    return needs(reference) if isinstance(reference, Member) and not reference.name else [name_of(reference)]
-
-
-def names_behind(starts: Iterable[Reference], members: Mapping[str, Member]) -> set[str]:
-    """Return the names that members of a class are built from, as far as they are there."""
-    stack, found = [name for each in starts for name in named_in(each)], set[str]()
-    while stack:
-        name = stack.pop()
-        if name not in found:
-            found.add(name)
-            stack += needs(members[name]) if name in members else ()
-            stack += needed_by_links(name, members)
-    return found
-
-
-def needed_by_links(pin: str, members: Mapping[str, Member]) -> list[str]:
-    """Return the names that the links of a parts list need which hold a pin that no step places yet, the links' other points too."""
-    held = members.get(pin)
-    if held is None or getattr(held, "is_fixed", True) or any(True for _ in needs(held)):
-        return []
-    links = [each for each in members.values() if isinstance(each, Link) and pin in each.point_names]
-    return [name for each in links for name in (*needs(each), *each.point_names)]
-
-
 def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:
     """Return whether there is friction among some loads, or an element that acts otherwise while it moves."""
     return any(each.frictions(motion) or each.feeds(motion.plan.members) for _, each in elements_of(motion.plan, loads))
@@ -1269,11 +1302,6 @@ def one_design(motion: Motion, what: str) -> None:
     require_motion(motion)
     if motion._design_shape:
         raise DefinitionError(f"{what} is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
-
-
-def one_area(size: CylinderSize, thrust: float) -> float:
-    """Return the area that gives a thrust of this sign [m2]: of both sides the one that does, else the working one."""
-    return float(size.pull_area if size.works == "both" and thrust < 0.0 else size.area)
 
 
 def is_named(reference: Reference) -> bool:
@@ -1310,30 +1338,5 @@ def _cylinder(found: object, where: str) -> Ram:
 TOLERANCE = 1e-9  # m: a length that is met to rounding is met
 
 
-@final
-@refuses_changes
-@dataclass(frozen=True)
-class OneSize:
-    """A bore and a rod [m] of one design."""
-
-    bore: float
-    rod: float
-
-
-def one_size(size: CylinderSize) -> OneSize:
-    """Return the bore and rod of one design; DefinitionError for a batch."""
-    if np.size(size.bore) != 1 or np.size(size.rod) != 1:
-        raise DefinitionError("Cylinder sizes are judged for one design at a time; this motion has several.")
-    return OneSize(float(np.ravel(size.bore)[0]), float(np.ravel(size.rod)[0]))
-
-
-def _near(value: float, series: tuple[int, ...]) -> list[float]:
-    """Return the sizes [m] beside one that is not of a series [mm]; empty where it is of it."""
-    if any(abs(value / mm - each) < 1e-6 for each in series):
-        return []
-    below, above = [each for each in series if each * mm < value][-1:], [each for each in series if each * mm > value][:1]
-    return [each * mm for each in (*below, *above)]
-
-
 def _listed(values: Iterable[float]) -> str:
-    return f"{with_and(shown_number(value, 'mm', '.0f') for value in values)} {unit_sign('mm')}"
+    return f"{with_and(shown_number(value, 'mm', 4) for value in values)} {unit_sign('mm')}"

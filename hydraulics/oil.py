@@ -86,10 +86,10 @@ from .member import (
     is_named,
     lines_giving,
     lines_of,
-    names_behind,
     side_left,
     the_cylinder,
 )
+from .names import names_behind
 from .standing import EMPTY, intensified, shut_verdicts, standing_pressure
 
 
@@ -638,8 +638,8 @@ class OilLine(PumpLine, GasLine):
         found = [] if name == "back_pressure" else self.supplies(members, kind)
         return (found[0], "pressure" if name == "relief" else name) if found else (None, name)
 
-    def pump_pressure(self, plan: Declared) -> Parameter:
-        return cast(Pump, self.supplies(plan.members, Pump)[0]).pressure
+    def pump_given(self, plan: Declared, name: str) -> Parameter:
+        return cast(Parameter, getattr(self.supplies(plan.members, Pump)[0], name))
 
     def relieves(self, plan: Declared) -> bool:
         return bool(self.supplies(plan.members, Relief))

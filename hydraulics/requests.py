@@ -30,7 +30,6 @@ from linkage.statics import (
     same,
 )
 
-from .cylinder import RamSize
 from .inputs import Array, only_where, proper_share
 from .line import LiftLine, WayBack, Work
 from .member import (
@@ -242,35 +241,30 @@ def reserve(
 
 
 def reserve_request(
-    cylinder: str | Ram, acting: Acting, circuit: Circuits = "", *, is_judged: bool = False, bore: float = 0.0
+    cylinder: str | Ram, acting: Acting, circuit: Circuits = "", *, is_judged: bool = False
 ) -> LawRequest:
-    """Return the request for the greatest rod force over the needed one; of one that is judged, while it moves against the load.
-
-    `bore` [m] is another one tried in the place of the cylinder's own.
-    """
-    tried = Tried(circuit, is_judged, bore)
-    options = "against the load" if is_judged else None, f"bore={bore:g}" if bore else None
+    """Return the request for the greatest rod force over the needed one; of one that is judged, while it moves against the load."""
+    driving = Driving(circuit, is_judged)
     return replace(
-        circuit_request("reserve", cylinder, acting, circuit, tried.reserve, after=options),
-        directions=partial(driven_or_both, cylinder, True), pieces_in=partial(reserve_pieces, cylinder, tried),
+        circuit_request("reserve", cylinder, acting, circuit, driving.reserve, after=("against the load" if is_judged else None,)),
+        directions=partial(driven_or_both, cylinder, True), pieces_in=partial(reserve_pieces, cylinder, driving),
         cases_in=partial(moves_in, cylinder),
-        unlimited_in=partial(formula_of_cylinder, tried.is_driven, cylinder),
+        unlimited_in=partial(formula_of_cylinder, driving.is_driven, cylinder),
     )  # fmt: skip
 
 
 @final
 @dataclass(frozen=True, eq=False)
-class Tried:
-    """On which circuit a reserve is asked for, whether while it moves against the load, and with which other bore [m], 0 for its own."""
+class Driving:
+    """On which circuit a reserve is asked for, and whether while it moves against the load."""
 
     circuit: Circuits
     is_judged: bool
-    bore: float
 
     def reserve(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         """Return the greatest rod force over the needed one at a motion's poses."""
         circuit = circuit_with(motion.plan, ram, self.circuit, "reserve")
-        if not (self.is_judged or self.bore):
+        if not self.is_judged:
             return circuit.reserve(motion, cylinder=ram, acting=acting)
         work = self.work(motion, ram, acting)
         with np.errstate(invalid="ignore"):
@@ -281,13 +275,8 @@ class Tried:
         return work.thrust * work.sense if self.is_judged else work.force
 
     def work(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Work:
-        """Return what the cylinder has to do, with another bore where one is tried."""
-        found = circuit_with(motion.plan, ram, self.circuit, "reserve").work(motion, cylinder=ram, acting=acting)
-        return replace(found, size=self.with_bore(found.size))
-
-    def with_bore(self, size: RamSize) -> RamSize:
-        """Return a cylinder's size with the bore that is tried."""
-        return size.with_bore(self.bore) if self.bore else size
+        """Return what the cylinder has to do."""
+        return circuit_with(motion.plan, ram, self.circuit, "reserve").work(motion, cylinder=ram, acting=acting)
 
     def is_driven(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Mask:
         """Return the mask of poses at which the load drives, so that the reserve has no bound."""
@@ -296,7 +285,7 @@ class Tried:
 
     def use(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         """Return one over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
-        circuit, size = circuit_with(motion.plan, ram, self.circuit, "use"), self.with_bore(ram.sized(motion, acting.direction))
+        circuit, size = circuit_with(motion.plan, ram, self.circuit, "use"), ram.sized(motion, acting.direction)
         k_m, thrust = circuit.efficiency(motion, "mechanical"), line_thrust(ram, circuit, motion, acting, with_tanks=False)
         drained = by_other_lines(ram, circuit, motion, None, True)
         sense = 1.0 if acting.direction == "extending" else -1.0
@@ -304,14 +293,14 @@ class Tried:
         return np.asarray(sense * thrust / (k_m * most))[()]
 
 
-def reserve_pieces(cylinder: str | Ram, tried: Tried, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
+def reserve_pieces(cylinder: str | Ram, driving: Driving, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
     """Return the smooth piece of a reserve: of the side that drives, whose inverse goes on smoothly where the load drives."""
     acting = request.situation
     if acting.direction not in cylinder_in(cylinder, plan).driven:
         return in_stages((SmoothPiece(request),), cylinder, plan)
-    use = circuit_request("use", cylinder, acting, tried.circuit, tried.use, after=(tried.bore,))
+    use = circuit_request("use", cylinder, acting, driving.circuit, driving.use)
     use = replace(use, cases_in=partial(moves_in, cylinder))
-    judged = reserve_request(cylinder, acting, tried.circuit, is_judged=True, bore=tried.bore)
+    judged = reserve_request(cylinder, acting, driving.circuit, is_judged=True)
     return in_stages((SmoothPiece(judged, driving_side(acting.direction), use),), cylinder, plan)
 
 
@@ -323,7 +312,8 @@ def going_back_request(
 ) -> LawRequest:
     """Return the request for what the other side must give while a cylinder goes back against a resistance [Pa].
 
-    `way` is "extending" or "retracting"; `tells="load"` asks for what the load alone makes in the side that empties.
+    `way` is "extending" or "retracting"; `tells="load"` asks for what the load alone makes in the side that empties, "whole push" for what
+    the other side must give with what a tank has there.
     """
     formula = partial(going_back_over, circuit=circuit, way=way, resistance=resistance, tells=tells)
     options = way, resistance, tells
@@ -348,7 +338,7 @@ def going_back_over(
     """Return what the other side must give, or the load alone makes, at a motion's poses [Pa]."""
     line = circuit_with(motion.plan, ram, circuit, "going back")
     found = WayBack.of(ram, line, motion, acting, way, resistance, line.efficiency(motion, "mechanical"))
-    return found.working if tells == "load" else found.push
+    return found.working if tells == "load" else found.push + found.tank if tells == "whole push" else found.push
 
 
 # The capacity.

@@ -17,7 +17,7 @@ next one moves while it extends, the one before while it retracts; at rest the s
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import reduce
 from itertools import accumulate, pairwise
 from types import MappingProxyType
@@ -25,21 +25,21 @@ from typing import Any, ClassVar, cast, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, cited, unwarned
+from linkage.errors import DefinitionError, cited
 from linkage.frozen import keep_own, refuses_changes
 from linkage.language import noted, said
-from linkage.loads import Acting, Case, Glyph, Parameter, Poses
+from linkage.loads import Case, Glyph, Parameter, Poses
 from linkage.loads.element import Formulas, value_text
-from linkage.motion import Column, Condition, Judge, Motion, most
+from linkage.motion import Column, Condition, Judge, Motion
 from linkage.quantities import Member, Quantity, Reference, quantity
-from linkage.statics import member_thrust
 from linkage.units import mm, show, shown_number
 from linkage.verdict import Verdict
 
-from .buckling import Buckling, never_pushed
-from .cylinder import MOST, RamSize, Works
+from .buckling import Buckling
+from .cylinder import MOST, RamSize, Works, chosen_series
 from .inputs import Array, follows, in_metres, number_set, one_number, positive, stroke_in_metres
-from .member import LENGTHS, PISTON, TOLERANCE, Ram, Side, buckling_request
+from .member import LENGTHS, PISTON, TOLERANCE, Ram, Side
+from .remedy import Sizes, show_enough
 
 STAGES = 12
 """More moving stages than any telescope has."""
@@ -65,9 +65,6 @@ class StageSize(RamSize):
 
     def behind(self, force: Array) -> Array:
         return np.asarray(np.where(force > 0.0, np.inf, 0.0 * force))[()]
-
-    def with_bore(self, bore: float) -> StageSize:
-        return replace(self, bore=bore)
 
 
 @final
@@ -259,7 +256,7 @@ class Telescope(Ram):
         names = ("closed",) if name == "closed" else tuple(f"stroke_{stage}" for stage in range(1, self.stages + 1))
         return tuple(quantity(self.given(each)) if follows(self.given(each)) else f"{self.name}.{each}" for each in names)
 
-    def larger_bores(self, motion: Poses, reserve: float) -> list[float]:
+    def larger(self, motion: Poses) -> list[Sizes]:
         return []
 
     # -- what it says ------------------------------------------------------------------------------------------
@@ -294,16 +291,9 @@ class Telescope(Ram):
         )  # fmt: skip
         return Verdict("holding", False, text, answer=found)
 
-    def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
-        worst = judge.answer(most(buckling_request(self, Acting())) <= 1.0)
-        if np.isnan(worst.value) or not worst.value > 0.0:
-            return [never_pushed()]
-        with unwarned():  # the verdict itself says what comes of it
-            place, acting = judge.there(worst), judge.situation(worst)
-            push = float(member_thrust(place, self, acting)) / self.count
-            length, stage = float(place.distance(self.A, self.B)), int(self.stage(place, acting.direction))
-            bar = Buckling(float(self.sized(place, acting.direction).bore), self.mounting, self.safety)
-        return [bar.judged(length, push, worst.place, bool(worst.unbounded), stage=stage).answered(worst)]
+    def slender_part(self, motion: Poses, direction: str | None = None) -> tuple[str, int, Sequence[float]]:
+        stage = int(self.stage(motion, direction))
+        return f"bore_{stage}", stage, chosen_series().rods
 
     def _reaches(self, judge: Judge, low: float, high: float, closed: float, opened: float) -> Verdict:
         ends = [one_number(np.squeeze(each), "Length") for each in self.ends_of_stages(judge.motion)]
@@ -312,12 +302,9 @@ class Telescope(Ram):
             pins=self._pins, low=shown_number(low, "mm", ".1f"), high=show(high, "mm", ".1f"), closed=shown_number(closed, "mm", ".1f"),
             opened=show(opened, "mm", ".1f"), strokes=" + ".join(shown_number(b - a, "mm", ".0f") for a, b in pairwise(ends)),
         )  # fmt: skip
-        faults = []
-        if closed > low + TOLERANCE:
-            much = show(closed - low, "mm", ".1f")
-            faults.append(said("it is {much} too long closed: take one with a shorter closed length", much=much))
-        if opened < high - TOLERANCE:
-            missing = show(high - opened, "mm", ".1f")
+        faults, fitting = self._too_long(low, closed)
+        if high - (fitting + opened - closed) > TOLERANCE:
+            missing = show_enough(high - (fitting + opened - closed) - TOLERANCE, "mm", ".1f")
             faults.append(said("{missing} are missing open: take longer strokes or one more stage", missing=missing))
         for stage, (start, end) in enumerate(pairwise(ends), 1):
             if end - start > closed:

@@ -42,6 +42,8 @@ from .standing import CommonStroke, moves_in, no_direction
 
 USUAL_SETTING = 1.3
 """The setting over the greatest pressure that the load makes, at the least, as makers advise."""
+ROUNDED = 5e-4
+"""Of a setting: what it may be below the usual one, as that is told in four digits."""
 
 
 @final
@@ -234,7 +236,7 @@ class HoldingValve(LineValve):
             )  # fmt: skip
             return Verdict("setting", False, text, answer=found)
         share = setting / float(found.value)
-        if share < USUAL_SETTING * (1.0 - 1e-9):
+        if share < USUAL_SETTING * (1.0 - ROUNDED):
             text = said(
                 "{says}; the setting of {setting} is {share:.2f} times that, where 1.3 times is usual: {advised}.",
                 says=says, setting=show(setting, "bar", 4), share=share, advised=advised,

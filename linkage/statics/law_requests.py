@@ -62,7 +62,7 @@ class LawRequest(Request):
     On a traced motion it gives one number of a program. Where `acting` is None it hangs on no situation, and is `formula(motion)`.
     `text` is what one writes, of the situation where it hangs on one; `known` tells the formula from others, whatever the situation:
     None where it may change. `mover` is the cylinder in whose directions it is judged, else these are the strokes'; `directions(plan)`
-    are those in which it is, all where there is friction unless it says so; `cases_in(plan, case)` whether it is in a load case.
+    are those in which it is, None as without it: all where there is friction; `cases_in(plan, case)` whether it is in a load case.
 
     The rest is for requests that have something of their own to say. `examine(plan)` raises DefinitionError if a plan has nothing of the
     kind. `measured_in(plan)` says what it measures there, `pieces_in(request, plan)` its smooth pieces. `unlimited_in(motion, acting)` is
@@ -76,7 +76,7 @@ class LawRequest(Request):
     acting: Acting | None = None
     measures: str = ""
     mover: Hashable = None
-    directions: Callable[[Plan], tuple[str, ...]] | None = None
+    directions: Callable[[Plan], tuple[str, ...] | None] | None = None
     cases_in: Callable[[Plan, str], bool] | None = None
     examine: Callable[[Plan], object] | None = None
     measured_in: Callable[[Plan], str] | None = None
@@ -123,7 +123,8 @@ class LawRequest(Request):
     def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
         if self.acting is None:
             return ()
-        return self.directions(plan) if self.directions is not None else DIRECTIONS if rubs else DIRECTIONS[:1]
+        own = None if self.directions is None else self.directions(plan)
+        return own if own is not None else DIRECTIONS if rubs else DIRECTIONS[:1]
 
     def occurs_in(self, plan: Plan, case: str) -> bool:
         return self.cases_in is None or self.cases_in(plan, case)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from hydraulics import CylinderSize, standard_bores
-from hydraulics.member import one_size
 from linkage import DefinitionError, Motion
 from linkage.language import said, translated, with_and
 from linkage.motion import below_zero
@@ -144,14 +143,14 @@ def reserve(balance: HeaderState) -> Verdict:
 def _smaller(balance: HeaderState, worst: float, pump: float) -> str:
     """Return what a smaller standard bore would do for the seals' share, where the pump permits it."""
     size = balance.cylinder.sized(balance.motion)
-    now = one_size(size)
+    now = size.single
     smaller = [CylinderSize(bore, now.rod, size.count, size.works) for bore in standard_bores() if now.rod < bore < now.bore]
     fits = [float(each.bore) for each in smaller if (1.0 + LEAST_RESERVE) * worst * size.area / each.area <= pump]
     if not fits:
         return said("; no smaller standard bore keeps the reserve, so it is as high as permitted")
     return said(
         "; for this header alone a bore of {bore} would do, with {share:.0f} % of the seals' hysteresis",
-        bore=show(min(fits), "mm", ".0f"), share=100.0 * min(fits) ** 2 / now.bore**2,
+        bore=show(min(fits), "mm", 4), share=100.0 * min(fits) ** 2 / now.bore**2,
     )  # fmt: skip
 
 

@@ -111,10 +111,3 @@ def test_unreached_poses_are_left_out():
 def test_refusals(call, message):
     with pytest.raises(DefinitionError, match=message):
         call()
-
-
-def test_a_remedy_fits_into_the_bore():
-    long, heavy = 2.0 * m, 400 * kN
-    assert "a rod of 90 mm holds" in Buckling(40 * mm).judged(long, heavy).sentence
-    assert "a rod of 90 mm holds" in Buckling(40 * mm).judged(long, heavy, bore=125 * mm).sentence
-    assert "take a larger bore" in Buckling(40 * mm).judged(long, heavy, bore=80 * mm).sentence

@@ -160,4 +160,4 @@ def test_pressure_for_a_thrust_is_that_of_the_forces_on_the_piston(works):
 def test_standard_size_may_miss_by_a_rounded_digit():
     """Sizes out of a file or a sum of lengths: a tenth of a micrometre is no other rod."""
     for off, ok in ((0.0, True), (1e-10, True), (1e-6, False)):
-        assert bool(Cylinder("A", "B", bore=80 * mm, rod=45 * mm + off).standard()) == ok
+        assert (Cylinder("A", "B", bore=80 * mm, rod=45 * mm + off).standard().ok is True) == ok

@@ -138,7 +138,7 @@ def test_without_lengths_there_is_nothing_to_say():
 def test_standard_sizes():
     assert Arm.lift.standard()
     verdict = Cylinder("A", "B", bore=61 * mm, rod=40.5 * mm).standard()
-    assert not verdict and "50 and 63 mm" in verdict.sentence and "40 and 45 mm" in verdict.sentence
+    assert verdict.ok is None and "50 and 63 mm" in verdict.sentence and "40 and 45 mm" in verdict.sentence
     assert "does not suit" in Cylinder("A", "B", bore=100 * mm, rod=8 * mm).standard().sentence
 
 

@@ -187,7 +187,7 @@ def test_verdict_as_printed():
     found = rules(lift, lift.sweep(101))
     assert found["lifting"] == (
         "FAIL lifting: at 155 kgf/cm2 the least reserve is 0.963, at S = 0.5500 m; too weak from S = 0.5500 to 0.5660 m. "
-        "It needs 161 kgf/cm2, or a bore of 90 mm, with a reserve of 1.22."
+        "It needs 161.1 kgf/cm2, or a bore of 90 mm, with a reserve of 1.22."
     )
     assert found["oil"] == "ok   oil: 1.26 l from end to end; time follows from the pump's flow, which is not given."
     assert found["lifting"].answer.value == pytest.approx(reserve(lift.at(S=0.55)), rel=1e-12)

@@ -429,7 +429,7 @@ def test_categories_have_the_standards_mast():
 @ALL
 def test_verdicts_of_the_categories_are_all_kept(machine):
     hitch = machine()
-    sentences = hitch.verdicts(hitch.sweep(21))
+    sentences = [each for each in hitch.verdicts(hitch.sweep(21)) if each.is_rule]
     assert len(sentences) == 15 and all(text.startswith("ok") for text in sentences), sentences
 
 

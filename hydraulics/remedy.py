@@ -1,0 +1,89 @@
+"""Sizes that would mend what fails: each is asked of the judge, for the machine that has it, and nothing is reckoned beside."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from math import ceil, floor, inf, log10
+from typing import TypeAlias, TypeVar
+
+from linkage.errors import DefinitionError, LinkageError, unwarned
+from linkage.language import said
+from linkage.loads import ForceElement
+from linkage.motion import Answer, Judge, Question
+from linkage.units import decimals, factor, show, shown_in
+
+from .inputs import follows
+
+Sizes: TypeAlias = Mapping[str, float]
+"""Sizes of a cylinder by their names [m], such as its bore."""
+Element = TypeVar("Element", bound=ForceElement)
+EXACT = 1e-7
+"""Of the last digit that is shown: what is above it by less is that to rounding."""
+
+
+def resized(judge: Judge, element: Element, sizes: Sizes) -> tuple[Judge, Element]:
+    """Return the judge of the same machine with other sizes of one of its elements, and that element.
+
+    DefinitionError for a size that an expression gives, which is no design variable.
+    """
+    plan = judge.plan
+    if not element.name:
+        return judge, element.having({f".{name}": value for name, value in sizes.items()})
+    designs = dict(judge.designs)
+    for name, value in sizes.items():
+        given = element.given(name)
+        called = (given if isinstance(given, str) else given.name) if follows(given) else f"{element.name}.{name}"
+        if called not in plan.table.spellings:
+            raise DefinitionError(f"{plan.title}: {element.name}.{name} follows an expression and cannot be set alone.")
+        owner, sign = plan.table.spellings[called]
+        designs[owner] = sign * value
+    return Judge(plan, designs, [place.over for place in judge.places], judge.acting), element
+
+
+def can_be_set(judge: Judge, element: ForceElement, sizes: Sizes) -> bool:
+    """Return whether sizes of an element are design variables, or follow one each."""
+    try:
+        resized(judge, element, sizes)
+    except DefinitionError:
+        return False
+    return True
+
+
+def smallest(
+    judge: Judge, element: Element, each: Sequence[Sizes], start: int, questions: Callable[[Element], Sequence[Question]]
+) -> tuple[Sizes, list[Answer]] | None:
+    """Return the first of some ascending sizes with which all conditions are kept, with their answers; None where none does.
+
+    It is looked for from the place `start` of them, upwards or downwards.
+    """
+    fails, holds, found = -1, len(each), None
+    while holds - fails > 1:
+        start = min(max(start, fails + 1), holds - 1)
+        try:
+            with unwarned():
+                other, changed = resized(judge, element, each[start])
+                answers = other.answers(questions(changed))
+        except LinkageError:
+            answers = []
+        if answers and all(answer.ok for answer in answers):
+            holds, found, start = start, (each[start], answers), start - 1
+        else:
+            fails, start = start, start + 1
+    return found
+
+
+def size_words(sizes: Sizes) -> str:
+    """Return sizes in words: a bore, a rod, or a cylinder of both."""
+    shown = {name: show(value, "mm", 4) for name, value in sizes.items()}
+    if len(shown) > 1:
+        return said("a cylinder of bore {bore} and rod {rod}", **shown)
+    return said("a rod of {rod}", **shown) if "rod" in shown else said("a bore of {bore}", **shown)
+
+
+def show_enough(value: float, unit: str, digits: int | str = 4) -> str:
+    """Return what is needed as text, rounded up, so that what is read is enough; `digits` as `show` takes them."""
+    if not 0.0 < value < inf:
+        return show(value, unit, digits)
+    own = factor(shown_in(unit))
+    last = -decimals(int(digits[1:-1]), unit) if isinstance(digits, str) else floor(log10(value / own)) + 1 - digits
+    return show(ceil(value / (own * 10.0**last) - EXACT) * 10.0**last * own, unit, digits)

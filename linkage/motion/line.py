@@ -41,6 +41,7 @@ NOISE, ROUNDED = 1e-10, 1e-12  # of the range of the values, and of their size: 
 EPS, LOWEST = float(np.finfo(float).eps), float(np.finfo(float).min)
 HALVINGS = 48
 SEEN, REFUSED = 1e-9, 1e-5  # of a leg: how near a value must keep growing, to a border and to a refused pose
+PLATEAU = 2.0**-12  # of the distance at which a value stopped growing: where it is level from there on numbers went no nearer
 
 
 @final
@@ -305,22 +306,30 @@ def is_pole(value: FloatArray, seen: FloatArray, reached: Mask, far: FloatArray,
     """Return from which sides (..., 2) a value (...) grows beyond bounds, by what is seen (..., 2, n) at distances (n,) on either side.
 
     A value c / (x0 + d)^q gains most by halving d where d is about x0. At a pole its gains grew all the way there, over six halvings at
-    least 2.5-fold. For q = 1/2 it is 4-fold; the gains of a finite value shrink. And x0 is as near as numbers go (`near`). Or the poses
-    beyond the place are refused, from `border` on, and x0 is as near as poses are refused for their condition: below 1e-5, or about half
-    the width of what is refused.
+    least 2.5-fold. For q = 1/2 it is 4-fold; the gains of a finite value shrink. And x0 is as near as numbers go (`near`). Or it is below
+    1e-5 and rounding is all that is left: the value scatters within `near`, or does not change from far away, as 1 / (q - c) does where
+    q - c is some last digits. Or the poses beyond the place are refused, from `border` on, and x0 is as near as poses are refused for
+    their condition: below 1e-5, or about half the width of what is refused.
     """
-    gains = np.diff(seen, axis=-1)
-    most = np.argmax(missing_lowest(gains), axis=-1)[..., None]
-    before = np.stack([np.take_along_axis(gains, np.maximum(most - by, 0), axis=-1)[..., 0] for by in range(7)])
-    start = np.take_along_axis(seen, np.maximum(most - 6, 0), axis=-1)[..., 0]
-    steady = (before > 0.0).all(axis=0) & (before[0] > 2.5 * before[6]) & (before[2] > before[6]) & (most[..., 0] >= 6)
+    gains = missing_lowest(np.diff(seen, axis=-1))
+    first, last = gains[..., :-6], gains[..., 6:]
+    found = (last > 2.5 * first) & (gains[..., 4:-2] > first)
+    for by in range(6):
+        before = gains[..., by : by + last.shape[-1]]
+        found &= (before > 0.0) & (before <= last)
+    most = last.shape[-1] - 1 - np.argmax(found[..., ::-1], axis=-1)
+    start = np.take_along_axis(seen, most[..., None], axis=-1)[..., 0]
     much = value[..., None] - start >= 0.01 * np.abs(value[..., None])
-    x0 = far[most[..., 0] + 1]
+    x0 = far[most + 7]
+    rough = ~(np.ptp(seen[..., far <= near], axis=(-2, -1)) <= 0.25 * np.abs(value)) & reached[..., far <= near].all(axis=(-2, -1))
+    alike = np.logical_and.accumulate((seen == value[..., None, None])[..., ::-1], axis=-1).sum(axis=-1)
+    noisy = rough[..., None] | (np.append(far, 0.0)[far.size - alike] >= PLATEAU * x0)
     least = int(np.searchsorted(-far, -border))
     gone = np.isnan(seen[..., ::-1, :])[..., least::-1]
     refused = gone[..., 0] & reached[..., ::-1, least]
     width = np.where(np.logical_and.accumulate(gone, axis=-1), far[least::-1], 0.0).max(axis=-1)
-    return np.asarray(steady & much & ((x0 <= near) | (refused & ((x0 <= REFUSED) | ((x0 <= 2.0 * width) & (x0 >= width / 8.0))))))
+    bound = (refused & ((x0 <= REFUSED) | ((x0 <= 2.0 * width) & (x0 >= width / 8.0)))) | (noisy & (x0 <= REFUSED))
+    return np.asarray(found.any(axis=-1) & much & ((x0 <= near) | bound))
 
 
 def best_of_rows(tops: Tops, unbounded: Mask, missing: Mask) -> Highest:

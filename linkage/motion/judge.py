@@ -21,7 +21,7 @@ from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
 from ..quantities import PoseCondition, Quantity, Ref, is_whole, keywords
 from ..vectors import Numbers
-from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
+from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost
 from .box import values_a_stroke
 from .evaluation import Evaluation
 from .grid import Grid, recalled
@@ -293,19 +293,18 @@ class Domain:
     # -- what is lost ------------------------------------------------------------------------------------
 
     @cached_property
-    def holes(self) -> list[LeastMargin]:
-        """The loops that come apart somewhere it is looked at, however narrow that place is."""
+    def margins(self) -> list[LeastMargin]:
+        """How clear each loop stays of its dead point wherever it is looked at; nothing where that is at poses only."""
         if self.over.shape == "poses" or not self.motion.strokes:
             return []
         with unwarned():
-            found = least_margins(self.motion, self.over.kept if self.over.only else None)
-        return [each for each in found if np.any(each.is_hole)]
+            return least_margins(self.motion, self.over.kept if self.over.only else None)
 
     def lost(self, seen: Coverage) -> Lost:
         """Return what cannot be assembled of the places asked for, of one design: what the grid sees, and holes between its places."""
         holes = [
             {name: float(np.asarray(value)[seen.design]) for name, value in each.strokes.items()}
-            for each in self.holes if np.asarray(each.is_hole)[seen.design]
+            for each in self.margins if np.asarray(each.is_hole)[seen.design]
         ]  # fmt: skip
         if not (seen.lost_share or holes):
             return NONE_LOST
@@ -843,9 +842,7 @@ class Judge:
         if not lost and any(each.undefined for each in candidates):
             lost = Lost(1.0, {}, said("its measures have values, what is calculated from them has none"))
         if not lost and worst.lawless:
-            lost = Lost(
-                float(worst.lawless), {}, said("it has no value at {share} of the places looked at", share=share_text(worst.lawless)), False
-            )
+            lost = Lost(float(worst.lawless), {}, said("it has no value at places that were looked at"), False)
         units = {name: stroke_unit(self.plan, name) for name in strokes}
         count = sum(each.count for each in {id(one.seen): one.seen for one in candidates}.values() if each is not None)
         outside = float(worst.seen.outside) if worst.seen is not None else 0.0

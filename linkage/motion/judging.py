@@ -9,12 +9,14 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from ..language import said
+from ..loads import TwoPoint
+from ..plan import name_or_pins
 from ..quantities import Member
 from ..units import deg, show
 from ..verdict import Remark, Verdict
 from . import stroke_search
-from .answer import Answer, share_text
-from .judge import Judge, Question
+from .answer import NONE_LOST, Answer, places_text, share_text
+from .judge import Domain, Judge, Question
 from .limits import StrokeLimits, place_text
 from .measures import Condition, Measure, least, reachable
 from .motion import out_of_reach
@@ -23,6 +25,10 @@ from .table import speakers
 
 POOR = 40.0 * deg
 """A transmission angle below which textbooks advise against a loop that carries load [rad]."""
+NEAR_END = 1e-5
+"""Of a stroke: a dead point that is no farther from its end stands at it, as no cylinder is made or set any closer."""
+IN_LINE = 1e-3
+"""The sine of the angle between two links, or guides, below which they are in line."""
 JUDGED = 200
 """Designs of a batch whose members are judged, each by itself."""
 
@@ -62,8 +68,17 @@ def judge_verdicts(judge: Judge) -> list[Verdict]:
         return assembly_verdicts(judge)
     members = speakers(judge.plan, HasVerdicts).values()
     judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
-    lost = judge.answer(reachable).ok is False
-    return [*geometry_verdicts(judge), *member_verdicts(judge.lost_allowed() if lost else judge)]
+    geometry, found = geometry_verdicts(judge), member_verdicts(judge.lost_allowed())
+    return [*geometry, *(map(valued_everywhere, found) if all(geometry) else found)]
+
+
+def valued_everywhere(verdict: Verdict) -> Verdict:
+    """Return a verdict; one that is kept as a fault where what it rests on has no value at some places that are assembled."""
+    lost = verdict.answer.lost if verdict.ok and verdict.answer is not None else NONE_LOST
+    if not lost or lost.strokes:
+        return verdict
+    text = said("{lost}; elsewhere: {sentence}", lost=verdict.answer.lost_words, sentence=verdict.sentence)
+    return Verdict(verdict.rule, False, text, verdict.heading, verdict.answer)
 
 
 # -- geometry ----------------------------------------------------------------------------------------------
@@ -79,15 +94,40 @@ def geometry_verdicts(judge: Judge) -> list[Verdict]:
 
 
 def dead_points_over(judge: Judge) -> list[Verdict]:
-    """Return what stops or turns a motion along each stroke: the faults of every place, else what the first place says."""
+    """Return what stops or turns a motion along each stroke, or in a box: the faults of every place, else what the first place says."""
     found: dict[tuple[str, str], list[Verdict]] = {}
-    for motion in [place.motion for place in judge.places if place.motion.reached.any()] or [judge.motion]:
-        spans = {name: (float(np.min(value)), float(np.max(value))) for name, value in motion.strokes.items()}
-        for name, limits in stroke_search.limits(motion).items():
+    for place in [place for place in judge.places if place.motion.reached.any()] or judge.places[:1]:
+        spans = {name: (float(np.min(value)), float(np.max(value))) for name, value in place.motion.strokes.items()}
+        together = in_line(place).get((), "") if len(place.running) > 1 else ""
+        if together:
+            text = said("{places}, among what runs: no drive passes or starts there. Shorten a stroke or change a length.", places=together)
+            pushed = any(is_pushed(judge, name) for name in place.running)
+            found.setdefault(("", "dead points"), []).append(Verdict("dead points", False if pushed else None, text))
+        for name, limits in stroke_search.limits(place.motion).items():
             if spans[name][0] < spans[name][1] or len(spans) == 1:
-                for each in dead_point_verdicts(limits, spans[name]):
-                    found.setdefault((name, each.rule), []).append(each)
+                for each in dead_point_verdicts(limits, spans[name], is_pushed(judge, name)):
+                    if not (together and each.rule == "dead points"):
+                        found.setdefault((name, each.rule), []).append(each)
     return [each for known in found.values() for each in dict.fromkeys(one for one in known if not one.ok) or known[:1]]
+
+
+def in_line(place: Domain) -> dict[tuple[int, ...], str]:
+    """Return the loops that come into line among what is looked at and is assembled there, in words, of each design that has such."""
+    found: dict[tuple[int, ...], str] = {}
+    for each in place.margins:
+        flat = np.asarray((each.value <= IN_LINE**2) & ~np.asarray(each.is_hole)) & (each.kind in ("links", "guides"))
+        for design in map(tuple, np.argwhere(flat).tolist()):
+            at = places_text({name: np.asarray(value)[design] for name, value in each.strokes.items()}, each.units)
+            text = said("{step} at {place}", step=name_or_pins(place.plan, each.step), place=at)
+            found[design] = f"{found[design]}; {text}" if design in found else text
+    return found
+
+
+def is_pushed(judge: Judge, stroke: str) -> bool:
+    """Return whether a cylinder moves with a stroke: one that is declared, or a length that follows a stroke."""
+    bars = [(bar.P, bar.Q) for bar in judge.plan.cylinders]
+    held = [each.ends for each in judge.plan.of_kind(TwoPoint).values() if each.holds]
+    return any(stroke in judge.plan.reaches(end) for ends in (*bars, *held) for end in ends)
 
 
 def assembly_verdicts(judge: Judge) -> list[Verdict]:
@@ -116,20 +156,26 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
     return [Verdict("assembly", False, f"{text.rstrip('.')}; {remedy}", answer=answer)]
 
 
-def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float]) -> Iterator[Verdict]:
-    """Yield what stops or turns a motion along one stroke: within the part that runs a fault, beyond its ends how far away it is."""
+def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed: bool) -> Iterator[Verdict]:
+    """Yield what stops or turns a motion along one stroke: within the part that runs a fault, beyond its ends how far away it is.
+
+    At an end it is a fault where it is `pushed` by a cylinder, which cannot start from there.
+    """
     low, high = span if span[0] < span[1] else sorted((limits.start, limits.end))
-    near = 1e-9 * (high - low)
-    points = dict.fromkeys(limits.dead_points)
-    inside = [place_of(limits, value, step) for value, step in points if low + near < value < high - near]
-    if inside:
-        text = said("{places}, within the stroke: no drive passes there. Shorten the stroke or change a length.", places="; ".join(inside))
-        yield Verdict("dead points", False, text)
+    near = NEAR_END * (high - low)
+    points = {each: max(low - each[0], each[0] - high) for each in limits.dead_points}
+    inside = "; ".join(place_of(limits, *each) for each, away in points.items() if away < -near)
+    at_end = "; ".join(place_of(limits, *each) for each, away in points.items() if abs(away) <= near)
+    passed = said("{places}, within the stroke: no drive passes there. Shorten the stroke or change a length.", places=inside)
+    begun = said("{places}, where the stroke ends: no cylinder starts from there. Shorten the stroke or change a length.", places=at_end)
+    if inside or (at_end and pushed):
+        yield Verdict("dead points", False, " ".join([passed] * bool(inside) + [begun] * bool(at_end and pushed)))
+    elif at_end:
+        yield Verdict("dead points", None, said("{places}, where the stroke ends: no ratio and no force has a value there.", places=at_end))
     elif points:
-        before = max((each for each in points if each[0] <= low + near), default=None)
-        behind = min((each for each in points if each[0] >= high - near), default=None)
-        ends = [(each, max(low - each[0], each[0] - high)) for each in (before, behind) if each is not None]
-        nearest = [f"{place_of(limits, value, step)}, {away_text(away, limits.unit, near)}" for (value, step), away in ends]
+        before = max((each for each in points if each[0] <= low), default=None)
+        behind = min((each for each in points if each[0] >= high), default=None)
+        nearest = [f"{place_of(limits, *each)}, {away_text(points[each], limits.unit)}" for each in (before, behind) if each is not None]
         yield Verdict("dead points", True, said("none within the stroke; the nearest: {places}.", places="; ".join(nearest)))
     crossing = [place_of(limits, value, step) for value, step in limits.change_points if low <= value <= high]
     if crossing:
@@ -148,10 +194,8 @@ def place_of(limits: StrokeLimits, value: float, what: str) -> str:
     return said("{what} at {stroke} = {value}", what=what, stroke=limits.stroke, value=place_text(value, limits.unit))
 
 
-def away_text(value: float, unit: str, near: float) -> str:
+def away_text(value: float, unit: str) -> str:
     """Return how far beyond a stroke [m or rad] something is, in words: `13.2 mm beyond it`."""
-    if value <= near:
-        return said("where it ends")
     return said("{distance} beyond it", distance=show(value, "deg" if unit == "rad" else "mm", 3))
 
 
@@ -195,7 +239,7 @@ def batch_verdicts(judge: Judge) -> list[Verdict]:
     lost = np.flatnonzero(~whole)
     text = said("{n} of {total} designs cannot be assembled over the whole motion", n=lost.size, total=total)
     text += said("; the first is design {number}.", number=lost[0] + 1) if lost.size else "."
-    found = [Verdict("assembly", not lost.size, text)]
+    found: list[Verdict] = [Verdict("assembly", not lost.size, text), *batch_dead_points(judge, total)]
     if not speakers(judge.plan, HasVerdicts):
         return found
     if total > JUDGED:
@@ -219,6 +263,19 @@ def batch_verdicts(judge: Judge) -> list[Verdict]:
         text += said("; the first is design {number}: {sentence}", number=each_of[0][0], sentence=each_of[0][1]) if each_of else "."
         found.append(Verdict(rule, not each_of, text))
     return found
+
+
+def batch_dead_points(judge: Judge, total: int) -> list[Verdict]:
+    """Return how many designs of a batch come to a dead point, with that of the first; nothing where none does."""
+    shape = judge.motion._design_shape
+    numbered = ((int(np.ravel_multi_index(design, shape)), text) for place in judge.places for design, text in in_line(place).items())
+    found = dict(sorted(numbered, reverse=True))
+    if not found:
+        return []
+    (number, place), *_ = sorted(found.items())
+    text = said("{n} of {total} designs come to one", n=len(found), total=total)
+    text += said("; the first is design {number}: {sentence}", number=number + 1, sentence=f"{place}.")
+    return [Verdict("dead points", False if any(is_pushed(judge, name) for name in judge.plan.strokes) else None, text)]
 
 
 def range_words(answers: Sequence[Answer]) -> str:

@@ -1,0 +1,158 @@
+"""Strokes that end or begin in a dead point: it is told, and no verdict's mark contradicts its own numbers. Poles are never values."""
+
+import re
+
+import numpy as np
+import pytest
+
+from hydraulics import Cylinder, LiftCircuit, reserve
+from linkage import LEFT, RIGHT, Crank, Dyad, Force, Ground, Guide, Mechanism, OnLink, Over, SliderDyad, Stroke, Weight, least, most, x, y
+from linkage.units import bar, deg, mm
+
+
+def seeds(every, daily):
+    """Return seeds, those beyond the daily ones for slow runs."""
+    return [*range(daily), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(daily, every))]
+
+
+def lever(start, end, frame, arm, bent, sense=1.0):
+    """Return a lever on a cylinder whose length goes from `start` to `end`, or back where the sense is -1."""
+
+    class Lever(Mechanism):
+        S = Stroke(0.0, end - start)
+        O, A = Ground(0, 0), Ground(0, -frame)
+        B = Dyad(A, O, AB=(start if sense > 0 else end) + sense * S, OB=arm, side=RIGHT)
+        G = OnLink(O, B, OG=1.2 * arm, BOG=bent)
+        lid = Weight(G, mass=40)
+        act = Cylinder(A, B, bore=25 * mm, rod=12 * mm)
+        pump = LiftCircuit(act, pressure=30 * bar, relief=40 * bar)
+
+    return Lever
+
+
+def contradictions(verdicts):
+    """Return the verdicts whose words say the contrary of their mark."""
+    found = []
+    for each in verdicts:
+        text = str(each)
+        low = re.search(r"least reserve is (-?[\d.]+)", text)
+        held = [float(one) for one in re.findall(r"holds up to (-?[\d.]+) bar", text)]
+        limit = re.search(r"above the [^\d]*([\d.]+) bar", text)
+        push = re.search(r"push with up to (-?[\d.]+)", text)
+        if each.rule == "lifting" and low and each.ok is not (float(low[1]) >= 1.0):
+            found.append(text)
+        if each.rule == "holding" and held and limit and each.ok is not (max(held) <= float(limit[1])):
+            found.append(text)
+        if push and float(push[1]) < 0.0:
+            found.append(text)
+    return found
+
+
+def told(machine):
+    """Return the verdicts of a rule on dead points, and that no verdict contradicts itself."""
+    verdicts = machine.verdicts()
+    assert contradictions(verdicts) == []
+    return [each for each in verdicts if each.rule == "dead points"]
+
+
+@pytest.mark.parametrize("seed", seeds(40, daily=6))
+def test_a_dead_point_at_an_end_is_told_and_no_mark_contradicts_its_words(seed):
+    rng = np.random.default_rng(seed)
+    frame, arm, bent = rng.uniform(0.3, 0.9), rng.uniform(0.2, 0.9), rng.choice([0.0, rng.uniform(-0.6, 0.6)])
+    short, long = abs(frame - arm), frame + arm
+    middle = rng.uniform(0.3, 0.7) * (long - short) + short
+    start, end = ((middle, long), (short, middle), (short, long))[seed % 3]
+    off = rng.choice([0.0, 1e-13, 1e-12, 1e-10, 1e-8, 1e-7])
+    machine = lever(start + off * (start == short), end - off * (end == long), frame, arm, bent, rng.choice([-1.0, 1.0]))()
+    (verdict,) = told(machine)
+    assert verdict.ok is False and "where the stroke ends: no cylinder starts from there" in verdict
+    assert verdict.count("B at") == 1 + (seed % 3 == 2)
+
+
+def test_one_that_ends_beyond_its_dead_point_or_well_before_it_is_told_as_before():
+    for off in (1e-9, 1e-6, 1e-3):
+        verdicts = lever(0.5, 0.8 + off, 0.4, 0.4, 0.0)().verdicts()
+        assert not verdicts[0].ok and verdicts[0].rule == "assembly" and contradictions(verdicts) == []
+        assert any(each.rule == "dead points" and each.ok is False for each in verdicts)
+    (verdict,) = told(lever(0.5, 0.79, 0.4, 0.4, 0.0)())
+    assert verdict.ok and "none within the stroke; the nearest: B at S = 0.3000 m, 10 mm beyond it" in verdict
+
+
+def test_sliders_cranks_boxes_paths_and_batches_end_in_dead_points_too():
+    class Slider(Mechanism):
+        S = Stroke(0.0, 0.2)
+        A = Ground(0, 0.3)
+        rail = Guide((0.0, 0.0), angle=0)
+        B = SliderDyad(A, rail, AB=0.3 + S, side=RIGHT)
+
+    class Turned(Mechanism):  # a crank that comes to rest where coupler and rocker are in line
+        phi = Stroke(20 * deg, float(np.arccos((0.4**2 + 0.5**2 - 0.7**2) / (2 * 0.4 * 0.5))))
+        A, D = Ground(0, 0), Ground(0.5, 0)
+        B = Crank(A, AB=0.4, angle=phi)
+        C = Dyad(B, D, BC=0.4, CD=0.3, side=RIGHT)
+
+    class Boxed(lever(0.5, 0.8, 0.4, 0.4, 0.3)):
+        T = Stroke(0.0, 0.1)
+        C = Dyad("A", "G", AC=0.7 + T, CG=0.6, side=RIGHT)
+
+    class Along(Boxed):
+        way = Over.path(S=[0.0, 0.3], T=[0.0, 0.1])
+
+    assert told(Slider())[0].ok is False and told(Turned())[0].ok is None
+    for machine, place in ((Boxed(), "B at S = 0.3000 m, T ="), (Along(), "B at S = 0.3000 m, T = 0.1000 m")):
+        (verdict,) = told(machine)
+        assert verdict.ok is False and place in verdict
+    batch = lever(0.5, 0.8, 0.4, 0.4, 0.3)(OB=np.array([0.42, 0.4, 0.41]))
+    (verdict,) = told(batch)
+    assert verdict.ok is False and "1 of 3 designs" in verdict and "design 2: B at S = 0.3000 m" in verdict
+
+
+def test_a_law_without_a_value_at_some_places_fails_in_its_own_words():
+    class Gusty(lever(0.5, 0.7, 0.4, 0.4, 0.0)):
+        S = Stroke(0.0, 0.2)
+        wind = Force("G", (((S - 0.1) ** 2 - 0.02**2) ** 0.5, 0.0))
+
+    verdicts = {each.rule: each for each in Gusty().verdicts()}
+    assert not verdicts["lifting"].ok and "it has no value at places that were looked at; elsewhere: at 30 bar" in verdicts["lifting"]
+    (answer,) = Gusty().answers([least(reserve("act")) >= 1.0])
+    assert answer.ok is False and answer.status == "lost" and "has no value" in str(answer)
+
+
+class Rocker(Mechanism):
+    S = Stroke(0.0, 1.0)
+    O, C = Ground(0, 0), Ground(0.7, 0.1)
+    A = Crank(O, OA=0.3, angle=S)
+    D = Dyad(A, C, AD=0.6, CD=0.5, side=LEFT)
+
+
+class Arms(Mechanism):
+    u, v = Stroke(-1.0, 1.0), Stroke(-1.0, 1.0)
+    O = Ground(0, 0)
+    A = Crank(O, OA=0.6, angle=u)
+    D = Crank(A, AD=0.4, angle=u + v)
+
+
+@pytest.mark.parametrize("seed", seeds(30, daily=4))
+def test_a_pole_is_never_told_as_a_value(seed):
+    rng = np.random.default_rng(seed)
+    machine = (Rocker, Rocker, Rocker, Arms)[seed % 4]()
+    wide = 10.0 ** rng.uniform(-5, -0.5)
+    over = Over() if isinstance(machine, Arms) else Over(S=(0.1, 0.1 + wide))
+    place = {"u": rng.uniform(-0.7, 0.7), "v": rng.uniform(-0.7, 0.7)} if isinstance(machine, Arms) else {"S": 0.1 + wide * rng.random()}
+    c = float(machine.at(**place).y("D"))
+    asked = [1 / (y("D") - c), abs(x("D") / (y("D") - c)), 1 / (y("D") - c) ** 2, x("D") - 3.0 / (y("D") - c)]
+    for question in [*map(most, asked), least(asked[0]), least(asked[3])]:
+        (answer,) = machine.answers([question], over=over)
+        assert answer.status == "unbounded" and np.isinf(answer.value), (seed, str(question), str(answer))
+
+
+def test_where_a_pole_is_touched_and_where_a_peak_is_only_steep():
+    (top,) = Rocker().answers([most(y("D"))])
+    (answer,) = Rocker().answers([most(1 / (float(top.value) - y("D")))])
+    assert answer.unbounded
+    for soft in (1e-3, 1e-5, 1e-6):
+        (answer,) = Rocker().answers([most(lambda at, soft=soft: 1.0 / (np.abs(at.strokes["S"] - 0.4) + soft))])
+        assert not answer.unbounded and answer.value == pytest.approx(1.0 / soft, rel=1e-4)
+    batch = Rocker(OA=np.array([0.3, 0.31]))
+    (answer,) = batch.answers([most(1 / (y("D") - float(Rocker().at(S=0.5).y("D"))))])
+    assert answer.unbounded.all() and "without bounds" in str(answer)

@@ -147,11 +147,13 @@ class Answer:
             if not lost:
                 return said("every place is assembled")
             return said("{n} of {total} designs cannot be assembled over the whole motion", n=lost, total=values.size)
-        finite = values[np.isfinite(values)]
-        if not finite.size:
+        known = values[~np.isnan(values)]
+        if not known.size:
             return said("no value at any pose")
         unit = display_unit(self.measures, "mm")
-        low, high = (show(float(each), unit, 6) for each in (finite.min(), finite.max()))
+        low, high = (show(float(each), unit, 6) if np.isfinite(each) else said("without bounds") for each in (known.min(), known.max()))
+        if low == high:
+            return f"{low} {self.where}".strip()
         return f"{said('{low} to {high}', low=low, high=high)} {self.where}".strip()
 
     @property

@@ -27,7 +27,7 @@ from linkage.motion import Judge, Motion, MotionFunction, least, most
 from linkage.plan import ArrayReading
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, quantity
-from linkage.statics import AnyMotion, motion_in_case, plan_of, stroke_followed
+from linkage.statics import AnyMotion, held_in_case, plan_of, stroke_followed
 from linkage.vectors import Scalar
 from linkage.verdict import Verdict
 
@@ -76,7 +76,7 @@ class GasLine(Circuit):
 
     def pressure_under(self, motion: AnyMotion, acting: Acting | None) -> Array:
         """Return the pressure of the gas [Pa gauge], or where a load case shuts the line what the loads make of it."""
-        motion = motion_in_case(motion, acting)
+        motion = held_in_case(motion, acting)
         is_shut = acting is not None and self.as_in(motion)._is_shut
         return standing_pressure(self, motion, cast(Acting, acting)) if is_shut else self.pressure(motion)
 

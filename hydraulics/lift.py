@@ -46,10 +46,10 @@ from linkage.statics import (
     AnyMotion,
     direction_at,
     elements_of,
+    held_in_case,
     is_steady,
     member_limits,
     member_thrust,
-    motion_in_case,
     plan_of,
     pull_direction,
     pulling,
@@ -202,7 +202,7 @@ class PumpLine(LiftLine):
             return Work(np.where(pushes, out, back), np.where(pushes, 1.0, -1.0), size, k_m)
         way = acting.direction or ("retracting" if size.works == "rod" else "extending")
         thrust = line_thrust(cylinder, self, motion, replace(acting, direction=way), with_tanks=False)
-        drained = by_other_lines(cylinder, self, motion_in_case(motion, acting), None, True)
+        drained = by_other_lines(cylinder, self, held_in_case(motion, acting), None, True)
         sense = np.sign(thrust) if way == "frictionless" else np.full(np.shape(thrust), 1.0 if way == "extending" else -1.0)
         return Work(thrust, sense, size, k_m, 0.0 if drained is None else drained)
 
@@ -232,7 +232,7 @@ class PumpLine(LiftLine):
         return np.asarray(np.maximum(work.force + back + work.against, 0.0) / (work.area * share))[()]
 
     def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
-        motion, ram = motion_in_case(motion, acting), self.one(motion, cylinder)
+        motion, ram = held_in_case(motion, acting), self.one(motion, cylinder)
         if is_blocked(ram, motion.plan.members):
             return np.asarray(np.maximum(standing_pressure(self, motion, acting), 0.0))[()]
         return self._pressure(motion, self.work_of(ram, motion, acting))

@@ -18,7 +18,7 @@ from linkage.loads import Acting, ActingKeywords, Case, Declared, ForceElement, 
 from linkage.motion import Answer, HasVerdicts, Motion
 from linkage.plan import Mask
 from linkage.quantities import Reference
-from linkage.statics import AnyMotion, motion_in_case
+from linkage.statics import AnyMotion, held_in_case
 from linkage.units import show
 
 from .cylinder import RamSize
@@ -135,7 +135,7 @@ class WayBack:
         size, drives = ram.sized(motion, way), -sense * line_thrust(ram, line, motion, acting, with_tanks=False) + 0.0
         empties, other = (size.outward_area, size.pull_area) if way == "retracting" else (size.pull_area, size.outward_area)
         other = empties if ram.is_single_acting else other  # nothing pushes it back: what is missing where it empties
-        drained = by_other_lines(ram, line, motion_in_case(motion, acting), None, True)
+        drained = by_other_lines(ram, line, held_in_case(motion, acting), None, True)
         helps = np.zeros(()) if drained is None else sense * drained
         brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
         push = (against * empties - brings - helps) / other

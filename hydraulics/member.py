@@ -77,7 +77,7 @@ from linkage.quantities import (
     name_of,
     quantity,
 )  # fmt: skip
-from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, lock_words, member_thrust, motion_in_case, same
+from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, held_in_case, member_thrust, same
 from linkage.units import show, shown_number, unit_sign
 from linkage.verdict import Remark, Verdict
 
@@ -356,7 +356,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """
         if side not in self.own_sides:
             raise DefinitionError(f"{self.name or self}: it has no {side} side, whose pressure could be asked for; it is single acting.")
-        motion = motion_in_case(motion, acting)
+        motion = held_in_case(motion, acting)
         thrust = line_thrust(self, circuit or circuit_having(self, motion.plan, False), motion, acting)
         along, size = thrust if side == PISTON else -thrust, self.sized(motion, acting.direction)
         balance = along / (size.outward_area if side == PISTON else size.pull_area)
@@ -589,7 +589,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         push = member_thrust(motion, self, acting) / self.count
         if acting.direction not in (None, "extending"):
             return push
-        motion = motion_in_case(motion, acting)
+        motion = held_in_case(motion, acting)
         share: Any = 1.0
         for each in circuits_among(motion.plan.members):
             share = np.minimum(share, each.efficiency_out(self, motion))
@@ -1000,7 +1000,7 @@ def pressure_of(cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
     held = motion._of_the_whole(cylinder) if isinstance(motion, Motion) else None
     if held is not None:
         return pressure_of(held[1], held[0], acting)
-    motion = motion_in_case(motion, acting)
+    motion = held_in_case(motion, acting)
     circuit = circuit_having(cylinder, motion.plan)
     if circuit is not None:
         return circuit.pressure_in(cylinder, motion, acting)
@@ -1207,7 +1207,7 @@ def by_other_lines(
 
     Without a situation only lines whose pressure is given count. `tanks`: those of tanks alone, or all but those.
     """
-    motion = motion_in_case(motion, acting)
+    motion = held_in_case(motion, acting)
     members = motion.plan.members
     parts = []
     for other, chamber in lines_of(ram, members):
@@ -1221,7 +1221,7 @@ def by_other_lines(
 
 def line_thrust(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting, *, with_tanks: bool = True) -> Array:
     """Return what a line has to put on a cylinder [N]: what it carries without what its other lines do, those on tanks where asked for."""
-    motion = motion_in_case(motion, acting)
+    motion = held_in_case(motion, acting)
     thrust, others = member_thrust(motion, ram, acting), by_other_lines(ram, line, motion, acting, None if with_tanks else False)
     return thrust if others is None else thrust - others
 
@@ -1286,10 +1286,9 @@ def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:
 
 
 def carries_loads(judge: Judge) -> bool:
-    """Return whether anything acts on a machine by itself, that no closed line locks."""
+    """Return whether anything acts on a machine by itself."""
     motion = judge.motion
-    acts = any(each.loads(motion) or each.pushes(motion, AT_REST) for _, each in elements_of(motion.plan, judge.acting.loads))
-    return acts and not lock_words(judge.plan)
+    return any(each.loads(motion) or each.pushes(motion, AT_REST) for _, each in elements_of(motion.plan, judge.acting.loads))
 
 
 def judge_of(motion: Motion, acting: Acting | None = None) -> Judge:

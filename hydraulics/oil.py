@@ -60,7 +60,7 @@ from linkage.quantities import (
     quantity,
 )
 from linkage.quantities.quantity import plain
-from linkage.statics import AnyMotion, LawRequest, each_once, lock_words, motion_in_case, plan_of, same
+from linkage.statics import AnyMotion, LawRequest, each_once, held_in_case, plan_of, same
 from linkage.units import show
 from linkage.vectors import Scalar
 from linkage.verdict import Verdict
@@ -569,7 +569,7 @@ class OilLine(PumpLine, GasLine):
         return intensified(self, motion, situation_of("intensified", loads=loads, **situation))
 
     def line_pressure(self, motion: Any, acting: Acting | None = None) -> Array:
-        motion, asked = motion_in_case(motion, acting), Acting() if acting is None else acting
+        motion, asked = held_in_case(motion, acting), Acting() if acting is None else acting
         members = motion.plan.members
         kind = self.kind_open(members)
         if kind == "held":
@@ -683,7 +683,7 @@ class OilLine(PumpLine, GasLine):
     def questions(self, judge: Judge) -> list[Question]:
         if self.kind_of_line == "held":
             return PumpLine.questions(self, judge)
-        if self.kind_of_line != "closed" or lock_words(judge.plan):
+        if self.kind_of_line != "closed":
             return []
         return self._extremes(judge)
 

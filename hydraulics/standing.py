@@ -19,7 +19,7 @@ from linkage.loads import Acting, LoadCase, Tie
 from linkage.motion import Judge, least, most
 from linkage.plan import Plan
 from linkage.quantities import Member
-from linkage.statics import AnyMotion, LawRequest, member_thrust, motion_in_case, plan_in_case, same, stroke_followed, tied_forces
+from linkage.statics import AnyMotion, LawRequest, held_in_case, member_thrust, plan_in_case, same, stroke_followed, tied_forces
 from linkage.units import show
 from linkage.verdict import Verdict
 
@@ -55,7 +55,7 @@ def standing_pressure(line: Circuit, motion: AnyMotion, acting: Acting) -> Array
 
     Where other lines leave it open it is the least that balances.
     """
-    motion = motion_in_case(motion, acting)
+    motion = held_in_case(motion, acting)
     members = motion.plan.members
     own = line.members(members)
     if not line.chambers and any(ram.works_both for ram in own):
@@ -104,7 +104,7 @@ def intensified(line: Circuit, motion: AnyMotion, acting: Acting) -> Array:
     Pistons push with their area, annuli take it up with a smaller one, so that it may be far above the pump's. DefinitionError where no
     pump is on the other side.
     """
-    motion = motion_in_case(motion, acting)
+    motion = held_in_case(motion, acting)
     members = motion.plan.members
     pump = pumps_against(line, members)
     if pump is None:

@@ -31,7 +31,7 @@ from linkage.loads import (
 from linkage.motion import Condition, Judge, Question, at, most
 from linkage.plan import Plan
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import AnyMotion, LawRequest, case_words, member_thrust, motion_in_case, same
+from linkage.statics import AnyMotion, LawRequest, case_words, held_in_case, member_thrust, same
 from linkage.units import show
 from linkage.verdict import Verdict
 
@@ -151,7 +151,7 @@ class HoldingValve(LineValve):
 
     def loaded(self, motion: AnyMotion, acting: Acting, *, below: bool = False) -> Array:
         """Return the same, at rest; below zero where the load drives the other way if that is asked for."""
-        motion = motion_in_case(motion, acting)
+        motion = held_in_case(motion, acting)
         thrust, own, _ = self.works(motion, replace(acting, direction=None, rates=None), False)
         found = thrust / own
         return found if below else np.asarray(np.maximum(found, 0.0))[()]
@@ -162,7 +162,7 @@ class HoldingValve(LineValve):
         p + ratio q = setting and a p + b q = T for the areas a of the line and b of the pilot. Where the pilot opens the valve wholly
         nothing stands in the line. `below`: the pilot's goes on below zero where the load opens the valve by itself.
         """
-        motion = motion_in_case(motion, acting)
+        motion = held_in_case(motion, acting)
         line, _ = self.lines(motion.plan.members)
         thrust, own, other = self.works(motion, replace(acting, rates=None), acting.direction is None)
         if isinstance(line, LiftLine) and line.kind_open(motion.plan.members) == "held":

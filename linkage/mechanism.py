@@ -6,6 +6,7 @@ import sys
 from abc import ABCMeta
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
+from dataclasses import replace
 from functools import wraps
 from inspect import isfunction
 from types import MethodType
@@ -47,6 +48,7 @@ from .plan import Body, Part, Plan, check_circuits, with_parts
 from .program import BackendName, FloatArray, Language, RunOptions
 from .quantities import Member, Stroke, is_name, keywords, needs
 from .shown import Shown, ShownList
+from .statics import drive_remarks, held_verdict, looseness
 from .steps import Drawn
 from .vectors import Numbers
 from .verdict import Remark, Verdict
@@ -409,18 +411,25 @@ class Mechanism(Shown, metaclass=MechanismType):
         """Return what an engineer should know of this design, as `Verdict`s and `Remark`s; of a batch, how many designs fail.
 
         Of a motion over all that it covers, without one over `overs` or what is given as `over`; under all load cases that occur, in all
-        movements, on both sides of cylinders. It is whether the machine is assembled, its dead points, what its members say, such as
-        cylinders and circuits, and then its own `rules`.
+        movements, on both sides of cylinders. The first is `held` where the machine is not: there are no forces then. Then come whether it
+        is assembled, its dead points, what its members say, such as cylinders and circuits, and its own `rules`.
         """
         if motion is not None and over is not None:
             raise DefinitionError(f"{self.plan.title}.verdicts: a motion and over= both say where is looked; give one of them.")
         if motion is not None:
             check_motion(self, motion, "verdicts")
         judge = self.judge(over if motion is None else motion, acting)
-        own: object = self.rules(judge.places[0].sampled if motion is None else motion)
+        fault = held_verdict(judge)
+        try:
+            own: object = self.rules(judge.places[0].sampled if motion is None else motion)
+        except DefinitionError:
+            if fault is None:
+                raise
+            own = []
         if not isinstance(own, (list, tuple)) or not all(isinstance(each, str) for each in own):
             raise DefinitionError(f"{self.plan.title}: rules(motion) gives {cited(own)}; a list of Verdicts and sentences is expected.")
-        return ShownList([*judge_verdicts(judge), *(each if isinstance(each, Verdict) else Remark(each) for each in own)])
+        general = [*judge_verdicts(judge), *drive_remarks(judge)] if fault is None else [fault, *judge_verdicts(judge, fault.sentence)]
+        return ShownList([*general, *(each if isinstance(each, Verdict) else Remark(each) for each in own)])
 
     @of_a_design
     def rules(self, motion: Motion) -> Sequence[str]:
@@ -503,12 +512,12 @@ class Mechanism(Shown, metaclass=MechanismType):
     @property
     def mobility(self) -> int:
         """The number of independent motions, by the rank of the constraints; it equals the number of strokes."""
-        return self.freedom.rank
+        return mobility(self.plan).rank
 
     @property
     def freedom(self) -> Mobility:
-        """The mobility by rank and by count, with the links that are redundant, in words."""
-        return mobility(self.plan)
+        """The mobility by rank and by count, with the links that are redundant and what is loose while the drives are locked, in words."""
+        return replace(mobility(self.plan), loose=looseness(self.plan).bodies)
 
     @property
     def gruebler(self) -> int:

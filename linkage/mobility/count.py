@@ -165,18 +165,23 @@ ASIDE = (0.5, 0.37, 0.61)
 @final
 @dataclass(frozen=True)
 class Mobility:
-    """How many independent motions there are, by rank and by count, and which links bring nothing new."""
+    """How many independent motions there are, by rank and by count, which links bring nothing new, and what is loose.
+
+    `loose` are the bodies that can move while the drives are locked.
+    """
 
     rank: int
     gruebler: int
     strokes: int
     redundant: tuple[str, ...]
     locking: tuple[str, ...]
+    loose: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         words = [f"mobility {self.rank} (strokes {self.strokes}, Gruebler count {self.gruebler})"]
         words += [f"the link {name} is redundant: the linkage is overconstrained, it moves the same without it" for name in self.redundant]
         words += [f"the link {name} locks the linkage" for name in self.locking]
+        words += [f"loose, so that it can still move while the drives are locked: {', '.join(self.loose)}"] if self.loose else []
         return "; ".join(words)
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from ..errors import DefinitionError
 from ..language import said
 from ..loads import TwoPoint
 from ..plan import name_or_pins
@@ -60,12 +61,17 @@ class HasVerdicts(Member):
         """
 
 
-def judge_verdicts(judge: Judge) -> list[Verdict]:
-    """Return what can be said of any machine over all that it runs; of a batch, how many designs fail."""
+def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
+    """Return what can be said of any machine over all that it runs; of a batch, how many designs fail.
+
+    Where there are no forces, for a `fault` of the machine, only what is said of places.
+    """
     if any(map(np.ndim, judge.designs.values())):
-        return batch_verdicts(judge)
+        return batch_verdicts(judge, fault)
     if not judge.is_reached:
         return assembly_verdicts(judge)
+    if fault:
+        return [*geometry_verdicts(judge), *member_verdicts(judge.lost_allowed(), fault)]
     members = speakers(judge.plan, HasVerdicts).values()
     judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
     geometry, found = geometry_verdicts(judge), member_verdicts(judge.lost_allowed())
@@ -224,15 +230,23 @@ def transmission_remarks(judge: Judge) -> list[Remark]:
 # -- members -----------------------------------------------------------------------------------------------
 
 
-def member_verdicts(judge: Judge) -> list[Verdict]:
-    """Return what the members that judge themselves say; with their names where several follow the same rule."""
-    members = speakers(judge.plan, HasVerdicts)
-    found = [(name, verdict) for name, member in members.items() for verdict in member.verdicts(judge)]
+def member_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
+    """Return what the members that judge themselves say; with their names where several follow the same rule.
+
+    Those that ask for forces where these are refused for a `fault` say nothing.
+    """
+    members, found = speakers(judge.plan, HasVerdicts), list[tuple[str, Verdict]]()
+    for name, member in members.items():
+        try:
+            found += [(name, verdict) for verdict in member.verdicts(judge) if not (fault and fault in verdict.sentence)]
+        except DefinitionError:
+            if not fault:
+                raise
     count = Counter(rule for _, rule in {(name, verdict.rule) for name, verdict in found})
     return [verdict if count[verdict.rule] == 1 else verdict.named(name) for name, verdict in found]
 
 
-def batch_verdicts(judge: Judge) -> list[Verdict]:
+def batch_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
     """Return, rule by rule, how many designs of a batch fail, with what is said of the first of these."""
     reached = [place.motion.reached.reshape(-1, int(np.prod(place.motion._stroke_shape))) for place in judge.places]
     whole, total = np.all([each.all(axis=1) for each in reached], axis=0), len(reached[0])
@@ -240,7 +254,7 @@ def batch_verdicts(judge: Judge) -> list[Verdict]:
     text = said("{n} of {total} designs cannot be assembled over the whole motion", n=lost.size, total=total)
     text += said("; the first is design {number}.", number=lost[0] + 1) if lost.size else "."
     found: list[Verdict] = [Verdict("assembly", not lost.size, text), *batch_dead_points(judge, total)]
-    if not speakers(judge.plan, HasVerdicts):
+    if fault or not speakers(judge.plan, HasVerdicts):
         return found
     if total > JUDGED:
         text = said(

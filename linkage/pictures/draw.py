@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 
 from ..assembly import Assembly
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, is_yes
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike
 from ..reports import NOTHING
@@ -65,6 +65,7 @@ def draw(
     velocities: Mapping[str, object] | None = ...,
     pole: bool | str | tuple[str, str] = ...,
     clearance: bool | tuple[str, str] = ...,
+    freedom: bool = ...,
 ) -> Figure: ...
 @overload
 def draw(machine: Burmester) -> Figure: ...
@@ -87,6 +88,7 @@ def draw(
     velocities: Mapping[str, object] | None = None,
     pole: bool | str | tuple[str, str] = False,
     clearance: bool | tuple[str, str] = False,
+    freedom: bool = False,
     answers: int | None = None,
 ) -> Figure | Drawing:
     """Return a figure of a mechanism at chosen strokes, the last one bold and the others faint; or a motion at one of its poses.
@@ -108,7 +110,8 @@ def draw(
     Where a pose is refused the picture says why; for a motion without `unreachable="nan"` this raises SingularError. With
     `clearance=True` a dimension stands between what comes nearest of all that the machine's `Planes` keep apart, with
     `clearance=("OBC", "MK")` between these two. A machine without `at` is then drawn where they come nearest in all that it runs. Of a
-    motion its own worst pose is drawn, faint.
+    motion its own worst pose is drawn, faint. `freedom=True` shows how bodies can move that nothing holds while the drives are locked,
+    a colour for each way.
 
     Several designs, `draw([hitch, hitch.replaced(OB=0.32)])`, or a batch, stand at the same strokes, in their middle unless `at` says
     others. Of two the first one is faint, of more each has its own colour; up to 12. Of `machine.assemblies()`, a small picture of each
@@ -123,7 +126,7 @@ def draw(
     Of `machine.graph`, the kinematic chain: its bodies, and the pins and slides between them. Of `burmester(...)`, the curves of circle and
     centre points, the poses, and the links.
     """
-    laid = (faint, forces, pole, clearance)
+    laid = (faint, forces, pole, clearance, is_yes("freedom", freedom))
     is_laid = ax is not None or velocities is not None or any(each is not None and each is not False for each in laid)
     is_laid = is_laid or not (isinstance(pose, int) and pose == 0)
     if isinstance(machine, Synthesis):
@@ -156,7 +159,7 @@ def draw(
             title = machine.problem.plan.title
             raise DefinitionError(f"{title}: a search's result is drawn at the ends of its stroke; it takes count= alone.")
         return draw_optimum(machine, count)
-    overlays = Overlays(force_question(forces, loads, case, direction, drive, velocities), velocities, pole, clearance)
+    overlays = Overlays(force_question(forces, loads, case, direction, drive, velocities), velocities, pole, clearance, freedom)
     return draw_machine(machine, at, path, count, overlays, ax=ax, pose=pose, faint=faint)
 
 

@@ -15,7 +15,8 @@ from ..language import said, translated
 from ..motion import Motion, rates_of, whole_body
 from ..program import FloatArray
 from ..quantities import as_mapping
-from ..units import factor, show, shown_in
+from ..statics import loose_movements
+from ..units import factor, mm, show, shown_in
 from . import style
 from .arrows import (
     ARROW,
@@ -50,15 +51,17 @@ BEYOND = 0.6
 @final
 @dataclass(frozen=True, eq=False)
 class Overlays:
-    """What to lay over a mechanism: forces, velocities at stroke rates, poles of bodies, what comes nearest."""
+    """What to lay over a mechanism: forces, velocities at stroke rates, poles of bodies, what comes nearest, what can move while locked."""
 
     forces: ForceQuestion | None = None
     rates: Mapping[str, Any] | None = None
     pole: Any = None
     clearance: Any = None
+    freedom: bool = False
 
     def __bool__(self) -> bool:
-        return self.forces is not None or self.rates is not None or any(each not in (None, False) for each in (self.pole, self.clearance))
+        shown = any(each not in (None, False) for each in (self.pole, self.clearance, self.freedom))
+        return self.forces is not None or self.rates is not None or shown
 
     @property
     def has_gap(self) -> bool:
@@ -87,6 +90,9 @@ class Overlays:
         if self.rates is not None:
             layers.append(velocity_layer(motion, pose, self.rates))
             notes += layers[-1].notes
+        if self.freedom:
+            layers += loose_layers(one_pose(motion, pose))
+            notes += [] if layers else [said("Nothing is loose: with the drives locked no body can move.")]
         marks = pole_marks(motion, pose, self.pole, self.rates) if self.pole not in (None, False) else []
         gaps = [gap_mark(one_pose(motion, pose), self.clearance)] if self.has_gap else []
         worst = self.worst(motion, pose)
@@ -196,6 +202,19 @@ def place_words(motion: Motion, pose: int) -> str:
     """Return the strokes of a pose that are not the same all over a motion, in words."""
     moving = {name: np.ravel(values) for name, values in motion.strokes.items() if np.ptp(values) > 0.0}
     return ", ".join(stroke_words(motion.plan, name, float(values[pose])) for name, values in moving.items())
+
+
+# What can still move while the drives are locked.
+
+
+def loose_layers(motion: Motion) -> list[ArrowLayer]:
+    """Return each movement that nothing holds at one pose as arrows, in mm, of which the fastest point goes ten."""
+    found = []
+    for number, way in enumerate(loose_movements(motion)):
+        colour = (VELOCITY, POLE)[number % 2]
+        arrows = tuple(VectorArrow(f"loose {number + 1} {name}", motion[name], 10.0 * mm * each, colour) for name, each in way.items())
+        found.append(ArrowLayer(arrows, shown_in("mm"), ((colour, said("loose movement {number}", number=number + 1)),)))
+    return found
 
 
 # Velocities of the points, from rates of the strokes.

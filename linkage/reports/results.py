@@ -11,20 +11,21 @@ from ..files.callables import REQUESTS, request_function
 from ..language import noted
 from ..loads import Case, ForceElement
 from ..mechanism import Mechanism, require_mechanism
-from ..motion import Column, Motion, Tabled, require_motion, speakers, stroke_unit
-from ..statics import drive_force, driving_force
+from ..motion import Column, Motion, Tabled, columns_of, require_motion, speakers, stroke_unit
+from ..statics import drive_force, driving_force, held_fault
 
 
 def results(machine: Mechanism, motion: Motion) -> list[Column]:
     """Return the columns of a machine; where it has no table of its own but loads, forces too, NaN at dead points.
 
     They are the generalised forces of its strokes, and what its members show: of a cylinder thrust, pressure and reserve. To a table
-    of its own are added those of members that a variant of the machine declares.
+    of its own are added those of members that a variant of the machine declares. Of a machine that is not held there are places alone.
     """
     require_mechanism(machine)
     require_motion(motion)
-    columns = columns_by(machine, motion)
-    if not is_loaded(motion):
+    is_held = not held_fault(motion)
+    columns = columns_by(machine, motion) if is_held else columns_of(motion)
+    if not is_held or not is_loaded(motion):
         return columns
     whole = motion.moved(motion.strokes)
     taken = {column.name for column in columns}

@@ -1,9 +1,10 @@
 """Forces: the drive's by virtual work, the joints' by equilibrium of every body, supports, friction. N and Nm."""
 
 from ..star import declare_public
-from .applied import applied_loads, elements_of, motion_in_case, plan_in_case
+from .applied import applied_loads, elements_of, plan_in_case
 from .force_requests import drive_force, pin_force, pin_forces_under, thrust_from_forces
-from .holding import each_once, lock_words, same, stroke_followed, tied_forces
+from .held import held_fault, held_in_case, loose_movements, looseness
+from .holding import each_once, same, stroke_followed, tied_forces
 from .joint_forces import GlandForce, JointForce, PinForces, pin_forces
 from .law_requests import LawRequest, case_words
 from .member_limits import PROBE, member_limits
@@ -14,6 +15,7 @@ from .supports import reaction
 from .table import PinLoad, judged_table, max_table, table_text
 from .traced_loads import TracedMotion, traced_loads
 from .vehicle import Standing, axle_load, ground_loads, slipping, standing, standing_supports
+from .verdicts import drive_remarks, held_verdict
 from .work import driving_force, member_thrust, pump_thrust
 
 declare_public(globals())

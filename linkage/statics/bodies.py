@@ -19,6 +19,11 @@ from ..vectors import Line
 from .applied import AppliedThrust, member_title
 from .holding import Holders, PressureLine, same, sampled
 
+
+class NotHeldError(DefinitionError):
+    """A body of a machine is held by nothing, so that it has no forces."""
+
+
 FRAME = -1
 FRAME_NAME = "frame"
 
@@ -209,10 +214,11 @@ def far_points(plan: Plan, strut: Strut, host: FreeBody) -> frozenset[str]:
         kept = [end for end, side in ((strut.P, near), (strut.Q, far)) if point in side]
         if len(kept) != 1 or not places[point, kept[0]] <= RIGID:
             given = plan.points[point]
-            raise DefinitionError(
+            raise NotHeldError(
                 f"{plan.title}: {point} = {given} is measured along {strut.name}, whose length {strut.P}{strut.Q} changes, and keeps its "
-                f"place neither at {strut.P} nor at {strut.Q}. Measure it from one of them, {point} = OnLink({strut.P}, {strut.Q}, "
-                f"{strut.P}{point}=...), with an angle where it lies aside; or let two links meet there, Dyad({strut.P}, {strut.Q}, ...)."
+                f"place neither at {strut.P} nor at {strut.Q}, so that it is not held. Measure it from one of them, {point} = "
+                f"OnLink({strut.P}, {strut.Q}, {strut.P}{point}=...), with an angle where it lies aside; or let two links meet there, "
+                f"Dyad({strut.P}, {strut.Q}, ...)."
             )
     return frozenset(far)
 

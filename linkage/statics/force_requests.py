@@ -18,7 +18,7 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..vectors import Scalar
 from .agreement import assumed_joints
-from .applied import motion_in_case
+from .held import held_in_case
 from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
 from .law_requests import LawInPlan, LawRequest, TracedLaw, case_words, law_in_plan, situation_identity
@@ -159,7 +159,7 @@ def structure_in_plan(motion: TracedMotion, acting: Acting) -> tuple[Structure, 
     kept, key = motion._reading.kept, ("acts", situation_identity(acting))
     if key in kept:
         return cast("tuple[Structure, tuple[Hashable, ...]]", kept[key])
-    motion = motion_in_case(motion, acting)
+    motion = held_in_case(motion, acting)
     applied = traced_loads(motion, acting, AT_REST)
     structure = Structure(motion.plan, applied.elements, applied.thrusts)
     loads = ((each.load.point, each.load.on, *(motion.node(part).number for part in each.force)) for each in applied.loads)
@@ -193,7 +193,7 @@ def pin_force(
 
 def traced_equilibrium(motion: TracedMotion, acting: Acting) -> tuple[TracedMotion, Solution]:
     """Return a traced motion with all joint forces at rest; its notes say that the joints hold what they are said to."""
-    motion = motion_in_case(motion, acting)
+    motion = held_in_case(motion, acting)
     applied = traced_loads(motion, acting, AT_REST)
     system, u = eliminated_forces(Structure(motion.plan, applied.elements, applied.thrusts), motion, applied)
     for each in assumed_joints(system.structure, system.poses):

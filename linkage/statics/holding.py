@@ -10,10 +10,10 @@ part.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
-from itertools import permutations
+from itertools import permutations, product
 from typing import Any, TypeVar, cast, final
 
 import numpy as np
@@ -26,7 +26,8 @@ from ..motion.limits import where_words
 from ..plan import Plan
 from ..program import FloatArray, Traced, elementwise, eliminated, is_traced, node_of
 from ..quantities import Member, joined_names
-from .poses import FlatPoses, plan_of
+from ..vectors import Numbers
+from .poses import AnyMotion, FlatPoses, plan_of
 
 Kind = TypeVar("Kind", bound=TwoPinned)
 
@@ -163,9 +164,6 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
     motion, strokes = sampled(plan), list(plan.strokes)
     free, held = joined_lines(plan, elements, ties), independent(motion, [tie for tie in ties if tie.held])
     lines, tied = [*free, *map(on_tie, held)], [*(None for _ in free), *held]
-    for tie in ties:
-        if not tie.held and not tie.gives:
-            check_kept(motion, tie, ties)
     follows = line_shares(motion, lines)
     follows[:, [name in cuts for name in strokes]] = 0.0  # the oil that is put in is driven by the closed line itself
     for line, row in zip(lines, follows, strict=True):
@@ -223,23 +221,16 @@ KEPT = 1e-6
 """A sum that changes by less than this part of its terms' ways is kept."""
 
 
-def lock_words(plan: Plan) -> str:
-    """Return why closed ties lock a machine, in words; "" where they do not."""
-    ties = [tie for tie in (each.tie(plan.members) for each in plan.of_kind(ForceElement).values()) if tie is not None]
-    kept = [tie for tie in ties if not tie.held and not tie.gives]
-    motion = sampled(plan) if kept else None
-    try:
-        for tie in kept:
-            check_kept(cast(Motion, motion), tie, ties)
-    except DefinitionError as error:
-        return str(error)
-    return ""
+def closed_ties(plan: Plan) -> tuple[Tie, ...]:
+    """Return the closed ties of a machine."""
+    ties = (each.tie(plan.members) for each in plan.of_kind(ForceElement).values())
+    return plan.made(("closed ties",), lambda _: tuple(tie for tie in ties if tie is not None and not tie.held))
 
 
-def check_kept(motion: Motion, tie: Tie, ties: Sequence[Tie] = ()) -> None:
-    """Raise DefinitionError for a closed tie whose sum the strokes change, though it gives nothing that could follow."""
-    plan = motion.plan
-    for stroke in plan.strokes:
+def check_kept(motion: AnyMotion) -> None:
+    """Raise DefinitionError where closed ties that give nothing lock a machine: the strokes change their sums at a motion's poses."""
+    plan, ties = motion.plan, closed_ties(motion.plan)
+    for tie, stroke in product((tie for tie in ties if not tie.gives), plan.strokes):
         with unwarned():
             if tie.run is not None:
                 check_run(motion, tie, tie.run, stroke)
@@ -247,10 +238,10 @@ def check_kept(motion: Motion, tie: Tie, ties: Sequence[Tie] = ()) -> None:
             shares = [np.asarray(each.of(motion)) for each in tie.shares]
             parts = [share * each.member.growth(motion, {stroke: 1.0}) for share, each in zip(shares, tie.shares, strict=True)]
             added = motion.ratio(tie.added, wrt=stroke) if tie.added is not None else np.zeros(())
-            ways = sum(np.abs(share) * ends_way(motion, each.member, stroke) for share, each in zip(shares, tie.shares, strict=True))
-        whole, size = np.nan_to_num(np.abs(sum(parts) - added)), np.nan_to_num(sum(map(np.abs, parts)))
-        if np.any((whole > KEPT * size) & (size > SLOWEST * np.nan_to_num(ways))):
-            takes = [np.ravel(part)[int(np.argmax(whole))] for part in parts]
+            sizes = [np.abs(share) * ends_way(motion, each.member, stroke) for share, each in zip(shares, tie.shares, strict=True)]
+        whole, size = np.abs(sum(parts) - added), sum(map(np.abs, parts))
+        if np.any((whole > KEPT * size) & (size > SLOWEST * sum(sizes))):
+            takes = [np.ravel(part)[int(np.nanargmax(whole))] for part in np.broadcast_arrays(*parts)]
             words = " and ".join(f"{each.member.name} {way:+.4g}" for each, way in zip(tie.shares, takes, strict=True))
             what = f"{tie.name} locks the machine: it is closed, and a unit of {stroke} would change what is in it by {words} [SI]"
             what += ratio_words(motion, tie, ties)
@@ -260,11 +251,10 @@ def check_kept(motion: Motion, tie: Tie, ties: Sequence[Tie] = ()) -> None:
             )
 
 
-def ratio_words(motion: Motion, tie: Tie, ties: Sequence[Tie]) -> str:
+def ratio_words(motion: AnyMotion, tie: Tie, ties: Sequence[Tie]) -> str:
     """Return how the shares of two members are to each other in a tie and in another one of the same two; "" where there is none."""
     members = on_tie(tie)
-    closed = [each for each in ties if each is not tie and not each.held]
-    others = [each for each in closed if {one.name for one in on_tie(each)} == {one.name for one in members}]
+    others = [each for each in ties if each is not tie and {one.name for one in on_tie(each)} == {one.name for one in members}]
     if len(members) != 2 or not others:
         return ""
     first, second = members
@@ -272,13 +262,13 @@ def ratio_words(motion: Motion, tie: Tie, ties: Sequence[Tie]) -> str:
     return f"; {first.name} to {second.name} is {ratios[0]:.4g} on {others[0].name} and {ratios[1]:.4g} on {tie.name}"
 
 
-def check_run(motion: Motion, tie: Tie, run: Reeving, stroke: str) -> None:
+def check_run(motion: AnyMotion, tie: Tie, run: Reeving, stroke: str) -> None:
     """Raise DefinitionError for a rope whose path a stroke changes, though it gives nothing that could follow."""
     parts = [np.sum(load.force * motion.ratio(load.point, wrt=stroke), axis=0) for load in run.loads(motion)]
     sizes = [np.hypot(*load.force) * np.hypot(*motion.ratio(load.point, wrt=stroke)) for load in run.loads(motion)]
-    way = np.nan_to_num(np.abs(sum(parts)))
-    if np.any(way > KEPT * np.nan_to_num(sum(sizes))):
-        most = float(np.max(way))
+    way = np.abs(sum(parts))
+    if np.any(way > KEPT * sum(sizes)):
+        most = float(np.nanmax(way))
         what = f"{tie.name} locks the machine: its length is held, and a unit of {stroke} would change its path by up to {most:.4g} m"
         raise DefinitionError(
             f"{motion.plan.title}: {what}. Let a step follow it, such as Dyad(U, P, UW={tie.name}.last), or give its force, force=12 * kN."
@@ -317,13 +307,13 @@ def steady_rate(plan: Plan, line: Sequence[TwoPoint], stroke: str, is_tied: bool
 # How lengths follow strokes, at some poses.
 
 
-def sampled(plan: Plan) -> Motion:
-    """Return some poses over the strokes, no two of them alike in any stroke."""
+def sampled(plan: Plan, designs: Mapping[str, Numbers] | None = None) -> Motion:
+    """Return some poses over the strokes, no two of them alike in any stroke, of the plain design unless others are given."""
     along = (np.arange(POSES) + 0.37) / POSES
     shifts = {name: np.roll(along, 2 * k) for k, name in enumerate(plan.strokes)}
     values = {name: each.start + shifts[name] * (each.end - each.start) for name, each in plan.strokes.items()}
     strokes = {name: np.append(plan.sketch_strokes[name], value) for name, value in values.items()}
-    return Motion(plan, plan.defaults, strokes, "nan")
+    return Motion(plan, plan.defaults if designs is None else designs, strokes, "nan")
 
 
 def line_shares(motion: Motion, lines: Sequence[tuple[TwoPoint, ...]]) -> FloatArray:
@@ -346,7 +336,7 @@ def followed_way(motion: Motion, cylinder: TwoPoint, stroke: str) -> float:
     return float(moved.max(initial=0.0)) * abs(span.end - span.start)
 
 
-def ends_way(motion: Motion, cylinder: TwoPoint, stroke: str) -> FloatArray:
+def ends_way(motion: AnyMotion, cylinder: TwoPoint, stroke: str) -> FloatArray:
     """Return how far a cylinder's ends go on a unit of a stroke, together, shape (...)."""
     A, B = cylinder.ends
     return np.asarray(np.hypot(*motion.ratio(A, wrt=stroke)) + np.hypot(*motion.ratio(B, wrt=stroke)))

@@ -21,9 +21,10 @@ from ..quantities import Reference, name_of
 from ..shown import Shown
 from ..units import kN, show
 from .agreement import check_joints
-from .applied import AppliedLoad, AppliedLoads, applied_loads, motion_in_case, rates_in
+from .applied import AppliedLoad, AppliedLoads, applied_loads, rates_in
 from .bodies import FRAME_NAME
 from .force_program import forces_at
+from .held import held_in_case
 from .joints import Contact, Structure, acting_place, force_direction
 from .poses import FlatPoses
 from .solution import PoseForces, locked_words
@@ -48,7 +49,7 @@ def pin_forces(
 
 def joint_forces(motion: Motion, acting: Acting, split: str = "refuse") -> PinForces:
     """Return every joint force at every pose in a situation: `split` as `pin_forces` has it."""
-    motion = motion_in_case(require_motion(motion)._whole, acting)
+    motion = held_in_case(require_motion(motion)._whole, acting)
     rates = rates_in(motion, acting)
     if acting.drive is not None:
         stroke_of(motion.plan, acting.drive, "drive")

@@ -15,7 +15,8 @@ from ..motion.grid import MotionLike
 from ..motion.requests import identity_of
 from ..plan import Mask, Plan
 from ..program import FloatArray, Node, Notes
-from .applied import motion_in_case
+from .applied import motion_in_case, plan_in_case
+from .held import held_in_case, refuse_loose
 from .poses import AnyMotion
 from .traced_loads import TracedMotion, traced_apart
 
@@ -89,7 +90,7 @@ class LawRequest(Request):
 
     def law(self, motion: AnyMotion) -> FloatArray:
         """Return the values over a motion's poses [SI], shape (...); one number of a program where the motion is traced."""
-        return self.formula(motion) if self.acting is None else self.formula(motion_in_case(motion, self.acting), self.acting)
+        return self.formula(motion) if self.acting is None else self.formula(held_in_case(motion, self.acting), self.acting)
 
     def of(self, motion: MotionLike) -> FloatArray:
         return self.law(require_motion(motion))
@@ -151,6 +152,8 @@ class LawRequest(Request):
     def _bound(self, plan: Plan) -> LawRequest:
         if self.examine is not None:
             self.examine(plan)
+        if self.acting is not None:
+            refuse_loose(plan_in_case(plan, self.acting))
         look_up = partial(law_in_plan, trace=self.traced_law) if self.look_up is None else partial(self.look_up, self)
         return replace(self, in_plan=traced_apart(plan, look_up))
 

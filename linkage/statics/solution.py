@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import final
@@ -15,6 +15,7 @@ from ..plan import Mask
 from ..program import FloatArray
 from .agreement import check_joints
 from .applied import AppliedLoad, AppliedLoads
+from .bodies import NotHeldError
 from .equilibrium import LinearForm, System
 from .friction import JointFriction, PressingForces, PressingRows, consistent_frictions, joint_frictions
 from .joints import Contact, Structure
@@ -232,12 +233,21 @@ class Equilibrium:
         """Raise DefinitionError for a mechanism with loose bodies, or with redundant links unless a split is asked for."""
         if self.split not in SPLITS:
             raise DefinitionError(f'split={self.split!r}: say "refuse" or "least squares".')
-        rows, columns = self.A.shape[1:]
-        rank = rank_of(self.sample)
-        if rank < rows:
-            raise DefinitionError(self.loose_words(rows - rank))
-        if rank < columns and self.split == "refuse":
-            raise DefinitionError(self.redundant_words(columns - rank))
+        if self.lacks:
+            raise NotHeldError(self.loose_words())
+        columns = self.A.shape[2]
+        if self.rank < columns and self.split == "refuse":
+            raise DefinitionError(self.redundant_words(columns - self.rank))
+
+    @cached_property
+    def rank(self) -> int:
+        """The rank of the equations."""
+        return rank_of(self.sample)
+
+    @property
+    def lacks(self) -> int:
+        """In how many ways bodies can still move."""
+        return int(self.A.shape[1]) - self.rank
 
     @cached_property
     def sample(self) -> FloatArray:
@@ -264,30 +274,47 @@ class Equilibrium:
             f'{", ".join(spare) or "none alone"}. Take one out, or ask for split="least squares".'
         )
 
-    def loose_words(self, count: int) -> str:
-        """Return which bodies nothing holds."""
-        return (
-            f"{self.system.structure.plan.title}: with its drives locked it can still move in {count} way{'s' if count > 1 else ''}: "
-            f"{', '.join(self.loose())} not held. Declare what holds: Link(...) for bodies placed by Offset, "
-            f"a cylinder by Dyad(..., AB=...), joints() of a step of one's own.{self.sharing_words()}"
+    def loose_words(self) -> str:
+        """Return which bodies nothing holds, the lines of the class that place them, and what to do."""
+        loose, structure = list(self.loose()), self.system.structure
+        names = f"{', '.join(loose[:-1])} and {loose[-1]} are" if len(loose) > 1 else f"{''.join(loose)} is"
+        ways = f"with its drives locked it can still move in {self.lacks} way{'s' if self.lacks > 1 else ''}"
+        remedy = self.sharing_words(loose) or (
+            f"{self.placing_words(loose)}A triangle in which another side changes than is meant, a Turn(...) without its length=, or an "
+            "OnLink on a distance that changes holds nothing. Declare what holds: Link(...) for bodies placed by Offset, a cylinder by "
+            "Dyad(..., AB=...), joints() of a step of one's own."
         )
+        return f"{structure.plan.title}: {ways}: {names} held by nothing. {remedy}"
 
-    def sharing_words(self) -> str:
-        """Return that one pressure holds the sum of what its cylinders move and not each, where several share one; "" where none do."""
-        lines = [line for line in self.system.structure.holders.lines if len(line.cylinders) > 1]
-        if not lines:
+    def placing_words(self, loose: Sequence[str]) -> str:
+        """Return the lines of the class that place the points of some bodies; "" where there are none."""
+        plan, bodies = self.system.structure.plan, [each for each in self.system.structure.bodies if each.name in loose]
+        moving = dict.fromkeys(point for body in bodies for point in body.points if point in plan.moving)
+        lines = [f"{point} = {plan.points[point]}" for point in moving]
+        return f"Look at {'; '.join(lines)}. " if lines else ""
+
+    def sharing_words(self, loose: Sequence[str]) -> str:
+        """Return that one pressure holds the sum of what its cylinders move and not each, where loose ones share one; "" where none do."""
+        shared = [[each.name for each in line.cylinders] for line in self.system.structure.holders.lines]
+        line = next((names for names in shared if len({*names} & {*loose}) > 1), None)
+        if line is None:
             return ""
-        names = " and ".join(each.name for each in lines[0].cylinders)
-        what = f" {names} share one pressure, which holds the sum of what they move with {lines[0].stroke}, and not each"
+        what = f"{' and '.join(line)} share one pressure, which holds the sum of what they move and not each"
         return f"{what}: couple what they move by a link, or give each a stroke and a pump of its own."
 
     def loose(self) -> Iterator[str]:
         """Yield the bodies that move when all joints hold."""
-        u, s, _ = np.linalg.svd(self.sample[0])
-        free = u[:, int((s > RANK * s[0]).sum()) :]
         for body in range(len(self.system.starts) - 1):
-            if np.abs(free[self.system.starts[body] : self.system.starts[body + 1]]).max() > 1e-6:
+            if np.abs(self.ways[self.system.starts[body] : self.system.starts[body + 1]]).max(initial=0.0) > 1e-6:
                 yield self.system.structure.name(body)
+
+    @cached_property
+    def ways(self) -> FloatArray:
+        """How bodies can move while all joints hold, at the first pose, shape (rows, ways): what does no work against any joint force."""
+        rows = self.system.height
+        u, s, _ = np.linalg.svd(self.sample[0])
+        free = u[:, int((s > RANK * s.max(initial=0.0)).sum()) :]
+        return np.asarray(free[:rows])
 
 
 def rank_of(matrices: FloatArray) -> int:

@@ -17,6 +17,7 @@ from ..program import FloatArray
 from ..quantities import name_of, real
 from .agreement import check_joints
 from .applied import applied_loads, rates_in
+from .held import held_in_case
 from .holding import refused_where
 from .joints import Wrench
 from .poses import FlatPoses
@@ -46,7 +47,7 @@ def reaction(
     weighs nothing or stands on nothing; see `standing` for all that is known of a vehicle on its supports.
     """
     acting = situation_of("reaction", loads=loads, **situation)
-    require_motion(motion)
+    motion = held_in_case(require_motion(motion), acting)
     name, element = support_of(motion, support)
     if is_under_frame(motion.plan, element):
         held = motion._of_the_whole(element) if element.name else None

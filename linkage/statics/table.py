@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import pi
-from typing import Any, TypeAlias, final, overload
+from typing import Any, Protocol, TypeAlias, final, overload, runtime_checkable
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
 from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, Acting
-from ..mechanism import Mechanism
 from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
 from ..motion.limits import place_text
 from ..quantities import body_name
@@ -89,12 +88,19 @@ def max_headings() -> tuple[str, ...]:
 OverLike: TypeAlias = Over | Mapping[str, Any] | Sequence[Over | Motion] | None
 
 
+@runtime_checkable
+class Judged(Protocol):
+    """A machine, which lives on the floor above, as far as it is judged."""
+
+    def judge(self, over: object = None, acting: Acting | None = None) -> Judge: ...
+
+
 @overload
-def max_table(results: Mechanism, over: OverLike = ..., acting: Acting | None = ...) -> tuple[PinLoad, ...]: ...
+def max_table(results: Judged, over: OverLike = ..., acting: Acting | None = ...) -> tuple[PinLoad, ...]: ...
 @overload
 def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]: ...
 def max_table(
-    results: Mechanism | PinForces | Iterable[PinForces], over: OverLike = None, acting: Acting | None = None
+    results: Judged | PinForces | Iterable[PinForces], over: OverLike = None, acting: Acting | None = None
 ) -> tuple[PinLoad, ...]:
     """Return, for every joint, its largest force with case, direction and place, in the order of the joints.
 
@@ -103,7 +109,7 @@ def max_table(
     whatever the number of these, and up to the poses that are refused: a force that grows without bounds towards one of them is
     infinite. Loads that are given as arrays over the poses are known at these alone, and take results.
     """
-    if isinstance(results, Mechanism):
+    if isinstance(results, Judged):
         return judged_table(results.judge(over, acting))
     if over is not None or acting is not None:
         raise DefinitionError("max_table: over= and acting= are for a machine; results of pin_forces say both themselves.")

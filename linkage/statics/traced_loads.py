@@ -258,7 +258,8 @@ def sampled_poses(plan: Plan) -> Motion:
 
 def over_sampled(values: Sequence[ArrayLike], sampled: Motion) -> FloatArray:
     """Return numbers at the sampled poses that are reached, shape (numbers, poses)."""
-    return np.array([np.broadcast_to(each, sampled._grid.size).ravel() for each in values])[:, sampled.reached.ravel()]
+    rows = [np.broadcast_to(each, sampled._grid.size).ravel() for each in values]
+    return np.reshape(rows, (len(rows), int(np.prod(sampled._grid.size))))[:, sampled.reached.ravel()]
 
 
 def half_extent(places: Sequence[ArrayLike], sampled: Motion) -> float:

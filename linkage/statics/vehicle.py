@@ -42,6 +42,7 @@ from ..units import show
 from ..verdict import Verdict
 from .applied import AppliedLoad, AppliedLoads, applied_loads, elements_of, rates_in
 from .bodies import frame_points
+from .held import held_in_case
 from .holding import where_negative
 from .law_requests import LawRequest, case_words, situation_identity
 from .poses import AnyMotion, FlatPoses, cross
@@ -96,6 +97,7 @@ def standing_under(motion: AnyMotion, acting: Acting) -> Standing:
 
 def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Support]) -> Standing:
     """Return how a vehicle stands on some supports over a motion's poses, as numbers of a program where it is traced."""
+    motion = held_in_case(motion, acting)
     poses = FlatPoses(motion, "The axle loads", set())
     applied = traced_loads(motion, acting, AT_REST) if isinstance(motion, TracedMotion) else loads_over(motion, acting)
     outside = outside_of(poses, applied, supports)
@@ -365,8 +367,9 @@ def bare_loads(motion: Motion, supports: Mapping[str, Support]) -> Mapping[str, 
     weights = [each for each in plan.of_kind(ForceElement).values() if is_on_frame(plan, each)]
     pose = motion.moved({name: value[motion.reached][:1] for name, value in motion.strokes.items()})
     found = standing_of(pose, Acting(loads=weights), supports)
-    low, high = sorted(found.outermost, key=lambda name: float(found.outermost[name][0]))
-    least_force, force = float(found.outermost[low][0]), float(found.outermost[high][0])
+    outermost = {name: float(np.ravel(each)[0]) for name, each in found.outermost.items()}
+    low, high = sorted(outermost, key=lambda name: outermost[name])
+    least_force, force = outermost[low], outermost[high]
     if not abs(least_force) + abs(force) > 0.0:
         raise DefinitionError(f"{plan.title} stands on nothing: its frame weighs nothing. Give its weight a mass above zero.")
     if least_force < -BEYOND * abs(force):
@@ -377,7 +380,7 @@ def bare_loads(motion: Motion, supports: Mapping[str, Support]) -> Mapping[str, 
         names = ", ".join(each.name or str(each) for each in weights)
         remedy = f"move {names} between the supports, or a support under it"
         raise DefinitionError(f"{what}, so that {low} would have to hold it down; {remedy}.", member=high)
-    return {name: float(each[0]) for name, each in found.reactions.items()}
+    return {name: float(np.ravel(each)[0]) for name, each in found.reactions.items()}
 
 
 # What is asked of a vehicle.

@@ -29,8 +29,9 @@ from ..plan import Mask
 from ..program import FloatArray, is_traced
 from ..quantities import is_number, needs
 from .agreement import AGREES, disagreeing
-from .applied import AppliedLoads, applied_elements, applied_loads, member_title, motion_in_case, path_tangent, rates_in
+from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
+from .held import held_in_case
 from .holding import Holders, Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
 from .law_requests import situation_identity
 from .poses import AnyMotion, FlatPoses, plan_of
@@ -59,7 +60,7 @@ def driving_force(
 
 def stroke_force(motion: Motion, acting: Acting, drive: str | None, efficiency: float = 1.0) -> FloatArray:
     """Return the generalised force of a stroke in a situation, shape (...): of `drive`, the only one where that is None."""
-    motion = motion_in_case(require_motion(motion), acting)
+    motion = held_in_case(require_motion(motion), acting)
     stroke = stroke_of(motion.plan, drive, "drive")
     rates = rates_in(motion, acting, stroke)
     applied = applied_loads(motion, acting, rates)
@@ -165,7 +166,7 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
     if held is not None:
         return member_thrust(*held, acting)
     plan_of(motion)
-    motion = motion_in_case(motion, acting)
+    motion = held_in_case(motion, acting)
     plan = motion.plan
     member = standing_for(motion, member)
     holders = holders_of(plan, [*(each.element for each in applied_elements(plan, replace(acting, case=None))), member])
@@ -207,7 +208,9 @@ def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> Fl
 
     A direction is that of the strokes. SingularError where friction locks the mechanism.
     """
-    plan = plan_of(motion)
+    plan_of(motion)
+    motion = held_in_case(motion, acting)
+    plan = motion.plan
     holders = holders_of(plan, [*(each.element for each in applied_elements(plan, replace(acting, case=None))), element])
     line = holders.closed_by(element.name)
     if line is None or line.tie is None:

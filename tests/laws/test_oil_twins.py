@@ -151,7 +151,7 @@ def test_a_double_line_of_one_ratio_carries_as_a_single_one_and_of_two_locks():
     for ask in (Unequal.lift.thrust, Unequal.slave.thrust, pin_forces, Unequal.level.pressure):
         with pytest.raises(DefinitionError, match=r"other locks the machine.*master to slave is 0.81 on level and 0.8159 on other"):
             ask(motion)
-    assert any(str(each).startswith("FAIL line") and "locks the machine" in str(each) for each in Unequal().verdicts())
+    assert any(str(each).startswith("FAIL held") and "locks the machine" in str(each) for each in Unequal().verdicts())
 
 
 class Listed(Levelled):
@@ -309,7 +309,7 @@ def test_a_line_alone_locks_its_cylinder():
     shut = type("Shut", (Levelled,), {"shut": OilLine("lift.piston_side")})
     with pytest.raises(DefinitionError, match=r"shut locks the machine.*open it by a Tank"):
         pin_forces(shut().sweep(3))
-    assert any("FAIL line" in str(each) and "shut locks" in str(each) for each in shut().verdicts())
+    assert any("FAIL held" in str(each) and "shut locks" in str(each) for each in shut().verdicts())
 
 
 def test_a_line_is_filled_once_for_all_designs():

@@ -107,5 +107,5 @@ def test_what_is_missing_is_said(changes, says):
 
 def test_a_step_that_says_nothing_of_its_joints():
     machine = type("Other", (Rocker,), {"X": Silent(Rocker.plan.members["S"])})
-    with pytest.raises(DefinitionError, match=r"XB, OB not held.*joints\(\) of a step of one's own"):
+    with pytest.raises(DefinitionError, match=r"XB and OB are held by nothing.*joints\(\) of a step of one's own"):
         pin_forces(machine().sweep(5))

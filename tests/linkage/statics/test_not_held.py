@@ -35,7 +35,7 @@ def declared(*links):
 def test_loose_bodies_are_named_and_no_others(links, ways, loose, held):
     with pytest.raises(LinkageError, match=f"with its drives locked it can still move in {ways}") as told:
         pin_forces(declared(*links)().sweep(3))
-    names = str(told.value).split(ways)[1].split("not held")[0]
+    names = str(told.value).split(ways)[1].split("held by nothing")[0]
     assert all(name in names for name in loose)
     assert not any(name in names for name in held)
 

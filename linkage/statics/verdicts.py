@@ -1,0 +1,52 @@
+"""What is said of any machine's forces: that it is not held, and what the drives of strokes give that no cylinder holds."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..language import said
+from ..loads import Acting, TwoPoint
+from ..motion import Judge, most, stroke_unit
+from ..units import show
+from ..verdict import Remark, Verdict
+from .applied import plan_in_case
+from .force_requests import drive_force
+from .held import held_fault
+from .holding import closed_ties, holders_of
+
+
+def held_verdict(judge: Judge) -> Verdict | None:
+    """Return the verdict that a machine is not held, of all load cases that a judge looks at; None where it is held in all."""
+    for case in dict.fromkeys(case for place in judge.places for case in place.cases(judge.acting)):
+        fault = held_fault(judge.motion, case)
+        if fault:
+            is_own = plan_in_case(judge.plan, Acting(case=case)) is judge.plan
+            return Verdict("held", False, fault if is_own else said("in load case {case}, {sentence}", case=case, sentence=fault))
+    return None
+
+
+LEAST = 1e-3
+"""N or Nm: less than this is no force of a drive."""
+
+
+def drive_remarks(judge: Judge) -> list[Remark]:
+    """Return what the drives of strokes give that no cylinder holds, of one design of a machine with cylinders.
+
+    Strokes that put oil into closed lines or wind ropes are held by these.
+    """
+    plan = judge.plan
+    if not any(each.holds for each in plan.of_kind(TwoPoint).values()) or any(map(np.ndim, judge.designs.values())):
+        return []
+    held = set(holders_of(plan).taken)
+    for tie in closed_ties(plan):
+        held |= set(tie.run.strokes if tie.run is not None else ()) | (plan.reaches(tie.added) if tie.added is not None else set())
+    names = [name for name in plan.strokes if name not in held]
+    answers = judge.lost_allowed().answers([most(abs(drive_force(name))) for name in names]) if names else []
+    found = []
+    for name, answer in zip(names, answers, strict=True):
+        if float(answer.value) > LEAST:
+            unit = "kN" if stroke_unit(plan, name) == "m" else "kNm"
+            force = answer.amount if np.isinf(answer.value) else show(float(answer.value), unit, 4)
+            what = said("{stroke} is held by no cylinder: its drive gives up to {force}", stroke=name, force=force)
+            found.append(Remark(f"{what}, {answer.place}."))
+    return found

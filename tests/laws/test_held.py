@@ -1,0 +1,311 @@
+"""What is held: every shipped machine is; one that is loosened says so first, and every door of forces is closed by the same sentence."""
+
+import warnings
+from functools import partial
+from math import pi
+
+import numpy as np
+import pytest
+
+from hydraulics import Cylinder, LiftCircuit, capacity, pressure, reserve, thrust
+from linkage import (
+    LEFT,
+    RIGHT,
+    CosineAngle,
+    DefinitionError,
+    Dyad,
+    Force,
+    Ground,
+    Link,
+    Mechanism,
+    Offset,
+    OnLink,
+    Part,
+    SingularWarning,
+    Stroke,
+    Support,
+    Turn,
+    Vector,
+    Weight,
+    around,
+    distance,
+    draw,
+    drive_force,
+    driving_force,
+    least,
+    max_table,
+    most,
+    optimise,
+    pin_force,
+    pin_forces,
+    reaction,
+    ref,
+    report,
+    working_field,
+)
+from linkage.reports import results
+from linkage.statics import looseness
+from linkage.study import zone
+from linkage.units import bar, deg, mm
+from linkage.verdict import Remark
+from tests.laws.test_oil_twins import Double
+from tests.laws.test_statics_laws import SHIPPED
+from tests.linkage.random_mechanisms import random_mechanism
+from tests.shipped import AT_WORK
+
+
+@pytest.fixture(autouse=True)
+def _near_dead_points():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SingularWarning)
+        yield
+
+
+def test_every_shipped_machine_is_held():
+    loose = {machine.__name__: found.sentence for machine in [*SHIPPED, *AT_WORK.values()] if (found := looseness(machine.plan)).sentence}
+    assert not loose
+
+
+def refusals(machine, point, ram=""):
+    """Return what every door of forces says, by its name: the words of its refusal, "" where it answers."""
+    drive, motion = next(iter(machine.strokes)), machine.at(**{name: 0.5 * (s.start + s.end) for name, s in machine.strokes.items()})
+    fixed = next(iter(machine.plan.ground))
+    asked = [drive_force(drive), pin_force(point), *([thrust(ram), pressure(ram), reserve(ram), capacity(ram, point)] if ram else [])]
+    doors = {
+        "driving_force": lambda: driving_force(motion, drive=drive),
+        "of given loads": lambda: driving_force(motion, [Force(point, (0.0, 1.0))], drive=drive),
+        "pin_forces": lambda: pin_forces(motion),
+        "least squares": lambda: pin_forces(motion, split="least squares"),
+        "reaction": lambda: reaction(motion, support=Support(point, (0.0, 1.0)), drive=drive),
+        "max_table": lambda: max_table(machine),
+        "source": lambda: machine.source([drive_force(drive)]),
+        "zone": lambda: zone(machine, drive_force(drive), {f"{fixed}.x": (0.0, 0.1)}, **motion.strokes),
+        "optimise": lambda: optimise(machine, minimise=most(abs(drive_force(drive))), vary={fixed: around(1 * mm)}, starts=1),
+    }
+    for each in asked:
+        doors |= {
+            f"evaluate {each}": lambda each=each: machine.evaluate([each], unreachable="nan", **motion.strokes),
+            f"function {each}": lambda each=each: machine.function([each]),
+            f"motion {each}": lambda each=each: motion[each],
+            f"gradient {each}": lambda each=each: motion.gradient(each, [f"{fixed}.x"]),
+            f"answers {each}": lambda each=each: machine.answers([most(each), least(each)]),
+        }
+    if ram:
+        member = machine.plan.members[ram]
+        doors |= {"thrust": lambda: member.thrust(motion), "pressure": lambda: member.pressure(motion)}
+    found = {}
+    for name, door in doors.items():
+        try:
+            door()
+            found[name] = ""
+        except DefinitionError as error:
+            found[name] = str(error)
+    return found
+
+
+def check_not_held(machine, point, ram=""):
+    """Assert that the first verdict fails, every force is refused by the same sentence, and places stay."""
+    first, *others = machine.verdicts()
+    assert (first.rule, first.ok) == ("held", False), first
+    assert not [each for each in others if first.sentence in str(each)]
+    said = refusals(machine, point, ram)
+    assert {name: words for name, words in said.items() if words != f"{type(machine).__name__}: {first.sentence}"} == {}
+    motion = machine.sweep(**dict.fromkeys(machine.strokes, 3))
+    assert np.isfinite(motion[point]).all()
+    assert {column.name for column in results(machine, motion)} >= {f"{point}_x", f"{point}_y"}
+    return first.sentence
+
+
+def loosened(seed):
+    """Return a random machine with something that nothing holds, the point of a weight on it, and a cylinder there, if there is one."""
+    base = random_mechanism(seed, strokes=1 + seed % 2, joints=3)
+    rng, way, last = np.random.default_rng(seed), seed % 5, base.plan.moving[-1]
+    members, ram = {}, ""
+    span = float(np.hypot(*np.subtract(base()["A"], base()["O"])).item())
+    if way == 0:  # a turned vector whose length is kept, about another point
+        members["Z9"] = Offset("P", Turn(Vector("A", last), rng.uniform(-1.0, 1.0), length=0.4))
+    elif way == 1:  # a body that would move without turning
+        members["Z9"] = Offset(last, Vector("A", "O"))
+    elif way == 2:  # the sides of a corner exchanged
+        sides = 0.8 * span, 0.6 * span + ref("S")
+        members["V9"] = Vector("A", "O")
+        members["Z9"] = Offset("A", Turn("V9", -CosineAngle(distance("A", "O"), *sides), length=sides[1]))
+        ram = "ram"
+        members[ram] = Cylinder("A", "Z9", bore=63 * mm, rod=36 * mm)
+        members["pump"] = LiftCircuit(ram, pressure=200 * bar)
+    elif way == 3:  # one pressure for two levers that nothing couples
+        for k, side in enumerate((LEFT, RIGHT)):
+            members |= {f"G{k}": Ground(5.0 + 3 * k, 0.0), f"H{k}": Ground(5.5 + 3 * k, -0.5)}
+            members[f"K{k}"] = Dyad(f"H{k}", f"G{k}", **{f"H{k}K{k}": 0.6 + ref("S"), f"G{k}K{k}": 0.6}, side=RIGHT)
+            members[f"Z{9 - k}"] = OnLink(f"G{k}", f"K{k}", **{f"G{k}Z{9 - k}": 1.2}, **{f"K{k}G{k}Z{9 - k}": 0.1}, side=side)
+            members[f"ram{k}"] = Cylinder(f"H{k}", f"K{k}", bore=60 * mm, rod=35 * mm)
+        members["other"] = Weight("Z8", mass=300.0)
+        members["pump"], ram = LiftCircuit(["ram0", "ram1"], pressure=200 * bar), "ram1"
+    else:  # a point pushed along a body by a stroke that a cylinder elsewhere takes over
+        members |= {"G0": Ground(5.0, 0.0), "H0": Ground(5.5, -0.5)}
+        members["K0"] = Dyad("H0", "G0", H0K0=0.6 + ref("S"), G0K0=0.6, side=RIGHT)
+        members["Z9"] = OnLink("G0", "H0", G0Z9=0.3 + ref("S"))
+        members["ram"], ram = Cylinder("H0", "K0", bore=60 * mm, rod=35 * mm), "ram"
+        members["pump"] = LiftCircuit(ram, pressure=200 * bar)
+    members["load"] = Weight("Z9", mass=float(rng.uniform(50.0, 500.0)))
+    return type(f"Loose{seed}", (base,), members), "Z9", ram
+
+
+def check_seeds(seeds):
+    for seed in seeds:
+        machine, point, ram = loosened(seed)
+        assert not looseness(machine.__base__.plan).sentence, "the generator's own machine is held"
+        words = check_not_held(machine(), point, ram)
+        assert "with its drives locked it can still move in" in words and "held by nothing" in words, seed
+        assert machine().freedom.loose and f"{', '.join(machine().freedom.loose)}" in str(machine().freedom)
+
+
+def test_loosened_machines_have_no_forces_at_any_door():
+    check_seeds(range(5))
+
+
+@pytest.mark.slow
+def test_many_loosened_machines_have_no_forces_at_any_door():
+    check_seeds(range(5, 60))
+
+
+class Exchanged(Mechanism):
+    """A lever on a cylinder in vectors; the corner's last two sides are exchanged, so that the rod grows."""
+
+    S = Stroke(0.0, 0.25)
+    A, O = Ground(0.2, 0.55), Ground(0.3, 1.15)
+    AO = Vector(A, O)
+    OAB = CosineAngle(abs(AO), 0.30, 0.5 + S)
+    B = Offset(A, Turn(AO, -OAB, length=0.5 + S))
+    C = Offset(O, Turn(Vector(O, B), 25 * deg, length=0.36))
+    w = Weight(C, mass=500.0)
+    ram = Cylinder(A, B, bore=63 * mm, rod=36 * mm)
+    line = LiftCircuit(ram, pressure=160 * bar)
+
+
+class AsMeant(Exchanged):
+    OAB = CosineAngle(abs(Exchanged.AO), 0.5 + Exchanged.S, 0.30)
+
+
+def test_sides_of_a_corner_exchanged_are_told_with_the_lines_to_look_at(tmp_path):
+    words = check_not_held(Exchanged(), "C", "ram")
+    assert words.startswith("with its drives locked it can still move in 2 ways: OC and ram are held by nothing. Look at C = Offset(O,")
+    assert Exchanged().freedom.loose == ("OC", "ram")
+    assert not [each for each in AsMeant().verdicts() if each.rule == "held"] and AsMeant().freedom.loose == ()
+    assert "can still move in 2 ways" in report(Exchanged(), tmp_path / "report.md").read_text()
+
+
+def test_a_picture_shows_the_loose_movement():
+    """By hand: C turns about O and B about A, each alone; of a machine that is held the picture says so."""
+    motion = Exchanged().at(S=0.1)
+    figure = draw(motion, freedom=True)
+    shown = {str(each.get_gid()) for each in figure.findobj()}
+    assert [any(f"loose {way} {point}" in gid for gid in shown for way in (1, 2)) for point in "BCOA"] == [True, True, False, False]
+    held = draw(AsMeant().at(S=0.1), freedom=True)
+    assert any("Nothing is loose" in each.get_text() for each in held.findobj(lambda each: hasattr(each, "get_text")))
+
+
+def test_parts_that_are_loose_are_named_with_their_part():
+    whole = type("Whole", (Mechanism,), {"left": Part(AsMeant), "right": Part(Exchanged, at=(3.0, 0.0), mirrored=True)})
+    words = check_not_held(whole(), "right.C", "right.ram")
+    assert "right.OC and right.ram are held by nothing" in words
+
+
+def test_a_point_on_a_side_that_changes_is_not_held():
+    class Triangle(Exchanged):
+        OAB, B = None, Dyad("A", "O", AB=0.5 + Exchanged.S, OB=0.30, side=RIGHT)
+        X = OnLink("A", "B", AX=0.4, BX=0.5, side=LEFT)
+        tip = Weight("X", mass=100.0)
+
+    words = check_not_held(Triangle(), "X", "ram")
+    assert "measured along ram, whose length AB changes" in words
+
+
+def test_without_cylinders_the_drives_hold():
+    class Bare(Mechanism):
+        S = Stroke(0.0, 0.25)
+        A, O = Ground(0.2, 0.55), Ground(0.3, 1.15)
+        B = Dyad(A, O, AB=0.5 + S, OB=0.30, side=RIGHT)
+        w = Weight(B, mass=100.0)
+
+    assert Bare().freedom.loose == () and not [each for each in Bare().verdicts() if each.rule in ("held", "remark")]
+
+
+def test_a_redundant_link_does_not_refuse_a_thrust_that_is_determined():
+    class Doubled(Mechanism):
+        phi = Stroke(0.2, 1.2)
+        O, C, E = Ground(0.0, 0.0), Ground(1.0, 0.0), Ground(0.5, 0.0)
+        A = Offset(O, Turn(Vector(O, C), phi, length=0.3))
+        B = Dyad(A, C, AB=1.0, CB=0.3, side=LEFT)
+        M = OnLink(A, B, AM=0.5)
+        third = Link("E", "M")
+        load = Weight(B, mass=10.0)
+
+    assert not [each for each in Doubled().verdicts() if each.rule == "held"]
+    assert np.allclose(driving_force(Doubled().at(phi=0.5)), 10 * 9.80665 * 0.3 * np.cos(0.5))
+
+
+def test_a_double_line_that_locks_by_the_numbers_of_a_design_is_told():
+    """The class has one ratio; a bore of a hair more has another. Of a batch one design is enough."""
+    assert not [each for each in Double().verdicts() if each.rule == "held"]
+    design = Double(**{"slave.bore": 1.002 * Double()["slave.bore"]})
+    motion = design.at(S=1.5)
+    first = design.verdicts()[0]
+    assert (first.rule, first.ok) == ("held", False) and "other locks the machine" in first and "master to slave is" in first
+    assert np.isfinite(motion["W"]).all()
+    doors = [partial(door, motion) for door in (driving_force, pin_forces, Double.lift.thrust, Double.level.pressure)]
+    for each in (drive_force(), thrust("lift"), pin_force("B", "lift")):
+        doors += [lambda each=each: design.evaluate([each], S=1.5), lambda each=each: design.function([each])(1.5)]
+        doors += [lambda each=each: motion[each], lambda each=each: design.answers([most(each)])]
+    for door in doors:
+        with pytest.raises(DefinitionError) as told:
+            door()
+        assert str(told.value) == f"Double: {first.sentence}"
+    batch = Double(**{"slave.bore": Double()["slave.bore"] * np.array([1.0, 1.01])})
+    assert (batch.verdicts()[0].rule, batch.verdicts()[0].ok) == ("held", False)
+    with pytest.raises(DefinitionError, match="other locks the machine"):
+        driving_force(batch.at(S=1.5))
+
+
+def test_strokes_that_no_cylinder_holds_are_named_with_the_force_of_their_drive():
+    class Crane(Mechanism):
+        S, phi = Stroke(0.0, 0.25), Stroke(0.0, 0.5 * pi)
+        A, O = Ground(0.2, 0.55), Ground(0.3, 1.15)
+        B = Dyad(A, O, AB=0.5 + S, OB=0.30, side=RIGHT)
+        T = OnLink(O, B, OT=1.0, BOT=phi)
+        w = Weight(T, mass=100.0)
+        ram = Cylinder(A, B, bore=63 * mm, rod=36 * mm)
+        line = LiftCircuit(ram, pressure=200 * bar)
+
+    (remark,) = [each for each in Crane().verdicts() if isinstance(each, Remark) and "no cylinder" in each]
+    assert remark.startswith("phi is held by no cylinder: its drive gives up to 0.9807 kNm, at")
+    assert bool(remark) and remark.ok is None
+
+
+def test_a_field_of_a_loose_machine_is_refused():
+    class Reaching(Exchanged):
+        T = OnLink("O", "C", OT=0.8 + ref("t"))
+        t = Stroke(0.0, 0.3)
+
+    with pytest.raises(DefinitionError, match="with its drives locked it can still move"):
+        working_field(Reaching(), "T", x=(0.0, 1.5), y=(0.0, 1.5))
+
+
+def test_machines_without_a_stroke_have_forces_or_say_why():
+    class Truss(Mechanism):
+        A, B = Ground(0.0, 0.0), Ground(1.0, 0.0)
+        C = Dyad(A, B, AC=0.8, BC=0.7, side=LEFT)
+        w = Weight(C, mass=100.0)
+
+    class Stand(Mechanism):
+        A, B = Ground(0.0, 0.0), Ground(1.0, 0.0)
+        w = Weight(A, mass=100.0)
+        front, rear = Support(A, (0.0, 1.0)), Support(B, (0.0, 1.0))
+
+    for machine in (Truss(), Truss(**{"w.mass": np.array([100.0, 200.0])}), Stand()):
+        for unreachable in ("raise", "nan"):
+            motion = machine.at(unreachable=unreachable)
+            assert pin_forces(motion).residual < 1e-12
+        assert machine.verdicts() is not None and machine.freedom.loose == ()
+    forces = pin_forces(Truss().at(unreachable="nan"))
+    assert np.allclose(sum(forces.on_body("frame").values()), [0.0, -100 * 9.80665])

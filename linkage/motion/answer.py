@@ -26,7 +26,9 @@ LOST_SHARE = "lost share"
 class Lost:
     """What has no value where it was asked for: its share of the places, the deepest of them [m or rad], and what is missing there.
 
-    `surely` is False where places may be lost between those that were looked at: those of groups, and of laws that have no value.
+    The places stand evenly: in a box along each stroke, along a path on each leg. There a leg weighs by the most that one stroke moves on
+    it, as a part of that stroke's range over the path. `surely` is False where places may be lost between those that were
+    looked at: those of groups, and of laws that have no value.
     """
 
     share: float = 0.0

@@ -6,7 +6,26 @@ import numpy as np
 import pytest
 
 from hydraulics import Cylinder, LiftCircuit, reserve
-from linkage import LEFT, RIGHT, Crank, Dyad, Force, Ground, Guide, Mechanism, OnLink, Over, SliderDyad, Stroke, Weight, least, most, x, y
+from linkage import (
+    LEFT,
+    RIGHT,
+    Crank,
+    Dyad,
+    Force,
+    Ground,
+    Guide,
+    Mechanism,
+    OnLink,
+    Over,
+    SliderDyad,
+    Stroke,
+    Weight,
+    least,
+    most,
+    reachable,
+    x,
+    y,
+)
 from linkage.units import bar, deg, mm
 
 
@@ -156,3 +175,15 @@ def test_where_a_pole_is_touched_and_where_a_peak_is_only_steep():
     batch = Rocker(OA=np.array([0.3, 0.31]))
     (answer,) = batch.answers([most(1 / (y("D") - float(Rocker().at(S=0.5).y("D"))))])
     assert answer.unbounded.all() and "without bounds" in str(answer)
+
+
+def test_a_leg_of_a_path_weighs_by_the_stroke_that_moves_most_on_it():
+    class Reaching(Mechanism):
+        u, S = Stroke(0.0, 1.0), Stroke(0.0, 0.4)
+        O, A = Ground(0, 0), Ground(0, -0.4)
+        B = Dyad(A, O, AB=0.5 + S, OB=0.4, side=RIGHT)  # out of reach beyond S = 0.3
+        C = Crank(B, BC=0.2, angle=u)
+        way = Over.path(u=[0.0, 1.0, 1.0, 0.5], S=[0.0, 0.0, 0.4, 0.4])  # legs of 1, 1 and 1/2: lost are 1/4 and 1/2
+
+    (answer,) = Reaching().answers([reachable])
+    assert answer.lost.share == pytest.approx(0.75 / 2.5, abs=1e-3)

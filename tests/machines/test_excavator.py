@@ -334,7 +334,7 @@ def test_cylinders_fit_and_do_not_buckle():
     def use(t):
         q = POSES[0] + t * (POSES[1] - POSES[0])
         p = places(q)
-        return thrusts(q)[0] / plane.critical(0.045, plane.length(p["C"], p["D"]))
+        return thrusts(q)[0] / 0.92 / plane.critical(0.045, plane.length(p["C"], p["D"]))
 
     most, _ = plane.peak(use, 0.0, 1.0)
     verdicts = ByAngles.boom.checks(motion)

@@ -250,7 +250,7 @@ def test_lift_verdicts_and_buckling():
     assert_allclose(number("least reserve is", lifting), 170e5 * area * 0.93 / most, rtol=1e-3)
     assert_allclose(number("", oil), 0.450 * area / 1e-3, rtol=1e-2)
     assert_allclose(number("end to end,", oil), 0.450 * area / (12e-3 / 60), rtol=2e-2)
-    use, _ = plane.peak(lambda arm: pushes(arm) / 2 / plane.critical(0.040, span((arm, 0.0), "lift")), low, high)
+    use, _ = plane.peak(lambda arm: pushes(arm) / 0.93 / 2 / plane.critical(0.040, span((arm, 0.0), "lift")), low, high)
     checks = {each.rule: each for each in TailLift.lift.checks(motion)}
     assert bool(checks["buckling"]) == (use * 3.5 <= 1.0)
     assert_allclose(number("safety", checks["buckling"]), 1 / use, rtol=6e-3)

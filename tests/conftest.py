@@ -1,6 +1,7 @@
 """Examples are judged by what comes out, never by how long a busy machine takes for them."""
 
 import gc
+import sys
 
 import pytest
 from _pytest.doctest import DoctestModule
@@ -19,11 +20,16 @@ def pytest_collect_file(file_path, parent):
 
 @pytest.hookimpl(wrapper=True)
 def pytest_collection(session):
-    """Look for garbage neither while tests and classes are read nor, ever after, among those: they stand until the end."""
+    """Keep what is compiled while tests are read, and look for no garbage then nor, ever after, among them: they stand until the end.
+
+    Without bytecode on disk every run, and each worker of it, would compile all packages and rewrite all assertions anew.
+    """
     gc.disable()
+    unwritten, sys.dont_write_bytecode = sys.dont_write_bytecode, False
     try:
         return (yield)
     finally:
+        sys.dont_write_bytecode = unwritten
         gc.collect()
         gc.freeze()
         gc.enable()

@@ -22,6 +22,7 @@ from made import drawn, examples, gallery, searches  # noqa: E402
 
 from linkage.cli.entry import BUILT_IN  # noqa: E402
 from linkage.plugins import COMMANDS, entry_points  # noqa: E402
+from tests.for_all import for_all  # noqa: E402
 from tests.tools.catalogues import messages  # noqa: E402
 from tests.tools.prose import LONGEST_MEAN, docstrings, mean_length, riddles, sentences  # noqa: E402
 
@@ -43,13 +44,13 @@ WIDE = 100
 """The characters of code that the column has room for."""
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@for_all("page", PAGES, ids=lambda page: page.stem)
 def test_what_a_page_links_is_there(page):
     links = [link for link in LINK.findall(page.read_text(encoding="utf-8")) if "://" not in link]
     assert [link for link in links if not (page.parent / link).exists()] == []
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@for_all("page", PAGES, ids=lambda page: page.stem)
 def test_sentences_are_short(page):
     text = page.read_text(encoding="utf-8")
     assert mean_length(text) <= LONGEST_MEAN, [sentence for count, sentence in sentences(text) if count > 2 * LONGEST_MEAN]
@@ -71,7 +72,7 @@ def test_docstrings_and_what_is_said_are_short_too():
     assert [each for each in said for count, _ in sentences(each) if count > LONGEST_MESSAGE] == []
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@for_all("page", PAGES, ids=lambda page: page.stem)
 def test_a_page_has_no_riddles(page):
     assert list(riddles(page.read_text(encoding="utf-8"))) == []
 
@@ -120,7 +121,7 @@ def found_by(words):
 SEARCHES = [pytest.param(words, page, id=words) for page, listed in searches.WORDS.items() for words in listed]
 
 
-@pytest.mark.parametrize(("words", "page"), SEARCHES)
+@for_all(("words", "page"), SEARCHES)
 def test_a_page_is_found_by_the_word_its_reader_types(words, page):
     """By its title, headings and text alone; the built pages have an index of these words besides."""
     assert page in found_by(words)[:FOUND]
@@ -155,7 +156,7 @@ def code_lines(text):
             yield line
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@for_all("page", PAGES, ids=lambda page: page.stem)
 def test_no_code_is_wider_than_its_column(page):
     assert [line for line in code_lines(page.read_text(encoding="utf-8")) if len(line) > WIDE] == []
 

@@ -10,6 +10,7 @@ import networkx as nx
 import pytest
 
 from linkage import steps
+from tests.for_all import for_all
 
 ROOT = Path(__file__).parents[1]
 
@@ -216,7 +217,7 @@ def test_what_no_circle_is():
     assert circles(files) == []
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("path", "source", "fault"),
     [
         ("linkage/steps/dyad.py", "from linkage.motion import Motion", "floor 2 (steps) imports upwards, floor 6 (motion)"),
@@ -247,7 +248,7 @@ def test_breach_is_found(path, source, fault):
     assert fault in "\n".join(faults(path, source))
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("path", "source"),
     [
         ("linkage/steps/dyad.py", "from ..errors import A\nfrom .base import B\nfrom ..loads import C\nfrom linkage.steps.base import D"),

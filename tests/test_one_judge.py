@@ -3,7 +3,7 @@
 import ast
 from pathlib import Path
 
-import pytest
+from tests.for_all import for_all
 
 ROOT = Path(__file__).parent.parent
 JUDGE = {"linkage/motion/judge.py", "linkage/motion/search.py", "linkage/motion/line.py", "linkage/motion/box.py"}
@@ -104,6 +104,6 @@ MIDDLES = {
 }
 
 
-@pytest.mark.parametrize("path", [*sources()], ids=lambda path: path.relative_to(ROOT).as_posix())
+@for_all("path", [*sources()], ids=lambda path: path.relative_to(ROOT).as_posix())
 def test_only_the_judge_looks_for_extremes_and_loops_over_cases_and_directions(path):
     assert not found_in(path), "\n".join(found_in(path))

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-import pytest
+from tests.for_all import for_all
 
 ROOT = Path(__file__).parent.parent
 TITLE = "## Where is ..."
@@ -26,7 +26,7 @@ def test_the_table_answers_many_questions_once():
     assert len(set(questions)) == len(questions)
 
 
-@pytest.mark.parametrize(("file", "names"), [row[1:] for row in ROWS], ids=[row[0] for row in ROWS])
+@for_all(("file", "names"), [row[1:] for row in ROWS], ids=[row[0] for row in ROWS])
 def test_each_place_is_there(file, names):
     """A name is defined there: a class, a function, a constant; in what is no Python it stands there."""
     text = (ROOT / file).read_text(encoding="utf-8")

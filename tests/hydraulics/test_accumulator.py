@@ -12,6 +12,7 @@ from scipy.optimize import brentq
 from hydraulics import Accumulator, AccumulatorBlock, adiabatic, isothermal, polytropic, real_nitrogen
 from linkage.errors import DefinitionError
 from linkage.units import bar, cm3, kgf_cm2, litre
+from tests.for_all import for_all
 
 LAWS = (isothermal, polytropic(1.25), adiabatic, real_nitrogen())
 SWEPT = 2 * np.pi / 4 * 0.063**2  # two cylinders of 63 mm, m2
@@ -149,8 +150,8 @@ def test_order_of_the_accumulators_does_not_matter():
     assert_allclose(AccumulatorBlock(vessels[::-1]).pressure(90 * bar, withdrawn), AccumulatorBlock(vessels).pressure(90 * bar, withdrawn))
 
 
-@pytest.mark.parametrize("gas", LAWS, ids=str)
-@pytest.mark.parametrize("fast", [False, True])
+@for_all("gas", LAWS, ids=str)
+@for_all("fast", [False, True])
 def test_stiffness_is_the_limit_of_the_differences(gas, fast):
     block = pair(gas, 101325.0)
     p1 = 60 * bar
@@ -189,9 +190,9 @@ def fast_by_definition(block, p1, withdrawn, n):
     return brentq(lambda p: sum(V(p) for V in volumes) - target, 1 * bar, 2000 * bar, rtol=1e-14) - up
 
 
-@pytest.mark.parametrize("gas", LAWS, ids=str)
-@pytest.mark.parametrize("setting", [94, 51, 34])
-@pytest.mark.parametrize("withdrawn", [-1200, -300, 0, 80, 500, 900])
+@for_all("gas", LAWS, ids=str)
+@for_all("setting", [94, 51, 34])
+@for_all("withdrawn", [-1200, -300, 0, 80, 500, 900])
 def test_fast_pressure_solves_the_definition(gas, setting, withdrawn):
     block, p1 = pair(gas, 101325.0), setting * kgf_cm2
     n = float(gas.fast_exponent(p1 + 101325.0))
@@ -337,7 +338,7 @@ def test_verdicts_keep_the_numbers_of_the_vessels_and_say_nothing_of_absent_ones
 ONE = Accumulator(4 * litre, 25 * bar)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("call", "message"),
     [
         (partial(Accumulator, -1e-3, 25 * bar), "Accumulator volume = -0.001 is below zero; give 0 for a vessel that is absent"),

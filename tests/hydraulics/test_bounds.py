@@ -10,6 +10,7 @@ from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, Li
 from linkage import RIGHT, DefinitionError, Dyad, Ground, Mechanism, OnLink, Stroke
 from linkage.loads import Force, PinFriction, Spring, Support, Weight
 from linkage.units import bar, deg, litre, mm
+from tests.for_all import for_all
 
 PISTON, ROD_SIDE = math.pi / 4 * 0.110**2 * 2, math.pi / 4 * (0.110**2 - 0.063**2) * 2
 
@@ -69,9 +70,9 @@ def test_bounds_follow_the_designs_of_a_batch():
     assert low == 0.0
 
 
-@pytest.mark.parametrize("machine", [Lift, Both, Pulling])
-@pytest.mark.parametrize("share", [1.0, 0.9])
-@pytest.mark.parametrize("rubs", [False, True])
+@for_all("machine", [Lift, Both, Pulling])
+@for_all("share", [1.0, 0.9])
+@for_all("rubs", [False, True])
 def test_at_its_capacity_the_cylinder_stands_at_its_bound(machine, share, rubs):
     own = [Weight("B", mass=200), *([PinFriction("O", radius=40 * mm, coefficient=0.2)] if rubs else [])]
     for S in (0.03, 0.12, 0.21):

@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 from hydraulics import Buckling
 from linkage.errors import DefinitionError
 from linkage.units import MPa, kN, m, mm
+from tests.for_all import for_all
 
 STEEL = Buckling(rod=40 * mm, yield_strength=335 * MPa)
 
@@ -93,7 +94,7 @@ def test_unreached_poses_are_left_out():
     assert STEEL.check([np.nan, 1.0], [500 * kN, np.nan]).ok
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("call", "message"),
     [
         (partial(Buckling, -40 * mm), "Rod = -0.04 is not above zero"),

@@ -17,6 +17,7 @@ from hydraulics import (
 )  # fmt: skip
 from linkage import RIGHT, DefinitionError, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, Weight, at, most, optimise
 from linkage.units import bar, deg, mm
+from tests.for_all import for_all
 
 NAMES = ("lift.bore", "lift.rod", "lift.stroke", "lift.closed")
 
@@ -103,7 +104,7 @@ def test_a_row_says_what_it_is():
     assert str(CatalogueRow(0.08, 0.045, 0.25, 0.49)) == "cylinder 80/45 x 250 mm, 490 mm closed"
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("ask", "words"),
     [
         (lambda: catalogue([80 * mm], [6 * mm], dead=0.2), "no row: no rod suits a bore"),

@@ -12,6 +12,7 @@ from numpy.testing import assert_allclose
 from hydraulics import Cylinder, CylinderSize, next_bore, next_rod, standard_bores, standard_rods
 from linkage.errors import DefinitionError
 from linkage.units import MPa, bar, kN, mm
+from tests.for_all import for_all
 
 PUSH = CylinderSize(bore=100 * mm, rod=60 * mm, count=2)
 PULL = CylinderSize(bore=100 * mm, rod=60 * mm, count=2, works="rod")
@@ -98,7 +99,7 @@ def test_walking_the_series_meets_every_bore():
     assert tuple(walk) == standard_bores()
 
 
-@pytest.mark.parametrize("bore", standard_bores())
+@for_all("bore", standard_bores())
 def test_every_bore_has_rods(bore):
     rods = standard_rods(bore)
     assert rods
@@ -110,7 +111,7 @@ def test_rods_of_common_cylinders_are_offered():
         assert rod * mm in standard_rods(bore * mm)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("call", "message"),
     [
         (partial(CylinderSize, -63 * mm, 40 * mm), "Bore = -0.063 is not above zero"),

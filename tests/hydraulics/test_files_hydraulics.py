@@ -9,6 +9,7 @@ from linkage import RIGHT, DefinitionError, Dimension, Dyad, FileError, Ground, 
 from linkage.files import from_dict, load, registry, to_dict, to_json, to_toml
 from linkage.loads import LoadCase, Weight
 from linkage.units import bar, litre, minute, mm
+from tests.for_all import for_all
 
 BLOCK = AccumulatorBlock([Accumulator(4 * litre, 50 * bar), Accumulator(4 * litre, 25 * bar)])
 
@@ -99,7 +100,7 @@ def test_hydraulics_are_written_as_they_are_said():
     }  # fmt: skip
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("gas", "said"),
     [
         (adiabatic, "adiabatic"), (polytropic(1.4), "adiabatic"), (polytropic(1.2), {"law": "polytropic", "n": 1.2}),
@@ -155,7 +156,7 @@ def changed(name, **keys):
 VESSEL = {"volume": "4 l", "charge": "50 bar"}
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("tables", "words"),
     [
         (changed("ram", bore="5 bar"), r"hydraulics\.ram\.bore: '5 bar' is a pressure where a value of kind length is wanted"),

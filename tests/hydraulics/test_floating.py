@@ -12,6 +12,7 @@ from linkage.loads import Weight
 from linkage.statics import driving_force
 from linkage.units import bar, deg, kN, litre, mm
 from mechanisms.classics.stephenson_three import StephensonThreeFar
+from tests.for_all import for_all
 
 BLOCK = AccumulatorBlock([Accumulator(4 * litre, 50 * bar), Accumulator(4 * litre, 25 * bar)], isothermal)
 
@@ -160,7 +161,7 @@ def test_block_that_follows_is_written_as_it_is_said():
     assert BLOCK.sized(Followed().sweep(3)) is BLOCK
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("ask", "words"),
     [
         (lambda: Followed.block.pressure(60 * bar), "it follows air, V, p, V, q; ask sized"),
@@ -188,7 +189,7 @@ def test_unreached_poses_stay_nan():
     assert np.isnan(Carried.line.pressure(motion)).tolist() == [False, False, True]
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("make", "words"),
     [
         (lambda: FloatCircuit(Carried.ram, "block", charge_pressure=60 * bar), "no AccumulatorBlock"),

@@ -8,6 +8,7 @@ from hydraulics import Accumulator, AccumulatorBlock, FloatCircuit, adiabatic, i
 from linkage import DefinitionError, drive_force, driving_force, pin_force, pin_forces
 from linkage.units import kgf_cm2, litre
 from mechanisms.header_balancer import HeaderBalancer
+from tests.for_all import for_all
 
 STROKE = np.linspace(0.02, 0.40, 9)
 ALONE = ["floating"]
@@ -94,8 +95,8 @@ class Alone(HeaderBalancer):
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("n", [1.0, 1.3])
-@pytest.mark.parametrize("charge", [0.0, 20 * kgf_cm2, 50 * kgf_cm2])
+@for_all("n", [1.0, 1.3])
+@for_all("charge", [0.0, 20 * kgf_cm2, 50 * kgf_cm2])
 def test_an_absent_vessel_is_not_there_in_traced_laws_either(charge, n):
     names = ["charge", "V_II", "P_II", "atmosphere", "L_OB", "lift.bore"]
     both, alone = HeaderBalancer(V_I=0.0, P_I=charge, n=n, atmosphere=0.0), Alone(n=n, atmosphere=0.0)

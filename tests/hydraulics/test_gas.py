@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 from hydraulics import adiabatic, isothermal, polytropic, real_nitrogen
 from linkage.errors import DefinitionError
 from linkage.units import bar, litre
+from tests.for_all import for_all
 
 LAWS = (isothermal, polytropic(1.2), adiabatic, real_nitrogen(), real_nitrogen(250.0))
 pressures = st.floats(1 * bar, 490 * bar)
@@ -26,7 +27,7 @@ def test_pressure_inverts_volume(law, p, p0):
     assert_allclose(law.volume(law.pressure(volume, p0, 4 * litre), p0, 4 * litre), volume, rtol=2e-14)
 
 
-@pytest.mark.parametrize("law", LAWS, ids=str)
+@for_all("law", LAWS, ids=str)
 def test_many_states_at_once_are_the_single_ones(law):
     p, p0 = np.linspace(20, 300, 5)[:, None] * bar, np.array([10.0, 60.0, 90.0]) * bar
     volumes = law.volume(p, p0, 2 * litre)
@@ -35,7 +36,7 @@ def test_many_states_at_once_are_the_single_ones(law):
     assert law.pressure(volumes, p0, 2 * litre).shape == (5, 3)
 
 
-@pytest.mark.parametrize("law", LAWS, ids=str)
+@for_all("law", LAWS, ids=str)
 def test_slope_is_the_limit_of_the_differences(law):
     p = np.array([2.0, 50.0, 200.0, 450.0]) * bar
 
@@ -66,7 +67,7 @@ def test_a_law_says_what_it_is():
     ]
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("call", "message"),
     [
         (lambda: polytropic(0.9), r"exponent n = 0.9 is outside 1..10; 1 is isothermal"),

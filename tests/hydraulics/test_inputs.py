@@ -10,9 +10,10 @@ from hydraulics.buckling import Buckling
 from hydraulics.inputs import in_cubic_metres, in_metres, in_pascals, stroke_in_metres
 from linkage.errors import DefinitionError
 from linkage.units import bar, litre, minute, mm
+from tests.for_all import for_all
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("call", "words"),
     [
         (partial(in_metres, 80, "Bore"), r"Bore = 80 m is more than any cylinder has; write 80 \* mm if these are millimetres"),
@@ -32,7 +33,7 @@ def test_a_number_without_its_unit_is_asked_about(call, words):
         call()
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("check", "value"),
     [
         (in_metres, [4 * mm, 10 * mm, 1.8]),

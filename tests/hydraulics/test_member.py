@@ -8,6 +8,7 @@ from hydraulics import Buckling, Cylinder, LiftCircuit, lift_verdicts
 from linkage import RIGHT, Actuator, DefinitionError, Dimension, Dyad, Ground, LoadCase, Mechanism, PinFriction, Stroke, Weight
 from linkage.statics import driving_force
 from linkage.units import bar, kN, mm
+from tests.for_all import for_all
 
 
 class Arm(Mechanism):
@@ -54,7 +55,7 @@ def test_it_puts_no_load_on_the_machine():
     assert_allclose(driving_force(Arm().sweep(3), ["lift"]), 0.0)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("closed", "stroke", "words"),
     [
         (0.52, 0.25, ["20.0 mm too long closed"]),
@@ -76,7 +77,7 @@ def test_a_cylinder_that_fits(closed, stroke):
     assert verdict
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("design", "missing"),
     [
         ({}, None), ({"lift.stroke": 0.26}, "10.0 mm are missing open"), ({"lift.closed": 0.53}, "30.0 mm too long closed"),
@@ -115,7 +116,7 @@ def test_lengths_follow_dimensions(out, missing):
     assert missing in verdict.sentence
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("machine", "words"),
     [
         (lambda: Arm(**{"lift.stroke": 0.0}), "Stroke of the cylinder = 0 is not above zero; give a positive number"),
@@ -177,7 +178,7 @@ def test_buckling_looks_at_every_load_case_and_direction(count):
     assert float(verdict.sentence.split("safety ")[1].split(",")[0]) == pytest.approx(1.0 / worst, rel=2e-3)
 
 
-@pytest.mark.parametrize(
+@for_all(
     "given",
     [
         {"bore": -0.1}, {"bore": 0.05, "rod": 0.05}, {"rod": 0.0}, {"bore": float("nan")}, {"count": 0}, {"works": "all"},

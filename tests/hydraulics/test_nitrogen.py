@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 from hydraulics import Accumulator, AccumulatorBlock, real_nitrogen
 from linkage.errors import DefinitionError
 from linkage.units import bar, litre
+from tests.for_all import for_all
 
 TEMPERATURES = np.linspace(245.0, 340.0, 20)
 PRESSURES = np.concatenate([np.geomspace(0.5, 20.0, 8), np.linspace(27.0, 500.0, 40)]) * bar
@@ -96,7 +97,7 @@ def test_unreached_poses_stay_unreached():
     assert np.array_equal(np.isnan(real_nitrogen().specific(p)), [False, True, False])
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("call", "message"),
     [
         (lambda: real_nitrogen(20.0), "Temperature of real_nitrogen = 20 K is outside 245..340 K; give kelvin"),

@@ -13,6 +13,7 @@ from linkage.study import settings_for, zone
 from mechanisms.header_balancer.machine import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch.machine import ThreePointHitch
+from tests.for_all import for_all
 from tests.machines.test_axle import Axle
 from tests.machines.test_baler import Baler
 from tests.machines.test_excavator import ByAngles, Excavator
@@ -82,7 +83,7 @@ def asked_of(machine, name, point):
     return found
 
 
-@pytest.mark.parametrize(("structure", "name", "point", "wrt"), CASES, ids=name_of_case)
+@for_all(("structure", "name", "point", "wrt"), CASES, ids=name_of_case)
 def test_a_request_is_the_method_by_every_way_and_has_its_derivatives(structure, name, point, wrt):
     machine = structure()
     strokes = some_poses(machine, seed=len(name) + len(structure.__name__))
@@ -169,7 +170,7 @@ def test_circuits_and_cases_are_named():
         Bare().evaluate([reserve("lift")], S=S)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("make", "words"),
     [
         (lambda: thrust("lift", direction="up"), "Direction 'up' is unknown"),

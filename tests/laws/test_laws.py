@@ -5,19 +5,24 @@ from functools import cache
 from itertools import combinations
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, RIGHT, Dyad, Ground, Mechanism, OnLink, SingularWarning
 from linkage.motion import stroke_unit
 from linkage.quantities import Dimension, Quantity
 from linkage.units import UNITS
-from tests import shipped
+from tests.for_all import for_all
 from tests.linkage.random_mechanisms import random_mechanism
+from tests.shipped import DAILY, MACHINES, over_machines
 
-SHIPPED = list(shipped.MACHINES.values())
-RANDOM = [random_mechanism(seed) for seed in range(6)] + [random_mechanism(seed, strokes=2) for seed in (10, 11, 12)]
-ALL = pytest.mark.parametrize("machine", SHIPPED + RANDOM, ids=lambda machine: machine.__name__)
+
+@cache
+def random_machines():
+    """Return machines that were drawn by seeds, of one stroke and of two."""
+    return [random_mechanism(seed) for seed in range(6)] + [random_mechanism(seed, strokes=2) for seed in (10, 11, 12)]
+
+
+ALL = over_machines(random_machines)
 
 
 @cache
@@ -43,7 +48,12 @@ def inner(machine, part=0.9, count=13):
 
 
 def test_machines_are_found_through_their_entry_points():
-    assert {"MowerLift", "ThreePointHitch"} <= {machine.__name__ for machine in SHIPPED}
+    assert {"MowerLift", "ThreePointHitch"} <= {machine.__name__ for machine in MACHINES.values()}
+
+
+def test_every_kind_of_member_is_looked_at_daily():
+    kinds = {name: {*map(type, machine.plan.members.values())} for name, machine in MACHINES.items()}
+    assert set().union(*(kinds[name] for name in DAILY)) == set().union(*kinds.values())
 
 
 @ALL
@@ -91,7 +101,7 @@ def test_cylinders_are_as_long_as_they_say(machine):
 
 
 @ALL
-@pytest.mark.parametrize("order", [1, 2])
+@for_all("order", [1, 2])
 def test_exact_ratio_is_the_numerical_one(machine, order):
     motion = whole(machine)
     for name in outputs(machine):
@@ -172,7 +182,7 @@ def is_plain(machine):
     return all(isinstance(point, (Ground, Dyad, OnLink)) for point in machine.plan.points.values())
 
 
-@pytest.mark.parametrize("machine", [*filter(is_plain, SHIPPED + RANDOM)], ids=lambda machine: machine.__name__)
+@over_machines(random_machines, among=is_plain)
 def test_mirroring_swaps_left_and_right(machine):
     motion, image = whole(machine), whole(mirrored(machine))
     for name in machine.plan.points:
@@ -192,7 +202,7 @@ def test_a_pose_does_not_depend_on_the_others(machine):
             assert_allclose(alone.ratio(name, wrt=stroke), together, rtol=1e-11, atol=1e-11)
 
 
-def test_units_of_the_table_are_known():
-    for machine in SHIPPED:
-        for column in machine().columns(whole(machine)):
-            assert column.unit in ("", *UNITS)
+@over_machines()
+def test_units_of_the_table_are_known(machine):
+    for column in machine().columns(whole(machine)):
+        assert column.unit in ("", *UNITS)

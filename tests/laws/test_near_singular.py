@@ -8,6 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, AssemblyError, Crank, Dyad, Ground, Mechanism, SingularError, SingularWarning, Stroke, ratio, x, y
+from tests.for_all import for_all
 
 from .exactly import exactly, off, off_by_parts, pins_exactly
 from .near_singular import KINDS, pose
@@ -114,7 +115,7 @@ def looked_at(seed, times=30.0):
     return outcomes
 
 
-@pytest.mark.parametrize("kind", range(len(KINDS)), ids=[each.__name__ for each in KINDS])
+@for_all("kind", range(len(KINDS)), ids=[each.__name__ for each in KINDS])
 def test_nothing_is_wrong_in_silence_next_to_a_singular_pose(kind):
     outcomes = [each for seed in range(kind, DAILY * len(KINDS), len(KINDS)) for each in looked_at(seed)]
     assert {"refused", "told", "silent"} & set(outcomes)
@@ -177,7 +178,7 @@ class Toggles(Mechanism):
     B = Dyad(A, C, AB=2, CB=1, side=LEFT)
 
 
-@pytest.mark.parametrize("phi", 10.0 ** -np.arange(1.0, 7.0, 0.25))
+@for_all("phi", 10.0 ** -np.arange(1.0, 7.0, 0.25))
 def test_a_part_that_is_small_beside_the_other_is_told_by_its_own_error(phi):
     """By hand: B goes round C as A round O, so that B = C + (cos phi, sin phi); its y part is phi times smaller at the second order."""
     for order, truth in ((1, (-np.sin(phi), np.cos(phi))), (2, (-np.cos(phi), -np.sin(phi)))):

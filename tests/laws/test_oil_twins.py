@@ -32,6 +32,7 @@ from linkage import (
     ref,
 )
 from linkage.units import bar, litre
+from tests.for_all import for_all
 from tests.hydraulics.test_oil import Axle, Levelled
 
 VALVE = 200 * bar
@@ -299,7 +300,7 @@ WRONG = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("members", "match"), WRONG)
+@for_all(("members", "match"), WRONG)
 def test_wrong_lines_are_refused_in_words(members, match):
     with pytest.raises(DefinitionError, match=match):
         type("Wrong", (Levelled,), members)

@@ -11,11 +11,18 @@ from linkage import Crank, Ground, Mechanism, Outline, Over, Part, SingularWarni
 from linkage.files import load, to_toml
 from linkage.loads import ForceElement, LoadCase
 from linkage.quantities import Dimension, Quantity
-from tests.laws.test_laws import RANDOM, SHIPPED
+from tests.for_all import for_all
+from tests.laws.test_laws import random_machines
 from tests.machines.test_tipper import Tipper
+from tests.shipped import over_machines
 
-MACHINES = [*SHIPPED, *RANDOM, Tipper]
-ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
+
+def others():
+    """Return machines that are not shipped."""
+    return [*random_machines(), Tipper]
+
+
+ALL = over_machines(others)
 TURN, AT = 35 * deg, (1.5, -0.7)
 
 
@@ -66,7 +73,7 @@ def test_a_part_moves_as_the_machine_alone_does(machine):
 
 
 @ALL
-@pytest.mark.parametrize("how", [dict(mirrored=True), dict(angle=TURN, at=AT), dict(mirrored=True, angle=TURN, at=AT)], ids=str)
+@for_all("how", [dict(mirrored=True), dict(angle=TURN, at=AT), dict(mirrored=True, angle=TURN, at=AT)], ids=str)
 def test_a_part_that_is_mirrored_or_turned_stands_there(machine, how):
     alone, held = motions(machine, **how)
     size = max(float(np.nanmax(np.abs(alone[name]))) for name in machine.plan.points)
@@ -93,7 +100,7 @@ def test_mirrored_twice_is_not_mirrored(machine):
 
 
 @ALL
-@pytest.mark.parametrize("how", [dict(), dict(mirrored=True, at=(0.3, -0.2), angle=-40 * deg)], ids=str)
+@for_all("how", [dict(), dict(mirrored=True, at=(0.3, -0.2), angle=-40 * deg)], ids=str)
 def test_a_part_on_a_moving_body_goes_with_it(machine, how):
     base = {"t": Stroke(-1, 1), "o": Ground(0.4, 0.1), "q": Crank("o", oq=0.7, angle="t")}
     outlines = machine.plan.of_kind(Outline).items()
@@ -116,10 +123,10 @@ def test_a_part_on_a_moving_body_goes_with_it(machine, how):
         assert np.nanmax(np.abs(difference), initial=0.0) <= 1e-9 * float(np.nanmax(np.abs(alone[name]), initial=1.0))
 
 
-LOADED = [machine for machine in MACHINES if machine.plan.of_kind(ForceElement)]
+LOADED = over_machines(others, among=lambda machine: machine.plan.of_kind(ForceElement))
 
 
-@pytest.mark.parametrize("machine", LOADED, ids=lambda machine: machine.__name__)
+@LOADED
 def test_pin_forces_of_a_part_are_those_of_the_machine_alone(machine):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -137,7 +144,7 @@ def test_pin_forces_of_a_part_are_those_of_the_machine_alone(machine):
         assert np.nanmax(np.abs(np.abs(joint.force) - np.abs(other.force)), initial=0.0) <= 1e-9 * scale
 
 
-@pytest.mark.parametrize("machine", LOADED, ids=lambda machine: machine.__name__)
+@LOADED
 def test_a_mirrored_part_has_mirrored_forces(machine):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -181,7 +188,7 @@ def test_a_machine_of_parts_is_saved_and_pickled(machine):
         np.testing.assert_array_equal(read[f"p.{name}"], expected[f"p.{name}"])
 
 
-def test_cases_and_overs_stay_with_their_class():
-    for machine in MACHINES:
-        members = whole(machine).plan.members.values()
-        assert not any(isinstance(member, (Over, LoadCase)) for member in members)
+@ALL
+def test_cases_and_overs_stay_with_their_class(machine):
+    members = whole(machine).plan.members.values()
+    assert not any(isinstance(member, (Over, LoadCase)) for member in members)

@@ -8,6 +8,7 @@ import pytest
 from linkage import LEFT, RIGHT, Crank, Dyad, Ground, Mechanism, OnLink, Stroke, Target, angle, strokes_for, x, y
 from linkage.errors import AssemblyError, DefinitionError, LinkageError, SingularError, SingularWarning
 from linkage.units import deg
+from tests.for_all import for_all
 from tests.laws.random_machines import random_machine
 
 # -- random machines -----------------------------------------------------------------------------------------
@@ -36,7 +37,7 @@ def size_of(motion):
     return float(np.ptp(places.reshape(-1, 2, motion.reached.size), axis=(0, 2)).max())
 
 
-@pytest.mark.parametrize("seed", range(24))
+@for_all("seed", range(24))
 def test_every_pose_is_among_the_answers_for_its_own_place(seed):
     machine, random = machine_of(seed), np.random.default_rng(seed)
     chosen = aims(machine, random)
@@ -56,7 +57,7 @@ def test_every_pose_is_among_the_answers_for_its_own_place(seed):
             assert np.abs(again.value(each) - target.value).max() <= 1e-10 * size_of(motion)
 
 
-@pytest.mark.parametrize("seed", [seed for seed in range(18) if seed % 3])
+@for_all("seed", [seed for seed in range(18) if seed % 3])
 def test_a_path_leads_forth_and_back_on_its_own_branch(seed):
     machine, random = machine_of(seed), np.random.default_rng([seed, 1])
     chosen = aims(machine, random)
@@ -99,8 +100,8 @@ def aimed(radius, direction):
     return [Target(x("B"), radius * cos(direction)), Target(y("B"), radius * sin(direction))]
 
 
-@pytest.mark.parametrize("first", [-pi, 0.0, 0.5])
-@pytest.mark.parametrize("seed", range(5))
+@for_all("first", [-pi, 0.0, 0.5])
+@for_all("seed", range(5))
 def test_two_cranks_have_two_branches_inside_the_ring_and_none_outside(seed, first):
     random = np.random.default_rng(seed)
     machine, a, b = two_cranks(random, first)
@@ -119,8 +120,8 @@ def test_two_cranks_have_two_branches_inside_the_ring_and_none_outside(seed, fir
         assert np.hypot(*outside.misses[0]) == pytest.approx(max(radius - a - b, abs(a - b) - radius), rel=1e-4)
 
 
-@pytest.mark.parametrize("direction", [0.0, 0.3, -3.0, pi])
-@pytest.mark.parametrize("first", [-pi, 0.0])
+@for_all("direction", [0.0, 0.3, -3.0, pi])
+@for_all("first", [-pi, 0.0])
 def test_on_the_border_of_the_ring_is_one_branch_with_a_warning(first, direction):
     machine, a, b = two_cranks(np.random.default_rng(7), first)
     for radius in (a + b, abs(a - b)):
@@ -259,8 +260,8 @@ class Wide(Mechanism):
     P = OnLink(T, D, TP=0.8, DTP=-120 * deg)
 
 
-@pytest.mark.parametrize("kind", [Rocking, Wide])
-@pytest.mark.parametrize("seed", range(4))
+@for_all("kind", [Rocking, Wide])
+@for_all("seed", range(4))
 def test_poses_next_to_dead_points_of_loops_are_found_too(kind, seed):
     machine, random = kind(), np.random.default_rng(seed)
     at = {name: random.uniform(each.start, each.end, 16) for name, each in machine.strokes.items()}
@@ -410,7 +411,7 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("case", WRONG)
+@for_all("case", WRONG)
 def test_what_cannot_be_is_told_with_its_remedy(case):
     given, words = WRONG[case]
     for ask in (lambda: strokes_for(Excavator(), **given), lambda: Excavator().follow(**given)):

@@ -16,6 +16,7 @@ from hydraulics import Cylinder, FloatCircuit, LiftCircuit
 from linkage import Actuator, Crank, DefinitionError, LoadCase, Spring, Stroke, drive_force, driving_force, pin_force, pin_forces
 from linkage.loads import ForceElement
 from linkage.quantities import ref
+from tests.for_all import for_all
 from tests.laws.by_hand import FRAME, ByHand, by_point, full
 from tests.laws.plane import G0, PLAIN, Move, cross, facing, size, turned
 from tests.laws.random_machines import TAGS, random_machine, wants
@@ -30,9 +31,9 @@ def seeds(chosen):
     return [seed if seed < DAILY else pytest.param(seed, marks=pytest.mark.slow) for seed in chosen]
 
 
-EACH = pytest.mark.parametrize("seed", seeds(range(MANY)))
+EACH = for_all("seed", seeds(range(MANY)))
 SIXTH = pytest.mark.parametrize("seed", seeds(range(0, MANY, 6)))
-RUBBING = pytest.mark.parametrize("seed", seeds([seed for seed in range(MANY) if "friction" in wants(seed)]))
+RUBBING = for_all("seed", seeds([seed for seed in range(MANY) if "friction" in wants(seed)]))
 BLOCKS = pytest.mark.parametrize("first", [n if n < DAILY else pytest.param(n, marks=pytest.mark.slow) for n in range(0, MANY, BLOCK)])
 
 

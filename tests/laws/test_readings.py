@@ -4,19 +4,28 @@ import math
 from functools import cache
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage.program import Kernel, interpret
 from linkage.program.kernel import BLOCK, FEW
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests import shipped
+from tests.for_all import for_all
 from tests.linkage.random_mechanisms import random_mechanism
+from tests.shipped import DAILY, MACHINES, over_machines
 
-SHIPPED = list(shipped.MACHINES.values())
-CLOSED = [machine for machine in SHIPPED if not machine.plan.groups]  # a group's pins come from Newton's method, before the program
-MACHINES = CLOSED + [random_mechanism(seed, strokes=1 + seed % 3, joints=7) for seed in range(20, 29)]
-ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
+
+@cache
+def random_machines():
+    """Return machines that were drawn by seeds; the last three are of three strokes, of one and of two."""
+    return [random_mechanism(seed, strokes=1 + seed % 3, joints=7) for seed in range(20, 29)]
+
+
+def is_closed(machine):
+    """Return whether the program has all places: a group's pins come from Newton's method, before it."""
+    return not machine.plan.groups
+
+
+ALL = over_machines(random_machines, among=is_closed)
 
 
 @cache
@@ -74,24 +83,26 @@ def test_places_by_the_program_and_by_the_steps(machine):
 
 
 def test_some_of_these_poses_are_out_of_reach_and_some_are_not():
-    shares = [np.isnan(kernel(machine)(inputs(machine, 1, 400)).values).mean() for machine in MACHINES]
+    machines = [*filter(is_closed, MACHINES.values()), *random_machines()]
+    shares = [np.isnan(kernel(machine)(inputs(machine, 1, 400)).values).mean() for machine in machines]
     assert sum(0.0 < share < 1.0 for share in shares) > len(shares) / 2
 
 
 SHAPES = [(1, 1), (1, FEW), (1, FEW + 1), (1, 2 * BLOCK + 3), (3, 40), (40, 3), (2, BLOCK + 1), (BLOCK + 1, 2), (7, 1)]
 EACH_WAY = [(1, 1), (3, 40), (40, 3)]  # floats, blocks along the poses, blocks along the designs
-SEVERAL = [ThreePointHitch, *MACHINES[-3:]]  # the last three are of three strokes, of one and of two
 
 
-def shapes():
-    """Return machines with numbers of designs and poses: every machine each way, every shape of several machines, the rest in the soak."""
-    for shape in SHAPES:
-        for machine in MACHINES:
-            daily = shape in EACH_WAY or machine in SEVERAL
-            yield pytest.param(machine, *shape, marks=[] if daily else [pytest.mark.slow], id=f"{shape[0]}-{shape[1]}-{machine.__name__}")
+def shapes(daily):
+    """Return machines with numbers of designs and poses: daily a few machines each way and several in every shape, else the rest."""
+    several = [ThreePointHitch, *random_machines()[-3:]]
+    looked_at = [*map(MACHINES.get, DAILY), *random_machines()]
+    for machine in filter(is_closed, [*MACHINES.values(), *random_machines()]):
+        for shape in SHAPES:
+            if daily == (machine in looked_at and (shape in EACH_WAY or machine in several)):
+                yield machine, *shape
 
 
-@pytest.mark.parametrize(("machine", "designs", "poses"), list(shapes()))
+@for_all(("machine", "designs", "poses"), lambda: [*shapes(True)], slow=lambda: [*shapes(False)])
 def test_kernel_is_the_program_node_by_node(machine, designs, poses):
     nodes, given = everything(machine), inputs(machine, designs, poses)
     tall = {name: value[:, None] if np.ndim(value) and name not in machine.plan.strokes else value for name, value in given.items()}
@@ -118,7 +129,7 @@ def test_a_result_can_be_written_where_it_is_wanted(machine):
 
 
 @ALL
-@pytest.mark.parametrize(("designs", "poses"), [(1, 0), (0, 5), (0, 0)])
+@for_all(("designs", "poses"), [(1, 0), (0, 5), (0, 0)])
 def test_nothing_asked_nothing_given(machine, designs, poses):
     nodes, given = everything(machine), inputs(machine, 1, 4)
     given = {

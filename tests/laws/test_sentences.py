@@ -15,6 +15,7 @@ from linkage.statics import max_table
 from linkage.statics.table import table_text
 from linkage.units import SYSTEMS, UNITS, unit_system
 from tests import shipped
+from tests.for_all import for_all
 
 SHIPPED = shipped.MACHINES
 SPEAKING = [name for name, machine in SHIPPED.items() if machine.rules is not Mechanism.rules]
@@ -100,8 +101,8 @@ def test_a_wrong_number_or_unit_would_be_found(wrong):
         assert_same_numbers("pd is 155.0 kgf/cm2 at 76 mm", wrong, "us")
 
 
-@pytest.mark.parametrize("system", SYSTEMS)
-@pytest.mark.parametrize("name", SHIPPED)
+@for_all("system", SYSTEMS)
+@for_all("name", shipped.DAILY, slow=shipped.OTHERS)
 def test_a_table_is_in_the_units_of_the_system_and_has_the_same_numbers(name, system):
     machine = SHIPPED[name]()
     columns = results(machine, motion_of(machine))

@@ -2,7 +2,7 @@
 
 import warnings
 from copy import copy
-from functools import singledispatch
+from functools import cache, singledispatch
 from importlib import import_module
 from inspect import isclass
 from pkgutil import walk_packages
@@ -37,35 +37,54 @@ from linkage import (
 )
 from linkage.loads import ForceElement, TwoPoint
 from linkage.mechanism import declared
+from mechanisms.crane import ChainCrane
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.random_mechanisms import random_mechanism
+from tests.shipped import AT_WORK, DAILY, MACHINES
 
 G0 = 9.80665
 
 
+@cache
 def shipped():
-    """Yield every machine of the package, but for those of one class in two modules."""
-    for info in walk_packages(mechanisms.__path__, "mechanisms."):
-        if info.name.endswith("demo"):
-            continue
-        for found in vars(import_module(info.name)).values():
-            if isclass(found) and issubclass(found, Mechanism) and found.__module__ == info.name and found.plan.strokes:
-                yield found
+    """Return every machine of the package, but for those of one class in two modules."""
+    modules = [import_module(info.name) for info in walk_packages(mechanisms.__path__, "mechanisms.") if not info.name.endswith("demo")]
+    return [
+        found
+        for module in modules
+        for found in vars(module).values()
+        if isclass(found) and issubclass(found, Mechanism) and found.__module__ == module.__name__ and found.plan.strokes
+    ]
 
 
-SHIPPED = list(shipped())
-RANDOM = [random_mechanism(seed) for seed in range(4)] + [random_mechanism(seed, strokes=2) for seed in (10, 11)]
-TWINS = {  # of the structure of another shipped machine, in other dimensions
-    "DragLink", "DoubleRocker", "TripleRocker", "Parallelogram", "Hoeken", "ImprovedBalancer", "HitchCategory1", "HitchCategory2",
-}  # fmt: skip
-ALL = pytest.mark.parametrize("machine", SHIPPED + RANDOM, ids=lambda machine: machine.__name__)
-ONE = pytest.mark.parametrize("machine", [each for each in SHIPPED if len(each.plan.strokes) == 1], ids=lambda machine: machine.__name__)
+@cache
+def random_machines():
+    """Return machines that were drawn by seeds, of one stroke and of two."""
+    return [random_mechanism(seed) for seed in range(4)] + [random_mechanism(seed, strokes=2) for seed in (10, 11)]
 
 
-def of_each_structure(machines):
-    """Return the parameters of a long law: one machine of each structure and every other random one daily, all in the soak."""
-    seldom = {*TWINS, *(machine.__name__ for machine in RANDOM[1::2])}
-    return [pytest.param(machine, marks=[pytest.mark.slow] if machine.__name__ in seldom else []) for machine in machines]
+@cache
+def daily():
+    """Return machines that have every kind of member: those of every day, and some at work and with a rope."""
+    at_work = (AT_WORK[f"at_work.{name}"] for name in ("hoist_tipper", "levelled_telehandler", "tail_lift", "wheel_loader"))
+    return [*map(MACHINES.get, DAILY), *at_work, ChainCrane]
+
+
+def over_all(more=random_machines, later=tuple, among=None):
+    """Run a law of a `machine` over `daily` and what `more()` gives, and over all others of the package and `later()` under `slow`."""
+
+    def chosen(machines):
+        return [machine for machine in machines if among is None or among(machine)]
+
+    def others():
+        return [machine for machine in shipped() if machine not in daily()]
+
+    return for_all("machine", lambda: chosen([*daily(), *more()]), slow=lambda: chosen([*others(), *later()]))
+
+
+ALL = over_all()
+ONE = over_all(tuple, among=lambda machine: len(machine.plan.strokes) == 1)
 
 
 def weights(machine):
@@ -203,7 +222,7 @@ def dissipated(motion, name, machine, found):
 
 
 @ONE
-@pytest.mark.parametrize("direction", ["extending", "retracting"])
+@for_all("direction", ["extending", "retracting"])
 def test_virtual_work_is_equilibrium_with_friction_in_pins_and_guides(machine, direction):
     motion = moved(machine, 7)
     loads = [*rubbing(machine, motion), *(GuideFriction(point, 0.05) for point in joined(motion, "guide", "driven", "slider", "slot"))]
@@ -262,8 +281,7 @@ def _(member: Guide):
     return Guide(place, member.Q) if member.angle is None else Guide(place, angle=np.pi - member.angle)
 
 
-KNOWN = {"MowerLift", "ThreePointHitch", "FourBar", "DragLink", "Chebyshev", "Hart", "Peaucellier"}
-MIRRORED = [each for each in SHIPPED if each.__name__ in KNOWN]
+KNOWN = ("mower_lift", "three_point_hitch", "four_bar", "drag_link", "chebyshev", "hart", "peaucellier")
 
 
 def mirror(machine):
@@ -272,7 +290,7 @@ def mirror(machine):
     return type("Mirrored", (machine,), members)
 
 
-@pytest.mark.parametrize("machine", MIRRORED, ids=lambda machine: machine.__name__)
+@for_all("machine", lambda: [MACHINES[name] for name in KNOWN])
 def test_a_mirrored_machine_has_mirrored_reactions(machine):
     motion, other = moved(machine), moved(mirror(machine))
     point = machine.plan.moving[-1]

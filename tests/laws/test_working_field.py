@@ -46,6 +46,7 @@ from linkage import (
 from linkage.units import bar, deg, g0, kN, mm
 from mechanisms.at_work.tipper import Tipper
 from mechanisms.crane import Crane
+from tests.for_all import for_all
 from tests.machines.test_excavator import Excavator
 
 ALONE = {"hold": {"S3": 0.2}, "without": ["dig"]}
@@ -151,8 +152,8 @@ def own_loads(machine, without=()):
     return [name for name in machine.plan.members if name in {*machine.plan.of_kind(Weight)} and name not in without]
 
 
-@pytest.mark.parametrize("along", [(0.0, 1.0), (0.6, 0.8), (-1.0, 0.0), (0.3, -1.0)])
-@pytest.mark.parametrize("lifts", [None, ["boom"]])
+@for_all("along", [(0.0, 1.0), (0.6, 0.8), (-1.0, 0.0), (0.3, -1.0)])
+@for_all("lifts", [None, ["boom"]])
 def test_limiter_stands_at_its_bound_and_no_other_beyond(along, lifts):
     machine = Excavator()
     field = working_field(machine, "M", RADII, HEIGHTS, along=along, lifts=lifts, **ALONE)
@@ -591,7 +592,7 @@ def test_slope_of_a_load_case_turns_the_own_weights_alone():
     assert steep.case == "uphill" and np.nanmax(np.abs(level.load - steep.load)) > 10.0
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("given", "words"),
     [
         ({"x": []}, "it has no number"),

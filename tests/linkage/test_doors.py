@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import linkage
+from tests.for_all import for_all
 
 ROOT = Path(__file__).parents[2]
 LATE = {
@@ -25,7 +26,7 @@ def printed(*lines):
     return subprocess.run([sys.executable, "-c", "\n".join(lines)], cwd=ROOT, check=True, capture_output=True, text=True).stdout.strip()
 
 
-@pytest.mark.parametrize(
+@for_all(
     "lines",
     [
         (STAR, PICTURES, FORMULAS), (PICTURES, FORMULAS, STAR), (FORMULAS, STAR, PICTURES), (PICTURES, STAR, FORMULAS, STAR),

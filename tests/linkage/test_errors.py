@@ -1,13 +1,13 @@
 """What a failure says: what was wrong, what is known, what was probably meant."""
 
 import numpy as np
-import pytest
 
 from linkage import AssemblyError, DefinitionError, FileError, LinkageError, SingularError, StudyError
 from linkage.errors import unknown
+from tests.for_all import for_all
 
 
-@pytest.mark.parametrize("error", [DefinitionError, AssemblyError, SingularError, FileError, StudyError])
+@for_all("error", [DefinitionError, AssemblyError, SingularError, FileError, StudyError])
 def test_every_error_is_a_linkage_error(error):
     assert issubclass(error, LinkageError)
 
@@ -27,7 +27,7 @@ def test_unknown_name_with_nothing_near_or_nothing_at_all():
     assert str(unknown("Stroke", "S", [])).endswith("Known: none.")
 
 
-@pytest.mark.parametrize("name", [3, None, ("G",), ["G"], b"G"])
+@for_all("name", [3, None, ("G",), ["G"], b"G"])
 def test_unknown_takes_anything_for_a_name(name):
     assert "is unknown" in str(unknown("Name", name, ["G"]))
 

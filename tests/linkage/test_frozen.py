@@ -17,11 +17,11 @@ from linkage.study import survey
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests import shipped
+from tests.for_all import for_all
 from tests.linkage.files.file_machines import EveryStep, Hitch, Loaded, Parts
 from tests.linkage.study.survey_measures import travel
 
-SHIPPED = list(shipped.MACHINES.values())
-MACHINES = [*SHIPPED, EveryStep, Hitch, Loaded, Parts]
+ALL = shipped.over_machines(lambda: [EveryStep, Hitch, Loaded, Parts])
 
 
 def arrays_in(value, depth=4):
@@ -36,7 +36,7 @@ def arrays_in(value, depth=4):
             yield from arrays_in(each, depth - 1)
 
 
-@pytest.mark.parametrize("machine", MACHINES, ids=lambda each: each.__name__)
+@ALL
 def test_a_motion_hands_out_nothing_that_changes_it(machine):
     motion = machine().at(unreachable="nan", **{name: np.linspace(each.start, each.end, 5) for name, each in machine.plan.strokes.items()})
     names = [*machine.plan.points, *motion.strokes]
@@ -116,7 +116,7 @@ def test_a_survey_hands_out_nothing_that_changes_it():
         found.results[name] = 0.0
 
 
-@pytest.mark.parametrize("machine", MACHINES, ids=lambda each: each.__name__)
+@ALL
 def test_a_class_is_what_it_is_made_of(machine):
     before, names = str(machine.plan), list(machine.plan.members)
     for name in names:
@@ -206,7 +206,7 @@ MASKED = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("use", MASKED)
+@for_all("use", MASKED)
 def test_a_mask_is_never_dropped(use):
     with pytest.raises(DefinitionError):
         use(masked(0.10, 0.11, 0.12))

@@ -42,6 +42,7 @@ from linkage import (
 from linkage.program import Kernel
 from linkage.statics.law_requests import LawRequest
 from linkage.units import bar, deg, kN, mm
+from tests.for_all import for_all
 
 
 class Loader(Mechanism):
@@ -331,7 +332,7 @@ def test_overs_of_a_class_replace_the_box_and_are_named():
     assert whole.value <= answer.value
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("make", "words"),
     [
         (lambda: Over(S=[0.1, 0.2, 0.3]), "places in an order are Over.path"),

@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import LEFT, RIGHT, DefinitionError, Dimension, Dyad, Ground, LinkageError, Mechanism, OnLink, Stroke, angle, deg, ref
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 
 class Arm(Mechanism):
@@ -118,7 +119,7 @@ def test_an_array_that_changes_afterwards_does_not_matter():
     assert design["OB"].tolist() == [0.29, 0.30]
 
 
-@pytest.mark.parametrize(
+@for_all(
     "kind", [int, np.float64, np.float32, np.int64, lambda each: np.array(each), lambda each: np.array(each, np.float32)]
 )
 def test_numbers_of_all_kinds(kind):
@@ -150,7 +151,7 @@ BAD = [
 ]
 
 
-@pytest.mark.parametrize("bad", [*BAD, -1.0, 0.0, -0.0, [0.3, 0.0]], ids=lambda bad: repr(bad)[:20])
+@for_all("bad", [*BAD, -1.0, 0.0, -0.0, [0.3, 0.0]], ids=lambda bad: repr(bad)[:20])
 def test_bad_length(bad):
     with pytest.raises(DefinitionError, match="OB"):
         Arm(OB=bad)
@@ -169,7 +170,7 @@ def test_a_dimension_is_set_once(settings, words):
         Arm(**settings)
 
 
-@pytest.mark.parametrize("bad", BAD, ids=lambda bad: repr(bad)[:20])
+@for_all("bad", BAD, ids=lambda bad: repr(bad)[:20])
 def test_bad_angle_dimension_coordinate_or_stroke(bad):
     for setting in ({"BOG": bad}, {"L0": bad}, {"A.x": bad}, {"A": (bad, 0.0)}):
         with pytest.raises(DefinitionError):
@@ -178,7 +179,7 @@ def test_bad_angle_dimension_coordinate_or_stroke(bad):
         Arm().at(S=bad)
 
 
-@pytest.mark.parametrize(
+@for_all(
     "bad", [*BAD[:-4], 0.3, (0.1,), (0.1, 0.2, 0.3), [], np.array(0.3), np.zeros((3, 2)), {0.1, 0.2}], ids=lambda bad: repr(bad)[:20]
 )
 def test_bad_position(bad):
@@ -186,7 +187,7 @@ def test_bad_position(bad):
         Arm(A=bad)
 
 
-@pytest.mark.parametrize(
+@for_all(
     "bad", [*[each for each in BAD if each is not None], 0, -3, [5], (5,), np.array(5.5), np.array([0.1])], ids=lambda bad: repr(bad)[:20]
 )
 def test_bad_count(bad):
@@ -195,7 +196,7 @@ def test_bad_count(bad):
             ask()
 
 
-@pytest.mark.parametrize(
+@for_all(
     "ask",
     [
         lambda: Arm().sweep(),
@@ -221,14 +222,14 @@ def test_what_follows_others_cannot_be_set():
         Arm()["BA"]
 
 
-@pytest.mark.parametrize("name", ["OBB", "S", "G", "lean", "AO", "x", "A.z", ".x", ""])
+@for_all("name", ["OBB", "S", "G", "lean", "AO", "x", "A.z", ".x", ""])
 def test_unknown_setting_lists_the_known(name):
     for ask in (lambda: Arm(**{name: 0.3}), lambda: Arm().replaced(**{name: 0.3}), lambda: Arm()[name]):
         with pytest.raises(DefinitionError, match="Known: L0, A, O, OB, OG, BOG"):
             ask()
 
 
-@pytest.mark.parametrize("name", [3, None, ["OB"], ("OB",), {}, 0.5])
+@for_all("name", [3, None, ["OB"], ("OB",), {}, 0.5])
 def test_a_name_is_a_word(name):
     with pytest.raises(DefinitionError):
         Arm()[name]
@@ -244,13 +245,13 @@ def test_designs_whose_shapes_do_not_fit():
 FRAME = {"S": Stroke(0.0, 0.2), "A": Ground(0.2, 0.5), "O": Ground(0.3, 1.1)}
 
 
-@pytest.mark.parametrize("word", ["sweep", "at", "plan", "replaced", "links", "dimensions", "__init__", "columns", "mobility", "graph"])
+@for_all("word", ["sweep", "at", "plan", "replaced", "links", "dimensions", "__init__", "columns", "mobility", "graph"])
 def test_a_member_may_not_take_a_word_of_the_framework(word):
     with pytest.raises(DefinitionError, match=word):
         type("Word", (Mechanism,), {**FRAME, word: Dimension(1.0)})
 
 
-@pytest.mark.parametrize("name", ["x", "y", "angle", "mm", "B2", "Ä", "_B", "class_", "lambda_", "OB"])
+@for_all("name", ["x", "y", "angle", "mm", "B2", "Ä", "_B", "class_", "lambda_", "OB"])
 def test_a_point_may_take_any_other_name(name):
     made = type("Named", (Mechanism,), {**FRAME, name: Dyad("A", "O", side=RIGHT, **{"A" + name: ref("S") + 0.5, "O" + name: 0.3})})
     assert made().sweep(3)[name].shape == (2, 3)
@@ -295,7 +296,7 @@ def test_a_mechanism_without_strokes_stands():
     assert_allclose(Frame(AB=[3.0, 4.0], OB=[4.0, 3.0]).at()["B"], [[1.8, 3.2], [2.4, 2.4]])
 
 
-@pytest.mark.parametrize("size", [1e30, 1.4e154, 1e300, 1e-30, 1e-160, 1e-300])
+@for_all("size", [1e30, 1.4e154, 1e300, 1e-30, 1e-160, 1e-300])
 def test_sizes_that_no_float_can_square(size):
     for setting in (
         {"A.x": size},

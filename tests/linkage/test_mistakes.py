@@ -8,6 +8,7 @@ import pytest
 import linkage
 from linkage import LEFT, AssemblyError, Crank, DefinitionError, Dyad, Ground, Mechanism, Pin, Stroke, deg, y
 from linkage.loads import Weight
+from tests.for_all import for_all
 
 NAMES = {name: getattr(linkage, name) for name in linkage.__all__}
 
@@ -35,7 +36,7 @@ def test_the_lines_are_a_machine():
     assert made(CRANK)().sweep(5).reached.all()
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("right", "wrong", "words"),
     [
         ("Stroke(0, 360 * deg)", "Stroke(0, 360)", "is an angle in radians, 57.3 turns; write Stroke(0 * deg, 360 * deg)"),
@@ -104,7 +105,7 @@ class Lift(Mechanism):
     B = Dyad(A, O, AB=0.6 + S, OB=0.3, side=LEFT)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("ask", "words"),
     [
         (lambda: FourBar().at(phi=45), "FourBar: phi = 45 is an angle in radians, 7.16 turns, and the stroke is 0 to 6.28319 rad; "
@@ -145,7 +146,7 @@ def test_a_side_may_be_said_as_a_word(word):
     assert np.array_equal(Said().sweep(5)["B"], FourBar().sweep(5)["B"])
 
 
-@pytest.mark.parametrize("word", ["lefft", "", 1, True, "l"])
+@for_all("word", ["lefft", "", 1, True, "l"])
 def test_what_is_no_side(word):
     steps = [
         lambda: Dyad("A", "C", AB=3, CB=2.5, side=word),
@@ -190,8 +191,8 @@ def test_a_crank_of_a_few_turns_is_no_mistake():
 SIDES = {"OB": 0.5, "OC": 0.3, "BC": np.sqrt(0.34 - 0.3 * np.cos(0.4)), "BOC": 0.4, "COB": -0.4}
 
 
-@pytest.mark.parametrize("label", SIDES)
-@pytest.mark.parametrize("off", [0.0, 1e-4])
+@for_all("label", SIDES)
+@for_all("off", [0.0, 1e-4])
 def test_what_a_link_says_of_points_that_others_place_is_held_against_them(label, off):
     lines = f"""
     phi = Stroke(0, 1)
@@ -226,7 +227,7 @@ def test_a_stroke_is_named_where_it_gets_a_value(given):
         made(CRANK)().at(*given)
 
 
-@pytest.mark.parametrize("name", ["X\n", "", "a b", "1a", "a.b", "a-b", "class", "None", "<b>", "\\", "ﬁ", "X\u2028", "{x}"])
+@for_all("name", ["X\n", "", "a b", "1a", "a.b", "a-b", "class", "None", "<b>", "\\", "ﬁ", "X\u2028", "{x}"])
 def test_names_that_no_line_of_python_could_give(name):
     """A class that type(...) makes takes any text for a name; what is printed, drawn and written into files could not be read again."""
     with pytest.raises(DefinitionError, match=f"^{re.escape(repr(name))} is no name for a class: letters, digits and _, no digit first"):
@@ -258,7 +259,7 @@ FOLLOWS = [
 ]
 
 
-@pytest.mark.parametrize(("line", "words"), FOLLOWS)
+@for_all(("line", "words"), FOLLOWS)
 def test_a_stroke_that_moves_nothing_is_told_by_what_follows_it(line, words):
     with pytest.raises(DefinitionError, match=f"^Machine: the stroke S moves nothing[:;] {words}"):
         made(f"{LEVER}    {line}\n")

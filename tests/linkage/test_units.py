@@ -13,9 +13,10 @@ from linkage.files import load, to_toml
 from linkage.plan import plan_measure
 from linkage.reports import text_table
 from linkage.units import SYSTEMS, UNITS, current_system, decimals, parse, parse_span, show, shown_in, shown_number, unit_system
+from tests.for_all import for_all
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("text", "value"),
     [
         ("180mm", 0.18),
@@ -34,7 +35,7 @@ def test_text_becomes_si(text, value):
     assert parse(text) == pytest.approx(value, rel=1e-15)
 
 
-@pytest.mark.parametrize("text", ["", "mm", "1,5 mm", "1 2", "1mm2mm", "nan", "inf", "1e400", "0x10", "--1", "1 parsec", "1 MM", "1_000"])
+@for_all("text", ["", "mm", "1,5 mm", "1 2", "1mm2mm", "nan", "inf", "1e400", "0x10", "--1", "1 parsec", "1 MM", "1_000"])
 def test_what_is_no_quantity_is_refused(text):
     with pytest.raises(DefinitionError):
         parse(text)
@@ -68,7 +69,7 @@ def test_units_agree_with_each_other(left, right):
 # -- systems of units --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("text", "value"),
     [
         ("3000 psi", 3000 * 6894.757293168361),
@@ -105,7 +106,7 @@ def test_without_a_system_everything_keeps_its_unit():
         assert show(0.18, "mm") == "180 mm" and current_system() == ""
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("system", "value", "unit", "digits", "text"),
     [
         ("si", 155 * units.kgf_cm2, "kgf/cm2", 4, "15.2 MPa"),
@@ -157,7 +158,7 @@ def test_a_column_follows_the_system():
         assert [*text_table([column])] == ["pd, MPa", "  15.20", "   9.81"]
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("text", "kind", "ends"),
     [
         ("270 to 330 mm", "length", (0.27, 0.33)),
@@ -244,7 +245,7 @@ def drags(machine):
     return [(name, each.unit) for name, each in entries.items() if plan_measure(machine.plan, name) == "drag"]
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("name", "factor", "measures", "said"),
     [
         ("mm", 1e-3, "drag", "mm is known already, as 0.001 of SI for length"),

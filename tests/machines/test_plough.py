@@ -27,6 +27,7 @@ from linkage import (
     pin_forces,
 )
 from linkage.units import bar, litre, minute, mm
+from tests.for_all import for_all
 from tests.machines import plane
 from tests.machines.words import number
 from tests.mechanisms.free_bodies import FreeBodies
@@ -113,7 +114,7 @@ def test_pins():
         assert_allclose(forces.force("A", on="turn")[:, k], thrust(phi) * plane.toward(p["A"], p["B"]), atol=1e-11 * size)
 
 
-@pytest.mark.parametrize("ask", [Plough.turn.thrust, Plough.turn.pressure, Plough.line.pressure_for, Plough.line.reserve, pin_forces])
+@for_all("ask", [Plough.turn.thrust, Plough.turn.pressure, Plough.line.pressure_for, Plough.line.reserve, pin_forces])
 def test_dead_centre_is_refused(ask):
     """No thrust of this cylinder balances the beam at 90 degrees."""
     with pytest.raises(SingularError, match=r"turn|A B|AB"):

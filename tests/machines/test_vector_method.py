@@ -38,11 +38,12 @@ from linkage import (
 from linkage.files import load, to_json, to_toml
 from linkage.pictures.scene import Scene
 from linkage.quantities import Member
+from tests.for_all import for_all
 from tests.machines.random_vectors import machines
 from tests.machines.vector_pairs import PAIRS, PAPERS
 
 ALL = PAPERS | PAIRS
-both = pytest.mark.parametrize("which", list(ALL))
+both = for_all("which", list(ALL))
 
 
 def motion(cls, count=5):
@@ -115,7 +116,7 @@ def test_the_drawing_has_the_same_rods_and_pins(which):
     assert one.stays == other.stays == ()
 
 
-@pytest.mark.parametrize("write", [to_toml, to_json])
+@for_all("write", [to_toml, to_json])
 @both
 def test_a_file_goes_there_and_back(which, write):
     vectors, _ = ALL[which]
@@ -178,7 +179,7 @@ LARGE = 20
 DRAWN = [pytest.param(seed, marks=pytest.mark.slow if seed == LARGE else ()) for seed in range(47) if seed not in OUT_OF_REACH]
 
 
-@pytest.mark.parametrize("seed", DRAWN)
+@for_all("seed", DRAWN)
 def test_machines_drawn_by_a_seed(seed):
     """Random cranks, corners and offsets, in random spellings: the same machine as in steps; equilibrium agrees with virtual work."""
     vectors, steps = machines(seed)

@@ -23,6 +23,7 @@ from mechanisms.at_work.tractor import PloughTractor, SpreaderTractor
 from mechanisms.at_work.wheel_loader import WheelLoader
 from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
+from tests.for_all import for_all
 from tests.machines import plane, test_excavator, test_tipper, test_wheel_loader
 
 MACHINES = [
@@ -30,7 +31,7 @@ MACHINES = [
     TailLift, Telehandler, Tipper, WheelLoader,
 ]
 JOINED = [*MACHINES, Forwarder]
-ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
+ALL = for_all("machine", MACHINES, ids=lambda machine: machine.__name__)
 PRINTED = {"boom": (-0.4737, 1.0923), "arm": (-0.5103, -2.5848), "bucket": (0.7839, -2.8659)}  # rad, at the shortest, at the longest
 
 
@@ -399,7 +400,7 @@ def acting_on(machine, motion, case):
 
 
 @TRACTORS
-@pytest.mark.parametrize("case", ["plain", "uphill", "bare"])
+@for_all("case", ["plain", "uphill", "bare"])
 def test_the_tractors_axle_loads_are_the_moments_about_its_wheels(machine, case):
     for S in (0.05, 0.15, 0.25):
         motion = machine().at(S=S)

@@ -7,8 +7,9 @@ from numpy.testing import assert_allclose
 from linkage import AssemblyError
 from mechanisms.classics.four_bar import DoubleRocker, DragLink, FourBar, Parallelogram, TripleRocker
 from mechanisms.classics.roberts_cognates import RobertsCognates
+from tests.for_all import for_all
 
-KINDS = pytest.mark.parametrize("kind", [FourBar, DragLink, DoubleRocker, TripleRocker, Parallelogram])
+KINDS = for_all("kind", [FourBar, DragLink, DoubleRocker, TripleRocker, Parallelogram])
 
 
 def lengths(design):

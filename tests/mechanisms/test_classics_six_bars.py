@@ -9,6 +9,7 @@ from mechanisms.classics.stephenson_three import StephensonThree, StephensonThre
 from mechanisms.classics.stephenson_two import StephensonTwo, StephensonTwoFar
 from mechanisms.classics.watt_one import WattOne
 from mechanisms.classics.watt_two import WattTwo
+from tests.for_all import for_all
 
 ALL = [WattOne, WattTwo, StephensonOne, StephensonTwo, StephensonTwoFar, StephensonThree, StephensonThreeFar]
 
@@ -24,13 +25,13 @@ def meet(P, p, Q, q, left):
     return P + p * base / abs(base) * np.exp((1j if left else -1j) * np.arccos(cos))
 
 
-@pytest.mark.parametrize("machine", ALL)
+@for_all("machine", ALL)
 def test_one_degree_of_freedom(machine):
     assert machine().gruebler == 1
     assert len(machine().links) == 6
 
 
-@pytest.mark.parametrize("machine", ALL)
+@for_all("machine", ALL)
 def test_exact_ratio_is_the_central_difference(machine):
     stroke = next(iter(machine.plan.strokes.values()))
     values = np.linspace(stroke.start, stroke.end, 7)[1:-1]

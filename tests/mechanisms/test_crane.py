@@ -8,6 +8,7 @@ from scipy.optimize import minimize
 from linkage import DefinitionError
 from linkage.units import deg, kN, mm
 from mechanisms.crane import BackBrokenSkeleton, CraneSkeleton, Duty
+from tests.for_all import for_all
 
 # Numbers of the source's example 1 (10 m, 100 kN m), worked out independently: multistart SLSQP = the vertices solved exactly.
 AT_MOST = {  # (2.13) read as <= c
@@ -36,7 +37,7 @@ FAMILY = [
 ]
 
 
-@pytest.mark.parametrize("row", FAMILY, ids=lambda row: f"{row[1]} kN m")
+@for_all("row", FAMILY, ids=lambda row: f"{row[1]} kN m")
 def test_heights_and_mass_are_those_of_the_regressions(row):
     L, M, l_c, l_t, h_0, (*heights, W) = row
     crane = CraneSkeleton(L=L * mm, M=M * kN, l_c=l_c * mm, l_t=l_t * mm, h_0=h_0 * mm)
@@ -219,7 +220,7 @@ def test_default_back_broken_skeleton_is_the_best_of_its_cab():
 # What a duty refuses, in words.
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("given", "words"),
     [
         ({"M": 20 * kN}, "M = 20 kN m lies outside the 23.5 to 185 kN m"),

@@ -23,6 +23,7 @@ from mechanisms.crane.drive_duty import DriveCylinders, DriveDuty, duty_of
 from mechanisms.crane.drive_figures import drive_figure
 from mechanisms.crane.drive_report import OPENING, movements_of
 from mechanisms.crane.skeleton import CraneSkeleton
+from tests.for_all import for_all
 
 # Source: Syunyov et al., (2.19) to (2.66), as reconstructed; numbers of its examples 2, 3a and 3b, computed independently.
 
@@ -119,7 +120,7 @@ def test_analysis_3b():
     assert_allclose(by_cylinder.ratio("psi") * motion.ratio("length"), 0.9, rtol=1e-10)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("alpha_1", "alpha_2", "other", "transfer"),
     [
         (30.0, -66.83088229745665, 149.74258814063197, 0.5436721260531041),
@@ -220,7 +221,7 @@ def test_direct_drive_is_the_booms(machine, side):
     assert all(each.startswith("ok") for each in arm.rules(motion))
 
 
-@pytest.mark.parametrize("machine", [ArmDrive, BellCrankArmDrive, DirectArmDrive, DirectArmDriveAbove, BoomDrive])
+@for_all("machine", [ArmDrive, BellCrankArmDrive, DirectArmDrive, DirectArmDriveAbove, BoomDrive])
 def test_moments_are_those_of_the_cylinder_in_equilibrium(machine):
     """The framework's reserve, pump over need, is the moment given over the one asked for."""
     drive = machine()
@@ -536,7 +537,7 @@ def test_crane_whose_bound_has_another_form_is_refused():
         duty_of(WithTank())
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("asked", "words"),
     [
         (lambda: DriveDuty(l_c=4454.6), "l_c = 4454.6 m; no crane is so large, write 4454.6 * mm"),

@@ -33,6 +33,7 @@ from mechanisms.crane import (
     load_map,
 )
 from mechanisms.crane.machine import DRIVEN
+from tests.for_all import for_all
 
 # The bound of moments of the source's examples 2 and 3: the closed formulas, for a crane of any dimensions.
 
@@ -77,7 +78,7 @@ def test_constants_are_those_of_the_examples():
     assert_allclose(loads_of(Crane()), (K_B, K_A, K_A1), rtol=1e-12)
 
 
-@pytest.mark.parametrize("crane", [Crane(), *some_cranes()])
+@for_all("crane", [Crane(), *some_cranes()])
 def test_bounds_are_the_closed_formulas(crane):
     phi, psi = (np.linspace(*crane.limits_of()[name], 61) for name in ("phi", "psi"))
     assert_allclose(boom_bound(crane, phi), boom_formula(crane, phi), rtol=1e-9)
@@ -302,7 +303,7 @@ def test_a_cylinder_that_never_fits_is_refused():
         load_map(Wrong(), [1.2], [9.5])
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("call", "words"),
     [
         (lambda: load_map(Crane(Q=np.array([1.0, 2.0])), [1.0], [5.0]), "this is a batch"),

@@ -14,11 +14,13 @@ from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
+from tests.shipped import DAILY
 
 SHIPPED = {each.name: each for each in entry_points(group="hydrolinkage.machines") if each.value.startswith("mechanisms.")}
 
 
-@pytest.mark.parametrize("name", SHIPPED)
+@for_all("name", DAILY, slow=[name for name in SHIPPED if name not in DAILY])
 def test_every_shipped_machine_says_what_it_is_about(name):
     machine = SHIPPED[name].load()()
     featured, played = machine.featured(), playback(machine, 9)
@@ -81,7 +83,7 @@ def test_a_file_says_what_the_machine_is_about(machine, tmp_path):
         assert {key: tuple(limit) for key, limit in found.limits.items()} == dict(own.limits)
 
 
-@pytest.mark.parametrize(
+@for_all(
     "text", ["column = 3", 'path = "G"', 'limits = { t = "high" }', "limits = { t = [0.1, 2] }", 'colum = "t"', "limits = { t = [] }"]
 )
 def test_what_a_file_says_wrongly_of_it_comes_with_its_line(text):

@@ -26,6 +26,7 @@ from mechanisms.grapple import (
     moment_ratio,
     travelling,
 )
+from tests.for_all import for_all
 
 # Example 4 of the specification: computed by its author with closed formulas and a search of his own.
 O = (0.3497067455977797, 0.0854704164223494)
@@ -406,7 +407,7 @@ def test_breast_height():
     assert pytest.approx(0.55) == Duty.at_breast_height(0.44, 1.25).D_0
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("changes", "words"),
     [
         ({"d_0": 0.6}, "not below the largest"),

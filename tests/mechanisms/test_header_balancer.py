@@ -28,6 +28,7 @@ from mechanisms.header_balancer import (
 from mechanisms.header_balancer.charge import FAST, HEADERS, PAPER, SLOW
 from mechanisms.header_balancer.criteria import criteria, hang_up, matching, rises
 from mechanisms.header_balancer.following import PLAIN, HeaderState, at_horizon, stroke_of
+from tests.for_all import for_all
 from tests.mechanisms.balancer_reference import REFERENCE
 
 PUBLISHED = {1: 94.0, 2: 34.0, 3: 50.0}
@@ -75,8 +76,8 @@ def paper(motion, friction=0.0, bearing=0.0, sense=0):
 
 
 @EACH
-@pytest.mark.parametrize("atmosphere", [0.0, 101325.0])
-@pytest.mark.parametrize("bearing", [0.0, PLAIN])
+@for_all("atmosphere", [0.0, 101325.0])
+@for_all("bearing", [0.0, PLAIN])
 def test_the_statics_agree_with_the_papers_own_formulas(number, atmosphere, bearing):
     balance = HeaderState(over(number, atmosphere=atmosphere))
     for direction, sense in (("extending", 1), ("retracting", -1), ("frictionless", 0)):
@@ -100,7 +101,7 @@ def test_work_and_equilibrium_agree_and_nothing_is_left_for_the_pump(number):
 
 
 @EACH
-@pytest.mark.parametrize(
+@for_all(
     ("way", "limits"),
     [
         (SLOW, (94.04, 33.92, 49.87)),
@@ -127,7 +128,7 @@ def test_at_the_largest_charge_the_shoe_just_carries_nothing(number):
 
 
 @EACH
-@pytest.mark.parametrize("wanted", [0.0, 150.0, 300.0])
+@for_all("wanted", [0.0, 150.0, 300.0])
 def test_the_charge_for_a_wanted_reaction_gives_it(number, wanted):
     machine = with_header(number)
     charged = machine.replaced(charge=charge_for(machine.at(h=0.0), wanted * kgf))
@@ -403,7 +404,7 @@ def test_a_batch_of_charges_is_one_call():
     assert "batch" in said and general[0] == "ok   assembly: 0 of 3 designs cannot be assembled over the whole motion."
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("change", "words"),
     [
         ({"charge": 200 * kgf_cm2}, "above the pump's"),

@@ -11,6 +11,7 @@ from linkage.cli import main
 from linkage.units import bar, kgf, kgf_cm2, mm
 from mechanisms.header_balancer import FIGURES, ImprovedBalancer, deviations, figure, over_following, read_measured, with_header
 from mechanisms.header_balancer.following import HeaderState
+from tests.for_all import for_all
 
 
 def balance(*arguments):
@@ -27,7 +28,7 @@ def lines(shown):
 HALVES = [number for number in FIGURES if len(number) == 2 or number == "7"]
 
 
-@pytest.mark.parametrize("number", HALVES)
+@for_all("number", HALVES)
 def test_each_figure_shows_what_the_paper_shows_under_its_number(number):
     shown = lines(figure(number))
     machine = ImprovedBalancer() if number[0] == "6" else with_header({"4": 2, "5": 3}.get(number[0], 1))

@@ -13,9 +13,10 @@ from mechanisms.header_balancer import HEADERS, HeaderBalancer, with_header
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import HitchCategory1, HitchCategory2, ThreePointHitch
 from tests import shipped
+from tests.for_all import for_all
 
 SHIPPED = shipped.MACHINES
-CLASSES = SHIPPED | {"hitch 1": HitchCategory1, "hitch 2": HitchCategory2}
+CLASSES = {**SHIPPED, "hitch 1": HitchCategory1, "hitch 2": HitchCategory2}
 DESIGNS = {f"header {number}": with_header(number, n=1.4) for number in HEADERS} | {
     "hitch": ThreePointHitch(**{"OB": 0.32, "M": (0.22, 0.95), "KFG": 1.2, "load.mass": 1500.0, "lift.bore": 0.1, "circuit.flow": 0.002}),
     "mower": MowerLift(BOG=1.88, weight=8000.0, bore=0.09, p_max=200 * kgf_cm2),
@@ -51,7 +52,7 @@ def test_machines_with_loads_are_among_them():
     assert {"three_point_hitch", "mower_lift", "header_balancer", "hitch 1", "hitch 2"} <= set(LOADED)
 
 
-@pytest.mark.parametrize("name", CLASSES)
+@for_all("name", [*shipped.DAILY, "hitch 1", "hitch 2"], slow=shipped.OTHERS)
 def test_class_comes_back(name):
     machine = CLASSES[name]
     there = positions(machine())
@@ -63,15 +64,15 @@ def test_class_comes_back(name):
         assert write(back) == write(machine)
 
 
-@pytest.mark.parametrize("write", [to_toml, to_json])
-@pytest.mark.parametrize("name", LOADED)
+@for_all("write", [to_toml, to_json])
+@for_all("name", LOADED)
 def test_forces_and_pressures_come_back(name, write):
     machine = CLASSES[name]
     assert same(forces(load(write(machine))()), forces(machine()))
 
 
-@pytest.mark.parametrize("write", [to_toml, to_json])
-@pytest.mark.parametrize("name", DESIGNS)
+@for_all("write", [to_toml, to_json])
+@for_all("name", DESIGNS)
 def test_design_comes_back(name, write):
     design = DESIGNS[name]
     back = load(write(design))()

@@ -28,6 +28,7 @@ from linkage import (
 from linkage.motion import below_zero
 from linkage.units import litre, minute
 from mechanisms.mower_lift import BELOW, DELFI_OF_INPUT, MowerLift
+from tests.for_all import for_all
 
 # Source: worksheet "Mathematical modelling of the lift of the left section of the KPR-6", as printed
 PRINTED = {
@@ -65,7 +66,7 @@ class MowerLiftPrimitives(MowerLift):
     lever = Link("O", B, G)
 
 
-SPELLINGS = pytest.mark.parametrize("spelling", [MowerLift, MowerLiftPrimitives])
+SPELLINGS = for_all("spelling", [MowerLift, MowerLiftPrimitives])
 
 
 def area(motion):
@@ -103,7 +104,7 @@ def table(lift, motion):
 
 
 @SPELLINGS
-@pytest.mark.parametrize("name", PRINTED)
+@for_all("name", PRINTED)
 def test_printed_table(spelling, name):
     lift = spelling()
     shown = table(lift, lift.at(S=STROKES))[name].shown
@@ -200,8 +201,8 @@ def test_verdict_of_the_other_reading():
     assert "too weak from S = 0.5500 to 0.5604 m" in text
 
 
-@pytest.mark.parametrize(("dimensions", "printed"), [({}, "0.5660"), ({"BOG": OTHER_READING}, "0.5604")])
-@pytest.mark.parametrize("count", [2, 5, 50, 500])
+@for_all(("dimensions", "printed"), [({}, "0.5660"), ({"BOG": OTHER_READING}, "0.5604")])
+@for_all("count", [2, 5, 50, 500])
 def test_end_of_the_short_range_is_a_root(dimensions, printed, count):
     """Not the grid of the table: where the range ends, kz = 1, whatever the number of poses."""
     lift = MowerLift(**dimensions)
@@ -298,7 +299,7 @@ def test_oil_is_area_times_travel():
     assert MowerLift.circuit.oil(motion) == pytest.approx(np.pi / 4 * 0.08**2 * 0.25, rel=1e-12)
 
 
-@pytest.mark.parametrize("dimensions", [{}, {"BOG": 0.6}, {"BOG": 3.5}, {"p_max": 50 * kgf_cm2}, {"weight": 500 * kgf}], ids=str)
+@for_all("dimensions", [{}, {"BOG": 0.6}, {"BOG": 3.5}, {"p_max": 50 * kgf_cm2}, {"weight": 500 * kgf}], ids=str)
 def test_verdict_is_the_same_from_however_many_poses(dimensions):
     said = {verdict(count, **dimensions) for count in (2, 5, 50, 500)}
     assert len(said) == 1
@@ -400,7 +401,7 @@ def test_batch_of_designs_broadcasts():
         assert_allclose(row, reserve(MowerLift(bore=bore).sweep(7)), rtol=1e-12)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("dimensions", "words"),
     [
         ({"k_m": 1.2}, "k_m = 1.2 is above 1"),

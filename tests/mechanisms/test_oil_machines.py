@@ -7,6 +7,7 @@ from numpy.testing import assert_allclose
 from linkage import reaction
 from mechanisms.at_work.axle import Axle, CrossedAxle
 from mechanisms.at_work.levelled import LevelledTelehandler
+from tests.for_all import for_all
 from tests.machines import plane
 from tests.mechanisms import test_at_work as at_work
 from tests.mechanisms.test_at_work import DRAWN, A, O, telehandler
@@ -17,8 +18,8 @@ DOORS = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("door", DOORS, ids=lambda door: door.__name__)
-@pytest.mark.parametrize("machine", [Axle, CrossedAxle, LevelledTelehandler], ids=lambda machine: machine.__name__)
+@for_all("door", DOORS, ids=lambda door: door.__name__)
+@for_all("machine", [Axle, CrossedAxle, LevelledTelehandler], ids=lambda machine: machine.__name__)
 def test_they_go_through_every_door(machine, door):
     door(machine)
 
@@ -101,8 +102,8 @@ def gas(vessel, charge, pressure, pushed_in):
 PISTON, ANNULUS = np.pi / 4 * 0.080**2, np.pi / 4 * (0.080**2 - 0.063**2)
 
 
-@pytest.mark.parametrize("machine", [Axle, CrossedAxle])
-@pytest.mark.parametrize("way", [(0.06, 0.06), (-0.08, -0.08), (0.05, -0.05), (0.02, -0.07)])
+@for_all("machine", [Axle, CrossedAxle])
+@for_all("way", [(0.06, 0.06), (-0.08, -0.08), (0.05, -0.05), (0.02, -0.07)])
 def test_the_struts_and_the_wheels_by_hand(machine, way):
     right, left = way
     if machine is Axle:

@@ -3,13 +3,13 @@
 from itertools import combinations
 
 import numpy as np
-import pytest
 
 from linkage.pictures.poses import motions
 from linkage.pictures.scene import Scene
 from linkage.pictures.strokes import is_turn
 from linkage.reports import Run, first_stroke
 from tests import shipped
+from tests.for_all import for_all
 
 SHIPPED = shipped.MACHINES
 NEAR = 6.0
@@ -36,7 +36,7 @@ def test_many_machines_go_round():
     assert len(ROUND) >= 11
 
 
-@pytest.mark.parametrize("name", ROUND)
+@for_all("name", ROUND)
 def test_no_two_pins_of_the_bold_pose_are_near(name):
     machine = ROUND[name]()
     (stroke,), shown, _ = motions(machine, None, 5)
@@ -46,7 +46,7 @@ def test_no_two_pins_of_the_bold_pose_are_near(name):
     assert distances[-1] >= min(NEAR, 0.8 * distances[:-1].max()) * (1.0 - 1e-6)
 
 
-@pytest.mark.parametrize("name", ROUND)
+@for_all("name", ROUND)
 def test_the_bold_pose_keeps_from_dead_points(name):
     machine = ROUND[name]()
     (stroke,), shown, _ = motions(machine, None, 5)
@@ -58,7 +58,7 @@ def test_the_bold_pose_keeps_from_dead_points(name):
             assert ((ratio[:, 1:] * ratio[:, :-1]).sum(axis=0) >= 0.0).all(), point
 
 
-@pytest.mark.parametrize("name", ROUND)
+@for_all("name", ROUND)
 def test_poses_stand_apart_and_are_the_same_again(name):
     machine = ROUND[name]()
     (stroke,), shown, _ = motions(machine, None, 5)

@@ -27,6 +27,7 @@ from mechanisms.redesigns import (
 )
 from mechanisms.three_point_hitch import ThreePointHitch
 from mechanisms.three_point_hitch.capacity import capacity
+from tests.for_all import for_all
 
 HEADERS = (1, 2, 3)
 
@@ -86,7 +87,7 @@ def gaps_of(machine):
     return found
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("before", "after"),
     [
         (ThreePointHitch(), ThreePointHitch(**FLAT_HITCH)),

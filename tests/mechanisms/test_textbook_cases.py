@@ -4,7 +4,6 @@ Norton: R. L. Norton, Design of Machinery. Meriam: J. L. Meriam, L. G. Kraige, E
 """
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 from linkage import (
@@ -28,6 +27,7 @@ from linkage import (
     deg,
     drawn,
 )
+from tests.for_all import for_all
 from tests.mechanisms.free_bodies import closed, slope
 
 TURN = 2 * np.pi
@@ -56,7 +56,7 @@ class Crossed(FourBar):
 # -- four-bars ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("d", "a", "b", "c", "theta2", "opened", "crossed"),
     [
         (6, 2, 7, 9, 30, (88.8, 117.3), (-115.2, -143.7)),

@@ -31,6 +31,7 @@ from linkage import (
     pin_forces,
     reaction,
 )
+from tests.for_all import for_all
 from tests.mechanisms.free_bodies import G
 
 WAYS = pytest.mark.parametrize(("direction", "s"), [("extending", 1), ("retracting", -1)])
@@ -76,7 +77,7 @@ class Bracket(Mechanism):
     load = Force(T, (0, -1000))
 
 
-@pytest.mark.parametrize("coefficient", [0.1, 0.19, 0.21])
+@for_all("coefficient", [0.1, 0.19, 0.21])
 @WAYS
 def test_bracket_on_its_post(coefficient, direction, s):
     """2 mu a / b against 1 (Meriam, Kraige, Statics, chapter 6): at 0.2 it stays where it is."""

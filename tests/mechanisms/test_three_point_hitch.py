@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 
 from linkage import CosineAngle, Dimension, Ground, Link, Mechanism, Offset, Stroke, Turn, Vector, angle, deg
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.mechanisms.hitch_reference import REFERENCE
 
 
@@ -53,7 +54,7 @@ def printed(values, digits):
 
 
 @SPELLINGS
-@pytest.mark.parametrize("column", [name for name in REFERENCE if name[1:] in ("_x", "_y")])
+@for_all("column", [name for name in REFERENCE if name[1:] in ("_x", "_y")])
 def test_position_has_the_digits_of_the_reference(spelling, column):
     point, axis = column.split("_")
     motion = spelling().at(S=REFERENCE["S"])

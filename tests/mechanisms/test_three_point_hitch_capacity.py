@@ -31,6 +31,7 @@ from mechanisms.three_point_hitch import (
     weakest,
 )
 from mechanisms.three_point_hitch.capacity import stages
+from tests.for_all import for_all
 from tests.mechanisms.hitch_reference import REFERENCE
 
 ALL = pytest.mark.parametrize("machine", [ThreePointHitch, HitchCategory2, HitchCategory1])
@@ -316,7 +317,7 @@ def test_ballast_of_the_verdict_does():
     assert float(front_axle(hitch.sweep(2001)).min()) == pytest.approx(0.2 * 8000 * g0, rel=1e-3)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("dimensions", "words"),
     [
         ({"vehicle_mass": 0.0}, "vehicle_mass = 0 is not above zero"),

@@ -2,8 +2,7 @@
 
 import ast
 
-import pytest
-
+from tests.for_all import for_all
 from tests.tools.mutants import ROOMS, ROOT, by_file, matching, room_of
 from tests.tools.mutations import Mutant, mutants
 
@@ -74,7 +73,7 @@ def test_a_mutant_is_one_line_of_a_source_and_says_so():
         assert all(line[0] in "+-" for line in mutant.diff().splitlines())
 
 
-@pytest.mark.parametrize("room", ROOMS)
+@for_all("room", ROOMS)
 def test_rooms_are_there(room):
     assert list((ROOT / room).rglob("*.py")) and room_of(f"{room}/any.py") == room
 

@@ -11,6 +11,7 @@ import pytest
 
 from linkage import LinkageError
 from linkage.cli import main
+from tests.for_all import for_all
 from tests.uses import of_commands, of_hydraulics, of_linkage, of_mechanisms, of_overs
 from tests.uses.machines import NAMES, bar4, lifting, motion, quick
 
@@ -33,7 +34,7 @@ def cases(uses):
 ALL = [*cases(of_linkage.USES), *cases(of_hydraulics.USES), *cases(of_mechanisms.USES), *cases(of_overs.USES)]
 
 
-@pytest.mark.parametrize(("call", "words"), ALL, ids=[call for call, _ in ALL])
+@for_all(("call", "words"), ALL, ids=[call for call, _ in ALL])
 def test_a_wrong_use_is_refused_in_words(call, words, here):
     with pytest.raises(LinkageError) as caught:
         eval(call, dict(NAMES))
@@ -46,7 +47,7 @@ def test_no_use_stands_twice():
     assert len({call for call, _ in ALL}) == len(ALL) and all(words for _, words in ALL)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("ask", "words"),
     [
         (lambda: motion.G, ("A motion has no attribute 'G'", 'motion["G"]')),

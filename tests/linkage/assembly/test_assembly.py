@@ -28,6 +28,7 @@ from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.klann import Klann
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from mechanisms.classics.stephenson_two import StephensonTwo, StephensonTwoFar
+from tests.for_all import for_all
 from tests.linkage.random_parts import dyad_parts, group_parts, span_of
 
 BLOCK = 25
@@ -243,8 +244,8 @@ CLOSED = [FourBar, Klann, StephensonThree]
 SWEPT = [*CLOSED, StephensonThreeFar, StephensonTwo, pytest.param(StephensonTwoFar, marks=pytest.mark.slow)]
 
 
-@pytest.mark.parametrize("count", [36, 360])
-@pytest.mark.parametrize("machine", SWEPT)
+@for_all("count", [36, 360])
+@for_all("machine", SWEPT)
 def test_forward_and_back_returns_to_the_start(machine, count):
     (stroke,) = machine.plan.strokes.values()
     there = np.linspace(stroke.start, stroke.end, count)
@@ -257,7 +258,7 @@ def test_forward_and_back_returns_to_the_start(machine, count):
         assert (steps <= 2.0 * np.maximum(speed[1:], speed[:-1]) + 1e-9 + 3.0 * speed.max() / count).all()
 
 
-@pytest.mark.parametrize("machine", SWEPT)
+@for_all("machine", SWEPT)
 def test_coarse_and_fine_sweeps_agree(machine):
     (stroke,) = machine.plan.strokes.values()
     values = np.linspace(stroke.start, stroke.end, 351)
@@ -266,8 +267,8 @@ def test_coarse_and_fine_sweeps_agree(machine):
         assert_allclose(coarse[point], fine[point][:, ::10], rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("machine", CLOSED)
-@pytest.mark.parametrize("count", [36, 360])
+@for_all("machine", CLOSED)
+@for_all("count", [36, 360])
 def test_a_turn_of_the_crank_ends_where_it_began(machine, count):
     motion = machine().at(phi=np.linspace(0.3, 0.3 + 2 * np.pi, count))
     for point in machine.plan.moving:
@@ -276,7 +277,7 @@ def test_a_turn_of_the_crank_ends_where_it_began(machine, count):
     assert_allclose(twice["B"][:, :25], twice["B"][:, 24:], rtol=0, atol=1e-13)
 
 
-@pytest.mark.parametrize("machine", SWEPT)
+@for_all("machine", SWEPT)
 def test_any_order_and_far_apart(machine):
     """A pose does not know what was asked before it: shuffled, alone, in a matrix, or across the whole stroke."""
     (stroke,) = machine.plan.strokes.values()

@@ -73,10 +73,7 @@ def pasted(machine, code):
     return names["Other"]
 
 
-MACHINES = [*SHIPPED.values(), Listed, Sketched, GearShift, Plough, DrawnGrab]
-
-
-@pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
+@shipped.over_machines(lambda: [Listed, Sketched, GearShift, Plough, DrawnGrab])
 def test_pasted_code_gives_the_mode(machine):
     at = strokes_inside(machine)
     modes = machine().assemblies(**at)

@@ -52,6 +52,7 @@ from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.stephenson_three import StephensonThreeFar
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.known_machines import GrabArms
 
 X = "{http://www.w3.org/1999/xhtml}"
@@ -473,7 +474,7 @@ def test_dimension_lines_have_the_lengths_of_the_links():
             assert (each.end - each.start) / deg == pytest.approx(float(each.text.rstrip("°")), abs=1e-3)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("latex", "expected"),
     [
         (r"\frac{a}{b}", "<mfrac><mi>a</mi><mi>b</mi></mfrac>"),

@@ -56,6 +56,7 @@ from linkage.units import bar, deg, mm
 from mechanisms.crane import Crane
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 
 class Loader(Mechanism):
@@ -203,7 +204,7 @@ def test_a_number_in_an_expression_keeps_its_unit_to_itself():
     assert "COD = bend + 180 deg" in str(listing) and r"2.95468 \cdot 10^{-7} M" in listing.latex()
 
 
-@pytest.mark.parametrize(("note", "shown_as"), [
+@for_all(("note", "shown_as"), [
     ("cylinder stroke, m", "cylinder stroke"), ("m", ""), ("m, of the struts", "of the struts"), ("N/m2", "N/m2"),
     ("arm, from the boom", "arm, from the boom"),
 ])  # fmt: skip
@@ -339,7 +340,7 @@ def letters(box: Box) -> str:
     return "".join(each.text for each in set_formula(box, 1.0).ink if isinstance(each, GlyphRun)).translate(str.maketrans("", "", "()/ "))
 
 
-@pytest.mark.parametrize("seed", range(30))
+@for_all("seed", range(30))
 def test_a_formula_of_any_kind_breaks_into_pieces_that_fit_and_loses_nothing(seed):
     draw = np.random.default_rng(seed)
     box = random_formula(draw, 4)

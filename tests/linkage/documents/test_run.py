@@ -17,6 +17,7 @@ from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.pantograph import Pantograph
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.mower_lift import MowerLift
+from tests.for_all import for_all
 
 
 class Lever(Mechanism):
@@ -49,7 +50,7 @@ class TwoCranks(Crankshaft):
 # -- the run -------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("at", "stroke", "ends", "held"),
     [
         ({}, "lift", (0.0, 0.6), {"tilt": 0.175}),
@@ -117,7 +118,7 @@ def test_what_is_not_reached_on_the_way_of_several_strokes_is_told_at_its_edge()
     assert unreached_words(motion, "S") == f"not reached beyond S = {1e3 * (0.5 + 0.3 * edge):.4g} mm"
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("at", "words"),
     [
         (dict(lift=0.1, tilt=0.1), "every stroke is held.*give lift two values"),

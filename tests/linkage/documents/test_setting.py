@@ -9,6 +9,7 @@ from linkage.documents.content import Illustration
 from linkage.documents.pictures import painted, picture_svg
 from linkage.documents.setting import GlyphRun, InkLine, set_formula, width
 from linkage.formulas.typeset import Fenced, Lines, boxes
+from tests.for_all import for_all
 
 FORMULAS = [
     "x", r"x + y", r"a, b", r"\sqrt{x + y}", r"\frac{a + b}{c}", r"x_{OB}", r"x^{2}", r"x_{1}^{2}", r"\left(\frac{a}{b}\right)",
@@ -24,8 +25,8 @@ def ends(each):
     return min(x for x, _ in each.points), max(x for x, _ in each.points)
 
 
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("latex", FORMULAS)
+@for_all("size", SIZES)
+@for_all("latex", FORMULAS)
 def test_ink_stays_within_its_box(latex, size):
     formula = set_formula(boxes(latex), size)
     for each in formula.ink:
@@ -35,7 +36,7 @@ def test_ink_stays_within_its_box(latex, size):
         assert all(-formula.depth - 1e-9 <= y <= formula.height + 1e-9 for y in heights)
 
 
-@pytest.mark.parametrize("latex", FORMULAS)
+@for_all("latex", FORMULAS)
 def test_a_formula_grows_with_its_size(latex):
     small, large = (set_formula(boxes(latex), size) for size in (10.0, 20.0))
     assert [large.width, large.height, large.depth] == pytest.approx([2.0 * small.width, 2.0 * small.height, 2.0 * small.depth], rel=0.02)

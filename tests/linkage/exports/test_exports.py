@@ -47,6 +47,7 @@ from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests import shipped
+from tests.for_all import for_all
 from tests.linkage.exports.workbooks import by_office, needs_office, number_columns, row_of, same_numbers, stored, written
 
 PAPERS = {"hitch": ThreePointHitch, "header": HeaderBalancer, "mower": MowerLift}
@@ -207,7 +208,7 @@ def test_another_program_finds_the_same_numbers_of_a_machine_of_parts(of_parts, 
         assert_allclose(after, column.shown, rtol=0, atol=1e-12 * max(np.abs(column.shown).max(), 1.0), err_msg=column.name)
 
 
-@pytest.mark.parametrize("unit", ["mm", "deg", "kN", "bar", "m", "N", ""])
+@for_all("unit", ["mm", "deg", "kN", "bar", "m", "N", ""])
 def test_a_unit_is_put_on_as_it_is_taken_off_and_one_of_si_is_not_written(unit):
     written = to_si(unit), from_si(unit)
     assert (written == ("", "")) is (unit in ("m", "N", ""))

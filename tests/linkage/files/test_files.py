@@ -15,13 +15,16 @@ from linkage.cli import main
 from linkage.files import from_dict, load, registry, save, to_dict, to_json, to_toml
 from linkage.quantities import Member, name_of, quantity
 from tests import shipped
+from tests.for_all import for_all
 from tests.linkage.files.file_machines import Drawn, EveryStep, Hitch, Loaded, Parts
 
 DATA = Path(__file__).parents[1] / "data"
 
 
 SHIPPED = shipped.MACHINES
-MACHINES = SHIPPED | {each.__name__: each for each in (Hitch, EveryStep, Parts, Drawn, Loaded)}
+OWN = {each.__name__: each for each in (Hitch, EveryStep, Parts, Drawn, Loaded)}
+MACHINES = {**SHIPPED, **OWN}
+ALL = for_all("name", [*shipped.DAILY, *OWN], slow=shipped.OTHERS)
 
 
 def same_motion(first, second):
@@ -35,7 +38,7 @@ def same_motion(first, second):
 # -- there and back ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", sorted(MACHINES))
+@ALL
 def test_machine_comes_back_as_it_was(name):
     machine = MACHINES[name]
     text = to_toml(machine)
@@ -47,7 +50,7 @@ def test_machine_comes_back_as_it_was(name):
     same_motion(machine(), back())
 
 
-@pytest.mark.parametrize("name", sorted(MACHINES))
+@ALL
 def test_json_says_the_same(name):
     machine = MACHINES[name]
     back = load(to_json(machine))

@@ -10,6 +10,7 @@ from linkage import DefinitionError, FileError
 from linkage.files import from_dict, load, to_dict, to_json, to_toml
 from linkage.files.expression import arrow_in, expression
 from linkage.files.names import Names
+from tests.for_all import for_all
 from tests.linkage.files.file_machines import changed
 
 NAMES = Names(
@@ -57,14 +58,14 @@ LARGE = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("text", CALCULATED)
+@for_all("text", CALCULATED)
 def test_numbers_are_calculated_at_once(text):
     found = expression(text, NAMES)
     assert found.is_constant
     assert found.number == pytest.approx(CALCULATED[text], rel=1e-15)
 
 
-@pytest.mark.parametrize("text", WRITTEN)
+@for_all("text", WRITTEN)
 def test_expression_is_written_as_it_is_read(text):
     assert str(expression(text, NAMES)) == WRITTEN[text]
     assert str(expression(WRITTEN[text], NAMES)) == WRITTEN[text]
@@ -75,7 +76,7 @@ def test_vector_is_written_as_it_is_read(text):
     assert str(arrow_in(text, NAMES)) == text
 
 
-@pytest.mark.parametrize("text", [*PYTHON, *WRONG, *NOT_FINITE, *UNREADABLE, *LARGE])
+@for_all("text", [*PYTHON, *WRONG, *NOT_FINITE, *UNREADABLE, *LARGE])
 def test_hostile_expression_is_refused_in_words(text):
     with pytest.raises(DefinitionError) as caught:
         expression(text, NAMES)
@@ -84,7 +85,7 @@ def test_hostile_expression_is_refused_in_words(text):
         from_dict(changed("outputs", "u", to=text))
 
 
-@pytest.mark.parametrize("text", ["S", "angle(A, O)", "L * AO", "Turn(AO)", "Turn(A, S)", "Vector(AO, A)", "AO + AO", "Q", "", "eval(AO)"])
+@for_all("text", ["S", "angle(A, O)", "L * AO", "Turn(AO)", "Turn(A, S)", "Vector(AO, A)", "AO + AO", "Q", "", "eval(AO)"])
 def test_what_is_no_vector_is_refused(text):
     with pytest.raises(DefinitionError):
         arrow_in(text, NAMES)

@@ -10,6 +10,7 @@ from linkage import DefinitionError, FileError, Mechanism, Pulley, Rope, bar, dr
 from linkage.files import from_dict, left_out, load, registry, to_dict, to_json, to_toml
 from linkage.loads import ForceElement, Load, LoadCase, Support, Weight
 from linkage.units import N, kgf, kN
+from tests.for_all import for_all
 from tests.linkage.files.file_machines import Hitch, Loaded, changed
 
 DIRECTIONS = ("frictionless", "extending", "retracting")
@@ -29,9 +30,9 @@ def returned(write):
     return load(write(Loaded))
 
 
-@pytest.mark.parametrize("direction", DIRECTIONS)
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("write", [to_toml, to_json])
+@for_all("direction", DIRECTIONS)
+@for_all("case", CASES)
+@for_all("write", [to_toml, to_json])
 def test_loads_come_back_with_their_forces(write, case, direction):
     back = returned(write)()
     assert np.array_equal(forces(back, case, direction), forces(Loaded(), case, direction))
@@ -106,7 +107,7 @@ def test_names_are_kept_as_they_refer():
 WEIGHT = {"Weight": "G", "mass": 10}
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("tables", "words"),
     [
         (changed("loads", "w", to=WEIGHT | {"mass": "5 bar"}), r"loads\.w\.mass: '5 bar' is a pressure where a value of kind mass"),

@@ -7,6 +7,7 @@ import pytest
 
 from linkage import AssemblyError, DefinitionError, FileError
 from linkage.files import from_dict, load, save, to_dict, to_toml
+from tests.for_all import for_all
 from tests.linkage.files.file_machines import EveryStep, Hitch, changed
 
 DATA = Path(__file__).parents[1] / "data"
@@ -37,7 +38,7 @@ def test_every_mistake_comes_with_its_key_and_line():
 B = to_dict(Hitch)["points"]["B"]
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("tables", "words"),
     [
         (changed("points", "B", "OB", to=-0.3), r"points\.B: B = Dyad\(A, O\): the length OB=-0\.3 m is negative"),
@@ -91,7 +92,7 @@ def test_what_cannot_be_assembled_stays_an_assembly_error():
     assert caught.value.point == "K"
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("text", "words"),
     [
         ("name = \n", "the text, line 1: Invalid value"),

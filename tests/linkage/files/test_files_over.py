@@ -23,6 +23,7 @@ from linkage import (
 )
 from linkage.files import from_dict, load, to_dict, to_json, to_toml
 from linkage.files.search_file import read_search
+from tests.for_all import for_all
 
 
 class Crane(Mechanism):
@@ -64,8 +65,8 @@ def test_file_of_overs_reads_as_it_is_written():
     }
 
 
-@pytest.mark.parametrize("back", [load(to_toml(Crane)), load(to_json(Crane)), from_dict(to_dict(Crane))], ids=["toml", "json", "dict"])
-@pytest.mark.parametrize("name", OVERS)
+@for_all("back", [load(to_toml(Crane)), load(to_json(Crane)), from_dict(to_dict(Crane))], ids=["toml", "json", "dict"])
+@for_all("name", OVERS)
 def test_what_a_file_says_is_answered_as_the_class_answers(back, name):
     assert to_toml(back) == to_toml(Crane)
     for design in (Crane, back):
@@ -106,7 +107,7 @@ B = { Crank = "A", AB = "0.5 + S", angle = "phi" }
 loading = """
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("entry", "words"),
     [
         ("3", "3 is not a table of strokes, such as"),

@@ -14,6 +14,7 @@ from linkage.files import from_dict, load, to_dict, to_json, to_toml
 from linkage.loads import ForceElement, Load, TwoPoint, Weight
 from linkage.quantities import Driven, Joint, JointSide, quantity
 from linkage.steps import UNBOUND, Slot, Step
+from tests.for_all import for_all
 
 
 class CamFollower(Step):
@@ -165,7 +166,7 @@ def changed(section, name, **keys):
     return tables
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("tables", "words"),
     [
         (changed("points", "X", OX=None), r"points\.X: X = CamFollower\(O, rail\): the length OX/XO is missing"),

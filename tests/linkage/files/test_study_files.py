@@ -54,6 +54,7 @@ from linkage.files.survey_measures import TextMeasures
 from linkage.pictures import style
 from linkage.study import Target, Tolerance, monte_carlo, settings_for, tornado, zone
 from linkage.study.space import Around
+from tests.for_all import for_all
 
 ROOT = Path(__file__).parents[3]
 
@@ -141,7 +142,7 @@ MEASURES = [
 ]
 
 
-@pytest.mark.parametrize(("text", "measure"), MEASURES, ids=[text for text, _ in MEASURES])
+@for_all(("text", "measure"), MEASURES, ids=[text for text, _ in MEASURES])
 def test_a_text_measures_what_python_does(text, measure):
     said = measure_said(text, BOOM)
     assert str(said) == str(measure)
@@ -163,7 +164,7 @@ def by_hand(motion, leaf):
     return values.min() if leaf.word == "least" else values.max()
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("text", "condition"),
     [
         ("most(lift) <= 40 deg", most("lift") <= 40 * deg),
@@ -215,14 +216,14 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize(("text", "words"), WRONG, ids=[str(text)[:30] for text, _ in WRONG])
+@for_all(("text", "words"), WRONG, ids=[str(text)[:30] for text, _ in WRONG])
 def test_what_is_no_measure_is_told(text, words):
     with pytest.raises(DefinitionError) as error:
         measure_said(text, BOOM)
     assert words in str(error.value)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("text", "words"),
     [
         ("most(lift) <= 8 mm", "unit of a value of kind length, and it limits one of kind angle"),
@@ -242,7 +243,7 @@ def test_what_is_no_condition_is_told(text, words):
     assert words in str(error.value)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("given", "name", "meant"),
     [
         ("1.0 to 1.2 m", "OB", (1.0, 1.2)),

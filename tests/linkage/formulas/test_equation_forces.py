@@ -37,6 +37,7 @@ from mechanisms.header_balancer.following import HeaderState
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from mechanisms.three_point_hitch.capacity import capacity
+from tests.for_all import for_all
 
 
 def along(design, count=7):
@@ -191,7 +192,7 @@ def with_members(**members):
 RAM = dict(bore=80 * mm, rod=45 * mm)
 
 
-@pytest.mark.parametrize(
+@for_all(
     "members",
     [
         dict(ram=Cylinder("A", "B", **RAM)),

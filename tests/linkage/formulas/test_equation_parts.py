@@ -1,10 +1,10 @@
 """Equations of parts that stand turned, mirrored or on moving bodies: their numbers are the engine's."""
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, RIGHT, Crank, Dyad, Ground, Guide, Mechanism, OnLink, Part, SliderDyad, Stroke, angle, deg, equations
+from tests.for_all import for_all
 
 
 class Press(Mechanism):
@@ -29,7 +29,7 @@ class Carrier(Mechanism):
     T = OnLink(P, X, PT=0.5, XPT=30 * deg)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@for_all("seed", range(6))
 def test_equations_of_a_part_give_where_it_stands(seed):
     random = np.random.default_rng(seed)
     x, y, turn = random.uniform(-1.0, 1.0, 3).tolist()

@@ -1,7 +1,6 @@
 """Steps of one's own whose rules put vectors together from numbers: their equations say what the rules do."""
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, driving_force, equations
@@ -11,6 +10,7 @@ from linkage.loads import Weight
 from linkage.quantities import label, quantity, spelled
 from linkage.steps import Point
 from linkage.vectors import Line, Vec
+from tests.for_all import for_all
 
 RULES = {
     "place + vector": lambda P, Q, d: P + Vec(0.1, 0.2),
@@ -65,7 +65,7 @@ def machine_with(rule):
     return type("Own", (Lever,), {"X": Beside("C", "B", "d", rule), "load": Weight("X", mass=10.0)})()
 
 
-@pytest.mark.parametrize("rule", RULES)
+@for_all("rule", RULES)
 def test_equations_are_the_rule(rule):
     machine, S = machine_with(rule), np.array([0.03, 0.11, 0.19])
     motion = machine.at(S=S)
@@ -78,7 +78,7 @@ def test_equations_are_the_rule(rule):
     assert_allclose(rates["dX/dS"], motion.ratio("X"), rtol=1e-10, atol=1e-12)
 
 
-@pytest.mark.parametrize("rule", RULES)
+@for_all("rule", RULES)
 def test_equations_are_printed(rule):
     machine = machine_with(rule)
     found = equations(machine, numbers=True)

@@ -11,6 +11,7 @@ from linkage.formulas.numbered import compiled_lines
 from linkage.plan import ArrayReading
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.formulas.equation_machines import ALL, HITCHES, MowerInPrimitives, Outputs, Slider, check_values, poses
 from tests.linkage.program.sympy_program import program_expressions
 from tests.linkage.random_mechanisms import random_mechanism
@@ -70,12 +71,12 @@ def test_a_long_chain_has_no_closed_form():
 # -- numbers -----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("machine", ALL)
+@for_all("machine", ALL)
 def test_equations_are_the_motion(machine):
     assert check_values(machine(), poses(machine())) >= 7
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("machine", "targets"),
     [(hitch, ["B", "C", "D", "F", "K", "G", "tilt"]) for hitch in HITCHES]
     + [(MowerLift, ["B", "G", "FIS", "FI3", "FI", "FIS1"]), (MowerInPrimitives, ["B", "G", "FI3"]), (Slider, ["A", "C", "Y", "R", "w"])]
@@ -92,7 +93,7 @@ def test_chain_of_derivatives_is_the_ratio(machine, targets):
             assert_allclose(values[f"I_{target}"] * np.ones(11), motion.ratio(target)[1], rtol=1e-10, atol=1e-11)
 
 
-@pytest.mark.parametrize("seed", range(8))
+@for_all("seed", range(8))
 def test_random_dyads(seed):
     machine = random_mechanism(seed, strokes=1 + seed % 2)()
     at = {name: np.array([stroke.start, 0.3 * stroke.end, stroke.end]) for name, stroke in machine.strokes.items()}
@@ -124,7 +125,7 @@ def test_pins_found_together_satisfy_their_conditions():
 # -- errors ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("ask", "words"),
     [
         (lambda: equations(ThreePointHitch, ratio="Z"), "'Z' is unknown in ThreePointHitch"),

@@ -11,6 +11,7 @@ from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Ground, Mechanism, OnLi
 from linkage.formulas import equations
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.formulas.equation_machines import ALL, HITCHES, Outputs, Slider, check_values
 
 # -- the list ----------------------------------------------------------------------------------------------
@@ -140,7 +141,7 @@ def test_latex_is_numbered_and_in_the_papers_notation():
     assert equations(ThreePointHitch).latex(definitions=False).startswith(r"\begin{align}")
 
 
-@pytest.mark.parametrize("machine", ALL)
+@for_all("machine", ALL)
 def test_latex_is_balanced(machine):
     text = equations(machine, ratio="B" if machine is not Slider else "C").latex()
     assert text.count("{") == text.count("}") and text.count(r"\left") - text.count(r"\leftarrow") == text.count(r"\right") - text.count(

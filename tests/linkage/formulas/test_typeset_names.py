@@ -4,13 +4,12 @@ import random
 import re
 from xml.etree import ElementTree
 
-import pytest
-
 from linkage import LEFT, Dyad, Ground, Mechanism, OnLink, Stroke, Weight, angle, equations
 from linkage.documents.html import math
 from linkage.documents.setting import set_formula
 from linkage.formulas.names import SymbolNames
 from linkage.formulas.typeset import boxes
+from tests.for_all import for_all
 
 LETTERS = ("ABMxyz", "αλΩρ", "ЖфЩ", "_", "0127", "é中")
 WORDS = ("alpha", "dot", "hat", "frac", "Omega", "lambda_", "L", "is_", "d", "mathit")
@@ -43,7 +42,7 @@ def drawn_name(random_: random.Random) -> str:
             return name
 
 
-@pytest.mark.parametrize("seed", range(12))
+@for_all("seed", range(12))
 def test_a_point_of_any_name_is_typeset(seed):
     name = ["M_", "_M", "M__"][seed] if seed < 3 else drawn_name(random.Random(seed))
     listed = equations(arm(name), forces=True, ratio=name)

@@ -42,6 +42,7 @@ from linkage import (
 )
 from linkage.loads import couple
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 G0 = 9.80665
 
@@ -143,7 +144,7 @@ def test_a_moment_is_a_pure_couple():
     assert_allclose(turning, 250.0, rtol=1e-13)
 
 
-@pytest.mark.parametrize("link", [Lift.arm, "arm", "O B", ("O", "B"), (Lift.O, "B", "G")])
+@for_all("link", [Lift.arm, "arm", "O B", ("O", "B"), (Lift.O, "B", "G")])
 def test_a_moment_takes_a_link_its_name_or_points(link):
     motion = at(Lift)
     assert_allclose(driving_force(motion, [Moment(link, M=100.0)]), -100.0 * motion.ratio(angle("O", "B")), rtol=1e-12)
@@ -286,10 +287,10 @@ def test_gravity_prints_as_it_is_written():
     assert str(Weight("G", mass=1, gravity=np.array([0.0, -1.62]))) == "Weight(G, mass=1, gravity=(0.0, -1.62))"
 
 
-@pytest.mark.parametrize("make", [
+@for_all("make", [
     partial(Weight, "G", mass=1), partial(LinkMass, "O B", mass=1), partial(LoadCase, "case"),
 ])  # fmt: skip
-@pytest.mark.parametrize(("gravity", "words"), [
+@for_all(("gravity", "words"), [
     (1.62, r"gravity=1\.62 has no direction; write the vector gravity=\(0, -1\.62\)"),
     (-9.81, r"write the vector gravity=\(0, -9\.81\)"),
     ((0.0, np.nan), r"is not two finite numbers; write \(x, y\) in m/s2, such as \(0, -9\.81\)"),
@@ -346,7 +347,7 @@ def test_an_element_may_rub():
 # -- bad input ---------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("make", "word"),
     [
         (lambda: Weight("G", mass=-1), "negative"),

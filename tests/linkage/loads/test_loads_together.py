@@ -10,6 +10,7 @@ from linkage import LEFT, Crank, DefinitionError, Dimension, Dyad, Ground, Guide
 from linkage.loads import Force, GuideFriction, Load, LoadCase, PinFriction, Spring, Support, Weight
 from linkage.statics import driving_force, pin_forces, reaction
 from linkage.units import bar, deg, litre, mm
+from tests.for_all import for_all
 
 RAM = dict(bore=63 * mm, rod=36 * mm)
 
@@ -87,7 +88,7 @@ TWICE = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("make", "words"), TWICE)
+@for_all(("make", "words"), TWICE)
 def test_a_class_in_which_something_stands_twice_is_refused_by_name(make, words):
     with pytest.raises(DefinitionError, match=words):
         make()
@@ -163,11 +164,11 @@ def test_friction_that_is_given_beside_the_machines_own_is_refused():
         driving_force(motion, ["load", "f", PinFriction("O", 20 * mm, 0.1)], direction="extending")
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("name", "member"),
     [("ram", Cylinder("A", "B", **RAM)), ("pump", LiftCircuit("ram", pressure=180 * bar))],
 )
-@pytest.mark.parametrize("factor", [0, 0.5, 2.0])
+@for_all("factor", [0, 0.5, 2.0])
 def test_what_only_holds_is_not_scaled(name, member, factor):
     members = {"ram": Cylinder("A", "B", **RAM), name: member}
     words = rf"scale=\{{'{name}': {factor}\}}: {name} is a {type(member).__name__} .*a factor changes nothing; scale the loads instead"
@@ -203,7 +204,7 @@ LINES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("first", "second"), [pair for pair in itertools.product(LINES, LINES) if pair[0] != "number"])
+@for_all(("first", "second"), [pair for pair in itertools.product(LINES, LINES) if pair[0] != "number"])
 def test_a_name_that_stands_twice_in_a_class_would_lose_the_first(first, second):
     lines = f"class Twice(Lever):\n    {LINES[first]}\n    {LINES[second]}\n"
     with pytest.raises(DefinitionError, match=r"^Twice: P = .* stands there already, and P = .* would take its place without a word"):

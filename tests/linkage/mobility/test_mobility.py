@@ -22,6 +22,7 @@ from linkage import (
     deg,
     grashof,
 )
+from tests.for_all import for_all
 
 
 class Parallelogram(Mechanism):
@@ -136,7 +137,7 @@ def test_a_peaucellier_cell_with_an_extra_link_moves():
     assert Extra().mobility == 1
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("lengths", "kind"),
     [
         ((4.0, 1.0, 3.0, 2.5), "crank rocker"),

@@ -18,7 +18,7 @@ from linkage.quantities import Quantity
 from tests import shipped
 
 NEEDED = pytest.mark.skipif(shutil.which("node") is None, reason="node, which runs the JavaScript, is not installed")
-SHIPPED = shipped.MACHINES | shipped.AT_WORK
+SHIPPED = {**shipped.MACHINES, **shipped.AT_WORK}
 ELSEWHERE = {
     "axle": "Axle", "baler": "Baler", "double_wishbone": "Wishbone", "excavator": "Excavator", "forestry_crane": "Crane",
     "gear_shift": "GearShift", "lifting_arm": "Pulled", "log_splitter": "Splitter", "mast_tilt": "Mast", "needle_bar": "SewingMachine",

@@ -22,6 +22,7 @@ from linkage import (
     Stroke,
     deg,
 )
+from tests.for_all import for_all
 from tests.linkage.motion.exact_sweeps import parallel, sweep
 
 
@@ -76,13 +77,13 @@ def test_ten_thousand_sweeps_against_exact_margins():
     check_sweeps(range(11_000, 12_000), any_width)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@for_all("seed", range(12))
 def test_guides_that_come_parallel_between_poses(seed):
     case = parallel(np.random.default_rng(seed))
     assert told(case.machine, case.values) == ("change", "X")
 
 
-@pytest.mark.parametrize(("height", "count"), [(0.0, 2), (0.0, 36), (1e-10, 5), (1e-8, 2), (1e-8, 36)])
+@for_all(("height", "count"), [(0.0, 2), (0.0, 36), (1e-10, 5), (1e-8, 2), (1e-8, 36)])
 def test_a_slot_whose_pin_comes_to_its_pivot(height, count):
     class Slotted(Mechanism):
         S = Stroke(-1.0, 1.3)
@@ -104,8 +105,8 @@ def test_a_gap_between_two_poses_is_told_with_its_ends_and_what_is_missing():
     assert_allclose([gap.low, gap.high], [np.pi - half, np.pi + half], rtol=1e-12)
 
 
-@pytest.mark.parametrize("link", [1.999, 2.0 - 1e-9, 2.0 - 1e-13, 2.0, 2.0 + 1e-13])
-@pytest.mark.parametrize("values", [[0, 6.2], [6.2, 0], [3.0, 3.15, 5.0, 5.1], [1.0, 2.0, 3.3], np.linspace(3.1, 6.0, 40)])
+@for_all("link", [1.999, 2.0 - 1e-9, 2.0 - 1e-13, 2.0, 2.0 + 1e-13])
+@for_all("values", [[0, 6.2], [6.2, 0], [3.0, 3.15, 5.0, 5.1], [1.0, 2.0, 3.3], np.linspace(3.1, 6.0, 40)])
 def test_first_last_and_uneven_intervals_are_looked_at(link, values):
     what = told(FourBar(CB=link), np.array(values))
     assert what == ("gap" if link < 2.0 - 1e-12 else "change" if link >= 2.0 else what[0], "B") and what[0] != "clear"

@@ -5,6 +5,7 @@ import pytest
 
 from linkage.motion import highest
 from linkage.motion.box import highest_in
+from tests.for_all import for_all
 from tests.linkage.motion.box_cases import InUnitBox, case, waves
 
 LOTS = [range(first, first + 20) for first in range(0, 60, 20)]  # a test each: none takes long
@@ -39,8 +40,8 @@ def check_case(seed, k):
     assert np.all((unit >= 0.0) & (unit <= 1.0)) and one.f(unit) == pytest.approx(value, abs=1e-12 * one.span)
 
 
-@pytest.mark.parametrize("seeds", LOTS, ids=str)
-@pytest.mark.parametrize("k", [1, 2, 3])
+@for_all("seeds", LOTS, ids=str)
+@for_all("k", [1, 2, 3])
 def test_tops_that_are_known(k, seeds):
     for seed in seeds:
         check_case(seed, k)

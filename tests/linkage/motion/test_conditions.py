@@ -40,6 +40,7 @@ from linkage.loads import Weight
 from linkage.motion import evaluation, motion, requests
 from linkage.motion.grid import Grid
 from linkage.motion.requests import bound, examined, keeps_digits
+from tests.for_all import for_all
 from tests.laws.near_singular import pose
 
 STEPS = 10.0 ** -np.arange(1.0, 16.0)
@@ -152,7 +153,7 @@ class Through(Mechanism):
     P = OnGuide(rail, at=S)
 
 
-@pytest.mark.parametrize(
+@for_all(
     "members",
     [
         {"X": OnLink("A", "P", AX=0.3)},
@@ -161,7 +162,7 @@ class Through(Mechanism):
     ],
     ids=["on a link", "on a guide", "along a direction"],
 )
-@pytest.mark.parametrize("S", [[-0.1, 0.1], [-0.1, -0.03, 0.07], [-1e-4, 0.09]], ids=str)
+@for_all("S", [[-0.1, 0.1], [-0.1, -0.03, 0.07], [-1e-4, 0.09]], ids=str)
 def test_a_direction_that_is_lost_between_two_poses_is_told(members, S):
     machine = type("Over", (Through,), members)
     with pytest.raises(SingularError, match="without a direction at S"):
@@ -172,8 +173,8 @@ def test_a_direction_that_is_lost_between_two_poses_is_told(members, S):
     assert machine().at(S=np.abs(S)).interruptions == ()
 
 
-@pytest.mark.parametrize("asked", ["v", angle("A", "P")], ids=str)
-@pytest.mark.parametrize("away", [1e-3, 1e-6, 1e-9])
+@for_all("asked", ["v", angle("A", "P")], ids=str)
+@for_all("away", [1e-3, 1e-6, 1e-9])
 def test_a_direction_that_only_a_request_takes_is_judged_alike_in_every_way(asked, away):
     class Near(Mechanism):
         """P runs on a rail 1 nm below the fixed point A."""
@@ -218,7 +219,7 @@ def test_an_angle_that_is_followed_and_a_loop_behind_it_are_looked_at_together()
     assert np.abs(np.diff(motion["C"])).max() < 0.1
 
 
-@pytest.mark.parametrize(
+@for_all(
     "ask",
     [
         lambda lever, near: near.ratio("B"),
@@ -252,7 +253,7 @@ class Rail(Mechanism):
     seen = angle(A, P)
 
 
-@pytest.mark.parametrize("beside", [[], ["seen"], [ratio("seen")], [ratio(angle("A", "P"))], [angle("A", "P"), distance("A", "P")]])
+@for_all("beside", [[], ["seen"], [ratio("seen")], [ratio(angle("A", "P"))], [angle("A", "P"), distance("A", "P")]])
 def test_a_condition_does_not_hang_on_what_is_asked_beside_it(beside):
     """Of all points it is regular, for A is no part of P; a direction between the two has a condition of its own."""
     asked = [condition(), condition("P"), condition("seen"), condition(angle("A", "P"))]

@@ -26,6 +26,7 @@ from linkage import (
 from linkage.motion import evaluation
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.program.test_backends import GROUPED, MACHINES, SHIPPED
 
 STROKE = np.linspace(0.0, 0.25, 41)
@@ -181,7 +182,7 @@ def test_angles_do_not_jump_along_the_stroke():
     assert_allclose(found, motion["twice"], rtol=1e-12)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("asked", "words"),
     [
         (["Q"], "Q"),

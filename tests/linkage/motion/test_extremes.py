@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 from linkage import LEFT, RIGHT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, Pin, Stroke, angle
 from linkage.motion import below_zero, evaluate_grid, greatest, lowest, ratio, reached
 from linkage.program import QUICKEST
+from tests.for_all import for_all
 
 WIDTH = 1.0 / 2000.0
 
@@ -95,7 +96,7 @@ def pieces(rng, least, most):
     return x / x[-1], rng.uniform(-1.0, 1.0, count + 1)
 
 
-@pytest.mark.parametrize("seed", seeds(40, daily=15))
+@for_all("seed", seeds(40, daily=15))
 def test_broken_lines_with_gaps(seed):
     """The highest corner, or the highest edge of a gap, of lines of up to 1500 pieces."""
     rng = np.random.default_rng(seed)
@@ -117,7 +118,7 @@ def test_broken_lines_with_gaps(seed):
         assert not found.unbounded
 
 
-@pytest.mark.parametrize("seed", range(20))
+@for_all("seed", range(20))
 def test_jumps_count_on_their_larger_side(seed):
     rng = np.random.default_rng(seed)
     x = np.sort(rng.uniform(0.0, 1.0, int(rng.integers(1, 60))))
@@ -133,7 +134,7 @@ def test_jumps_count_on_their_larger_side(seed):
     assert found.value == pytest.approx(max(np.max(a + b * ends[:-1]), np.max(a + b * ends[1:])), abs=1e-9)
 
 
-@pytest.mark.parametrize("count", [3, 5, 50, 500, 4097, 6000])
+@for_all("count", [3, 5, 50, 500, 4097, 6000])
 def test_however_many_poses_say_the_same(count):
     first, other = (greatest(Lift().sweep(each), lambda motion: motion.ratio("psi")) for each in (2, count))
     assert (first.value, first.strokes) == (other.value, other.strokes)
@@ -206,7 +207,7 @@ def test_an_extreme_at_the_edge_of_the_reach():
         assert found.strokes["S"] == pytest.approx(S, abs=1e-6) and not found.unbounded
 
 
-@pytest.mark.parametrize("seed", range(20))
+@for_all("seed", range(20))
 def test_a_narrow_top_cut_off_by_an_edge(seed):
     """Next to the edge of what has a value, on ground that falls towards it, higher than the ground by a fifth."""
     rng = np.random.default_rng(seed)
@@ -244,7 +245,7 @@ def test_a_quotient_is_without_bounds_where_its_divisor_vanishes():
     assert found.value == pytest.approx(10.0 / np.cos(1.5), rel=1e-12) and not found.unbounded
 
 
-@pytest.mark.parametrize("seed", seeds(60, daily=20))
+@for_all("seed", seeds(60, daily=20))
 def test_poles_and_what_is_none(seed):
     """Poles of several orders on a moving ground, refused about them or at the end of the reach, against values that stay finite."""
     rng = np.random.default_rng(seed)
@@ -372,7 +373,7 @@ def test_a_path_is_followed_leg_by_leg():
     assert held.value == pytest.approx(2.0 * np.sin(0.3) + np.sin(1.3)) and held.strokes["u"] == 0.3
 
 
-@pytest.mark.parametrize("seed", range(30))
+@for_all("seed", range(30))
 def test_a_narrow_top_anywhere_on_a_path(seed):
     """The path turns, stands, and goes back on itself; the top is 1/2000 of the way's range wide."""
     rng = np.random.default_rng(seed)
@@ -471,7 +472,7 @@ def test_a_range_below_zero_anywhere(place, wide):
     assert_allclose(ends(above, "S"), 0.5 + 0.25 * np.array(rest), atol=1e-12)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@for_all("seed", range(20))
 def test_ranges_of_broken_lines(seed):
     rng = np.random.default_rng(seed)
     x, y = pieces(rng, 1.0 / 1900.0, 600)

@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 from linkage import AssemblyError, Crank, DefinitionError, Dyad, Ground, Mechanism, OnGuide, SingularWarning, Stroke, ratio
 from linkage.steps import Guide
+from tests.for_all import for_all
 
 
 class Three(Mechanism):
@@ -28,7 +29,7 @@ POSES = [(0.15, 0.25, 0.9), (0.55, 0.45, 0.35), (0.3, 0.2, 0.6)]
 POINTS = "DEAXYZ"
 
 
-@pytest.mark.parametrize("asked", [*POINTS, *combinations(POINTS, 2), tuple(POINTS)], ids="".join)
+@for_all("asked", [*POINTS, *combinations(POINTS, 2), tuple(POINTS)], ids="".join)
 def test_each_value_is_its_own_strokes(asked):
     """u, v, w in order, by name in any order, and the first in order with the rest by name."""
     f = Three().function(list(asked))

@@ -27,6 +27,7 @@ from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.classics.stephenson_two import StephensonTwo
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks.c_reference import POINTER, address, built, has_compiler
+from tests.for_all import for_all
 from tests.linkage.motion.test_source import arguments
 from tests.linkage.motion.test_transmission import Sliders
 
@@ -67,7 +68,7 @@ def independent(a, b):
 PAIRS = [("plate", "QDE"), ("D", "OABC"), ("QDE", "relief"), ("N", "plate"), ("relief", "O A"), ("A", "D"), ("M", "relief")]
 
 
-@pytest.mark.parametrize(("a", "b"), PAIRS[:6], ids=map("-".join, PAIRS[:6]))
+@for_all(("a", "b"), PAIRS[:6], ids=map("-".join, PAIRS[:6]))
 def test_the_gap_is_that_of_the_difference_of_the_shapes(a, b):
     rng, machine = np.random.default_rng(3), Arms()
     strokes = {"phi": rng.uniform(0.0, 6.28, 150), "psi": rng.uniform(0.0, 6.28, 150)}
@@ -130,7 +131,7 @@ def test_bodies_are_named_and_refused_in_words():
         gap("OBC", "FKG", width=-1.0)
 
 
-@pytest.mark.parametrize("structure", [Sliders, SliderCrank, FrontLoader, ThreePointHitch, StephensonTwo])
+@for_all("structure", [Sliders, SliderCrank, FrontLoader, ThreePointHitch, StephensonTwo])
 def test_a_transmission_angle_is_asked_of_every_kind_of_joint(structure):
     machine = structure()
     strokes = {name: np.linspace(each.start, each.end, 13) for name, each in machine.strokes.items()}

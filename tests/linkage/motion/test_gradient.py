@@ -7,6 +7,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from linkage import AssemblyError, DefinitionError, SingularError, angle, distance, ratio, x, y
 from linkage.program import Graph, Level, Tangent, gradient, interpret
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.program.test_backends import GROUPED, MACHINES, SHIPPED
 from tests.linkage.random_mechanisms import random_mechanism
 
@@ -54,7 +55,7 @@ def test_gradient_of_a_ratio_is_the_tangent_of_the_ratio(machine):
             assert_allclose(part, np.broadcast_to(np.ravel(wanted), (3,)), rtol=1e-8, atol=1e-8 * (1.0 + np.abs(each).max()))
 
 
-@pytest.mark.parametrize("seed", range(8))
+@for_all("seed", range(8))
 def test_gradients_of_random_mechanisms(seed):
     machine = random_mechanism(seed, strokes=1 + seed % 2, joints=6)
     plan = machine.plan
@@ -84,7 +85,7 @@ def test_gradients_go_through_groups(name):
 OUTPUTS = ["tilt", distance("A", "G"), y("G") * np.sin(angle("F", "K")) + x("K") ** 2, ratio("tilt"), ratio("tilt", order=2)]
 
 
-@pytest.mark.parametrize("of", OUTPUTS, ids=str)
+@for_all("of", OUTPUTS, ids=str)
 def test_outputs_and_expressions_have_gradients(of):
     strokes = {"S": np.linspace(0.02, 0.2, 4)}
     found = ThreePointHitch().at(**strokes).gradient(of, [*LENGTHS, "M.x", "KFG"])
@@ -121,7 +122,7 @@ def test_a_dimension_behind_the_point_changes_nothing():
     assert_array_equal(ThreePointHitch().sweep(3).gradient("C", ["FG", "M.x"]), np.zeros((2, 2, 3)))
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("wrt", "words"),
     [
         (["OX"], "OX"),

@@ -8,6 +8,7 @@ from hydraulics import Cylinder, reserve, thrust
 from linkage import Acting, Crank, Ground, Mechanism, OnLink, Over, Stroke, Weight, at, least, most, pin_force, reachable, y
 from linkage.loads import DIRECTIONS
 from linkage.units import deg, kN, mm
+from tests.for_all import for_all
 from tests.linkage.test_judge import Loader, Rocker, Rubbing
 
 
@@ -49,7 +50,7 @@ def path_through(middle):
     return Over.path(u=[0.0, middle, 1.0], v=[1.0, middle, 0.0])
 
 
-@pytest.mark.parametrize("seed", range(16))
+@for_all("seed", range(16))
 def test_what_has_no_finite_value_is_never_kept(seed):
     rng = np.random.default_rng(seed)
     functions = [drawn(rng) for _ in range(3)]

@@ -29,6 +29,7 @@ from linkage import (
     deg,
     distance,
 )
+from tests.for_all import for_all
 
 
 class Lift(Mechanism):
@@ -156,7 +157,7 @@ def test_a_crank_that_turns_ends_where_it_began(count):
 # -- change points: the 4-1-3-2 four-bar is flat at phi = pi, where its two branches cross ----------------
 
 
-@pytest.mark.parametrize("count", [36, 37, 360, 361, 1001])
+@for_all("count", [36, 37, 360, 361, 1001])
 def test_a_sweep_over_a_change_point_is_refused_by_name(count):
     with pytest.raises(SingularError, match=r"change point at phi = 3\.14159 rad \(180 deg\): B = Dyad"):
         FourBar(CB=2.0).sweep(count)
@@ -177,7 +178,7 @@ def test_the_ratios_beside_a_change_point_are_those_of_its_branches():
                 assert_allclose(pose.ratio("rocker"), branch, atol=away**2 * 10 + 2e-6)
 
 
-@pytest.mark.parametrize("distance", [10.0**-power for power in range(8, 16)] + [0.0])
+@for_all("distance", [10.0**-power for power in range(8, 16)] + [0.0])
 def test_at_a_change_point_ratios_are_refused_and_positions_hold(distance):
     pose = FourBar(CB=2.0).at(phi=np.pi - distance)
     assert_allclose(pose.distance("A", "B"), 3.0, rtol=1e-12)
@@ -256,7 +257,7 @@ def in_line(O, A):
     return np.sort(np.array([away, away + np.pi]) % (2.0 * np.pi))
 
 
-@pytest.mark.parametrize("seed", range(8))
+@for_all("seed", range(8))
 def test_a_cylinder_beside_a_crank_has_its_dead_points_where_three_pins_are_in_line(seed):
     rng = np.random.default_rng(seed)
     O, A = rng.uniform(-1.0, 1.0, (2, 2))

@@ -25,6 +25,7 @@ from linkage.errors import unwarned
 from linkage.motion import live_text
 from linkage.reports.results import results
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.assembly.test_followed_angles import DragLink, Plane
 from tests.linkage.assembly.test_groups import Platform
 from tests.linkage.motion import in_node
@@ -156,7 +157,7 @@ def test_angles_and_pins_are_followed_by_a_function_of_one_pose():
         np.testing.assert_allclose(said[:, :2], wanted[:, :2], rtol=0.0, atol=1e-12)
 
 
-@pytest.mark.parametrize(
+@for_all(
     "name", ["three_point_hitch", "mower_lift", "header_balancer", "boom_drive", "grapple", "slider_crank", "wheel_loader"]
 )
 def test_columns_say_what_they_are_asked_by(name):

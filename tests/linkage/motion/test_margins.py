@@ -100,10 +100,7 @@ def test_many_holes_are_found(k):
         check_hole(seed, k)
 
 
-SHIPPED = list(shipped.MACHINES.values())
-
-
-@pytest.mark.parametrize("machine", [each for each in SHIPPED if each.plan.strokes], ids=lambda machine: machine.__name__)
+@shipped.over_machines()
 def test_no_false_alarm(machine):
     """The shipped machines are assembled over the whole of their strokes, some of them up to a dead point."""
     motion = machine().sweep(**dict.fromkeys(machine.plan.strokes, 5))

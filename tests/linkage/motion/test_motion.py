@@ -32,6 +32,7 @@ from linkage import (
 from linkage.motion.grid import unwrapped
 from linkage.program.float_backend import PlainFloats
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 
 class Crane(Mechanism):
@@ -62,7 +63,7 @@ class Crown(Mechanism):
 # -- shapes ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("strokes", "shape"),
     [
         (dict(S=0.1, T=0.1), ()),
@@ -73,7 +74,7 @@ class Crown(Mechanism):
         (dict(S=np.empty((3, 0)), T=0.1), (3, 0)),
     ],
 )
-@pytest.mark.parametrize(
+@for_all(
     ("design", "front"),
     [
         ({}, ()),
@@ -336,8 +337,8 @@ def coinciding(step):
     return type("Through", (Mechanism,), members | step)
 
 
-@pytest.mark.parametrize("count", [1, 5, 101, 20001])
-@pytest.mark.parametrize(
+@for_all("count", [1, 5, 101, 20001])
+@for_all(
     "step",
     [
         {"X": OnLink("A", "P", AX=0.3)},
@@ -414,7 +415,7 @@ BAD = [
 RATES = ("a rate", "acceleration")  # of which any finite number is one
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("question", "bad"),
     [
         (question, bad)

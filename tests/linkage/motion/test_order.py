@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 
 from linkage import LEFT, DefinitionError, Dyad, Ground, Mechanism, Stroke, ref
 from linkage.plan import construction_order
+from tests.for_all import for_all
 from tests.linkage.random_mechanisms import random_mechanism
 
 
@@ -35,7 +36,7 @@ def test_an_unknown_name_says_who_wants_it():
         construction_order({"B": [], "C": ["Bb"]}, "Arm")
 
 
-@pytest.mark.parametrize("seed", range(5))
+@for_all("seed", range(5))
 def test_members_in_any_order_make_the_same_machine(seed):
     written = random_mechanism(seed, strokes=2)
     members = list(written.plan.members.items())

@@ -25,6 +25,7 @@ from linkage import (
     ratio,
 )
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 
 class Turning(Mechanism):
@@ -85,7 +86,7 @@ READINGS = {
 }
 
 
-@pytest.mark.parametrize("read", READINGS.values(), ids=READINGS)
+@for_all("read", READINGS.values(), ids=READINGS)
 def test_each_design_reads_as_alone(read):
     ours = read(HITCHES.at(S=OWN, per_design=True))
     for k in range(3):

@@ -32,6 +32,7 @@ from linkage.motion.planes import pairs_of
 from linkage.surroundings import convex_pieces, crosses_itself
 from linkage.vectors import Vec, pick
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 
 def star(rng, corners):
@@ -80,7 +81,7 @@ def along_edges(corners, count=60):
     return np.concatenate([a + shares * (b - a) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)])
 
 
-@pytest.mark.parametrize("seed", range(12))
+@for_all("seed", range(12))
 def test_the_gap_of_outlines_against_points_along_them(seed):
     rng = np.random.default_rng(seed)
     one, other = star(rng, int(rng.integers(4, 13))), star(rng, int(rng.integers(3, 9)))
@@ -179,7 +180,7 @@ def bucket_of(dent, tall=0.3):
     return np.array([(0, -0.2), (0.5, -0.2), (0.5 - dent, 0.05), (0.5, tall), (0, tall)])
 
 
-@pytest.mark.parametrize("dent", DENTS)
+@for_all("dent", DENTS)
 def test_a_form_that_follows_a_dimension_is_cut_as_the_design_has_it(dent):
     """Convex and concave: the sign by brute force of points, the gap that of the same corners typed as numbers."""
     strokes = np.linspace(-0.6, 0.9, 16)
@@ -315,7 +316,7 @@ def test_a_machine_of_planes_is_drawn_and_printed():
     assert_allclose(narrow - Crossing().answers([least(clearance())])[0].value, 0.06, rtol=1e-9)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("make", "words"),
     [
         (lambda: Planes(), "the names of the bodies of each plane are expected"),
@@ -333,7 +334,7 @@ def test_what_is_no_plane_is_refused_in_words(make, words):
 # -- where they come nearest -------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(6))
+@for_all("seed", range(6))
 def test_the_nearest_places_are_as_far_apart_as_the_gap(seed):
     """The same number as the program's, between a place of the one and a place of the other; moved by it they just touch."""
     rng = np.random.default_rng(40 + seed)

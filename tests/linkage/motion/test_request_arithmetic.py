@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 from linkage import DefinitionError, SingularError, drive_force, pin_force, ratio, ref, transmission, x, y
 from mechanisms.three_point_hitch.machine import ThreePointHitch
+from tests.for_all import for_all
 
 STROKE = np.linspace(0.01, 0.24, 7)
 LEAVES = [
@@ -33,7 +34,7 @@ def expression(rng, motion, depth):
     return rule(a, b), rule(left, right)
 
 
-@pytest.mark.parametrize("seed", range(24))
+@for_all("seed", range(24))
 def test_expressions_are_numpys_of_the_arrays_by_every_way(seed):
     rng, hitch = np.random.default_rng(seed), ThreePointHitch()
     motion = hitch.at(S=STROKE)

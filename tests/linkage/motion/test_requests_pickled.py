@@ -11,6 +11,7 @@ from linkage import clearance, condition, drive_force, gap, pin_force, ratio, tr
 from linkage.pickling import function_again, picklable
 from linkage.study.tolerances import sigma
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 REQUESTS = [
     ratio("G"), transmission("K"), condition(), pin_force("K"), drive_force("S"), thrust("lift"), reserve("lift"), capacity("lift", "G"),
@@ -18,7 +19,7 @@ REQUESTS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("request_", REQUESTS, ids=str)
+@for_all("request_", REQUESTS, ids=str)
 def test_what_comes_out_gives_the_same(request_):
     other = pickle.loads(pickle.dumps(request_))
     assert type(other) is type(request_) and str(other) == str(request_)

@@ -12,6 +12,7 @@ from linkage import DefinitionError, ForceElement, Load, drive_force, driving_fo
 from mechanisms.classics.stephenson_two import StephensonTwo
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks.c_reference import POINTER, address, built, has_compiler
+from tests.for_all import for_all
 
 ASKED = ["G", ratio("G"), "tilt", ratio("tilt")]
 DESIGN = {"OB": 0.31, "M": (0.22, 0.95)}
@@ -46,7 +47,7 @@ def test_the_comment_states_the_design():
     assert "OB = 0.31" in ThreePointHitch(**DESIGN).source(["B"]).splitlines()[1]
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("asked", "options", "said"),
     [
         (["G"], {"language": "rust"}, 'say "c" or "javascript"'),

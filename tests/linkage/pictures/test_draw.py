@@ -49,6 +49,7 @@ from mechanisms.crane import ArmDrive
 from mechanisms.crane import Crane as ShippedCrane
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 
 class FourBar(Mechanism):
@@ -156,7 +157,7 @@ def test_outline_keeps_its_distance(points, radius):
 # -- a mechanism at a pose ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("cls", ALL)
+@for_all("cls", ALL)
 def test_circles_stand_on_the_points_at_every_pose(cls):
     motion = one_motion(cls)
     drawing = mechanism(axes(), motion)
@@ -173,7 +174,7 @@ def test_circles_stand_on_the_points_at_every_pose(cls):
                 assert not circle.get_visible()
 
 
-@pytest.mark.parametrize("cls", REACHED)
+@for_all("cls", REACHED)
 def test_bodies_keep_their_shape_and_hold_their_pins(cls):
     motion = one_motion(cls)
     drawing = mechanism(axes(), motion)
@@ -307,7 +308,7 @@ def boxes(figure):
     return {text.get_text(): Text.get_window_extent(text) for text in figure.axes[0].texts if text.get_text()}
 
 
-@pytest.mark.parametrize("cls", ALL)
+@for_all("cls", ALL)
 def test_names_keep_clear_of_each_other_of_pins_and_of_the_edge(cls):
     figure = draw(cls())
     names = boxes(figure)
@@ -325,7 +326,7 @@ def test_names_keep_clear_of_each_other_of_pins_and_of_the_edge(cls):
 # -- end positions -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("cls", ALL)
+@for_all("cls", ALL)
 def test_scales_are_equal_and_hold_every_pose(cls):
     ax = draw(cls()).axes[0]
     sizes = np.diff(ax.transData.transform([(0, 0), (1, 1)]), axis=0)[0]

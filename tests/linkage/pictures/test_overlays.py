@@ -40,6 +40,7 @@ from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.roberts import Roberts
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests import shipped
+from tests.for_all import for_all
 from tests.linkage.statics.test_vehicle import Digger, Truck
 from tests.machines.test_tipper import Tipper
 
@@ -294,7 +295,7 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("given, words", WRONG.values(), ids=WRONG)
+@for_all("given, words", WRONG.values(), ids=WRONG)
 def test_wrong_questions_are_refused_in_words(given, words):
     with pytest.raises(DefinitionError) as caught:
         draw(ThreePointHitch().sweep(3), **given)
@@ -304,7 +305,7 @@ def test_wrong_questions_are_refused_in_words(given, words):
 # -- velocities and poles ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("machine", SHIPPED, ids=lambda machine: machine.__name__)
+@shipped.over_machines()
 def test_velocities_stand_square_on_the_rays_of_the_pole(machine):
     """For every body of every machine, each point's velocity is square to its ray; and as long as the turning says."""
     motion = pose_of(machine())

@@ -64,6 +64,7 @@ from mechanisms.grapple import Grapple
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.laws.test_working_field import Digger as LiftingDigger
 from tests.laws.test_working_field import Robot
 from tests.linkage.statics.test_vehicle import Digger, Truck
@@ -319,7 +320,7 @@ def test_own_columns_cylinders_and_forces_are_followed(chromium, written):
         assert len(data["arrows"]) == 10
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("typed", "found", "said"),
     [
         ("0.31 m", 0.31, ""),

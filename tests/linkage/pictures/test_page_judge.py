@@ -20,6 +20,7 @@ from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.known_machines import GrabArms
 from tests.linkage.motion.in_node import NEEDED, SHIPPED, designs_near, elsewhere, possible
 
@@ -161,7 +162,7 @@ def test_every_shipped_machine_that_judges_itself_is_among_them():
 
 
 @NEEDED
-@pytest.mark.parametrize("name", QUICK)
+@for_all("name", QUICK)
 def test_a_page_says_of_random_designs_what_python_says(name):
     count, kept = check(MACHINES[name](), near(MACHINES[name], 31, 4))
     assert count >= 4 and kept & {True, False}

@@ -30,6 +30,7 @@ from linkage.pictures.strokes import unreached_words
 from linkage.units import unit_system
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 
 class Loaded(Mechanism):
@@ -66,7 +67,7 @@ OF_MEMBERS = {"Three", "point", "hitch", "Mower", "lift", "bar", "load", "holder
 """Words that are names: of machines, members and columns."""
 
 
-@pytest.mark.parametrize("name", PICTURES)
+@for_all("name", PICTURES)
 def test_pictures_speak_russian(name):
     with language("ru"):
         figure = PICTURES[name]()

@@ -17,6 +17,7 @@ from mechanisms.classics.scissor_lift import ScissorLift
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.classics.trammel import Trammel
+from tests.for_all import for_all
 
 ANGLE = np.linspace(0.0, 2 * np.pi, 401)
 
@@ -35,7 +36,7 @@ def test_a_point_that_stands_still_has_no_arrow():
     assert on_its_way(np.zeros((2, 5))) is None
 
 
-@pytest.mark.parametrize("machine", [Pantograph, ScissorLift, ScotchYoke, SliderCrank, Trammel])
+@for_all("machine", [Pantograph, ScissorLift, ScotchYoke, SliderCrank, Trammel])
 def test_names_keep_clear_of_the_hatches_of_rails(machine):
     figure = draw(machine())
     figure.canvas.draw()

@@ -34,6 +34,7 @@ from mechanisms.grapple import Grapple
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.pictures.colour_vision import SIGHT, ciede2000, contrast, lab
 
 
@@ -312,7 +313,7 @@ def check_names(cls, count):
                     assert to_box(box, place) > own - 2.0, (pose, name, other)
 
 
-@pytest.mark.parametrize("cls", [ThreePointHitch, HeaderBalancer, Grapple, RobertsCognates, Jansen])
+@for_all("cls", [ThreePointHitch, HeaderBalancer, Grapple, RobertsCognates, Jansen])
 def test_names_belong_to_their_pins(cls):
     check_names(cls, 2)
 

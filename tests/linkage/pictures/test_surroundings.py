@@ -29,6 +29,7 @@ from mechanisms.grapple import Grapple
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 
 class Lever(Mechanism):
@@ -104,14 +105,14 @@ def test_files_hold_them(tmp_path, monkeypatch):
     assert [again.plan.members[name].carriers for name in ("wheel", "hub", "bucket")] == [(), ("C",), ("B", "C")]
 
 
-@pytest.mark.parametrize("cls", [ThreePointHitch, MowerLift, HeaderBalancer, ScissorLift, FrontLoader, Grapple, Crane])
+@for_all("cls", [ThreePointHitch, MowerLift, HeaderBalancer, ScissorLift, FrontLoader, Grapple, Crane])
 def test_shipped_machines_stand_in_theirs(cls):
     found = cls.plan.of_kind(Outline)
     assert found
     assert any(not each.carriers for each in found.values())
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("make", "words"),
     [
         (lambda: Outline([(0, 0)]), "a line has 2 corners at least, here are 1"),

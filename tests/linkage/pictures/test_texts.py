@@ -16,6 +16,7 @@ from matplotlib.text import Text
 
 from linkage import RIGHT, Crank, Dyad, Force, Ground, Mechanism, OnLink, Stroke, deg, draw, plot
 from linkage.pictures.force_arrows import ForceQuestion, forces_at_pose, short_name
+from tests.for_all import for_all
 from tests.linkage.motion.in_node import elsewhere
 
 SHIPPED = {point.name: point for point in entry_points(group="hydrolinkage.machines")}
@@ -86,7 +87,7 @@ def check_machine(machine):
         plt.close(figure)
 
 
-@pytest.mark.parametrize("name", QUICK)
+@for_all("name", QUICK)
 def test_no_text_covers_another(name):
     check_machine(SHIPPED[name].load()())
 

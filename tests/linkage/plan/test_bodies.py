@@ -1,10 +1,10 @@
 """Rigid bodies and the Gruebler count, of machines whose count is known."""
 
 import numpy as np
-import pytest
 
 from linkage import LEFT, RIGHT, Crank, Dyad, Ground, Link, Mechanism, Offset, OnLink, Stroke, Turn, Vector, angle
 from linkage.plan import gruebler, merged
+from tests.for_all import for_all
 
 
 def names(bodies):
@@ -29,7 +29,7 @@ def test_a_body_pinned_twice_to_the_frame_is_the_frame():
     assert [body.points for body in bodies if body.fixed] == [("A", "O", "B")]
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("groups", "cylinders", "count"),
     [
         ([("A", "B"), ("B", "C"), ("C", "O")], [], 1),  # four-bar

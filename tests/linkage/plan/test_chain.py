@@ -28,7 +28,7 @@ from linkage import (
 )
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.laws.test_laws import SHIPPED
+from tests.shipped import over_machines
 
 
 class Lever(Mechanism):
@@ -153,7 +153,7 @@ def test_a_relative_crank_is_driven_by_its_own_stroke():
 # -- the picture ---------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("machine", SHIPPED, ids=lambda machine: machine.__name__)
+@over_machines()
 def test_the_picture_has_every_body_and_joint_and_none_upon_another(machine):
     graph = machine().graph
     figure = draw(graph)

@@ -44,6 +44,7 @@ from linkage.pictures import style
 from linkage.pictures.scene import Scene
 from linkage.steps import Point
 from linkage.vectors import Vec
+from tests.for_all import for_all
 from tests.linkage.pictures.colour_vision import SIGHT, ciede2000, contrast, lab
 
 
@@ -111,7 +112,7 @@ FLAT_POSES = {"s1": STROKES, "s2": 0.1, "s3": 0.07}
 SAME = {"lower.B": "lB", "lower.T": "lT", "upper.A": "uA", "upper.B": "uB", "upper.T": "uT", "twin.T": "tT", "upper.O": "lT", "P": "P"}
 
 
-@pytest.mark.parametrize("name", SAME)
+@for_all("name", SAME)
 def test_a_machine_of_parts_is_the_same_typed_flat(name):
     parts, flat = Loader().at(**POSES), Flat().at(**FLAT_POSES)
     compared = assert_array_equal if not name.startswith("twin") else lambda a, b: assert_allclose(a, b, rtol=1e-14, atol=1e-14)
@@ -291,7 +292,7 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("case", REFUSED)
+@for_all("case", REFUSED)
 def test_what_cannot_be_a_part_is_refused_in_words(case):
     make, words = REFUSED[case]
     with pytest.raises(DefinitionError, match=words):
@@ -341,8 +342,8 @@ FOREIGN = {
 STANDS = {"upright": dict(at=(1, 2)), "turned": dict(angle=0.5), "mirrored": dict(mirrored=True), "carried": dict(on=("O", "Q"))}
 
 
-@pytest.mark.parametrize("stands", STANDS)
-@pytest.mark.parametrize("kind", FOREIGN)
+@for_all("stands", STANDS)
+@for_all("kind", FOREIGN)
 def test_steps_of_other_packages_move_with_a_part_or_are_refused(kind, stands):
     step, fits = FOREIGN[kind]
     machine = type("Own", (Arm,), {"M": step("O", "B")})
@@ -395,8 +396,8 @@ class Shaped(Arm):
 PLACED = [dict(), dict(at=(1.5, -0.7)), dict(mirrored=True), dict(angle=0.6, at=("k", 1)), dict(mirrored=True, angle=-0.4, at=(2, 0))]
 
 
-@pytest.mark.parametrize("on", [False, True])
-@pytest.mark.parametrize("how", PLACED, ids=str)
+@for_all("on", [False, True])
+@for_all("how", PLACED, ids=str)
 def test_outlines_stand_where_their_part_stands(how, on):
     if on:
         names, how = ("plate", "skin", "ring", "floor"), {**how, "on": ("o", "q")}

@@ -35,6 +35,7 @@ from linkage.plan import Trace
 from linkage.program.schedule import schedule
 from linkage.quantities import Quantity
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.random_mechanisms import random_mechanism
 
 WORDS = dict(
@@ -121,7 +122,7 @@ def test_points_are_placed_once_a_class_whatever_is_asked(monkeypatch):
     assert len(Own.plan._placed.graph.nodes) == sizes
 
 
-@pytest.mark.parametrize("seed", range(1, 40, 4))
+@for_all("seed", range(1, 40, 4))
 def test_a_fork_goes_on_as_what_it_was_forked_from(seed):
     plan = random_mechanism(seed).plan
     placed, names = plan._placed, [*plan.moving]

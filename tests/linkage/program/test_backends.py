@@ -25,10 +25,11 @@ from linkage.program.numpy_backend import aligned, cache_size, with_half_angles
 from linkage.program.schedule import ancestors, lowered, schedule
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests import shipped
+from tests.for_all import for_all
 from tests.linkage.random_mechanisms import random_mechanism
 
 SHIPPED = shipped.MACHINES
-MACHINES = pytest.mark.parametrize("machine", SHIPPED.values(), ids=SHIPPED)
+MACHINES = shipped.over_machines()
 GROUPED = [name for name, machine in SHIPPED.items() if machine.plan.groups]
 
 
@@ -148,7 +149,7 @@ def hitch_designs(m, n):
     return designs | {"S": np.linspace(0.0, 0.25, n)}
 
 
-@pytest.mark.parametrize(("m", "n"), [(1, 1), (1, 40000), (3, 50), (50, 3), (20000, 2), (9000, 20)])
+@for_all(("m", "n"), [(1, 1), (1, 40000), (3, 50), (50, 3), (20000, 2), (9000, 20)])
 def test_designs_and_poses_in_every_proportion(m, n):
     kernel, inputs = everything(ThreePointHitch), hitch_designs(m, n)
     tall = {name: value if name == "S" or np.ndim(value) == 0 else value[:, None] for name, value in inputs.items()}

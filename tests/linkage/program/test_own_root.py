@@ -5,6 +5,7 @@ import pytest
 
 from linkage import AssemblyError, Crank, DefinitionError, Dimension, Ground, Mechanism, Stroke, draw
 from linkage.steps import Point
+from tests.for_all import for_all
 
 
 class Apex(Point):
@@ -36,7 +37,7 @@ BORDER = np.arccos((0.53 - 0.36) / 0.28)  # AC = 2 r by the cosine rule
 BEYOND = r"B = Apex\(A, C, r\) cannot be assembled at"
 
 
-@pytest.mark.parametrize(
+@for_all(
     "ask",
     [
         lambda: Flap().sweep(9),

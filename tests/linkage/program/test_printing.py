@@ -4,7 +4,6 @@ from importlib.metadata import entry_points
 from math import pi
 
 import numpy as np
-import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -33,6 +32,7 @@ from linkage import (
 )
 from linkage.plan import printed
 from linkage.quantities import in_degrees
+from tests.for_all import for_all
 
 FUNCTIONS = {name: getattr(np, name) for name in ("sqrt", "cos", "sin", "tan", "arctan2")}
 NAMES = {name: getattr(linkage, name) for name in linkage.__all__} | {"Cylinder": Cylinder, "LiftCircuit": LiftCircuit} | FUNCTIONS
@@ -76,12 +76,12 @@ def test_an_angle_in_degrees_is_the_same_to_the_last_digit(value):
     assert eval(in_degrees(value), {"deg": deg}) == value
 
 
-@pytest.mark.parametrize("value", [75, -30, 22.5, 110.425, 360, 1, 179.99])
+@for_all("value", [75, -30, 22.5, 110.425, 360, 1, 179.99])
 def test_an_angle_given_in_degrees_is_written_as_it_was(value):
     assert in_degrees(value * deg) == f"{value} * deg"
 
 
-@pytest.mark.parametrize("value", [0.5, 1, 0.0, float("nan"), float("inf")])
+@for_all("value", [0.5, 1, 0.0, float("nan"), float("inf")])
 def test_an_angle_given_in_radians_stays_what_it_was(value):
     assert in_degrees(value) == repr(value)
 
@@ -115,7 +115,7 @@ def test_parts_and_their_drawing_are_in_degrees():
     assert lines["coupler"] == 'Link("A B D", AD=0.2, BAD=35 * deg)'
 
 
-@pytest.mark.parametrize("name", [*MACHINES, "Kinds"])
+@for_all("name", [*MACHINES, "Kinds"])
 def test_a_printed_plan_is_exact_when_it_is_pasted_back(name):
     machine = MACHINES.get(name, Kinds)
     again = pasted(printed(machine.plan))

@@ -16,6 +16,7 @@ from linkage.program import Graph, Kernel, Level, Tangent, interpret
 from linkage.program.elimination import solution
 from linkage.program.operations import ARRAYS, FLOATS, OPERATIONS
 from linkage.program.schedule import schedule
+from tests.for_all import for_all
 
 VALUES = {"a": 0.7133, "b": -1.3071, "s": 0.4217, "t": 2.1749}  # no sum of them is another
 BINARY = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}
@@ -137,7 +138,7 @@ SPECIAL = [0.0, -0.0, 1.0, -1.0, 0.5, -2.5, 1e300, -1e300, 1e-300, math.inf, -ma
 SMOOTH = [name for name in OPERATIONS if name in FLOATS and name not in ("solve", "component", "pick")]
 
 
-@pytest.mark.parametrize("name", SMOOTH)
+@for_all("name", SMOOTH)
 def test_floats_answer_as_arrays_do(name):
     count = OPERATIONS[name].array.nin
     for first in SPECIAL:
@@ -201,7 +202,7 @@ def test_an_array_cannot_be_traced():
         np.arccosh(s)
 
 
-@pytest.mark.parametrize("exponent", [0, 1, 2, 3, -1, -2, 0.5, 2.5, 9, 1e3])
+@for_all("exponent", [0, 1, 2, 3, -1, -2, 0.5, 2.5, 9, 1e3])
 def test_powers(exponent):
     graph = Graph()
     s = graph.input("s", Level.POSE)

@@ -29,6 +29,7 @@ from linkage import (
     ratio,
 )
 from linkage.program import RunOptions
+from tests.for_all import for_all
 from tests.linkage.program.sympy_program import program_expressions
 from tests.linkage.program.test_backends import agree, as_loop, by_nodes, everything
 
@@ -59,14 +60,14 @@ class Short(Mechanism):
     B = OnGuide(rail, at=S)
 
 
-@pytest.mark.parametrize("rows", [2, 3, 4, 9])
-@pytest.mark.parametrize("order", [0, 1, 2])
+@for_all("rows", [2, 3, 4, 9])
+@for_all("order", [0, 1, 2])
 def test_it_is_the_spline_of_scipy(rows, order):
     x = np.linspace(XS[0], XS[rows - 1], 301)
     assert_allclose(Curve(XS[:rows], YS[:rows])(x, order), CubicSpline(XS[:rows], YS[:rows])(x, order), atol=1e-11)
 
 
-@pytest.mark.parametrize("order", [0, 1, 2, 3, 4])
+@for_all("order", [0, 1, 2, 3, 4])
 def test_it_goes_on_for_ever_where_it_is_periodic(order):
     x = np.linspace(-20.0, 20.0, 777)
     assert_allclose(Curve(TURN, WAVE, period=2.0 * np.pi)(x, order), CubicSpline(TURN, WAVE, bc_type="periodic")(x, order), atol=1e-10)

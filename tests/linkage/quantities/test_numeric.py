@@ -10,6 +10,7 @@ import pytest
 from linkage import LEFT, Dyad, Ground, Mechanism, SingularError, SingularWarning, Stroke
 from linkage.motion import differences as numeric
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.random_mechanisms import random_mechanism
 
 FACTOR = 2.0
@@ -53,8 +54,8 @@ def off(found, wanted):
     return float(np.nanmax(np.abs(found - wanted), initial=0.0)) / float(np.abs(wanted).max())
 
 
-@pytest.mark.parametrize("order", [1, 2])
-@pytest.mark.parametrize("S", [0.7 + 1e-9, 0.7 + 1e-5, 0.75, 1.0, 1.3 - 1e-6])
+@for_all("order", [1, 2])
+@for_all("S", [0.7 + 1e-9, 0.7 + 1e-5, 0.75, 1.0, 1.3 - 1e-6])
 def test_any_step_next_to_a_dead_point_tells_what_it_loses(order, S):
     wanted = exact(S, order)
     for step in STEPS:

@@ -9,6 +9,7 @@ from linkage import RIGHT, DefinitionError, Dyad, Force, Ground, Mechanism, Stro
 from linkage.quantities import FRAME_SIDE, Driven, Joint, JointSide, quantity
 from linkage.steps import Point
 from linkage.vectors import Line, Vec
+from tests.for_all import for_all
 
 
 class OnParabola(Point):
@@ -89,7 +90,7 @@ def test_a_cylinder_holds_in_its_place():
         pin_forces(type("Both", (Held,), {"X": OnParabola(Rocker.plan.members["S"], **BOTH)})().sweep(5))
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("changes", "says"),
     [
         ({"line": None}, "holds 'nt', across .n. or along .t. a line, but says none; give line="),

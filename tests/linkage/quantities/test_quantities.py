@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from linkage import DefinitionError, Dimension, Ground, Mechanism, SingularError, Stroke, ref
+from tests.for_all import for_all
 
 POSITIVE = st.floats(0.1, 3.0)
 
@@ -48,8 +49,8 @@ def test_arithmetic_is_that_of_floats(S, T, L):
         assert float(motion[name]) == pytest.approx(rule(S, T, L), rel=1e-13, abs=1e-13)
 
 
-@pytest.mark.parametrize("name", EXPECTED)
-@pytest.mark.parametrize("stroke", ["S", "T"])
+@for_all("name", EXPECTED)
+@for_all("stroke", ["S", "T"])
 def test_ratios_of_arithmetic_are_exact(name, stroke):
     at, h = dict(S=0.4, T=0.9), 1e-6
     up, down = ({**at, stroke: at[stroke] + sign * h} for sign in (1, -1))
@@ -68,7 +69,7 @@ def test_mixed_second_derivative(name):
     assert_allclose(motion.acceleration(name, rates), second, rtol=1e-5)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("expression", "text"),
     [
         (ref("L0") + ref("S"), "L0 + S"),
@@ -102,14 +103,14 @@ def test_printed_expression_reads_back(expression):
     assert float(made().at(S=S, T=T)["u"]) == pytest.approx(wanted, rel=1e-9, abs=1e-9)
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf, 10**400, None, True, 1j, [1, 2], np.array([1.0, 2.0]), object()])
+@for_all("bad", [math.nan, math.inf, -math.inf, 10**400, None, True, 1j, [1, 2], np.array([1.0, 2.0]), object()])
 def test_what_is_no_number_cannot_be_added(bad):
     for operate in (lambda: ref("S") + bad, lambda: ref("S") * bad, lambda: ref("S") ** bad):
         with pytest.raises(DefinitionError):
             operate()
 
 
-@pytest.mark.parametrize("bad", ["", "a b", "1a", None, 3, ["S"]])
+@for_all("bad", ["", "a b", "1a", None, 3, ["S"]])
 def test_ref_wants_a_name(bad):
     with pytest.raises(DefinitionError):
         ref(bad)
@@ -126,7 +127,7 @@ def test_function_with_options_is_refused():
         np.sqrt(ref("S"), out=np.zeros(1))
 
 
-@pytest.mark.parametrize(
+@for_all(
     "ends", [(0, 0), (0, math.nan), (math.inf, 1), ("0", 1), (None, 1), ([0], 1), (0, 1j), (False, True), (0, 10**400)]
 )
 def test_stroke_needs_two_different_finite_ends(ends):
@@ -134,13 +135,13 @@ def test_stroke_needs_two_different_finite_ends(ends):
         Stroke(*ends)
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf, "1", None, [1.0], 1j, True, 10**400, np.array([1.0, 2.0])])
+@for_all("bad", [math.nan, math.inf, "1", None, [1.0], 1j, True, 10**400, np.array([1.0, 2.0])])
 def test_dimension_needs_a_finite_number(bad):
     with pytest.raises(DefinitionError):
         Dimension(bad)
 
 
-@pytest.mark.parametrize("kind", [int, float, np.float64, np.float32, np.int32])
+@for_all("kind", [int, float, np.float64, np.float32, np.int32])
 def test_numbers_of_all_kinds_are_numbers(kind):
     assert Dimension(kind(2)).default == 2
     assert Stroke(kind(0), kind(2)).end == 2

@@ -23,6 +23,7 @@ from linkage.reports import (
     text_table,
     write_csv,
 )
+from tests.for_all import for_all
 
 
 class Lift(Mechanism):
@@ -132,7 +133,7 @@ def test_strokes_in_fitting_units():
     assert list(stroke_rows(Turning())) == [("phi", "0 to 360 deg")]
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("machine", "name", "kind"),
     [
         (Lift, "OB", "length"),

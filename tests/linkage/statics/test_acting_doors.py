@@ -10,6 +10,7 @@ from linkage import Acting, Damper, DefinitionError, driving_force, pin_forces
 from linkage.statics import reaction
 from linkage.units import mm
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 LIFT = Cylinder("A", "B", bore=80 * mm, rod=40 * mm)
 
@@ -20,7 +21,7 @@ class Hitch(ThreePointHitch):
     damper = Damper("A", "B", coefficient=5e3)
 
 
-@pytest.mark.parametrize("ask", [
+@for_all("ask", [
     lambda motion, **situation: pin_forces(motion, **situation).force("E"),
     driving_force,
     LIFT.thrust,
@@ -39,6 +40,6 @@ def test_one_value_says_the_same_as_its_keywords(ask):
         ask(motion, directon="extending")
 
 
-@pytest.mark.parametrize("public", [pin_forces, driving_force, reaction, Cylinder.thrust, Cylinder.pressure, Cylinder.buckling_use])
+@for_all("public", [pin_forces, driving_force, reaction, Cylinder.thrust, Cylinder.pressure, Cylinder.buckling_use])
 def test_help_names_every_keyword(public):
     assert {"loads", "case", "direction", "rates", "acting"} <= signature(public).parameters.keys()

@@ -40,11 +40,13 @@ from linkage import (
 from linkage.loads import Load
 from linkage.motion.requests import bound
 from linkage.statics import force_requests
+from mechanisms.classics.four_bar import FourBar
+from mechanisms.classics.stephenson_three import StephensonThreeFar
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.laws.test_statics_laws import RANDOM, SHIPPED, moved, of_each_structure, weights
+from tests.for_all import for_all
+from tests.laws.test_statics_laws import moved, over_all, random_machines, weights
 from tests.linkage.assembly.test_groups import Platform
 
-MACHINES = [*SHIPPED, *RANDOM, Platform]
 STROKE = np.linspace(0.0, 0.25, 41)
 
 
@@ -71,7 +73,7 @@ def agree(found, wanted, room):
     assert_allclose(found, wanted, rtol=0, atol=room * np.nanmax(np.abs(wanted)))
 
 
-@pytest.mark.parametrize("machine", of_each_structure(MACHINES), ids=lambda machine: machine.__name__)
+@over_all(lambda: [*random_machines()[::2], Platform], later=lambda: random_machines()[1::2])
 def test_requests_are_the_forces_of_every_machine(machine):
     motion, loads = moved(machine, 9, 3), weights(machine)
     for drive in machine.plan.strokes:
@@ -91,8 +93,8 @@ def test_requests_are_the_forces_of_every_machine(machine):
     assert_allclose(found, wanted, rtol=0, atol=1e-11 * size)
 
 
-@pytest.mark.parametrize("machine", [Hitch, RANDOM[0], next(each for each in SHIPPED if each.__name__ == "StephensonThreeFar")])
-@pytest.mark.parametrize("backend", ["numpy", "floats", "numba"])
+@for_all("machine", lambda: [Hitch, random_machines()[0], StephensonThreeFar])
+@for_all("backend", ["numpy", "floats", "numba"])
 def test_every_back_end_has_the_same_forces(machine, backend):
     (name, stroke), *_ = machine.plan.strokes.items()
     at = {name: np.linspace(stroke.start, stroke.end, 61)[20:40]}
@@ -231,7 +233,7 @@ def test_a_mechanism_that_is_held_twice_is_refused_by_name():
 
 
 def test_a_driven_cranks_pin_has_one_force_besides_the_drives_couple():
-    machine = next(each for each in SHIPPED if each.__name__ == "FourBar")
+    machine = FourBar
     loads = [Weight("B", mass=10.0)]
     forces = pin_forces(machine().at(phi=[0.5, 1.0]), loads)
     assert {each.kind for each in forces.at("O")} == {"pin", "crank"}

@@ -27,6 +27,7 @@ from linkage import (
 from linkage.quantities import FRAME_SIDE, Driven, Joint, JointSide, name_of, quantity
 from linkage.steps import Bar, Point
 from linkage.vectors import Line, Vec
+from tests.for_all import for_all
 from tests.mechanisms.free_bodies import FreeBodies, places
 
 PRESSURE = 20 * deg
@@ -190,7 +191,7 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("said", WRONG.values(), ids=WRONG)
+@for_all("said", WRONG.values(), ids=WRONG)
 def test_a_wrong_joint_is_refused_by_name_wherever_forces_are_asked(said):
     machine = train(**said)()
     names = r"Other: B\.joints\(\): the joint 'mesh' at B holds 'n' between .* move against each other by .* a unit of phi.* of line="

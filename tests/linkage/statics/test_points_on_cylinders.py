@@ -40,6 +40,7 @@ from linkage import (
     pin_forces,
     ref,
 )
+from tests.for_all import for_all
 from tests.laws.plane import cross
 from tests.mechanisms.free_bodies import FreeBodies, places
 
@@ -123,7 +124,7 @@ def drawn_points(rng):
     return members, sides
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@for_all("seed", SEEDS)
 def test_points_of_every_kind_by_hand(seed):
     members, sides = drawn_points(np.random.default_rng([710, seed]))
     machine = variant(Bare, **members)()
@@ -306,7 +307,7 @@ CARRIED = {
 LAST = list(CARRIED)[-2:]                                      # they hang on K
 
 
-@pytest.mark.parametrize(("base", "name"), [(base, name) for name in CARRIED for base in (Bare, Held)[name in LAST :]])
+@for_all(("base", "name"), [(base, name) for name in CARRIED for base in (Bare, Held)[name in LAST :]])
 def test_what_a_second_stroke_moves_on_it(base, name):
     """The thrust is the potential energy's slope, by differences."""
     members, at = CARRIED[name], {"S": [0.05, 0.1, 0.2], "S2": [0.02, 0.1, 0.15]}

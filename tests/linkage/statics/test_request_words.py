@@ -3,6 +3,7 @@
 import pytest
 
 from linkage import Crank, DefinitionError, Dyad, Ground, LoadCase, Mechanism, SingularError, Stroke, Weight, drive_force, pin_force
+from tests.for_all import for_all
 
 ASKED = {
     "drive_force()": drive_force(),
@@ -16,7 +17,7 @@ ASKED = {
 }
 
 
-@pytest.mark.parametrize(("words", "request_"), ASKED.items(), ids=ASKED)
+@for_all(("words", "request_"), ASKED.items(), ids=ASKED)
 def test_they_are_written_as_they_are_asked(words, request_):
     assert str(request_) == words
 

@@ -32,6 +32,7 @@ from linkage import (
 from linkage.pictures.scene import Scene
 from linkage.units import deg, g0, mm
 from tests.extending.readings import READINGS, Case
+from tests.for_all import for_all
 
 
 class Hoist(Mechanism):
@@ -85,7 +86,7 @@ def walked(points, radii, senses, weights):
     return total
 
 
-@pytest.mark.parametrize("seed", range(5))
+@for_all("seed", range(5))
 def test_the_length_is_kept_and_the_tension_is_its_energy(seed):
     machine = varied(seed)
     chain, motion = machine.plan.members["chain"], machine().at(**STROKES)
@@ -100,7 +101,7 @@ def test_the_length_is_kept_and_the_tension_is_its_energy(seed):
     assert_allclose(motion.ratio("D", wrt="chain.length")[1] * mass["D"] * g0, slope, rtol=1e-8, atol=1e-8 * np.abs(slope).max())
 
 
-@pytest.mark.parametrize("seed", range(5))
+@for_all("seed", range(5))
 def test_virtual_work_is_equilibrium(seed):
     machine = varied(seed)
     motion = machine().at(**STROKES)

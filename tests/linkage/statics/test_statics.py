@@ -46,6 +46,7 @@ from mechanisms.classics.pantograph import Pantograph
 from mechanisms.classics.roberts_cognates import RobertsCognates
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 G0 = 9.80665
 
@@ -373,7 +374,7 @@ def test_a_support_that_does_not_feel_the_drive_is_refused():
     assert_allclose(reaction(Level().sweep(3), support=Support("A", (-1, 0)), drive_force=70.0), 70.0, rtol=1e-14)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("make", "word"),
     [
         (lambda: pin_forces(Hitch().sweep(3)).force("Z"), "Joint 'Z' is unknown"),

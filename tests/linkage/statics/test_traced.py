@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from linkage import DefinitionError
 from linkage.program import Graph, Level, Tangent, interpret
 from linkage.program.traced import Notes, Traced
+from tests.for_all import for_all
 
 VALUES = {"a": np.array([-1.3, -0.2, 0.0, 0.4, 0.4, 2.5]), "b": np.array([0.7, 0.7, 0.0, 0.4, 1.9, -0.6])}
 
@@ -48,13 +49,13 @@ KINKED = {
 }
 
 
-@pytest.mark.parametrize("law", [*SMOOTH.values(), *KINKED.values()], ids=[*SMOOTH, *KINKED])
+@for_all("law", [*SMOOTH.values(), *KINKED.values()], ids=[*SMOOTH, *KINKED])
 def test_a_law_of_traced_numbers_is_the_law_of_arrays(law):
     with np.errstate(invalid="ignore", divide="ignore"):
         assert_allclose(value(law(*numbers())), law(*VALUES.values()), rtol=1e-14, atol=1e-14)
 
 
-@pytest.mark.parametrize("law", SMOOTH.values(), ids=SMOOTH)
+@for_all("law", SMOOTH.values(), ids=SMOOTH)
 def test_its_derivatives_are_its_differences(law):
     a, b = numbers()
     traced, h = law(a, b), 1e-5
@@ -85,7 +86,7 @@ def in_place(v, a):
     return v
 
 
-@pytest.mark.parametrize("law", VECTORS.values(), ids=VECTORS)
+@for_all("law", VECTORS.values(), ids=VECTORS)
 def test_vectors_are_arrays_of_two_numbers(law):
     a, b = numbers()
     found = law(np.array([a, b]), a)
@@ -120,7 +121,7 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("law", REFUSED.values(), ids=REFUSED)
+@for_all("law", REFUSED.values(), ids=REFUSED)
 def test_what_needs_a_value_is_refused(law):
     with pytest.raises((DefinitionError, TypeError, ValueError)):
         law(*numbers())

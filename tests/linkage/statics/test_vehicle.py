@@ -32,6 +32,7 @@ from linkage.loads import Force, LinkMass, LoadCase, Moment, PinFriction, Spring
 from linkage.reports import results
 from linkage.statics import Standing
 from linkage.units import deg, g0, kN
+from tests.for_all import for_all
 
 
 class Digger(Mechanism):
@@ -101,8 +102,8 @@ def name_of(point):
     return point if isinstance(point, str) else point.name
 
 
-@pytest.mark.parametrize("machine", [Digger, Truck])
-@pytest.mark.parametrize("case", [None, "up", "down", "heavy"])
+@for_all("machine", [Digger, Truck])
+@for_all("case", [None, "up", "down", "heavy"])
 def test_the_supports_carry_all_weights_and_their_moment(machine, case):
     for motion in (machine().sweep(S=6, s=5), machine(**{"R.x": np.array([-2.0, -1.2, -0.9]), "load.mass": 150.0}).sweep(S=4, s=0.1)):
         found = standing(motion, case=case)
@@ -386,7 +387,7 @@ class Downwards(Digger):
     front = Support("F", (0, -1))
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("machine", "words"),
     [
         (Weightless, "its frame weighs nothing: declare the vehicle, body = Weight"),

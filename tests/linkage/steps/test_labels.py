@@ -5,6 +5,7 @@ from numpy.testing import assert_allclose
 
 from linkage import LEFT, DefinitionError, Dimension, Dyad, Ground, Link, Mechanism, OnLink, Stroke, deg
 from linkage.steps import Slot, match
+from tests.for_all import for_all
 
 
 def test_spellings_of_a_length_and_of_an_angle():
@@ -19,7 +20,7 @@ def test_label_is_matched_against_the_points_and_never_cut_into_letters():
     assert match({"BA1": 1.0}, slots, "B")["PX"][2] == 1
 
 
-@pytest.mark.parametrize("label", ["AC", "ab", "ABO", "A B", "BB", ""])
+@for_all("label", ["AC", "ab", "ABO", "A B", "BB", ""])
 def test_label_that_fits_no_point_lists_those_that_do(label):
     with pytest.raises(DefinitionError, match="AB/BA, OB/BO"):
 

@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 from linkage import Crank, DefinitionError, Dimension, Ground, Link, Mechanism, Pin, Stroke, deg, drawn
 from mechanisms.classics.stephenson_three import StephensonThreeFar
+from tests.for_all import for_all
 from tests.linkage.random_parts import dyad_sheet, group_sheet, minus, sine
 
 LEAST = 0.35
@@ -117,7 +118,7 @@ def coupled(**members):
     return type("Coupled", (Coupler,), members)
 
 
-@pytest.mark.parametrize(
+@for_all(
     "labels",
     [
         {"AB": distance("A", "B"), **SIDES_FROM_AB},
@@ -173,8 +174,8 @@ def straight(middle, near):
     return coupled(coupler=Link("A B C E", **labels), C=Pin(near=at))
 
 
-@pytest.mark.parametrize("middle", [0.4, 1.7, -0.6])
-@pytest.mark.parametrize("near", [(0.0, 0.0), (0.01, -0.02), (-0.02, 0.01)])
+@for_all("middle", [0.4, 1.7, -0.6])
+@for_all("near", [(0.0, 0.0), (0.01, -0.02), (-0.02, 0.01)])
 def test_straight_link_has_no_sides(middle, near):
     """Three distances in one line: wherever the sketch stands, C is on the line AB, at its place."""
     motion = straight(middle, near)().sweep(5)

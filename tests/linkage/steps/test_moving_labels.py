@@ -21,6 +21,7 @@ from linkage import (
     Stroke,
     YokeDyad,
 )
+from tests.for_all import for_all
 
 SIDES = (LEFT, RIGHT)
 S = np.linspace(0.05, 0.95, 7)
@@ -118,7 +119,7 @@ def test_gradients_are_differences(machine):
     assert_allclose(np.moveaxis(machine().at(S=S).gradient("X", wrt=names), 0, 1), central, rtol=0, atol=3e-8)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("step", "words"),
     [
         (Dyad("A", "D", AX=0.9, side=LEFT), "DX"),
@@ -138,7 +139,7 @@ def test_step_that_lacks_a_number_says_which(step, words):
         made(X=step)
 
 
-@pytest.mark.parametrize("kind", ["dyad", "slider {} rail", "slider {} tilting", "slot {} 0.0", "slot {} 0.2"])
+@for_all("kind", ["dyad", "slider {} rail", "slider {} tilting", "slot {} 0.0", "slot {} 0.2"])
 def test_both_sides_are_the_assembly_modes(kind):
     """The declared side first, the other one where its own class would stand."""
     name = kind if "{}" in kind else kind + " {}"

@@ -30,6 +30,7 @@ from linkage import (
 from linkage.files import load, to_json, to_toml
 from linkage.loads import Weight
 from linkage.statics import driving_force, pin_forces
+from tests.for_all import for_all
 
 G = 9.80665
 
@@ -70,7 +71,7 @@ def height(machine, S):
     return machine.at(S=S).y("X")
 
 
-@pytest.mark.parametrize(("step", "name"), CASES)
+@for_all(("step", "name"), CASES)
 def test_values_ratios_and_forces(step, name):
     machine, S, h = machine_of(step, name)(), np.linspace(0.02, 0.18, 5), 1e-5
     motion = machine.at(S=S)
@@ -83,7 +84,7 @@ def test_values_ratios_and_forces(step, name):
     assert_allclose(driving_force(places), 10.0 * G * (later.y("X") - earlier.y("X")) / (2 * h), rtol=1e-6, atol=1e-6)
 
 
-@pytest.mark.parametrize(("step", "name"), CASES)
+@for_all(("step", "name"), CASES)
 def test_gradients_and_kernels(step, name):
     kind = machine_of(step, name)
     machine, S, h = kind(), np.linspace(0.02, 0.18, 5), 1e-6
@@ -99,7 +100,7 @@ def test_gradients_and_kernels(step, name):
     assert_allclose([pose(each)[2:] for each in S], expected.T, rtol=1e-12, atol=1e-14)
 
 
-@pytest.mark.parametrize(("step", "name"), CASES)
+@for_all(("step", "name"), CASES)
 def test_files_mobility_and_limits(step, name):
     kind = machine_of(step, name)
     motion = kind().sweep(5)
@@ -110,7 +111,7 @@ def test_files_mobility_and_limits(step, name):
     assert motion.limits()["S"].intervals[0].low == pytest.approx(dead, abs=1e-9)
 
 
-@pytest.mark.parametrize("name", FOLLOWED)
+@for_all("name", FOLLOWED)
 def test_next_to_a_dead_point_it_is_told(name):
     """The poses next to a dead point are read eagerly, which asks for the machine's size: the longest length that follows nothing."""
     kind = machine_of("body", name)

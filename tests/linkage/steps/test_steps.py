@@ -27,6 +27,7 @@ from linkage import (
     angle,
     deg,
 )
+from tests.for_all import for_all
 
 
 class Triangle345(Mechanism):
@@ -48,7 +49,7 @@ class Triangle345(Mechanism):
     driven = Crank(O, Odriven=2.0, angle=S)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("point", "place"),
     [
         ("left", (1.8, 2.4)),
@@ -169,7 +170,7 @@ MISSING = {
 }
 
 
-@pytest.mark.parametrize("what", MISSING)
+@for_all("what", MISSING)
 def test_step_that_cannot_be_is_refused_by_name(what):
     A, O = Ground(0.0, 0.0), Ground(1.0, 0.0)
 

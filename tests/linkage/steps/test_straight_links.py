@@ -5,6 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke, deg, drawn
+from tests.for_all import for_all
 
 
 class Lever(Mechanism):
@@ -96,7 +97,7 @@ def test_dyad_hangs_on_a_straight_lever():
     assert_allclose(np.hypot(*(motion["H"] - motion["C"])), 2.0, rtol=1e-14)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@for_all("seed", range(20))
 def test_a_straight_link_stays_straight_whatever_its_lengths_round_to(seed):
     """Lengths that add up but for their last digit: a height of 1e-8 that only rounding makes is none, and nothing is warned of."""
     rng = np.random.default_rng(seed)

@@ -3,13 +3,13 @@
 from math import pi
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, Crank, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke
 from linkage.pictures.strokes import playback
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from mechanisms.classics.stephenson_two import StephensonTwo, StephensonTwoFar
+from tests.for_all import for_all
 
 
 class TwoTurns(Mechanism):
@@ -74,7 +74,7 @@ def test_limits_tell_of_a_motion_that_repeats_after_two_turns():
     assert abs(motion["D"][:, 1] - motion["D"][:, 0]).max() > 0.05
 
 
-@pytest.mark.parametrize("machine", [OneTurn, FourBar, StephensonTwo, StephensonTwoFar, StephensonThree, StephensonThreeFar])
+@for_all("machine", [OneTurn, FourBar, StephensonTwo, StephensonTwoFar, StephensonThree, StephensonThreeFar])
 def test_nothing_is_told_of_what_returns(machine):
     motion = machine().sweep(5)
     limits = motion.limits()[next(iter(motion.strokes))]

@@ -34,6 +34,7 @@ from linkage.study.problem import Problem
 from linkage.study.solver import Local
 from linkage.study.space import Space
 from linkage.units import g0
+from tests.for_all import for_all
 
 DUTY = {"empty": 700.0, "full": 300.0}
 
@@ -159,7 +160,7 @@ def test_a_synthesis_ranks_by_the_mean_and_keeps_its_conditions_in_every_case():
     assert_allclose(answer.value, best.ranked, rtol=1e-12)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("case", "words"),
     [
         ({"emty": 0.7, "full": 0.3}, "empty"),

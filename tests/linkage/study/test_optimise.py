@@ -51,6 +51,7 @@ from linkage.study.space import Space
 from linkage.units import bar, kN
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.stephenson_three import StephensonThreeFar
+from tests.for_all import for_all
 from tests.laws.random_machines import random_machine
 from tests.linkage.known_machines import BoomArm
 
@@ -336,7 +337,7 @@ def test_a_design_that_is_refused_counts_as_one_that_cannot_be(also):
 # -- derivatives, of any machine -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(12))
+@for_all("seed", range(12))
 def test_rows_have_the_derivatives_of_central_differences(seed):
     machine = random_machine(seed).machine()()
     plan = machine.plan
@@ -507,7 +508,7 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("name", WRONG)
+@for_all("name", WRONG)
 def test_what_cannot_be_asked_is_refused_in_words(name):
     asked, words = WRONG[name]
     with pytest.raises(DefinitionError) as caught:

@@ -28,6 +28,7 @@ from linkage.study.problem import Problem
 from linkage.study.solver import Local
 from linkage.study.space import Space
 from mechanisms.classics.four_bar import FourBar
+from tests.for_all import for_all
 
 L_SHAPE = [(0.06, -0.03), (0.14, -0.03), (0.14, 0.05), (0.12, 0.05), (0.12, -0.01), (0.06, -0.01)]
 STAR = [
@@ -161,7 +162,7 @@ def test_a_circle_about_where_a_pivot_stands():
     assert_allclose([best.machine["C.x"] - bar["C.x"], best.machine["C.y"] - bar["C.y"]], 15 * mm / np.sqrt(2), rtol=1e-4)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("regions", "words"),
     [
         ({"X": L_SHAPE}, "Point 'X' is unknown"),

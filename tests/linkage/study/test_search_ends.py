@@ -43,6 +43,7 @@ from linkage.study import InfeasibleError, Target, monte_carlo, settings_for
 from linkage.study.problem import Problem
 from linkage.study.space import Space
 from linkage.units import bar, kN
+from tests.for_all import for_all
 from tests.linkage.known_machines import BoomArm
 from tests.machines.test_excavator import Excavator
 
@@ -226,7 +227,7 @@ def boundless(motion):
     return np.full(motion.shape, np.inf)
 
 
-@pytest.mark.parametrize(
+@for_all(
     "condition",
     [least(np.sqrt(ref("tilt") - 10)) >= 5.0, least(never) >= -1e9, most(never) <= 1e9, least(partly) >= 0.0, most(boundless) <= 1e9,
      at(never, S=0.1) == 1.0, integral(never) <= 1.0],
@@ -351,7 +352,7 @@ APART = [
 ]
 
 
-@pytest.mark.parametrize("ask", APART)
+@for_all("ask", APART)
 def test_what_differs_in_kind_neither_adds_nor_compares(ask):
     with pytest.raises(DefinitionError, match="neither add nor compare"):
         optimise(Boom(), vary={"OB": (0.25, 0.35)}, **ask())
@@ -365,7 +366,7 @@ def test_nor_in_a_file(text):
         measure_said("least(tilt) + 1 mm", Boom())
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("measure", "unit"),
     [
         (-most(y("G")), "mm"), (2 * most("tilt"), "deg"), (integral(drive_force()), "kNm"), (most(drive_force() / y("G")), "N/mm"),

@@ -3,9 +3,10 @@
 import pytest
 
 from linkage.study.space import Varied
+from tests.for_all import for_all
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("value", "about"),
     [
         (0.1, (0.1,)), (0.12, (0.12,)), (0.113, (0.11, 0.12)), (0.2, (0.2,)), (0.05, (0.1,)), (0.3, (0.2,)),

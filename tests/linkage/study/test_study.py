@@ -12,6 +12,7 @@ from linkage.study import Box, settings_for, zone
 from linkage.study.zone import extremes
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 
 BOX = {"MK": (0.80, 0.96), "CD": (0.56, 0.68), "FK": (0.61, 0.685), "M": [(0.22, 1.05), (0.22, 0.95)]}
 
@@ -224,7 +225,7 @@ def test_a_quantity_without_a_value_is_told():
     assert "have no value of positive tilt and are left out of the zone" in found.remarks[0]
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("over", "words"),
     [
         ({"ZZ": (0.1, 0.2)}, "'ZZ' is unknown"),

@@ -17,6 +17,7 @@ from linkage.program import fixed_backend
 from linkage.program.numba_backend import NumbaLoop
 from linkage.study import survey
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.study.survey_measures import failing, far_points, group_designs, hitch_designs, logged, travel
 
 BATCHES = import_module("linkage.study.survey")  # the module, whose function goes by its name
@@ -161,7 +162,7 @@ def test_threads_that_trace_a_machine_at_the_same_time(designs, measure):
 ARRAY = np.linspace(0.29, 0.31, 5)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("over", "text"),
     [
         ({"OBB": ARRAY}, r"'OBB' is unknown in ThreePointHitch\. Did you mean OB\? Known: .*CD"),
@@ -191,7 +192,7 @@ def test_designs_that_cannot_be(over, text):
         survey(ThreePointHitch(), over, travel)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("measure", "text"),
     [
         (lambda machine: np.ones(64), "measure returned array.* for designs 0 to 63; return a dictionary of names and arrays"),
@@ -211,7 +212,7 @@ def test_results_that_cannot_be(measure, text):
         survey(hitch, over, measure)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("options", "text"),
     [
         ({"piece": 0}, "piece=0: a whole number of designs is expected, at least 1"),
@@ -240,7 +241,7 @@ def test_measure_and_machine_that_cannot_be():
         survey("hitch", {"OB": ARRAY}, travel)
 
 
-@pytest.mark.parametrize("number", [100, -1, "3", 2.0, [1, 2], None, True])
+@for_all("number", [100, -1, "3", 2.0, [1, 2], None, True])
 def test_design_that_is_none(number):
     found = survey(*hitch_designs(100), travel)
     with pytest.raises(DefinitionError, match=r"there is no design .*; numbers go from 0 to 99"):

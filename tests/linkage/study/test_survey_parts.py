@@ -13,6 +13,7 @@ from linkage.study import Box, survey
 from linkage.study.checkpoint import measure_text
 from linkage.study.survey import BatchSizes, OpenRanges
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.study.survey_measures import far_points, travel
 
 # -- dealing out --------------------------------------------------------------------------------------------
@@ -163,8 +164,8 @@ HOLES = [(0.22, 1.05), (0.22, 0.95), (0.20, 1.00)]
 BOX = Box.of(ThreePointHitch(), {"OB": (0.28, 0.34), "CD": (0.60, 0.64), "M": HOLES})
 
 
-@pytest.mark.parametrize("method", ["sobol", "latin"])
-@pytest.mark.parametrize("count", [1, 96, 128])
+@for_all("method", ["sobol", "latin"])
+@for_all("count", [1, 96, 128])
 def test_sample_fills_the_box_evenly(method, count):
     sample = BOX.sample(count, method=method)
     assert sample.keys() == {"OB", "CD", "M"} and all(np.shape(value)[-1] == count for value in sample.values())

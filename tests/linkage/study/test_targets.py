@@ -9,6 +9,7 @@ from linkage import Crank, DefinitionError, Dimension, Ground, Mechanism, Stroke
 from linkage.quantities import ref
 from linkage.study import Target, settings_for
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.random_mechanisms import random_mechanism
 from tests.linkage.synthesis.synthesis_tasks import Bar
 
@@ -150,7 +151,7 @@ def settings_drawn(machine, random, count):
     return {}, {}
 
 
-@pytest.mark.parametrize("seed", range(8))
+@for_all("seed", range(8))
 def test_the_setting_of_a_random_machine_is_found(seed):
     machine, random = random_mechanism(seed)(), np.random.default_rng(seed)
     box, setting = settings_drawn(machine, random, 2 + seed % 2)
@@ -218,7 +219,7 @@ def test_choices_alone_and_what_cannot_be_assembled():
 TILT = [Target("tilt", 0.0, S=0.1)]
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("vary", "targets", "words"),
     [
         ({"MK": (0.5, 1.3), "CD": (0.5, 0.6)}, TILT, "1 target leaves 2 ranges a family of settings; hold 1 of MK, CD"),

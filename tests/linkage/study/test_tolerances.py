@@ -38,6 +38,7 @@ from linkage.study import Tolerance, monte_carlo, sigma, sobol, spread, tornado
 from linkage.study.tolerances import tolerance_words, tolerances_of
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.study.test_study import Triad
 
 HITCH = {"OB": 0.1 * mm, "CD": 0.1 * mm, "MK": Tolerance(0.1 * mm, "uniform"), "M": 0.1 * mm}
@@ -358,7 +359,7 @@ def test_sobol_indices_of_one_dimension_and_of_a_number_over_the_stroke():
 ONE = {"OB": 0.1 * mm}
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("call", "words"),
     [
         (lambda: Tolerance(-0.1), "is no tolerance"),

@@ -16,6 +16,7 @@ from mechanisms.classics.stephenson_one import StephensonOne
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from mechanisms.classics.stephenson_two import StephensonTwo, StephensonTwoFar
 from mechanisms.classics.watt_two import WattTwo
+from tests.for_all import for_all
 
 SHIPPED = {
     FourBar: "four-bar",
@@ -41,7 +42,7 @@ def alike(one, other):
     return nx.is_isomorphic(nx.Graph(one), nx.Graph(other), node_match=lambda a, b: a["kind"] == b["kind"])
 
 
-@pytest.mark.parametrize("machine", SHIPPED, ids=lambda cls: cls.__name__)
+@for_all("machine", SHIPPED, ids=lambda cls: cls.__name__)
 def test_shipped_machines_are_the_inversions_of_their_names(machine):
     every = [each for links in (4, 6) for chain in chains(links) for each in chain.inversions]
     found = [each.name for each in every if alike(machine().graph, with_frame(each))]
@@ -114,7 +115,7 @@ def test_dimensions_are_those_of_a_design():
     assert_allclose(bar.at(phi=sense * phi)["P"], wanted, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("links", [3, 5, 14, 6.0, True, "six"])
+@for_all("links", [3, 5, 14, 6.0, True, "six"])
 def test_numbers_of_links_without_chains_are_refused(links):
     with pytest.raises(DefinitionError, match="even number of links"):
         chains(links)

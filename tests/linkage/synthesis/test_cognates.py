@@ -13,6 +13,7 @@ from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.classics.stephenson_three import StephensonThree
 from mechanisms.classics.watt_two import WattTwo
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.synthesis.exact_tasks import lengths
 
 MACHINES = [
@@ -21,7 +22,7 @@ MACHINES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("kind", "of"), MACHINES)
+@for_all(("kind", "of"), MACHINES)
 def test_both_cognates_go_along_the_path(kind, of):
     machine = kind()
     path = machine.sweep(73)[of]
@@ -73,7 +74,7 @@ def test_cognates_of_what_a_synthesis_found():
         assert np.hypot(*(path - point[:, None])).min() < 1e-4 * 0.3
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("machine", "of", "message"),
     [
         (SliderCrank(), "A", "no coupler"),

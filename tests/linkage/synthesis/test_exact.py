@@ -10,6 +10,7 @@ from scipy.optimize import root
 from linkage import RIGHT, DefinitionError, StudyError, burmester, deg, five_point, freudenstein
 from linkage.synthesis.exact_paths import general_task, solutions_of
 from mechanisms.classics.four_bar import FourBar
+from tests.for_all import for_all
 from tests.linkage.synthesis.exact_tasks import as_rows, bar_at, lengths
 
 LINE = [(0.5, 1.06), (-0.83, -0.27), (-0.34, 0.22), (-0.13, 0.43), (0.22, 0.78)]
@@ -119,7 +120,7 @@ def test_a_found_machine_goes_through_pickle():
         assert_allclose(again.sweep(7)["P"], machine.sweep(7)["P"], rtol=0, atol=0)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("pivots", "points", "message"),
     [
         ([(0, 0), (0, 0)], LINE, "two of the pivots are at one place"),
@@ -146,8 +147,8 @@ def pairs_of(bar, phi, zeros):
 CASES = [(3, "follower", (0.0, 0.0)), (4, "follower", (0.0, 0.8)), (4, "crank", (-1.3, 0.0)), (5, "follower", (0.4, -2.2))]
 
 
-@pytest.mark.parametrize("seed", range(5))
-@pytest.mark.parametrize(("count", "free", "zeros"), CASES)
+@for_all("seed", range(5))
+@for_all(("count", "free", "zeros"), CASES)
 def test_a_bar_is_found_from_pairs_of_its_angles(count, free, zeros, seed):
     bar, phi = bar_at(100 * count + seed, count, 2.0)
     pairs = pairs_of(bar, phi, zeros)
@@ -208,7 +209,7 @@ def test_no_function_machine_is_missed_that_a_search_finds(count, free, zeros):
     assert hits > 1
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("pairs", "options", "message"),
     [
         ([(0.1, 0.2), (0.3, 0.4)], {}, "three to five"),

@@ -9,6 +9,7 @@ from linkage import burmester, cognates
 from linkage.synthesis.exact_functions import links
 from linkage.synthesis.exact_paths import real_ones, solutions_of, turnings
 from mechanisms.classics.four_bar import FourBar
+from tests.for_all import for_all
 from tests.linkage.synthesis.exact_tasks import lengths
 from tests.linkage.synthesis.test_burmester import POSES, random_poses
 from tests.linkage.synthesis.test_exact import LINE
@@ -73,8 +74,8 @@ TEXTBOOK = [
 ]
 
 
-@pytest.mark.parametrize("count", [3, 4, 5])
-@pytest.mark.parametrize(("function", "ends", "ranges"), TEXTBOOK, ids=["log10 x", "x^1.5", "1/x"])
+@for_all("count", [3, 4, 5])
+@for_all(("function", "ends", "ranges"), TEXTBOOK, ids=["log10 x", "x^1.5", "1/x"])
 def test_generators_of_the_textbooks_functions(function, ends, ranges, count):
     pairs = chebyshev(function, ends, ranges, count)
     p, s = (exact_complex(np.exp(1j * each)) for each in pairs.T)

@@ -11,6 +11,7 @@ from linkage.study.problem import Problem
 from linkage.study.space import Space
 from linkage.synthesis.fit import Fit, Timing
 from mechanisms.classics.four_bar import FourBar
+from tests.for_all import for_all
 
 LENGTHS = {"OA": (0.01, 0.08), "AB": (0.05, 0.2), "CB": (0.05, 0.2)}
 AS_FAR_AS = ("psi", ratio("psi"), ratio("psi", order=2))
@@ -83,7 +84,7 @@ def test_within_weighs_what_cannot_all_be_met():
     assert off[0][1] < 0.6 * off[1][1] and off[1][0] < 0.1 * off[0][0]
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("values", "of", "within", "message"),
     [
         ([[0.1], [0.2]], ["psi"], None, "2 rows of values for 1 quantities"),

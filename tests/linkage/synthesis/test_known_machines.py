@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from tests.for_all import for_all
 from tests.linkage.synthesis.known_machines import CLASSES, KINDS, along_stroke, known_task
 
 EACH = 25
@@ -18,7 +19,7 @@ def found_again(name, seed, **options):
     return task.exact(task.found(**options))
 
 
-@pytest.mark.parametrize("name", CLASSES)
+@for_all("name", CLASSES)
 def test_the_evaluators_stand_where_the_classes_do(name):
     known = CLASSES[name]
     machine, (stroke, ends) = known.kind(), known.stroke()

@@ -37,6 +37,7 @@ from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.klann import Klann
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks import bench_synthesis
+from tests.for_all import for_all
 from tests.linkage.synthesis import synthesis_tasks as papers
 from tests.linkage.synthesis.synthesis_tasks import Bar, box, places
 
@@ -122,8 +123,8 @@ def test_published_tasks(name, error):
     assert np.all(np.diff(order) * np.sign(order[-1] - order[0]) >= -1e-8)
 
 
-@pytest.mark.parametrize("kind", ["path", "function", "poses"])
-@pytest.mark.parametrize("timed", [True, False])
+@for_all("kind", ["path", "function", "poses"])
+@for_all("timed", [True, False])
 def test_derivatives_are_those_of_the_misses(kind, timed):
     """Central differences, by dimensions and by the points' own strokes."""
     bar, at = FourBar(), np.array([0.4, 1.0, 1.9, 3.0])
@@ -257,7 +258,7 @@ def test_a_table_and_a_drawing(tmp_path):
     assert "unrounded" in str(coarse)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("given", "words"),
     [
         ({}, "say one task"),
@@ -281,7 +282,7 @@ def test_what_cannot_be_asked_is_said(given, words):
         synthesise(FourBar(), vary={"OA": (0.03, 0.05)}, **given)
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("make", "words"),
     [
         (lambda: PathTask([1.0, 2.0], of="P"), "pairs"),

@@ -31,6 +31,7 @@ from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.klann import Klann
 from mechanisms.classics.stephenson_two import StephensonTwo
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.linkage.synthesis import synthesis_tasks as papers
 from tests.linkage.synthesis.synthesis_tasks import Bar, OtherBar, box, places
 
@@ -62,7 +63,7 @@ def sides_of(machine):
     return {name: step.side for name, step in machine.plan.of_kind(Step).items() if step.side is not None}
 
 
-@pytest.mark.parametrize("kind", [FourBar, Klann, ThreePointHitch, Tailed, Pair])
+@for_all("kind", [FourBar, Klann, ThreePointHitch, Tailed, Pair])
 def test_a_machine_on_other_sides_is_that_of_its_assembly(kind):
     machine = kind()
     strokes = {name: 0.3 * stroke.start + 0.7 * stroke.end for name, stroke in kind.plan.strokes.items()}
@@ -79,7 +80,7 @@ def test_a_machine_on_other_sides_is_that_of_its_assembly(kind):
     assert known
 
 
-@pytest.mark.parametrize(("kind", "name"), [(FourBar, "B"), (Klann, "H"), (Tailed, "T"), (Pair, "two.B"), (Tipper, "G")])
+@for_all(("kind", "name"), [(FourBar, "B"), (Klann, "H"), (Tailed, "T"), (Pair, "two.B"), (Tipper, "G")])
 def test_such_a_machine_goes_to_other_processes_and_is_one_class(kind, name):
     machine = kind()
     side = LEFT if sides_of(machine)[name] is RIGHT else RIGHT
@@ -152,7 +153,7 @@ def test_a_side_alone_may_vary():
     assert found.best.most <= 1e-12 and sides_of(found.machine)["B"] is RIGHT and found.starts == 2
 
 
-@pytest.mark.parametrize(
+@for_all(
     ("kind", "vary", "words"),
     [
         (FourBar, {"B.side": LEFT}, "a list of choices"),

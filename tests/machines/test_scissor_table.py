@@ -3,6 +3,8 @@
 Arms AC and BD cross in M; B rolls on the floor, C under the deck DT. All figures are illustrative, of a 2 t table.
 """
 
+from functools import cache
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -29,6 +31,7 @@ from linkage import (
     pin_forces,
 )
 from linkage.units import bar, mm
+from tests.for_all import for_all
 from tests.machines import plane
 from tests.machines.words import number
 from tests.mechanisms.free_bodies import FreeBodies
@@ -62,29 +65,35 @@ class Table(Mechanism):
     line = LiftCircuit(lift, pressure=160 * bar, relief=175 * bar, back_pressure=3 * bar)
 
 
-class TableOfLinks(Mechanism):
-    """By the cylinders' length, as a parts list: one group."""
+@cache
+def table_of_links():
+    """Return the table by the cylinders' length, as a parts list: one group."""
 
-    S = Stroke(0.0, 0.110)
-    sketch = drawn(S=0.060)
+    class TableOfLinks(Mechanism):
+        """By the cylinders' length, as a parts list: one group."""
 
-    A = Ground(0.0, 0.0)
-    floor = Guide((0.0, 0.0), angle=0.0)
-    B, M, C, D = Pin(near=(1.60, 0.0)), Pin(near=(0.80, 0.60)), Pin(near=(1.60, 1.20)), Pin(near=(0.0, 1.20))
-    P, Q, T, H = Pin(near=(0.12, 0.09)), Pin(near=(0.72, 0.66)), Pin(near=(2.2, 1.20)), Pin(near=(1.3, 1.20))
-    first = Link("A P M C", AC=ARM, AM=ARM / 2, CAM=0.0, AP=AP, CAP=0.0)
-    second = Link("B M Q D", BD=ARM, BM=ARM / 2, DBM=0.0, BQ=BQ, DBQ=0.0)
-    plate = Link("D H T", DT=DT, DH=DH, TDH=0.0)
-    top = Guide(D, T)
-    ram = Link("P Q", PQ=L0 + S)
-    wheel, roller = Slide(B, floor), Slide(C, top)
+        S = Stroke(0.0, 0.110)
+        sketch = drawn(S=0.060)
 
-    load = Weight(H, mass=MASS)
-    rising = LinkMass("A C", mass=OWN)
-    falling = LinkMass("B D", mass=OWN)
-    deck = LinkMass("D T", mass=DECK)
-    lift = Cylinder(P, Q, bore=100 * mm, rod=63 * mm, count=2, closed=0.755, stroke=0.110)
-    line = LiftCircuit(lift, pressure=160 * bar, relief=175 * bar, back_pressure=3 * bar)
+        A = Ground(0.0, 0.0)
+        floor = Guide((0.0, 0.0), angle=0.0)
+        B, M, C, D = Pin(near=(1.60, 0.0)), Pin(near=(0.80, 0.60)), Pin(near=(1.60, 1.20)), Pin(near=(0.0, 1.20))
+        P, Q, T, H = Pin(near=(0.12, 0.09)), Pin(near=(0.72, 0.66)), Pin(near=(2.2, 1.20)), Pin(near=(1.3, 1.20))
+        first = Link("A P M C", AC=ARM, AM=ARM / 2, CAM=0.0, AP=AP, CAP=0.0)
+        second = Link("B M Q D", BD=ARM, BM=ARM / 2, DBM=0.0, BQ=BQ, DBQ=0.0)
+        plate = Link("D H T", DT=DT, DH=DH, TDH=0.0)
+        top = Guide(D, T)
+        ram = Link("P Q", PQ=L0 + S)
+        wheel, roller = Slide(B, floor), Slide(C, top)
+
+        load = Weight(H, mass=MASS)
+        rising = LinkMass("A C", mass=OWN)
+        falling = LinkMass("B D", mass=OWN)
+        deck = LinkMass("D T", mass=DECK)
+        lift = Cylinder(P, Q, bore=100 * mm, rod=63 * mm, count=2, closed=0.755, stroke=0.110)
+        line = LiftCircuit(lift, pressure=160 * bar, relief=175 * bar, back_pressure=3 * bar)
+
+    return TableOfLinks
 
 
 # -- by hand -----------------------------------------------------------------------------------------------
@@ -138,12 +147,18 @@ def cut(s, rub=lambda guide: 0.0, sense=0):
     return bodies.solve()
 
 
-BOTH = [(Table, lambda: {"s": PLACES}), (TableOfLinks, lambda: {"S": np.array([long(s) - L0 for s in PLACES])})]
+BY_ROLLER = {"s": PLACES}
+BOTH = for_all(("machine", "at"), lambda: [(Table, BY_ROLLER), (table_of_links(), by_length())])
 
 
-@pytest.mark.parametrize(("machine", "at"), BOTH)
+def by_length():
+    """Return the cylinders' stroke at every place."""
+    return {"S": np.array([long(s) - L0 for s in PLACES])}
+
+
+@BOTH
 def test_positions(machine, at):
-    motion = machine().at(**at())
+    motion = machine().at(**at)
     for k, s in enumerate(PLACES):
         p = places([s])
         for name in "BMCDPQTH":
@@ -151,9 +166,9 @@ def test_positions(machine, at):
     assert machine().mobility == 1
 
 
-@pytest.mark.parametrize(("machine", "at"), BOTH)
+@BOTH
 def test_thrust_and_pressure(machine, at):
-    motion = machine().at(**at())
+    motion = machine().at(**at)
     want = np.array([thrust(s) for s in PLACES])
     area, ring = 2 * plane.disc(0.100), 2 * plane.annulus(0.100, 0.063)
     assert np.all(want > 0)
@@ -171,9 +186,9 @@ def test_generalised_force_of_the_roller_runs_the_other_way():
     assert np.all(found < 0)
 
 
-@pytest.mark.parametrize(("machine", "at"), BOTH)
+@BOTH
 def test_pins_and_rollers(machine, at):
-    forces = pin_forces(machine().at(**at()))
+    forces = pin_forces(machine().at(**at))
     for k, s in enumerate(PLACES):
         want, p = cut(s), places([s])
         size = max(map(abs, want.values()))
@@ -208,19 +223,25 @@ class Stiff(Table):
     head = GuideFriction("C", coefficient=0.08)
 
 
-class StiffLinks(TableOfLinks):
-    """The same in the parts list."""
+@cache
+def stiff_links():
+    """Return the same in the parts list."""
 
-    foot = GuideFriction("B", coefficient=0.08)
-    head = GuideFriction("C", coefficient=0.08)
+    class StiffLinks(table_of_links()):
+        """The same in the parts list."""
+
+        foot = GuideFriction("B", coefficient=0.08)
+        head = GuideFriction("C", coefficient=0.08)
+
+    return StiffLinks
 
 
-@pytest.mark.parametrize(("machine", "at"), [(Stiff, BOTH[0][1]), (StiffLinks, BOTH[1][1])])
+@for_all(("machine", "at"), lambda: [(Stiff, BY_ROLLER), (stiff_links(), by_length())])
 @pytest.mark.parametrize(("direction", "sense"), [("extending", 1), ("retracting", -1)])
 def test_rollers_rub(machine, at, direction, sense):
     """In what is said of the cylinder, `extending` means that it grows: the table rises, and the stroke s falls."""
-    motion = machine().at(**at())
-    named = direction if machine is StiffLinks else {"extending": "retracting", "retracting": "extending"}[direction]
+    motion = machine().at(**at)
+    named = direction if machine is stiff_links() else {"extending": "retracting", "retracting": "extending"}[direction]
     forces, carried = pin_forces(motion, direction=named), machine.lift.thrust(motion, direction=direction)
     for k, s in enumerate(PLACES):
         want = plane.rubbed(lambda size, s=s: cut(s, lambda guide: 0.08 * size(guide), sense), "", "BC")

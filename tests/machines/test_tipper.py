@@ -4,6 +4,7 @@ As a parts list it is a class III group, for no two circles give its pins; by th
 All figures are illustrative, of a 6 t tipper.
 """
 
+from functools import cache
 from math import atan2, dist, hypot
 
 import numpy as np
@@ -31,6 +32,7 @@ from linkage import (
     pin_forces,
 )
 from linkage.units import bar, litre, minute, mm
+from tests.for_all import for_all
 from tests.machines import plane
 from tests.machines.words import number
 from tests.mechanisms.free_bodies import FreeBodies
@@ -192,14 +194,20 @@ class Returning(ByAngle):
     slow = Damper("A", "B", coefficient=60e3)
 
 
-class ReturningList(Tipper):
-    """The same in the parts list."""
+@cache
+def returning_list():
+    """Return the same in the parts list."""
 
-    back = Spring("A", "B", stiffness=9000.0, preload=2500.0)
-    slow = Damper("A", "B", coefficient=60e3)
+    class ReturningList(Tipper):
+        """The same in the parts list."""
+
+        back = Spring("A", "B", stiffness=9000.0, preload=2500.0)
+        slow = Damper("A", "B", coefficient=60e3)
+
+    return ReturningList
 
 
-@pytest.mark.parametrize("machine", [Returning, ReturningList])
+@for_all("machine", lambda: [Returning, returning_list()])
 def test_three_elements_on_two_points(machine):
     """The cylinder carries what the spring and the damper leave; each has its own thrust and its own end forces."""
     by_angle = machine is Returning
@@ -234,18 +242,24 @@ class Dry(ByAngle):
     pin_O = PinFriction("O", radius=40 * mm, coefficient=0.15)
 
 
-class DryList(Tipper):
-    """The same in the parts list."""
+@cache
+def dry_list():
+    """Return the same in the parts list."""
 
-    pin_A = PinFriction("A", radius=35 * mm, coefficient=0.2)
-    pin_B = PinFriction("B", radius=30 * mm, coefficient=0.2)
-    pin_O = PinFriction("O", radius=40 * mm, coefficient=0.15)
+    class DryList(Tipper):
+        """The same in the parts list."""
+
+        pin_A = PinFriction("A", radius=35 * mm, coefficient=0.2)
+        pin_B = PinFriction("B", radius=30 * mm, coefficient=0.2)
+        pin_O = PinFriction("O", radius=40 * mm, coefficient=0.15)
+
+    return DryList
 
 
 ARMS = {"A": 0.035 * 0.2, "B": 0.030 * 0.2, "O": 0.040 * 0.15}
 
 
-@pytest.mark.parametrize(("machine", "at"), [(Dry, BOTH[1][1]), (DryList, BOTH[0][1])])
+@for_all(("machine", "at"), lambda: [(Dry, BOTH[1][1]), (dry_list(), BOTH[0][1])])
 @pytest.mark.parametrize(("direction", "sense"), [("extending", 1), ("retracting", -1)])
 def test_friction_at_the_ends_of_the_cylinder(machine, at, direction, sense):
     """A cylinder with rubbing ends is a body like any other: the force at its pins leaves its line."""
@@ -273,16 +287,22 @@ class Assisted(ByAngle):
     line = LiftCircuit(["lift", aux], pressure=160 * bar, mechanical_efficiency=0.9)
 
 
-class AssistedList(Tipper):
-    """The same in the parts list."""
+@cache
+def assisted_list():
+    """Return the same in the parts list."""
 
-    X = OnLink("O", "C", OX=OX, COX=TO_X - TO_C)
-    K = Ground(*CHASSIS["K"])
-    aux = Cylinder(K, X, bore=63 * mm, rod=40 * mm, count=2)
-    line = LiftCircuit(["lift", aux], pressure=160 * bar, mechanical_efficiency=0.9)
+    class AssistedList(Tipper):
+        """The same in the parts list."""
+
+        X = OnLink("O", "C", OX=OX, COX=TO_X - TO_C)
+        K = Ground(*CHASSIS["K"])
+        aux = Cylinder(K, X, bore=63 * mm, rod=40 * mm, count=2)
+        line = LiftCircuit(["lift", aux], pressure=160 * bar, mechanical_efficiency=0.9)
+
+    return AssistedList
 
 
-@pytest.mark.parametrize(("machine", "at"), [(Assisted, BOTH[1][1]), (AssistedList, BOTH[0][1])])
+@for_all(("machine", "at"), lambda: [(Assisted, BOTH[1][1]), (assisted_list(), BOTH[0][1])])
 def test_cylinders_on_one_line_share_their_pressure(machine, at):
     """The oil's work p dV is the load's: thrusts by area."""
     motion = machine().at(**at())

@@ -90,23 +90,22 @@ def test_scissor_tables_thrust_grows_with_its_stages(stages):
     assert pin_forces(motion).gap < 1e-13
 
 
-class ArmToArm(Mechanism):
-    """A scissor table whose cylinder stands between the two arms: one group. Its straight arms are given by distances alone."""
-
-    S = Stroke(0, 0.5)
-    sketch = drawn(S=0.5)
-    A, floor = Ground(0, 0), Guide((0, 0), angle=0)
-    B, M, C, D = Pin(near=(1.8, 0)), Pin(near=(0.9, 0.45)), Pin(near=(1.8, 0.9)), Pin(near=(0, 0.9))
-    P, Q, T = Pin(near=(0.4, 0.2)), Pin(near=(1.3, 0.25)), Pin(near=(2.0, 0.9))
-    rising = Link("A P M C", AM=1, AC=2, MC=1, AP=0.45, PM=0.55)
-    falling = Link("B M D Q", BM=1, BD=2, MD=1, BQ=0.6, QM=0.4)
-    deck, top = Guide(D, T), Link("D T", DT=2.0)
-    lift = Link("P Q", PQ=0.35 + S)
-    wheel, roller = Slide(B, floor), Slide(C, deck)
-    load, own = Force(T, (0, -3000)), LinkMass("A P M C", mass=40)
-
-
 def test_scissor_table_with_its_cylinder_between_the_arms():
+    class ArmToArm(Mechanism):
+        """A scissor table whose cylinder stands between the two arms: one group. Its straight arms are given by distances alone."""
+
+        S = Stroke(0, 0.5)
+        sketch = drawn(S=0.5)
+        A, floor = Ground(0, 0), Guide((0, 0), angle=0)
+        B, M, C, D = Pin(near=(1.8, 0)), Pin(near=(0.9, 0.45)), Pin(near=(1.8, 0.9)), Pin(near=(0, 0.9))
+        P, Q, T = Pin(near=(0.4, 0.2)), Pin(near=(1.3, 0.25)), Pin(near=(2.0, 0.9))
+        rising = Link("A P M C", AM=1, AC=2, MC=1, AP=0.45, PM=0.55)
+        falling = Link("B M D Q", BM=1, BD=2, MD=1, BQ=0.6, QM=0.4)
+        deck, top = Guide(D, T), Link("D T", DT=2.0)
+        lift = Link("P Q", PQ=0.35 + S)
+        wheel, roller = Slide(B, floor), Slide(C, deck)
+        load, own = Force(T, (0, -3000)), LinkMass("A P M C", mass=40)
+
     motion = ArmToArm().sweep(5)
     p, cut, forces = places(motion, 2), FreeBodies(), pin_forces(motion)
     assert_allclose([p["B"][1], p["D"][0], p["C"][1] - p["D"][1]], 0.0, atol=1e-9)

@@ -31,7 +31,8 @@ MACHINES = [
     TailLift, Telehandler, Tipper, WheelLoader,
 ]
 JOINED = [*MACHINES, Forwarder]
-ALL = for_all("machine", MACHINES, ids=lambda machine: machine.__name__)
+DAILY = (HoistTipper, HookExcavator, PloughTractor, TailLift, Tipper)
+ALL = for_all("machine", DAILY, slow=[machine for machine in MACHINES if machine not in DAILY])
 PRINTED = {"boom": (-0.4737, 1.0923), "arm": (-0.5103, -2.5848), "bucket": (0.7839, -2.8659)}  # rad, at the shortest, at the longest
 
 

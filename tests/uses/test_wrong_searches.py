@@ -8,7 +8,7 @@ import pytest
 from linkage import LinkageError, SingularWarning
 from tests.uses.wrong_searches import asked, wrong_use
 
-DAILY, ALL = 300, 3000
+DAILY, ALL = 40, 3040
 LONGEST = 1600
 """Characters of a message: those that list the names there are may be long."""
 
@@ -30,9 +30,8 @@ def check(seed):
     return True
 
 
-@pytest.mark.parametrize("first", [0, 100, 200])
-def test_wrong_uses_of_searches_are_refused_or_answered(first, capsys):
-    assert sum(check(seed) for seed in range(first, first + 100)) < 50  # most of them are wrong
+def test_wrong_uses_of_searches_are_refused_or_answered(capsys):
+    assert sum(check(seed) for seed in range(DAILY)) < DAILY / 2  # most of them are wrong
 
 
 @pytest.mark.slow

@@ -4,6 +4,7 @@ import re
 import shutil
 import subprocess
 import sys
+from functools import cache
 from html import unescape
 from xml.etree import ElementTree
 
@@ -80,6 +81,12 @@ class Sloped(Mechanism):
     A = Ground(0.0, 0.0)
     O = Ground(0.1, 0.5)
     B = Dyad(A, O, AB=0.5 + S, OB=0.4 + T, side=RIGHT)
+
+
+@cache
+def lifter():
+    """Return the report of a lifter, which several tests read."""
+    return report_document(Lifter())
 
 
 @pytest.fixture(scope="module")
@@ -214,7 +221,7 @@ def test_units_are_those_of_the_system():
 
 
 def test_load_cases_are_looked_at_alone_or_all(tmp_path):
-    both = report_document(Lifter())
+    both = lifter()
     assert dict(both.facts)["Load cases"] == "own loads (plain), twice (double)"
     (grid,) = grids(both, "least", "unit")
     (whole,) = (row for row in grid.rows if row[0] == "S")
@@ -428,7 +435,7 @@ def test_markdown_and_its_pictures_are_replaced_whole(tmp_path):
 
 
 def test_a_pdf_has_pages_and_fonts_and_no_date():
-    content = pdf(report_document(Lifter()))
+    content = pdf(lifter())
     assert content.startswith(b"%PDF") and b"/CreationDate" not in content and b"/Type3" not in content
     assert content.count(b"/Type /Page ") >= 4
 

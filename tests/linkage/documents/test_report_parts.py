@@ -116,23 +116,35 @@ FULL = {
 }  # fmt: skip
 
 
+@cache
+def signed():
+    """Return a report whose title block is filled."""
+    return report_document(Loader(), count=3, block=TitleBlock(**FULL))
+
+
+@cache
+def unsigned():
+    """Return the same report with lines left to be filled."""
+    return report_document(Loader(), count=3)
+
+
 def markdown_of(document):
     return markdown(document, {id(each): "x" for each in blocks(document, Illustration)})
 
 
 @pytest.mark.parametrize("write", [html_text, markdown_of])
 def test_a_title_block_says_what_is_given_and_leaves_lines_for_the_rest(write):
-    given = write(report_document(Loader(), count=3, block=TitleBlock(**FULL)))
+    given = write(signed())
     for value in ("R-104", "2026-05-01", "N. N.", "M. M.", "K. K."):
         assert value in given.replace("\\", "")
-    empty = write(report_document(Loader(), count=3))
+    empty = write(unsigned())
     for name in ("report No.", "client", "prepared", "checked", "approved", "signature"):
         assert name in given and name in empty
     assert "<b>" not in given
 
 
 def test_a_pdf_has_its_title_block_on_the_first_page_and_its_number_on_all():
-    document = report_document(Loader(), count=3, block=TitleBlock(**FULL))
+    document = signed()
     pages = Flow(document).pages
     first = [each.text for each in pages[0].ink if isinstance(each, GlyphRun)]
     assert {"R-104", "N. N.", "M. M.", "K. K.", "signature"} <= {*first}
@@ -263,7 +275,7 @@ def test_no_curve_is_drawn_twice():
 
 def test_every_load_case_has_its_pins():
     for case, title in (("plain", "own loads (plain)"), ("shock", "with shock (shock)")):
-        (grid,) = (each for each in blocks(report_document(Loader(), count=3), TableBlock) if each.caption.endswith(f"load case {title}"))
+        (grid,) = (each for each in blocks(unsigned(), TableBlock) if each.caption.endswith(f"load case {title}"))
         rows = max_table(pin_forces(Loader().sweep(101), case=None if case == "plain" else case))
         shown_forces = {(row[0], row[2], row[3]): float(row[4]) for row in grid.rows}
         for each in rows:

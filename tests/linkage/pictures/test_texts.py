@@ -20,7 +20,7 @@ from tests.for_all import for_all
 from tests.linkage.motion.in_node import elsewhere
 
 SHIPPED = {point.name: point for point in entry_points(group="hydrolinkage.machines")}
-QUICK = ("arm_drive", "crane", "grapple", "three_point_hitch", "wheel_loader")
+QUICK = ("arm_drive", "grapple", "three_point_hitch")
 TOUCH = 1.0
 """Pixels by which boxes of letters may touch: they are higher than the letters in them."""
 INNER = 4.0

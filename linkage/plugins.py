@@ -25,17 +25,7 @@ MEMBERS = "hydrolinkage.files"
 EXPORTERS = "hydrolinkage.exporters"
 LANGUAGES = "hydrolinkage.languages"
 BACKENDS = "hydrolinkage.backends"
-
-GROUPS: Mapping[str, str] = {
-    MACHINES: "machines",
-    COMMANDS: "commands",
-    REQUESTS: "requests in files",
-    MEMBERS: "members in files",
-    EXPORTERS: "kinds of files of export",
-    LANGUAGES: "languages of source",
-    BACKENDS: "back ends of evaluate",
-}
-"""The groups of entry points, each with what its entries are."""
+"""The groups of entry points."""
 
 T = TypeVar("T")
 

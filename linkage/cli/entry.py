@@ -40,7 +40,6 @@ HOMES = {
     "synthesise": "synthesise:SynthesiseCommand",
     "study": "study:StudyCommand",
     "new": "new:NewCommand",
-    "doctor": "doctor:DoctorCommand",
 }
 BUILT_IN = {name: EntryPoint(name, f"{__package__}.{home}", plugins.COMMANDS) for name, home in HOMES.items()}
 

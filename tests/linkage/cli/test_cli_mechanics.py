@@ -1,4 +1,4 @@
-"""Forces, limits, capacity, ratios and verdicts of any machine on the command line; what every command has; list, new and doctor."""
+"""Forces, limits, capacity, ratios and verdicts of any machine on the command line; what every command has; list and new."""
 
 import csv
 import io
@@ -319,7 +319,7 @@ def test_a_file_that_is_named_is_written_though_nobody_reads_what_is_said(tmp_pa
     assert (tmp_path / "said.txt").exists() == bool(options)  # without a file there is nothing to go on for
 
 
-# -- list, new, doctor -------------------------------------------------------------------------------------
+# -- list, new ---------------------------------------------------------------------------------------------
 
 
 def test_list_groups_by_kind_and_names_the_commands(said):
@@ -388,20 +388,3 @@ def test_a_verdict_of_capacity_is_over_every_stroke(said, tmp_path):
 def test_both_templates_are_one_machine(said):
     assert said("new", "arm", "-o", "arm.toml")[0] == said("new", "arm")[0] == 0
     assert said("table", "arm.toml", "--csv", "-")[1] == said("table", "arm.py", "--csv", "-")[1]
-
-
-def test_doctor_tells_what_is_there(said, monkeypatch):
-    code, out, err = said("doctor")
-    assert (code, err) == (0, "")
-    assert max(map(len, out.splitlines())) <= 100
-    for words in ("Python", "numpy", "49 machines", "of hydrolinkage", "kernels are kept in", "ffmpeg", "letters in pictures", "xlsx"):
-        assert words in out
-    from importlib.metadata import EntryPoint
-
-    from linkage import plugins
-
-    broken = EntryPoint("bad", "no_package:Bad", "hydrolinkage.machines")
-    monkeypatch.setattr(plugins, "entry_points", lambda group: {"bad": broken} if group == broken.group else {})
-    code, out, _ = said("doctor")
-    assert code == 1 and max(map(len, out.splitlines())) <= 100
-    assert "bad of the machines (no_package:Bad) cannot be loaded: ModuleNotFoundError" in " ".join(out.split())

@@ -23,7 +23,7 @@ from ..surroundings import Outline
 from ..units import show
 from ..verdict import Verdict
 from .answer import Answer
-from .gaps import body_points_of, check_forms, gap, gap_of, least_number, shape_named
+from .gaps import body_points_of, check_forms, corner_pieces, follows_dimensions, gap, gap_of, least_number, shape_named
 from .judge import Judge, Question
 from .judging import HasVerdicts
 from .measures import Condition, least
@@ -97,7 +97,8 @@ class Planes(HasVerdicts):
             text = said("{one} and {other} come within {gap} of each other, {where}.", one=one, other=other, gap=size, where=answer.where)
             return [Verdict("clearance", True, text, answer=answer)]
         remedy = said("Change a dimension, or put them in different planes.")
-        text = said("{one} and {other} cross by {gap}, deepest {where}.", one=one, other=other, gap=size, where=answer.where)
+        depth = depth_words(judge.plan, one, other, size)
+        text = said("{one} and {other} cross by {gap}, deepest {where}.", one=one, other=other, gap=depth, where=answer.where)
         return [Verdict("clearance", False, f"{text} {remedy}", answer=answer)]
 
     def __str__(self) -> str:
@@ -108,7 +109,8 @@ class Planes(HasVerdicts):
 def clearance() -> NodeRequest:
     """Return the request for the least gap of all that lies in one plane [m], as the machine's `Planes` say: `least(clearance()) >= 0.02`.
 
-    Below zero where two bodies cross, by the least way that parts them. DefinitionError for a machine that declares no planes.
+    Below zero where two bodies cross, by the least way that parts them; of concave outlines, and bodies of several, of the two pieces that
+    cross deepest, so that the whole crosses by at least that. DefinitionError for a machine that declares no planes.
     """
 
     def nodes(plan: Plan) -> tuple[Node, ...]:
@@ -191,6 +193,25 @@ def pairs_of_bodies(plan: Plan, a: str, b: str) -> Iterator[tuple[Pair, bool]]:
         yield from (((one, other), False) for one in drawn[a] for other in drawn[b] if one != other)
     elif not share:
         yield from (((one, other), True) for one in drawn[a] or [a] for other in drawn[b] or [b])
+
+
+def depth_words(plan: Plan, one: str, other: str, size: str) -> str:
+    """Return how deep two bodies cross, in words: where one of them is in pieces, at least so much."""
+    return said("at least {size}", size=size) if in_pieces(plan, one) or in_pieces(plan, other) else size
+
+
+def in_pieces(plan: Plan, name: str) -> bool:
+    """Return whether what a name stands for is no single convex piece, so that two of them may cross deeper than any two of its pieces.
+
+    It is a concave outline, one whose form follows dimensions, or one of several outlines of a body.
+    """
+    shape = shape_named(plan, name)
+    if shape.outline is None:
+        return shape.each_alone
+    if follows_dimensions(shape.outline):
+        return True
+    on_body = outlines_on(plan, tuple(body_points_of(plan, shape))) if len(shape.points) == 2 else [name]
+    return len(on_body) > 1 or (hasattr(shape.outline, "points") and len(corner_pieces(plan, shape.outline)) > 1)
 
 
 def outlines_on(plan: Plan, points: tuple[str, ...]) -> list[str]:

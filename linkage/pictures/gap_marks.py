@@ -13,6 +13,7 @@ from ..errors import DefinitionError, cited, unwarned
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import Motion, Request, clearance, gap, least, nearest_places, pair_at
+from ..motion.planes import depth_words
 from ..plan import Plan
 from ..program import FloatArray
 from ..units import show
@@ -92,7 +93,10 @@ def gap_mark(at: Motion, given: object, place: str = "") -> GapMark:
         pair, width = pair_at(at)
     found = nearest_places(at.plan, at._placed, *pair)
     size, names = found.gap - width, dict(one=pair[0], other=pair[1], gap=show(abs(found.gap - width), "mm", 3))
-    words = said("{one} and {other} cross by {gap}", **names) if size < 0.0 else said("{gap} between {one} and {other}", **names)
+    if size < 0.0:
+        words = said("{one} and {other} cross by {gap}", **names | {"gap": depth_words(at.plan, *pair, names["gap"])})
+    else:
+        words = said("{gap} between {one} and {other}", **names)
     line = GapMark(f"gap {pair[0]} {pair[1]}", np.array([found.one, found.other]), f"{words}, {place}" if place else words, bool(place))
     half = (0.5 if found.gap > 0.0 else -0.5) * width * line.way
     return replace(line, ends=line.ends + np.array([half, -half]))

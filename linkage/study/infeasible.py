@@ -14,8 +14,9 @@ from ..mechanism import Mechanism
 from ..motion.measures import Constraint
 from ..program import FloatArray
 from ..units import show
-from .optimum import in_units, multipliers, no_value, true_values, unit_of_constraint
+from .optimum import in_units, multipliers, true_values, unit_of_constraint
 from .problem import COARSE, Problem, is_still
+from .sampling import no_value
 from .solver import Local, SearchEnd, scales_of
 
 NOTHING: Mapping[tuple[int, ...], FloatArray] = MappingProxyType({})
@@ -72,7 +73,7 @@ def infeasible_error(
         return StudyError(f"{title}: no search came to a design that can be assembled over the whole stroke; widen vary=.")
     nowhere = [each for each in problem.constraints if all(is_lost(problem, each, one) for one in reached)]
     if nowhere:
-        why = " and ".join(no_value(problem, leaf) for leaf in nowhere[0].margin.leaves)
+        why = " and ".join(no_value(problem.plan, leaf) for leaf in nowhere[0].margin.leaves)
         what = f"{shown(problem, nowhere[0])} is kept by no design that was found, for {why}"
         return StudyError(f"{title}: {what}. Ask for what has a value there, or widen vary=.")
     tried = [each for combination, found in reached[:TRIED] if (each := given_way(problem, combination, found, problem.constraints))]
@@ -82,6 +83,9 @@ def infeasible_error(
     relaxations = best.relaxations
     pulling = [each for each in best.pulling if each not in [one.condition for one in relaxations]]
     said = "; ".join(each.sentence for each in relaxations)
+    if not said:
+        why = " and ".join(no_value(problem.plan, leaf) for each in problem.objectives for leaf in each.leaves)
+        return StudyError(f"{title}: of all designs that were found {why}. Ask for what has a value there, or take vary= narrower.")
     limits = ", ".join(shown(problem, each) for each in pulling)
     against = f" It pulls against {limits}." if pulling else ""
     alternatives = alternatives_to(problem, best, looked.get(best.combination))

@@ -14,10 +14,10 @@ from typing import Any, final
 import numpy as np
 
 from ..disk import Place, replacing_text
-from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited
+from ..errors import AssemblyError, DefinitionError, LinkageError, cited
 from ..mechanism import Mechanism
 from ..motion.kinds import measure_of, measure_unit
-from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, Worst, words_of
+from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, Worst
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
@@ -25,18 +25,17 @@ from ..shown import Shown
 from ..units import deg, display_unit, mm, show
 from .box import unit_points
 from .checks import unit_of
-from .problem import LeafNumbers, LimitReachedError, Problem, size_of_rows, terms_size
+from .poles import check_bounded
+from .problem import LeafNumbers, LimitReachedError, Problem
 from .result_tables import EvaluatedDesigns, ResultRow, result_text, tried_header, tried_names, tried_rows, write_result
-from .sampling import divisors_of
-from .solver import MET, Local, SearchEnd, divisors, missing_of, scale_of, scales_of, true_worth
+from .sampling import no_value
+from .solver import MET, Local, SearchEnd, missing_of, scale_of, scales_of, true_worth
 from .space import Space, Varied, size_of_machine
 
 ACTIVE = 1e-6
 """A condition with no more than this part of its size to spare is active."""
 SAME = 1e-6
 """Objectives that differ by less than this part of their size are the same."""
-NEXT_TO_NOTHING = 1e-4
-"""A divisor that is smaller than this part of its usual size has come to zero."""
 SHOWN = 1e-6
 """A gain of less than this part of the objective is none."""
 COARSEST = 0.25
@@ -259,7 +258,7 @@ def described(
     value = true_worth(problem, now)
     if not np.isfinite(value):
         raise AssemblyError(f"{problem.plan.title}: {', '.join(map(str, problem.objectives))} has no value of the best design.")
-    check_bounded(problem, now)
+    check_bounded(problem, now, combination, found.unit)
     local = Local(problem, combination, found.unit)
     local.refine(found.unit)
     prices = multipliers(local, found.unit)
@@ -284,23 +283,6 @@ def described(
         max(agreed, 1), len(ended), searched, tuple(cut), problem.count.designs, problem, found.unit, tuple(combination), limit=limit,
         edges=tuple(edges(problem, combination, found.unit, prices, part)),
     )  # fmt: skip
-
-
-def check_bounded(problem: Problem, now: LeafNumbers) -> None:
-    """Raise StudyError where the objective grows without bounds, because a number that it is divided by comes to zero in the box."""
-    asked = divisors(problem.objectives)
-    if not asked:
-        return
-    n, combination = len(problem.space.variables), [0] * len(problem.space.choices)
-    looks = [problem.evaluated(problem.dimensions_at(np.full(n, part), combination)) for part in (0.1, 0.5, 0.9)]
-    sizes = {leaf: max(size_of_rows(look.rows[leaf].values) for look in looks) for leaf in problem.leaves}
-    for each in asked:
-        small = abs(float(each.of(lambda leaf: now[leaf])))
-        size = terms_size(each, sizes, now)
-        if small <= NEXT_TO_NOTHING * size:
-            named = ", ".join(map(str, problem.objectives))
-            what = f"{problem.plan.title}: {named} has no bound in the box, for {each} comes to zero there"
-            raise StudyError(f"{what}; keep it away from zero, subject_to=[{each} >= ...], or take vary= narrower.")
 
 
 def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float], price: float, scale: float) -> Kept:
@@ -433,15 +415,7 @@ def stopped_by(problem: Problem, combination: Sequence[int], unit: FloatArray) -
         return what_of(str(error))
     if not bool(look.whole[0]):
         return what_of(problem.refusal or "it cannot be assembled over the whole stroke")
-    return next((no_value(problem, leaf) for leaf in problem.leaves if look.rows[leaf].lost[0]), "")
-
-
-def no_value(problem: Problem, leaf: Leaf) -> str:
-    """Return in words that a leaf has no value of some design, and why."""
-    divisors = divisors_of(problem.plan, leaf.quantity) if not isinstance(leaf.quantity, Worst) else ()
-    over = "where it passes zero within the stroke, it grows without bounds" if divisors else ""
-    by = f": it is divided by {', '.join(words_of(each) for each in divisors)}, and {over}" if divisors else " at some poses"
-    return f"{leaf} has no value{by}"
+    return next((no_value(problem.plan, leaf) for leaf in problem.leaves if look.rows[leaf].lost[0]), "")
 
 
 def what_of(message: str) -> str:

@@ -13,7 +13,7 @@ from ..motion import Grid, Motion, NodeRequest, Request
 from ..motion.evaluation import BulkProgram, Evaluation
 from ..motion.grid import Angles, angles_of
 from ..motion.kinds import constant_part, operation
-from ..motion.measures import traced
+from ..motion.measures import Leaf, Worst, traced, words_of
 from ..motion.requests import slope
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node
@@ -235,6 +235,14 @@ def zero_factors(plan: Plan, divisor: object) -> list[Any]:
     if sign == "multiply":
         return [each for part in parts for each in zero_factors(plan, part)]
     return [divisor] if isinstance(divisor, (str, Quantity, Request)) and constant_part(divisor) is None else []
+
+
+def no_value(plan: Plan, leaf: Leaf) -> str:
+    """Return in words that a leaf has no value of some design, and why."""
+    divisors = divisors_of(plan, leaf.quantity) if not isinstance(leaf.quantity, Worst) else ()
+    over = "where it passes zero within the stroke, it grows without bounds" if divisors else ""
+    by = f": it is divided by {', '.join(words_of(each) for each in divisors)}, and {over}" if divisors else " at some poses"
+    return f"{leaf} has no value{by}"
 
 
 # How far the links are from being too short or too long to meet.

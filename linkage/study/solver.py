@@ -15,12 +15,13 @@ from warnings import catch_warnings, simplefilter
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, StudyError
 from ..motion.line import Index
 from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most
 from ..program import FloatArray
 from .constrained_step import constrained_step
 from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Truth, reduced, scale_among, size_of_rows, terms_size
+from .sampling import no_value
 
 FAR = 10.0
 """The loss for the whole of a box's side towards designs that cannot be assembled, in scaled numbers."""
@@ -174,7 +175,9 @@ class Local:
         if not bool(first.whole[0]):
             raise DefinitionError("A local search starts from a design that can be assembled.")
         if not self._usable(first):
-            raise DefinitionError("A local search starts from a design of which the objective has a value.")
+            lost = [leaf for leaf in self.problem.leaves if leaf in self._needed and first.rows[leaf].lost[0]]
+            why = " and ".join(no_value(self.problem.plan, leaf) for leaf in lost) or "the objective has no value"
+            raise StudyError(f"{problem.plan.title}: of a design that was found {why}. Ask for what has a value, or take vary= narrower.")
         self._signs = self._divisor_signs(first)
         self.start = self._fitted_to = np.asarray(start, float)
         self.leaf_scales, self.scales, self.size = self._scales(first)

@@ -9,14 +9,17 @@ from linkage import (
     DefinitionError,
     Dimension,
     Ground,
+    Guide,
     Link,
     Mechanism,
+    OnGuide,
     OnLink,
     Outline,
     Planes,
     Stroke,
     around,
     clearance,
+    deg,
     gap,
     least,
     mm,
@@ -357,3 +360,21 @@ def from_edge(place, a, b):
     """Return how far a place is from a straight edge."""
     share = np.clip((place - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0)
     return np.hypot(*(place - a - share * (b - a)))
+
+
+def test_crossing_of_what_is_in_pieces_is_said_to_be_at_least_so_deep():
+    """An L against a box in it: the least way out of the whole L is more than that out of one of its pieces. A convex plate is exact."""
+
+    def crossing(corners):
+        class Slide(Mechanism):
+            S = Stroke(0.0, 1.0)
+            rail = Guide((0.2, 0.2), angle=45 * deg)
+            P = OnGuide(rail, at=S)
+            plate, box = Outline(corners), Outline([(-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)], on="P")
+            planes = Planes("plate box")
+
+        (said,) = [each.sentence for each in Slide().verdicts() if each.rule == "clearance"]
+        return said
+
+    assert "plate and box cross by at least" in crossing([(0, 0), (4, 0), (4, 2), (2, 2), (2, 4), (0, 4)])
+    assert "at least" not in crossing([(0, 0), (4, 0), (4, 4), (0, 4)])

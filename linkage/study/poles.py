@@ -1,0 +1,105 @@
+"""Poles of an objective: numbers that it is divided by and that come to zero in the box, so that it has no bound there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, cast
+
+import numpy as np
+
+from ..errors import StudyError, unwarned
+from ..motion import Motion
+from ..motion.judge import MET
+from ..motion.measures import At, Leaf, Measure
+from ..program import FloatArray
+from .box import unit_points
+from .problem import LeafNumbers, Problem, reduced, size_of_rows, terms_size
+from .sampling import divisors_of
+from .solver import divisors
+
+NEXT_TO_NOTHING = 1e-4
+"""A divisor that is smaller than this part of its usual size has come to zero."""
+SPREAD, HALVINGS, FAR = 64, 40, 1e6
+"""Designs over the box at which divisors are looked at, halvings towards a zero of one, and a value so much beyond the usual is none."""
+
+
+def check_bounded(problem: Problem, now: LeafNumbers, combination: Sequence[int], unit: FloatArray) -> None:
+    """Raise StudyError where the objective has no bound: a number that it is divided by comes to zero in the box.
+
+    `now` are the numbers of the best design, at unit coordinates (n,). A pole at which the objective is worse than there is none.
+    """
+    asked = divisors(problem.objectives)
+    n = len(problem.space.variables)
+    looks = [problem.evaluated(problem.dimensions_at(np.full(n, part), combination)) for part in (0.1, 0.5, 0.9)] if asked else []
+    sizes = {leaf: max(size_of_rows(look.rows[leaf].values) for look in looks) for leaf in problem.leaves} if asked else {}
+    for each in asked:
+        small = abs(float(each.of(lambda leaf: now[leaf])))
+        if small <= NEXT_TO_NOTHING * terms_size(each, sizes, now):
+            raise boundless_error(problem, each)
+    units = np.concatenate([unit[None], unit_points(SPREAD, n, "sobol", 0)])
+    seen = values_at(problem, units, combination)
+    known = np.abs(seen["objective"][np.isfinite(seen["objective"])])
+    if known.size and abs(float(problem.value(lambda leaf: np.float64(now[leaf])))) > FAR * max(float(np.median(known)), 1e-300):
+        raise boundless_error(problem, None)
+    for name, each in zip([key for key in seen if key != "objective"], divided_by(problem), strict=True):
+        signs = np.sign(seen[name])
+        other = np.flatnonzero(signs == -signs[0])
+        if other.size and grows_towards(problem, combination, unit, units[other[0]], name):
+            raise boundless_error(problem, each)
+
+
+def boundless_error(problem: Problem, divisor: Measure | None) -> StudyError:
+    """Return the error of an objective without a bound, with the number that it is divided by where that is known."""
+    named = ", ".join(map(str, problem.objectives))
+    if divisor is None:
+        what = f"{problem.plan.title}: {named} grows without bounds in the box"
+        return StudyError(f"{what}, as at a pole; keep what it is divided by away from zero, or take vary= narrower.")
+    what = f"{problem.plan.title}: {named} has no bound in the box, for {divisor} comes to zero there"
+    return StudyError(f"{what}; keep it away from zero, subject_to=[{divisor} >= ...], or take vary= narrower.")
+
+
+def divided_by(problem: Problem) -> list[Measure]:
+    """Return the measures that objectives are divided by, those within values at one pose too."""
+    at_poses = {leaf for each in problem.objectives for leaf in each.leaves if isinstance(leaf, At)}
+    inner = [At(each, leaf.strokes) for leaf in at_poses for each in divisors_of(problem.plan, leaf.quantity)]
+    return [*divisors(problem.objectives), *inner]
+
+
+def values_at(problem: Problem, units: FloatArray, combination: Sequence[int]) -> dict[str, FloatArray]:
+    """Return the objective and what it is divided by at designs (m, n), each (m,); NaN where one cannot be assembled or misses much."""
+    designs = problem.dimensions_at(units, combination)
+    look = problem.evaluated(designs)
+    numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
+    motions: dict[Leaf, FloatArray] = {}
+    found: dict[str, FloatArray] = {}
+    with unwarned(), np.errstate(all="ignore"):
+        found["objective"] = problem.value(lambda leaf: numbers[leaf]) + np.zeros(len(units))
+        for number, each in enumerate(divided_by(problem)):
+            if isinstance(each, At) and each not in numbers:
+                motions[each] = value_there(problem, designs, each)
+            found[f"divisor {number}"] = each.of(lambda leaf: motions[leaf] if leaf in motions else numbers[leaf]) + np.zeros(len(units))
+        spare = [each.margin.of(lambda leaf: numbers[leaf]) + np.zeros(len(units)) for each in problem.constraints]
+    kept = np.all([margin >= -MET for margin in spare], axis=0) if spare else np.ones(len(units), bool)
+    whole = np.broadcast_to(np.asarray(look.whole, bool), (len(units),))
+    return {name: np.where(whole & kept, value, np.nan) for name, value in found.items()}
+
+
+def value_there(problem: Problem, designs: Mapping[str, Any], leaf: At) -> FloatArray:
+    """Return a value at one pose of some designs (m,)."""
+    start = {name: stroke.start for name, stroke in problem.plan.strokes.items()} | dict(leaf.strokes)
+    motion = Motion(problem.plan, designs, {name: np.asarray(value, float) for name, value in start.items()}, "nan")
+    return np.ravel(np.asarray(motion.value(cast(Any, leaf.quantity)), float))
+
+
+def grows_towards(problem: Problem, combination: Sequence[int], best: FloatArray, other: FloatArray, name: str) -> bool:
+    """Return whether the objective gets better without bounds towards the zero of a divisor between two designs of other signs."""
+    ends = np.stack([best, other])
+    usual = abs(values_at(problem, best[None], combination)["objective"][0])
+    for _ in range(HALVINGS):
+        middle = 0.5 * (ends[0] + ends[1])
+        seen = values_at(problem, np.stack([*ends, middle]), combination)[name]
+        if not np.isfinite(seen[2]):
+            return False
+        ends[int(np.sign(seen[2]) != np.sign(seen[0]))] = middle
+    found = problem.sense * values_at(problem, ends, combination)["objective"]
+    return bool(np.any(found < -FAR * max(float(usual), 1e-300)))

@@ -28,7 +28,7 @@ from linkage.loads import Poses
 from linkage.loads.element import value_text
 from linkage.program import is_traced
 from linkage.quantities import Dimension, Quantity, spelled
-from linkage.units import cm3, litre, show, unit_or_none, units_of
+from linkage.units import cm3, litre, require_measure, show, unit_or_none, units_of
 from linkage.verdict import Verdict
 
 from .files import GasLaw
@@ -70,6 +70,8 @@ class Accumulator:
 
     def __post_init__(self) -> None:
         keep_own(self)
+        for name, unit in self.parameters.items():
+            require_measure(getattr(self, name), unit, f"Accumulator: {name}")
         volume = np.ones(()) if follows(self.volume) else not_negative(self.volume, VOLUME, "give 0 for a vessel that is absent")
         if np.any(volume > LARGEST):
             large = f"{np.max(volume):.6g}"

@@ -255,9 +255,7 @@ class OilLine(PumpLine, GasLine):
             given = self.given(name)
             if given is not None and not follows(given):
                 in_pascals(given, f"OilLine: {name}")
-        for name in self.parameters:
-            if self.given(name) is not None:
-                self._check_number(name)
+        self._check_numbers()
 
     @property
     def numbers(self) -> Mapping[str, str]:

@@ -32,7 +32,7 @@ from linkage.loads import Case, Glyph, Parameter, Poses
 from linkage.loads.element import Formulas, value_text
 from linkage.motion import Column, Condition, Judge, Motion
 from linkage.quantities import Member, Quantity, Reference, quantity
-from linkage.units import mm, show, shown_number
+from linkage.units import mm, require_measure, show, shown_number
 from linkage.verdict import Verdict
 
 from .buckling import Buckling
@@ -101,6 +101,8 @@ class Telescope(Ram):
             given = getattr(self, name)
             if not isinstance(given, tuple) or not given:
                 raise DefinitionError(f"Telescope: {name}={cited(given)}: a list is expected, one a stage, {name}=[0.145, 0.125].")
+            for each in given:
+                require_measure(each, "mm", f"Telescope: {name}")
             if len(given) > STAGES:
                 raise DefinitionError(f"Telescope: {len(given)} {name}: at most {STAGES} stages are known; give one a moving stage.")
         if len(self.bores) != len(self.strokes):

@@ -159,6 +159,37 @@ def add_unit(name: str, factor: float, measures: str, systems: Iterable[str] = (
     return UnitFactor(factor, measures)
 
 
+EXAMPLES = {"length": "80 * mm", "angle": "15 * deg", "force": "5 * kN", "pressure": "180 * bar", "mass": "250 * kg"}
+
+
+def require_measure(value: object, unit: str, what: str) -> None:
+    """Refuse an amount of another kind than a unit measures, such as `12 * kN` for a mass. A plain number is SI, whatever was meant.
+
+    Parameters
+    ----------
+    value : object
+        What was given. Only an `Amount` knows what it measures; anything else passes.
+    unit : str
+        A unit of what is expected, such as "mm"; "" for a plain number.
+    what : str
+        What it was given for, `Weight: mass`, for the message.
+
+    Raises
+    ------
+    DefinitionError
+        The amount measures something else. Moments, stiffnesses and numbers of an open kind take forces, since `5 * kN` may stand for
+        5 kN m; they take no lengths, angles and pressures.
+    """
+    if not isinstance(value, Amount):
+        return
+    wanted = UNITS[unit][1] if unit in UNITS else ""
+    if value.measures == wanted or (wanted not in EXAMPLES and value.measures == "force"):
+        return
+    article = "an" if value.measures[0] in "aeiou" else "a"
+    expected = f"value of {wanted}, such as {EXAMPLES[wanted]}" if wanted in EXAMPLES else "number in SI, without a unit"
+    raise DefinitionError(f"{what}={float(value):.6g} was given as {article} {value.measures}; expected is a {expected}.")
+
+
 def units_of(measures: str) -> list[str]:
     """Return the units of what is measured, "pressure"."""
     return [name for name, (_, what) in UNITS.items() if what == measures]

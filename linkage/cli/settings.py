@@ -6,6 +6,7 @@ import re
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from inspect import signature
 from typing import Any
 
 import numpy as np
@@ -132,7 +133,13 @@ def print_verdicts(verdicts: Sequence[Verdict], options: Namespace) -> int:
 
 def design(machine: type[Mechanism], texts: Sequence[str]) -> Mechanism:
     """Return a design of a machine under settings such as `OB=180mm`; DefinitionError for what is unknown or unfit."""
-    return machine(**dict(parsed_setting(machine.plan, text) for text in texts))
+    given = dict(parsed_setting(machine.plan, text) for text in texts)
+    try:
+        signature(machine.__init__).bind(None, **given)
+    except TypeError as error:
+        remedy = "a command gives only what --set says; write def __init__(self, **dimensions), or give its arguments defaults"
+        raise DefinitionError(f"{machine.plan.title}.__init__: {error}; {remedy}.") from None
+    return machine(**given)
 
 
 def parsed_setting(plan: Plan, text: str) -> tuple[str, Any]:

@@ -26,6 +26,7 @@ from ..motion.measures import (
     CombinedMeasure,
     Condition,
     Constraint,
+    Given,
     Integral,
     Leaf,
     Measure,
@@ -82,6 +83,8 @@ def measure_said(text: object, machine: Mechanism, over: Mapping[str, object] | 
     found = CriterionParser(checked_text(text), machine).whole()
     if isinstance(found, Condition):
         raise DefinitionError(f"{text!r} is a condition; a measure is expected, such as least(...), with no <=, >= or ==.")
+    if is_number(found) or isinstance(found, Given):
+        raise DefinitionError(f"{text!r} is the same for every design; write a measure of the machine, such as least(...), or an output.")
     measure = measure_or_constant(found, machine)
     check_measures(machine, [measure], [], over)
     return measure

@@ -51,6 +51,8 @@ def equations(
     """
     design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
     check_given(design, start, at, ratio, dict(numbers=numbers, forces=forces))
+    if wrt is not None:
+        known_name("Stroke", wrt, design.plan.strokes, design.plan.title)
     listing = Listing(design.plan)
     listing.write_members(declared(type(design)))
     lines = by_parts(listing.lines, listing)
@@ -112,8 +114,8 @@ def part_of_line(line: ListingLine, listing: Listing) -> str:
 def check_given(design: Mechanism, start: object, at: object, ratio: object, flags: Mapping[str, bool]) -> None:
     """Raise DefinitionError for a wrong mechanism, first number, pose, name or flag."""
     require_mechanism(design)
-    if not is_whole(start):
-        raise DefinitionError(f"start={cited(start)}: the first equation's number is expected, such as 1.")
+    if not (isinstance(start, (int, np.integer)) and is_whole(start) and start >= 1):
+        raise DefinitionError(f"start={cited(start)}: the first equation's number is expected, a whole number from 1 on.")
     check_pose(design, at)
     names = [ratio] if isinstance(ratio, str) else ratio
     if not isinstance(names, (list, tuple)) or not all(isinstance(name, str) for name in names):

@@ -12,7 +12,7 @@ from ..errors import DefinitionError, cited, unknown
 from ..frozen import keep_own, refuses_changes
 from ..quantities import Member, Reference, in_degrees, is_number, name_of
 from ..quantities.quantity import plain
-from ..units import deg
+from ..units import deg, require_measure
 from .element import ForceElement
 from .point import gravity_vector
 
@@ -50,6 +50,7 @@ class LoadCase(Member):
         for name, value in {**self.scale, "slope": self.slope}.items():
             if not is_number(value):
                 raise DefinitionError(f"LoadCase({self.title!r}): {name}={cited(value)} is not a finite number.")
+            require_measure(value, "deg" if name == "slope" else "", f"LoadCase({self.title!r}): {name}")
         if abs(self.slope) > STEEPEST:
             said = f"slope={plain(self.slope)!r} rad is {self.slope / deg:.4g} deg, steeper than a wall"
             raise DefinitionError(f"{self.label}: {said}; write slope={plain(self.slope)!r} * deg if these are degrees.")

@@ -16,6 +16,7 @@ from ..frozen import keep_own
 from ..quantities import Jointed, Member, Number, Quantity, Reference, label, name_of, quantity, real, spelled
 from ..quantities.quantity import plain
 from ..steps import Bar, Point
+from ..units import require_measure
 
 Array: TypeAlias = npt.NDArray[np.float64]
 Parameter: TypeAlias = "float | Array | Quantity | str"
@@ -309,8 +310,7 @@ class ForceElement(Jointed):
 
     def __post_init__(self) -> None:
         keep_own(self)
-        for name in self.numbers:
-            self._check_number(name)
+        self._check_numbers()
 
     @property
     def numbers(self) -> Mapping[str, str]:
@@ -439,6 +439,11 @@ class ForceElement(Jointed):
     def position(self, motion: Poses, place: str) -> Array:
         """Return the position of one of its points, shape (2, ...) [m]."""
         return motion[name_of(getattr(self, place))]
+
+    def _check_numbers(self) -> None:
+        for name, unit in self.numbers.items():
+            require_measure(self.given(name), unit, f"{type(self).__name__}: {name}")
+            self._check_number(name)
 
     def _check_number(self, name: str) -> None:
         given = self.given(name)

@@ -232,7 +232,7 @@ def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float]
 
 
 def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[float, float]:
-    """Return a range with the design's own value in it; DefinitionError for anything else."""
+    """Return a range that has the design's own value in it; DefinitionError for anything else."""
     if not isinstance(ends, (list, tuple)) or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
         said = f"{machine.plan.title}: vary: {name}={cited(ends)}"
         raise DefinitionError(f"{said}: the least and the greatest value are expected, (0.28, 0.34).")
@@ -240,7 +240,10 @@ def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[fl
         raise DefinitionError(f"{machine.plan.title}: vary: {name}={cited(ends)}: a length is above zero; give a least value that is.")
     low, high = sorted(sign * float(end) for end in ends)
     value = float(machine.dimensions[name])
-    return min(low, value), max(high, value)
+    if not low <= value <= high:
+        said = f"{machine.plan.title}: vary: {name}={cited(ends)} leaves out the design's own value, {sign * value:.6g}"
+        raise DefinitionError(f"{said}; give a range around it in SI, or set the dimension first.")
+    return low, high
 
 
 def chosen_columns(machine: Mechanism, motion: Motion, given: Any) -> dict[str, tuple[Column, RequestLike, str]]:

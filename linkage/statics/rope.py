@@ -103,8 +103,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         if self.against is not None and (self.length is not None or self.force is not None):
             what = f"{self}: it draws back against {label(self.against)}, which gives it its length"
             raise DefinitionError(f"{what}; leave length= and force= out.")
-        for name in self.numbers:
-            self._check_number(name)
+        self._check_numbers()
 
     @property
     def numbers(self) -> Mapping[str, str]:

@@ -27,6 +27,8 @@ from .sides import ENDING, is_side, side_given, sided_step
 from .varied import Varied
 
 MOST_COMBINATIONS = 100_000
+NARROWEST = 1e-12
+"""Of the size of its ends: a range that is no wider holds one value."""
 FAR = 20.0
 """Times the largest length of a machine, or of the other ranges: a range that is wider was given in another unit."""
 APART = 200.0
@@ -224,7 +226,7 @@ def ranged(machine: Mechanism, names: Sequence[str], given: Around | tuple[Any, 
         else:
             low, high, step = (*given, None)[:3]
         ends = [low, high] if step is None else [low, high, step]
-        if all(is_number(each) for each in ends) and low >= high:
+        if all(is_number(each) for each in ends) and high - low <= max(NARROWEST * max(abs(low), abs(high)), 1e-30):
             said = "a range goes from its lower to its higher end; for one value set it"
             raise DefinitionError(f"{plan.title}: {name}={cited(given)} is no range; {said}.")
         if not all(is_number(each) for each in ends) or (step is not None and not 0.0 < step <= high - low):

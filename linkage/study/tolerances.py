@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from math import exp, pi, sqrt
+from math import exp, inf, pi, sqrt
 from typing import Any, TypeAlias, final
 
 import numpy as np
@@ -17,10 +17,10 @@ from ..motion import NodeRequest, Request, RequestLike, require_motion
 from ..motion.grid import MotionLike
 from ..motion.measures import words_of
 from ..motion.requests import dimensions_of, identity_of
-from ..plan import Plan
+from ..plan import Plan, plan_measure
 from ..program import FloatArray, Node, gradient
 from ..quantities import is_number
-from ..units import show
+from ..units import SI, require_measure, show
 from .box import unit_points
 from .checks import check_mechanism, unit_of
 from .measured import traced_number
@@ -105,6 +105,7 @@ def tolerances_of(plan: Plan, given: object) -> dict[str, Tolerance]:
                 raise DefinitionError(f"{plan.title}: {seen[owner]} and {part} are one dimension; give it one tolerance.")
             seen[owner] = part
             found[part] = value if isinstance(value, Tolerance) else tolerance_named(plan, part, value)
+            check_size(plan, part, found[part])
     return found
 
 
@@ -125,6 +126,21 @@ def tolerance_named(plan: Plan, name: str, value: Any) -> Tolerance:
         return Tolerance(tuple(value) if isinstance(value, list) else value)
     except DefinitionError as error:
         raise DefinitionError(f"{plan.title}: {name}: {error}") from None
+
+
+def check_size(plan: Plan, name: str, tolerance: Tolerance) -> None:
+    """Raise DefinitionError for a tolerance of another kind than its dimension, or larger than that itself."""
+    owner = plan.table.spellings[name][0]
+    unit, kind = plan.table.entries[owner].unit, plan_measure(plan, owner)
+    limits = tolerance.limits if isinstance(tolerance.limits, tuple) else (tolerance.limits,)
+    for limit in limits:
+        require_measure(limit, unit or SI.get(kind, ""), f"{plan.title}: tolerance of {name}")
+    sizes = {each: abs(float(plan.defaults[each])) for each in plan.defaults if plan_measure(plan, each) == "length"}
+    longest = sizes.get(owner, 0.0) if plan.table.entries[owner].kind == "length" else max(sizes.values(), default=inf)
+    widest = max(map(abs, limits))
+    if widest >= {"length": longest, "angle": pi}.get(kind, inf) > 0.0:
+        said = f"a tolerance of {widest:.6g} {SI[kind]} is too large for it"
+        raise DefinitionError(f"{plan.title}: {name}: {said}; write 0.1 * mm for millimetres, 0.1 * deg for degrees.")
 
 
 def tolerance_words(plan: Plan, name: str, tolerance: Tolerance) -> str:

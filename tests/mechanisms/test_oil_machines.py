@@ -1,5 +1,7 @@
 """The machines whose cylinders oil joins, through every door of the machines at work and by hand."""
 
+from inspect import unwrap
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -21,7 +23,7 @@ DOORS = (
 @for_all("door", DOORS, ids=lambda door: door.__name__)
 @for_all("machine", [Axle, CrossedAxle, LevelledTelehandler], ids=lambda machine: machine.__name__)
 def test_they_go_through_every_door(machine, door):
-    door(machine)
+    unwrap(door)(machine)
 
 
 # -- the telehandler that oil levels -------------------------------------------------------------------------

@@ -53,7 +53,7 @@ USES = [
     ("plot(motion, @)", '["w"]', ("Column 'w' is unknown in Lift. Known: S, B_x, B_y, G_x, G_y, tilt.",)),
     ("plot(motion, @)", '3; None; [3]; "tilt"; {}', ('a list of columns or their names is expected, such as ["tilt"].',)),
     ("plot(motion, @)", '[]; ["S"]', ("Lift: there is no column to draw over S; name a result, not a stroke.",)),
-    ("animate(motion, @)", '3; "a.gif"', ("<Motion of Lift: S = 0 to 0.25", "no mechanism; give a design such as FourBar().")),
+    ("animate(motion, 3)", "", ("is no path of a file; give one that ends in .gif, .mp4 or .html.",)),
     ("animate(bar4, @)", '3; None; b"a.gif"; []', ("is no path of a file; give one that ends in .gif, .mp4 or .html.",)),
     ("animate(bar4, @)", '"a.txt"', ("a.txt: an animation is written as .gif, .mp4", "give a name with one of these endings.")),
     ("animate(bar4, @)", '"nowhere/a.gif"', ("nowhere/a.gif: the folder nowhere is not there; make it first or choose another.",)),

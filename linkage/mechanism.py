@@ -116,6 +116,21 @@ def played_along(motion: Motion, at: object) -> tuple[Mechanism, Motion]:
     return design_of_motion(motion), motion
 
 
+def verdicts_of(machine: Mechanism, judge: Judge, motion: Motion | None = None) -> list[Verdict]:
+    """Return what a judge and the machine's own rules say; asked again, in other words or units, the judge looks for nothing anew."""
+    fault = held_verdict(judge)
+    try:
+        own: object = machine.rules(judge.places[0].sampled if motion is None else motion)
+    except DefinitionError:
+        if fault is None:
+            raise
+        own = []
+    if not isinstance(own, (list, tuple)) or not all(isinstance(each, str) for each in own):
+        raise DefinitionError(f"{machine.plan.title}: rules(motion) gives {cited(own)}; a list of Verdicts and sentences is expected.")
+    general = [*judge_verdicts(judge), *drive_remarks(judge)] if fault is None else [fault, *judge_verdicts(judge, fault.sentence)]
+    return ShownList([*general, *(each if isinstance(each, Verdict) else Remark(each) for each in own)])
+
+
 def check_motion(machine: Mechanism, motion: object, what: str) -> None:
     """Raise DefinitionError for anything but a motion of a machine that has the members of this one."""
     found = require_motion(motion)
@@ -418,18 +433,7 @@ class Mechanism(Shown, metaclass=MechanismType):
             raise DefinitionError(f"{self.plan.title}.verdicts: a motion and over= both say where is looked; give one of them.")
         if motion is not None:
             check_motion(self, motion, "verdicts")
-        judge = self.judge(over if motion is None else motion, acting)
-        fault = held_verdict(judge)
-        try:
-            own: object = self.rules(judge.places[0].sampled if motion is None else motion)
-        except DefinitionError:
-            if fault is None:
-                raise
-            own = []
-        if not isinstance(own, (list, tuple)) or not all(isinstance(each, str) for each in own):
-            raise DefinitionError(f"{self.plan.title}: rules(motion) gives {cited(own)}; a list of Verdicts and sentences is expected.")
-        general = [*judge_verdicts(judge), *drive_remarks(judge)] if fault is None else [fault, *judge_verdicts(judge, fault.sentence)]
-        return ShownList([*general, *(each if isinstance(each, Verdict) else Remark(each) for each in own)])
+        return verdicts_of(self, self.judge(over if motion is None else motion, acting), motion)
 
     @of_a_design
     def rules(self, motion: Motion) -> Sequence[str]:

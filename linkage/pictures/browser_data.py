@@ -13,8 +13,8 @@ import numpy as np
 from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, unwarned
 from ..language import heading_of, language, translated
 from ..loads import AT_REST, PLAIN, TwoPoint
-from ..mechanism import Mechanism
-from ..motion import Column, LiveText, Motion, Request, RequestLike, Tabled, speakers, stroke_display_unit, transmission
+from ..mechanism import Mechanism, verdicts_of
+from ..motion import Column, Judge, LiveText, Motion, Request, RequestLike, Tabled, speakers, stroke_display_unit, transmission
 from ..motion.requests import NodeRequest
 from ..plan import Plan, opening, plan_measure
 from ..program import FloatArray, Node
@@ -305,8 +305,7 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
         **unit_tables(),
         "steps": {name: opening(plan, name) for name in plan.points},
-        "verdicts": verdict_data(machine, requests.along, requests.over),
-        "verdictsIn": verdicts_in_systems(machine, requests.along, requests.over),
+        **verdicts_shown(requests),
         "judge": requests.questions.data(live),
     }
 
@@ -614,8 +613,8 @@ def label_offsets(scene: Scene) -> list[list[float]]:
     return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
 
 
-def verdict_data(machine: Mechanism, along: Motion | None, over: Mapping[str, Any] | None = None) -> list[list[Any]]:
-    """Return the machine's verdicts over all that it runs, along a motion or over a part, as they stand for the design that is delivered.
+def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> list[list[Any]]:
+    """Return the machine's verdicts over all that a judge looks at, as they stand for the design that is delivered.
 
     Each is 1 where it is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence, then
     what differs in Russian.
@@ -624,7 +623,7 @@ def verdict_data(machine: Mechanism, along: Motion | None, over: Mapping[str, An
     for name in ("en", "ru"):
         with language(name), unwarned():
             try:
-                said[name] = [verdict_parts(each) for each in machine.verdicts(along, over=over)]
+                said[name] = [verdict_parts(each) for each in verdicts_of(machine, judge, along)]
             except LinkageError as error:
                 said[name] = [(2, "", str(error))]
     pairs = zip(said["en"], said["ru"], strict=True) if len(said["en"]) == len(said["ru"]) else [(each, each) for each in said["en"]]
@@ -634,17 +633,17 @@ def verdict_data(machine: Mechanism, along: Motion | None, over: Mapping[str, An
     ]
 
 
-def verdicts_in_systems(
-    machine: Mechanism, along: Motion | None, over: Mapping[str, Any] | None = None
-) -> dict[str, list[list[str] | int]]:
-    """Return what the verdicts say in each system of units, in English and where it differs in Russian; 0 where it is as delivered."""
-    plain, found = verdict_data(machine, along, over), {}
+def verdicts_shown(requests: PageRequests) -> dict[str, Any]:
+    """Return the verdicts of the page, and what they say in each system of units, in English and Russian; 0 where it is as delivered."""
+    machine, along = requests.machine, requests.along
+    judge = machine.judge(requests.over if along is None else along)
+    plain, found = verdict_data(machine, judge, along), {}
     for name in SYSTEMS:
         with unit_system(name):
-            told = verdict_data(machine, along, over)
+            told = verdict_data(machine, judge, along)
         pairs = zip(told, plain, strict=True) if len(told) == len(plain) else ((each, each) for each in plain)
         found[name] = [0 if each[2:] == other[2:] else [each[2], *each[4:]] for each, other in pairs]
-    return found
+    return {"verdicts": plain, "verdictsIn": found}
 
 
 def verdict_parts(verdict: Verdict) -> tuple[int, str, str]:

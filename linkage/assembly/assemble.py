@@ -17,7 +17,7 @@ from ..steps import Group, Guide, Link, OnLink, Pin, Slide, Step
 from ..vectors import Side
 from .part_sketch import with_begun_pins
 from .parts import Parts, Shape, check_held, next_step
-from .sketch import Place, Sketch, missing_labels, sided, with_measured_labels
+from .sketch import Sketch, missing_labels, sided, with_measured_labels
 
 # What a parts list refers to, looked at before its pins are placed: names, kinds, labels.
 
@@ -273,6 +273,7 @@ class Assembler:
         self.title, self.held = title, held
         self.known: set[str] = set()
         self.settled: dict[str, Member] = {}
+        self.drawing = Sketch({}, title)
         self.pending = {name: member for name, member in members.items() if not (is_loose(member) or is_open(member))}
         self.parts = Parts(
             placed=set(),
@@ -280,7 +281,7 @@ class Assembler:
             links={name: member for name, member in members.items() if isinstance(member, Link) and name not in held},
             slides={name: member for name, member in members.items() if isinstance(member, Slide)},
             guides={name: member for name, member in members.items() if isinstance(member, Guide)},
-            place=self.place,
+            sketch=self.sketch,
         )
 
     def run(self) -> dict[str, Member]:
@@ -321,7 +322,11 @@ class Assembler:
             named = copy(member)
             object.__setattr__(named, "_name", name)
             with about(name):
-                member = sided(name, with_measured_labels(name, named, self.settled, self.title), self.settled, self.title)
+                member = sided(name, with_measured_labels(name, named, self.sketch), self.settled, self.title)
+            if name in self.parts.pins:
+                member.drawn_at = self.parts.pins[name].drawn_at
+        if isinstance(member, Link) and name in self.parts.links:
+            member = self.parts.shapes[name].said(member)
         self.settled[name] = member
         self.parts.placed.add(name)
 
@@ -343,6 +348,8 @@ class Assembler:
             self.known.add(pin)
             self.parts.placed.add(pin)
 
-    def place(self, point: str) -> Place:
-        """Return where a settled point is in the sketch [m]."""
-        return Sketch(self.settled, self.title).at(point)
+    def sketch(self) -> Sketch:
+        """Return the sketch of all that is settled."""
+        if len(self.settled) != len(self.drawing.plan.unbound):
+            self.drawing = Sketch(self.settled, self.title)
+        return self.drawing

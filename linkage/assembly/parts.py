@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import permutations
+from itertools import combinations, permutations, starmap
 from typing import Any, final
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..quantities import Number, Quantity, joined_names, name_of, quantity
 from ..steps import Dyad, Guide, GuideCross, Link, OnLink, Pin, PinSlotDyad, Slide, SliderDyad, Step, YokeDyad
+from .sketch import Sketch
 
 # The shape of a link: the distances and angles of its points, from its labels or a drawing.
 
@@ -20,17 +21,20 @@ class Shape:
     """What is known of a link's shape, from its own labels and those of links of the same body. Lengths in m, angles in rad."""
 
     def __init__(
-        self, link: Link, links: Iterable[Link], pins: Mapping[str, Pin], placed: set[str], place: Callable[[str], tuple[float, float]]
+        self, link: Link, links: Iterable[Link], pins: Mapping[str, Pin], placed: set[str], sketch: Callable[[], Sketch]
     ) -> None:
         self.points = link.point_names
-        self.pins, self.placed, self.place = pins, placed, place
+        self.pins, self.placed, self.sketch = pins, placed, sketch
         bodied = [link, *(each for each in links if len({*each.point_names} & {*self.points}) > 1)]
         self.labels = {name: quantity(value) for each in reversed(bodied) for name, value in each.labels.items()}
 
     def given(self, *points: str) -> tuple[str, Quantity] | None:
         """Return the label of a distance (two points) or an angle (three points) as it is spelled, if it is given."""
-        spellings = (joined_names(*points), joined_names(*reversed(points)))
-        return next(((spelling, self.labels[spelling]) for spelling in spellings if spelling in self.labels), None)
+        spelling = next((each for each in (joined_names(*points), joined_names(*reversed(points))) if each in self.labels), "")
+        if not spelling:
+            return None
+        found, drawn = self.labels[spelling], None if self.labels[spelling].is_constant else self.measured(*points)
+        return spelling, found if len(points) > 2 or drawn is None else quantity(self.sketch().extended(found, drawn.number))
 
     def distance(self, P: str, Q: str) -> Quantity | None:
         """Return the distance of two points: given, by the cosine rule from two sides and their angle, or measured [m]."""
@@ -45,6 +49,13 @@ class Shape:
                 return derived
         return self.measured(P, Q)
 
+    def said(self, link: Link) -> Link:
+        """Return the link with its labels as they are given, the drawn lengths of cylinders among them."""
+        pairs = combinations(self.points, 2) if any(not each.is_constant for each in self.labels.values()) else ()
+        found = {spelling: value for spelling, value in filter(None, starmap(self.given, pairs)) if spelling in link.labels}
+        changed = {spelling: value for spelling, value in found.items() if value is not self.labels[spelling]}
+        return link.renewed(labels={**link.labels, **changed}) if changed else link
+
     def is_straight(self, P: str, Q: str, R: str) -> bool:
         """Return whether three distances put three points in one line: such a link has no sides."""
         sides = [self.distance(*pair) for pair in ((P, Q), (P, R), (Q, R))]
@@ -53,18 +64,18 @@ class Shape:
         longest = max(lengths := [side.number for side in sides if isinstance(side, Number)])
         return abs(2.0 * longest - sum(lengths)) <= 1e-9 * longest
 
-    def measured(self, P: str, Q: str) -> Quantity | None:
-        """Return the distance of two points in the drawing [m]."""
+    def measured(self, P: str, Q: str, *_: str) -> Number | None:
+        """Return the distance of two points in the drawing [m]; None unless one of them is drawn."""
         if not any(point in self.pins and self.pins[point].drawn_at for point in (P, Q)):
             return None
         first, second = self.drawn(P), self.drawn(Q)
         return None if first is None or second is None else Number(float(np.hypot(first[0] - second[0], first[1] - second[1])))
 
     def drawn(self, point: str) -> tuple[float, float] | None:
-        """Return a point's place in the drawing, or where it is placed [m]; None for a pin with only a rough place."""
+        """Return a point's place in the drawing, or where it is placed [m]; None for a pin with only a rough place and what is not placed yet."""
         if point in self.pins and (self.pins[point].drawn_at or point not in self.placed):
             return self.pins[point].drawn_at
-        return self.place(point)
+        return self.sketch().at(point) if point in self.placed else None
 
     def attachment(self, firm: Sequence[str], pin: str) -> Step | None:
         """Return the step that places a point of this body from two placed ones, if the labels allow it."""
@@ -80,6 +91,8 @@ class Shape:
             if other is not None:
                 return OnLink(P, Q, near=self.pins[pin].sketched, **labelled(length, other))
         if near is None:
+            said = [P for P in firm if self.given(P, pin)] or [Q for P, Q in permutations(firm, 2) if self.given(P, Q, pin)]
+            firm = [*said[:1], *(each for each in firm if each not in said[:1])]  # from the point that something is given of
             return OnLink(firm[0], firm[1], at=self.pins[pin].drawn_at, **self.own(firm, pin))
         for P, Q in permutations(firm, 2):
             p, q = self.distance(P, pin), self.distance(Q, pin)
@@ -108,11 +121,11 @@ class Parts:
     links: dict[str, Link]
     slides: dict[str, Slide]
     guides: dict[str, Guide]
-    place: Callable[[str], tuple[float, float]]
+    sketch: Callable[[], Sketch]
     shapes: dict[str, Shape] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.shapes = {name: Shape(link, self.links.values(), self.pins, self.placed, self.place) for name, link in self.links.items()}
+        self.shapes = {name: Shape(link, self.links.values(), self.pins, self.placed, self.sketch) for name, link in self.links.items()}
 
     def loose(self, link: Link) -> list[str]:
         """Return a link's points that are not placed."""
@@ -124,7 +137,7 @@ class Parts:
 
     def sketched(self, point: str) -> tuple[float, float]:
         """Return where a point is in the sketch [m]: where it is placed, or a loose pin's own position."""
-        return self.place(point) if point in self.placed else self.pins[point].sketched
+        return self.sketch().at(point) if point in self.placed else self.pins[point].sketched
 
     def is_placed(self, guide: str) -> bool:
         """Return whether a guide lies on placed points."""

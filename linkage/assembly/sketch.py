@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from copy import copy
+from math import atan2, pi, remainder
 from typing import Any
 
 import numpy as np
 
 from ..errors import AssemblyError, DefinitionError
 from ..plan import ArrayReading, Plan, missing_words, strokes_text
-from ..quantities import Member, joined_names, name_of
+from ..quantities import Member, Operand, Quantity, Ref, joined_names, name_of, quantity
 from ..steps import Point, Step
-from ..vectors import Numbers
+from ..vectors import Numbers, Vec
 from .angle_continuation import NONE_SOLVED, with_angles
 from .groups import solve_groups
 
 Place = tuple[float, float]
+SAME_TURN = 1e-12
+"""rad; a drawn angle that differs by less is the one that is given."""
 
 
 def inputs_at(plan: Plan, strokes: Mapping[str, float]) -> dict[str, Numbers]:
@@ -50,13 +53,14 @@ def unplaced(plan: Plan, name: str, reading: ArrayReading, where: str) -> Assemb
 
 
 class Sketch:
-    """The positions of a mechanism's points at the strokes of its sketch, as far as it is settled."""
+    """The one measure of a sketch: where points are at its strokes, as far as it is settled.
+
+    A point that is drawn `at=(x, y)` is there, whatever lengths are given; the others follow from these.
+    """
 
     def __init__(self, settled: Mapping[str, Member], title: str) -> None:
         self.plan = Plan(settled, title)
-        inputs = inputs_at(self.plan, self.plan.sketch_strokes)
-        with np.errstate(all="ignore"):
-            self.reading = self.plan.read(inputs)
+        self.reading = drawing_of(self.plan, inputs_at(self.plan, self.plan.sketch_strokes))
 
     def at(self, name: str) -> Place:
         """Return a point's place [m]; AssemblyError where it cannot be assembled in the sketch."""
@@ -67,6 +71,29 @@ class Sketch:
             raise unplaced(self.plan, name, self.reading, where)
         return x, y
 
+    def extended(self, given: Operand, drawn: float) -> Operand:
+        """Return a length as it is given; a stroke alone that begins at zero is how far a cylinder is out of its drawn length [m]."""
+        found = quantity(given)
+        name = found.name or (found.target if isinstance(found, Ref) else "")
+        stroke = self.plan.strokes.get(name)
+        if stroke is None or min(stroke.start, stroke.end) > 0.0:
+            return given
+        return drawn - self.plan.sketch_strokes[name] + found
+
+    def turned(self, angle: Quantity, x: float, y: float) -> Quantity:
+        """Return an angle [rad] that is counted from where the drawing has a crank, whose vector is (x, y)."""
+        beside = remainder(atan2(y, x) - float(self.reading.value(angle)), 2.0 * pi)
+        return angle if abs(beside) <= SAME_TURN else beside + angle
+
+
+@np.errstate(all="ignore")
+def drawing_of(plan: Plan, inputs: Mapping[str, Numbers]) -> ArrayReading:
+    """Return the reading of a plan's sketch, with the points that are drawn where the drawing has them."""
+    reading = ArrayReading(plan.members, plan.table.lengths, inputs)
+    reading.positions = {name: Vec(*point.drawn_at) for name, point in plan.points.items() if point.drawn_at is not None}
+    plan.work_out(reading)
+    return reading
+
 
 def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> Step:
     """Return a step with the side its sketch position chooses; DefinitionError where both modes are equally near."""
@@ -76,7 +103,7 @@ def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> S
     sketches = {}
     for side in modes(name, step, settled, title):
         chosen = copy(step)
-        chosen.side = side
+        chosen.side, chosen.drawn_at = side, None
         sketches[side] = Sketch({**settled, name: chosen}, title)
     if not sketches:
         return step
@@ -107,15 +134,20 @@ def modes(name: str, step: Step, settled: Mapping[str, Member], title: str) -> t
     return bound.modes() if isinstance(bound, Point) else ()
 
 
-def with_measured_labels(name: str, step: Step, settled: Mapping[str, Member], title: str) -> Step:
+def with_measured_labels(name: str, step: Step, sketch: Callable[[], Sketch]) -> Step:
     """Return a step drawn `at=(x, y)` with the lengths and angles that it does not give measured from there [m, rad]."""
     if step.drawn_at is None:
         return step
-    sketch = Sketch({each: member for each, member in settled.items()}, title)
-    X = np.array(step.drawn_at)
+    drawing, X = sketch(), np.array(step.drawn_at)
     parents = [name_of(parent) for parent in step.parents]
     found = copy(step)
-    found.labels = dict(step.labels) | missing_labels(name, step, parents, X, sketch.at)
+    found.labels = dict(step.labels) | missing_labels(name, step, parents, X, drawing.at)
+    for parent in parents:
+        for label in {joined_names(parent, name), joined_names(name, parent)} & set(step.labels):
+            found.labels[label] = drawing.extended(step.labels[label], float(np.hypot(*(X - drawing.at(parent)))))
+    if type(step).from_drawing == "turn":
+        driven: Any = found
+        driven.angle = drawing.turned(driven.angle, *(X - drawing.at(parents[0])))
     return found
 
 

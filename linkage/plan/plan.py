@@ -71,7 +71,7 @@ class Plan(Members):
         """Every point placed, once a class; nothing is added here."""
         trace = self._traced(self.solved)
         with np.errstate(all="ignore"):  # what is divided by zero in a constant is told as the place that has no value
-            self._work_out(trace)
+            self.work_out(trace)
         for name, length in self.following:
             trace.watch_length(name, length)
         return trace
@@ -84,10 +84,10 @@ class Plan(Members):
     def read(self, inputs: Mapping[str, Scalar]) -> ArrayReading:
         """Return the eager reading on arrays, every point placed."""
         reading = ArrayReading(self.members, self.table.lengths, inputs)
-        self._work_out(reading)
+        self.work_out(reading)
         return reading
 
-    def _work_out(self, reading: Reading) -> None:
+    def work_out(self, reading: Reading) -> None:
         """Work out every point in a reading, and where angles are followed what loads follow."""
         for name in self.points:
             reading.at(name)

@@ -8,24 +8,26 @@ from ..errors import DefinitionError
 from ..quantities import FRAME_SIDE, Axes, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Vec
 from .primitives import Axis, Offset, Turn
-from .step import UNBOUND, Assignment, Step
+from .step import UNBOUND, Assignment, Position, Step
 
 
 class Crank(Step):
     """A point X at distance PX from P, in the direction `angle` [rad] counter-clockwise from the x axis.
 
-    `A = Crank(O, OA=0.1, angle=phi)` with `phi = Stroke(0, 2 * pi)`.
+    `A = Crank(O, OA=0.1, angle=phi)` with `phi = Stroke(0, 2 * pi)`. `Crank(O, at=(x, y), angle=phi)` is drawn: its length is measured
+    if it is not given, and the angle turns it from where it is drawn.
     """
 
     P: str
     PX: Quantity = UNBOUND
     parent_letters = arms = ("P",)
+    from_drawing = "turn"
     expects = (("P", "point"), ("angle", "quantity"))
     axes: Axes | None = None
     """The axes that its angle is counted in; None for the frame's."""
 
-    def __init__(self, P: Reference, *, angle: Operand, **lengths: Operand) -> None:
-        super().__init__(P, labels=lengths)
+    def __init__(self, P: Reference, *, angle: Operand, at: Position | None = None, **lengths: Operand) -> None:
+        super().__init__(P, labels=lengths, at=at)
         self.angle = quantity(angle)
 
     def parts(self) -> tuple[Reference, ...]:

@@ -87,6 +87,8 @@ class Point(Jointed):
 
     X: str = ""
     """Its name once it is bound, in a class or in a group."""
+    drawn_at: tuple[float, float] | None = None
+    """Its place in the drawing [m]; None where the drawing does not say."""
     closes: ClassVar[bool] = False
     """Whether placing this point closes a loop, so that it can fail and become singular."""
 
@@ -183,7 +185,7 @@ class Step(Point):
     arms: tuple[str, ...] = ()
     """The letters of the parents that X hangs from by a link of its own: for P it has the length PX."""
     from_drawing: str = ""
-    """What `at=(x, y)` supplies: the `distances` from both parents, or one distance and the `angle`."""
+    """What `at=(x, y)` supplies: the `distances` from both parents, one distance and the `angle`, or one and the `turn` of a drive."""
     chooses: str = ""
     """Why a side must be said, in words; "" where there is one place only."""
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import final
 
 from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, joined_names, needs
-from ..steps import Guide, Point
+from ..steps import Point
 from .bodies import FRAME, Body
 from .members import Members, carrying_pairs, member_sides
 
@@ -171,7 +171,7 @@ def moved_side(chain: KinematicChain, name: str, joint: Joint) -> str:
 
 def guided_by(chain: KinematicChain, plan: Members, side: JointSide) -> str:
     """Return the body that a line belongs to."""
-    guide = plan.of_kind(Guide).get(side.points[0]) if side.role == "guide" else None
+    guide = plan.guide_of(side)
     if side.role == "slider":
         return next(body.name for body in chain.bodies if body.kind == "block" and body.points == side.points)
     return chain.holding(side.points if guide is None else guide.points)

@@ -18,6 +18,7 @@ from ..quantities import (
     Function,
     Joint,
     Jointed,
+    JointSide,
     Length,
     Member,
     Negative,
@@ -263,12 +264,23 @@ class Members:
         """The rigid bodies, the frame first."""
         return rigid_bodies(self)
 
+    def guide_of(self, side: JointSide) -> Guide | None:
+        """Return the guide that a side of a joint names; None where it names points, or nothing; DefinitionError for anything else."""
+        if side.role != "guide" or set(side.points) <= set(self.points):
+            return None
+        found = self.members.get(side.points[0])
+        if not isinstance(found, Guide):
+            text = f"{self.title}: a joint has the side {side}, and {side.points[0]} is no guide"
+            raise DefinitionError(f"{text}; name a Guide of the class, or the points of the body that the line is on.")
+        return found
+
     @cached_property
-    def resting(self) -> Mapping[str, Guide]:
-        """The points at a fixed place on a guide, which are rigid with it."""
+    def resting(self) -> Mapping[str, tuple[str, ...]]:
+        """The points at a fixed place on a guide or in a slot, which are rigid with it, each with the points that this goes through."""
         found = [(joint.point, joint) for point in self.points.values() for joint in point.joints() if joint.drives and joint.track]
         guides = self.of_kind(Guide)
-        return FrozenDict({point: guides[joint.track[0]] for point, joint in found if not self.is_there(joint)})
+        lines = {name: guide.points for name, guide in guides.items()}
+        return FrozenDict({point: lines.get(joint.track[0], joint.track) for point, joint in found if not self.is_there(joint)})
 
     def terms(self, given: Quantity) -> set[str]:
         """Return the names that a quantity is a sum of, through the members it goes by."""
@@ -400,8 +412,8 @@ def rigid_bodies(plan: Members, apart: Collection[frozenset[str]] = ()) -> tuple
     groups += [body for body in placed if frozenset(body[:2]) not in apart]
     groups += [link.point_names for link in plan.of_kind(Link).values() if len(link.point_names) > 2 or not plan.is_cylinder(link)]
     rest = plan.resting
-    still = [name for name, guide in rest.items() if not guide.points]
-    groups += [(*guide.points, name) for name, guide in rest.items() if len(guide.points) == 2]
+    still = [name for name, line in rest.items() if not line]
+    groups += [(*line, name) for name, line in rest.items() if len(line) == 2]
     return merged(groups, (*plan.ground, *still))
 
 

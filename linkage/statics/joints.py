@@ -239,13 +239,14 @@ class Structure:
         if contact.point in self.bodies[body].points or contact.joint is None:
             return contact.point
         side = contact.joint.on if contact.on == body else contact.joint.by
-        points = self.plan.of_kind(Guide)[side.points[0]].points if side.role == "guide" else side.points
-        return next(iter(points), contact.point)
+        guide = self.plan.guide_of(side)
+        return next(iter(side.points if guide is None else guide.points), contact.point)
 
     def side(self, side: JointSide, joint: Joint, owner: str) -> int:
         """Return the body that one side of a joint names."""
-        if side.role == "guide":
-            return self.guide_carrier(self.plan.of_kind(Guide)[side.points[0]])
+        guide = self.plan.guide_of(side)
+        if guide is not None:
+            return self.guide_carrier(guide)
         if side.role == "slider":
             return self.slider(side.points[0])
         if side.role == "runner":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass
 from itertools import combinations
@@ -80,7 +80,7 @@ def link_equations(parts: Parts, name: str, title: str) -> list[PinEquation]:
     """Return a link's equations: one length, and two for every further point that is rigid with two points before it."""
     link, shape = parts.links[name], parts.shapes[name]
     points = [*parts.firm(link), *parts.loose(link)]
-    known = (pair for pair in combinations(points, 2) if shape.distance(*pair) is not None)
+    known = (pair for pair in combinations(points, 2) if shape.distance(*pair) is not None and not shape.coincide(*pair))
     first, second = points[:2] if len(parts.firm(link)) > 1 else next(known, tuple(points[:2]))
     points = [first, second, *(point for point in points if point not in (first, second))]
     length = shape.distance(first, second)
@@ -91,7 +91,7 @@ def link_equations(parts: Parts, name: str, title: str) -> list[PinEquation]:
 
     measured = None if length is None else (first, second, length)
     rows = [PinEquation(loose(first, second), length=measured, fault=fault, link=name)] if loose(first, second) else []
-    for pin, step in attachments(points, shape, f"{title}: the shape of {name} = {link}"):
+    for pin, step in attachments(points, shape, f"{title}: the shape of {name} = {link}", parts.one_place):
         fault = undrawn(parts, name, pin, step)
         if not fault:
             step = as_sketched(parts, pin, step, f"{title}: {name} = {link}", shape)
@@ -100,14 +100,14 @@ def link_equations(parts: Parts, name: str, title: str) -> list[PinEquation]:
     return rows
 
 
-def attachments(points: list[str], shape: Shape, what: str) -> Iterator[tuple[str, OnLink]]:
+def attachments(points: list[str], shape: Shape, what: str, one_place: Callable[[], str]) -> Iterator[tuple[str, OnLink]]:
     """Yield each further point of a link with the step that makes it rigid with two points before it, in an order that works."""
     known, left = points[:2], points[2:]
     while left:
         steps = {pin: shape.attachment(known, pin) for pin in left}
         pin, step = next(((pin, step) for pin, step in steps.items() if isinstance(step, OnLink)), (left[0], None))
         if step is None:
-            raise DefinitionError(f"{what} is not settled at {pin}; give two distances or a distance and an angle.")
+            raise DefinitionError(f"{what} is not settled at {pin}; give two distances or a distance and an angle.{one_place()}")
         yield pin, step
         known.append(pin)
         left.remove(pin)
@@ -181,7 +181,7 @@ def matching(rows: list[PinEquation], parts: Parts, title: str) -> dict[tuple[st
     if free:
         raise DefinitionError(
             f"{title}: the parts leave {' '.join(free)} free: {len(rows)} conditions for {2 * len(loose)} coordinates of the pins "
-            f"{' '.join(loose)}. Add a link, a slide or a length that follows a stroke.",
+            f"{' '.join(loose)}.{parts.one_place() or ' Add a link, a slide or a length that follows a stroke.'}",
             member=free[0],
         )
     return {each: found[place] - first for place, each in enumerate(coordinates)}

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..quantities import Number, Quantity, joined_names, name_of, quantity
 from ..steps import Dyad, Guide, GuideCross, Link, OnLink, Pin, PinSlotDyad, Slide, SliderDyad, Step, YokeDyad
-from .sketch import Sketch
+from .sketch import ONE_PLACE, Sketch
 
 # The shape of a link: the distances and angles of its points, from its labels or a drawing.
 
@@ -64,6 +64,13 @@ class Shape:
         longest = max(lengths := [side.number for side in sides if isinstance(side, Number)])
         return abs(2.0 * longest - sum(lengths)) <= 1e-9 * longest
 
+    def coincide(self, P: str, Q: str) -> bool:
+        """Return whether two points of the body stand at one place, measured by its longest distance and by where they are."""
+        known = [found.number for found in starmap(self.distance, combinations(self.points, 2)) if isinstance(found, Number)]
+        known += [abs(each) for point in (P, Q) for each in self.drawn(point) or ()]
+        between = self.distance(P, Q)
+        return isinstance(between, Number) and between.number <= ONE_PLACE * max(known)
+
     def measured(self, P: str, Q: str, *_: str) -> Number | None:
         """Return the distance of two points in the drawing [m]; None unless one of them is drawn."""
         if not any(point in self.pins and self.pins[point].drawn_at for point in (P, Q)):
@@ -80,7 +87,8 @@ class Shape:
     def attachment(self, firm: Sequence[str], pin: str) -> Step | None:
         """Return the step that places a point of this body from two placed ones, if the labels allow it."""
         near = self.pins[pin].near
-        for P, Q in permutations(firm, 2):
+        pairs = [(P, Q) for P, Q in permutations(firm, 2) if not self.coincide(P, Q)]
+        for P, Q in pairs:
             length = self.given(P, pin)
             angle = self.given(Q, P, pin)
             if length is None:
@@ -90,11 +98,12 @@ class Shape:
             other = self.given(Q, pin)
             if other is not None:
                 return OnLink(P, Q, near=self.pins[pin].sketched, **labelled(length, other))
-        if near is None:
-            said = [P for P in firm if self.given(P, pin)] or [Q for P, Q in permutations(firm, 2) if self.given(P, Q, pin)]
-            firm = [*said[:1], *(each for each in firm if each not in said[:1])]  # from the point that something is given of
-            return OnLink(firm[0], firm[1], at=self.pins[pin].drawn_at, **self.own(firm, pin))
-        for P, Q in permutations(firm, 2):
+        if near is None and pairs:
+            apart = [(P, Q) for P, Q in pairs if not self.coincide(P, pin)] or pairs
+            said = [(P, Q) for P, Q in apart if self.given(P, pin)] or [(P, Q) for P, Q in apart if self.given(Q, P, pin)]
+            P, Q = (said or apart)[0]
+            return OnLink(P, Q, at=self.pins[pin].drawn_at, **self.own((P, Q), pin))
+        for P, Q in pairs:
             p, q = self.distance(P, pin), self.distance(Q, pin)
             if p is not None and q is not None:
                 return OnLink(P, Q, near=near, **labelled((P + pin, p), (Q + pin, q)))
@@ -139,6 +148,14 @@ class Parts:
         """Return where a point is in the sketch [m]: where it is placed, or a loose pin's own position."""
         return self.sketch().at(point) if point in self.placed else self.pins[point].sketched
 
+    def one_place(self) -> str:
+        """Return which two points of a link that is not placed stand at one place, in words; "" where none do."""
+        for name, link in self.links.items():
+            for pair in combinations(link.point_names, 2) if self.loose(link) else ():
+                if self.shapes[name].coincide(*pair):
+                    return f" {' and '.join(pair)} of {name} = {link} stand at one place: use one pin for both."
+        return ""
+
     def is_placed(self, guide: str) -> bool:
         """Return whether a guide lies on placed points."""
         return set(self.guides[guide].points) <= self.placed
@@ -154,7 +171,7 @@ class Parts:
             firm = self.firm(link)
             if pin in link.point_names and len(firm) == 1:
                 length = self.shapes[name].distance(firm[0], pin)
-                if length is not None:
+                if length is not None and not self.shapes[name].coincide(firm[0], pin):
                     yield name, firm[0], length
 
 

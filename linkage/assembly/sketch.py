@@ -18,6 +18,8 @@ from .angle_continuation import NONE_SOLVED, with_angles
 from .groups import solve_groups
 
 Place = tuple[float, float]
+ONE_PLACE = 1e-9
+"""Points stand at one place where they are nearer to each other than so much of the size of what they are on."""
 SAME_TURN = 1e-12
 """rad; a drawn angle that differs by less is the one that is given."""
 
@@ -160,7 +162,9 @@ def missing_labels(name: str, step: Step, parents: list[str], X: object, place: 
     wanted = parents if type(step).from_drawing == "distances" else parents[:1]
     for parent in wanted:
         if not {joined_names(parent, name), joined_names(name, parent)} & given:
-            found[joined_names(parent, name)] = float(np.hypot(*away[parent]))
+            found[joined_names(parent, name)] = measured = float(np.hypot(*away[parent]))
+            if measured <= ONE_PLACE * max(np.hypot(*each) for each in away.values()) and step.closes:
+                raise DefinitionError(f"{name} = {step}: {parent} and {name} stand at one place in the sketch; use one point for both.")
     if type(step).from_drawing == "angle":
         second = parents[1]
         angles = {joined_names(*each) for each in ((second, first, name), (name, first, second), (second, name), (name, second))}

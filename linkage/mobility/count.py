@@ -158,6 +158,8 @@ def unit_rows(matrix: FloatArray) -> FloatArray:
 
 
 RANK = 1e-8
+ROUNDING = 1e-14
+"""What the last digits make of a distance of nothing, over the largest coordinate of a machine."""
 ASIDE = (0.5, 0.37, 0.61)
 """Shares of the strokes at which mobility is looked at again: of whole turns, the middle may be in line, or at rest, as well."""
 
@@ -281,12 +283,13 @@ def check_lengths(plan: Plan) -> None:
     """Raise DefinitionError where a declared link changes its length over the strokes, or is not as long as it is said to be."""
     samples = [sample(plan, share) for share in (0.0, 0.13, 0.37, 0.61, 0.88, 1.0)]
     known = [found for found in samples if found is not None]
+    size = max((abs(each) for places, _ in known for place in places.values() for each in place), default=0.0)
     for name, link in plan.of_kind(Link).items():
         rigid = () if plan.is_cylinder(link) else cylinder_sides(plan, link) or (link.point_names,)
         for P, Q in (pair for points in rigid for pair in combinations(points, 2)):
             lengths = [float(np.hypot(*np.subtract(places[P], places[Q]))) for places, _ in known]
             change = max(lengths, default=0.0) - min(lengths, default=0.0)
-            if change > 1e-9 * max(lengths, default=1.0):
+            if change > max(1e-9 * max(lengths, default=1.0), ROUNDING * size):
                 raise DefinitionError(
                     f"{plan.title}: {name} = {link}: the distance {P}{Q} changes by {change / mm:.3g} mm over the stroke, "
                     "but a link is rigid. Take it out, or correct a length.",
@@ -318,7 +321,7 @@ def check_labels(plan: Plan, name: str, link: Link, places: Mapping[str, tuple[f
             differs, unit = abs(found - stated) > 1e-6, "deg"
         else:
             found, unit = abs(P - Q), "m"
-            differs = abs(found - abs(stated)) > 1e-9 * max(found, abs(stated))
+            differs = abs(found - abs(stated)) > max(1e-9 * max(found, abs(stated)), ROUNDING * max(map(abs, (P, Q))))
         if differs:
             raise DefinitionError(
                 f"{plan.title}: {name} = {link}: {label} is given as {show(sense * stated, unit)}, but its points are placed by other "

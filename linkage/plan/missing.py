@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ..program import FloatArray
 from ..quantities import Member, joined_names, spelled
-from ..steps import Point, Step
+from ..steps import Guide, Point, Step
 from ..units import mm
 from .members import Members
 from .reading import ArrayReading
@@ -73,10 +73,13 @@ def negative_words(plan: Members, name: str, reading: ArrayReading) -> tuple[str
 
 
 def coinciding_words(plan: Members, name: str, reading: ArrayReading) -> tuple[str, float] | None:
-    """Return which two points of a step coincide, so that no direction goes from one to the other; None where they do not."""
+    """Return which two points of a step or its guides coincide, so that no direction goes from one to the other; None where none do."""
     step = plan.members[name]
-    names = [getattr(step, letter) for letter in step.parent_letters] if isinstance(step, Step) else []
-    if len(names) == 2 and set(names) <= set(plan.points):
+    parents = [getattr(step, letter) for letter in step.parent_letters] if isinstance(step, Step) else []
+    guides = plan.of_kind(Guide)
+    for names in (parents, *(guides[each].points for each in parents if each in guides)):
+        if len(names) != 2 or not set(names) <= set(plan.points):
+            continue
         base = reading.at(names[1]) - reading.at(names[0])
         if np.any((base.x == 0.0) & (base.y == 0.0)):
             words = f"{names[0]} and {names[1]} coincide there, so that no direction goes from one to the other. Move one of them."

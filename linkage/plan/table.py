@@ -168,5 +168,5 @@ def value_in_range(entry: DesignVariable, value: Numbers) -> Numbers:
         raise DefinitionError(f"{entry.where}: {said}; write {far:.6g} * deg if these are degrees, or take whole turns off.")
     if abs(far) > FARTHEST:
         raise DefinitionError(f"{entry.where}: {entry.name}={far:.6g} m is farther than the sun; give it in m.")
-    what = "has no length" if least >= 0.0 else "is negative"
-    raise DefinitionError(f"{entry.where}: the length {entry.name}={least:.6g} m {what}; give a positive one.")
+    what = "has no length, its points stand at one place; use one pin for both, or" if least >= 0.0 else "is negative;"
+    raise DefinitionError(f"{entry.where}: the length {entry.name}={least:.6g} m {what} give a positive one.")

@@ -8,6 +8,6 @@ from .groups import GroupSolution, solve_groups
 from .live import angles_text, constants_text, groups_text, json_of
 from .modes import Assembly, assemblies, members_on_sides
 from .newton import Newton
-from .sketch import places_at
+from .sketch import places_at, places_drawn
 
 declare_public(globals())

@@ -12,10 +12,10 @@ import numpy as np
 
 from ..errors import DefinitionError, about, unknown
 from ..plan import needed_names, with_inner
-from ..quantities import Member, Number, Quantity, Reference, Variable, name_of, needs
-from ..steps import Group, Guide, Link, OnLink, Pin, Slide, Step
+from ..quantities import Member, Number, Quantity, Reference, Stroke, Variable, name_of, needs
+from ..steps import Group, Guide, Link, OnLink, Pin, Point, Slide, Step
 from ..vectors import Side
-from .part_sketch import with_begun_pins
+from .part_sketch import all_behind, with_begun_pins
 from .parts import Parts, Shape, check_held, next_step
 from .sketch import Sketch, missing_labels, sided, with_measured_labels
 
@@ -181,7 +181,7 @@ def matching(rows: list[PinEquation], parts: Parts, title: str) -> dict[tuple[st
     if free:
         raise DefinitionError(
             f"{title}: the parts leave {' '.join(free)} free: {len(rows)} conditions for {2 * len(loose)} coordinates of the pins "
-            f"{' '.join(loose)}.{parts.one_place() or ' Add a link, a slide or a length that follows a stroke.'}",
+            f"{' '.join(loose)}.{parts.one_place() or parts.driveless() or ' Add a link, a slide or a length that follows a stroke.'}",
             member=free[0],
         )
     return {each: found[place] - first for place, each in enumerate(coordinates)}
@@ -249,6 +249,13 @@ def is_unnamed(value: object) -> bool:
     return isinstance(value, tuple) or (isinstance(value, Quantity) and not value.name)
 
 
+def idle_strokes(members: Mapping[str, Member]) -> tuple[str, ...]:
+    """Return the strokes that no point, link or guide follows."""
+    holding = [name for name, member in members.items() if isinstance(member, (Point, Link, Guide))]
+    used = all_behind(members, holding)
+    return tuple(name for name, member in members.items() if isinstance(member, Stroke) and name not in used)
+
+
 def is_loose(member: Member) -> bool:
     """Return whether a member is a pin that nothing places yet; those of a part belong to its groups."""
     return isinstance(member, Pin) and member.group is None
@@ -282,6 +289,7 @@ class Assembler:
             slides={name: member for name, member in members.items() if isinstance(member, Slide)},
             guides={name: member for name, member in members.items() if isinstance(member, Guide)},
             sketch=self.sketch,
+            idle=idle_strokes(members),
         )
 
     def run(self) -> dict[str, Member]:

@@ -10,7 +10,7 @@ from typing import final
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import AssemblyError
+from ..errors import AssemblyError, SingularError
 from ..plan import Plan, strokes_text
 from ..program import (
     ARRAYS,
@@ -38,6 +38,8 @@ CONVERGED = 1e-10
 ITERATIONS = 9
 PIVOT, SURE_PIVOT = 1e-6, 1e-4
 """How small a pivot may be beside the entries it clears away, for a step that the next one corrects and for a clearance."""
+FITS, DEAD = 1e-9, 1e-6
+"""What residuals may leave of a group's size, and its least singular value, where its sketch is a dead point."""
 THRESHOLD = 0.25
 """At the sketch a pivot is at least so large beside the entries it clears away."""
 
@@ -105,6 +107,13 @@ class Newton:
                 if float(np.abs(change).max()) <= CONVERGED * float(size.max()):
                     return u, True, 0.0
         return u, False, float(np.abs(residual).max())
+
+    def is_dead(self, inputs: Mapping[str, Numbers], u: FloatArray) -> bool:
+        """Return whether pins fulfil their equations at one pose and are not held there."""
+        residual, rows, size = self.system(inputs, u)
+        if not np.isfinite(rows).all() or np.abs(residual).max() > FITS * size.max():
+            return False
+        return bool(np.linalg.svd(rows[:, :, 0], compute_uv=False)[-1] <= DEAD)
 
     def correct(self, held: Mapping[str, Numbers], guess: FloatArray, size: FloatArray) -> tuple[FloatArray, Mask]:
         """Return the solution next to a guess and the mask of the poses where it was found; each stands when its own steps have ended.
@@ -413,9 +422,14 @@ def started(plan: Plan) -> dict[str, FloatArray]:
         newton = Newton(plan, group)
         rough = np.array([part for pin in pins for part in pin.sketched]).reshape(-1, 1)
         found[name], done, missing = newton.start(inputs, rough)
+        names, strokes = " ".join(pin.name for pin in pins), strokes_text(plan, plan.sketch_strokes)
+        if newton.is_dead(inputs, rough) or not (done or not newton.is_dead(inputs, found[name])):
+            raise SingularError(
+                f"{plan.title}: the pins {names} stand in a dead point at {strokes}: what is drawn fits together, but it is singular, so that "
+                "how the pins go on from there is not settled. Draw them at other strokes, drawn(...), and out of line.",
+                point=pins[0].name, mask=np.ones((), bool),
+            )  # fmt: skip
         if not done:
-            names = " ".join(pin.name for pin in pins)
-            strokes = strokes_text(plan, plan.sketch_strokes)
             gap = f"{missing / mm:.3g} mm are missing" if np.isfinite(missing) else "their equations have no value"
             raise AssemblyError(
                 f"{plan.title}: the pins {names} cannot be assembled from their sketch at {strokes}: {gap} in "

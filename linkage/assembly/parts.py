@@ -131,6 +131,8 @@ class Parts:
     slides: dict[str, Slide]
     guides: dict[str, Guide]
     sketch: Callable[[], Sketch]
+    idle: tuple[str, ...] = ()
+    """The strokes that nothing follows."""
     shapes: dict[str, Shape] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -155,6 +157,12 @@ class Parts:
                 if self.shapes[name].coincide(*pair):
                     return f" {' and '.join(pair)} of {name} = {link} stand at one place: use one pin for both."
         return ""
+
+    def driveless(self) -> str:
+        """Return which stroke moves nothing, and how a link follows it, in words; "" where each moves something."""
+        hung = [(*self.firm(link), *self.loose(link)) for link in self.links.values() if len(self.firm(link)) == len(self.loose(link)) == 1]
+        ways = [f" Write {pin} = Crank({P}, at=(x, y), angle=?) for a crank, Link(\"{P} {pin}\", {P}{pin}=?) for a cylinder." for P, pin in hung]
+        return f" The stroke {self.idle[0]} moves nothing.{''.join(ways[:1]).replace('?', self.idle[0])}" if self.idle else ""
 
     def is_placed(self, guide: str) -> bool:
         """Return whether a guide lies on placed points."""

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import AssemblyError, DefinitionError
 from ..plan import ArrayReading, Plan, missing_words, strokes_text
 from ..quantities import Member, Operand, Quantity, Ref, joined_names, name_of, quantity
-from ..steps import Point, Step
+from ..steps import Pin, Point, Step
 from ..vectors import Numbers, Vec
 from .angle_continuation import NONE_SOLVED, with_angles
 from .groups import solve_groups
@@ -34,16 +34,30 @@ def inputs_at(plan: Plan, strokes: Mapping[str, float]) -> dict[str, Numbers]:
     return inputs
 
 
+def places_drawn(plan: Plan) -> tuple[dict[str, Place], dict[str, Numbers]]:
+    """Return where all points are drawn [m], and the inputs, with the pins of groups at their rough places, which need not fit."""
+    inputs: dict[str, Numbers] = {**plan.defaults, **plan.sketch_strokes}
+    for group in plan.groups.values():
+        rough = [part for pin in group.pins for part in plan.of_kind(Pin)[pin].sketched]
+        inputs |= dict(zip(group.inputs, (*rough, 0.0), strict=True))
+    return finite_places(plan, inputs, plan.sketch_strokes), inputs
+
+
 def places_at(plan: Plan, strokes: Mapping[str, float]) -> tuple[dict[str, Place], dict[str, Numbers]]:
     """Return where all points are at some strokes [m], and the inputs; AssemblyError where they cannot be assembled."""
     inputs = inputs_at(plan, strokes)
+    return finite_places(plan, inputs, strokes), inputs
+
+
+def finite_places(plan: Plan, inputs: Mapping[str, Numbers], strokes: Mapping[str, float]) -> dict[str, Place]:
+    """Return where all points are [m]; AssemblyError where they cannot be assembled."""
     with np.errstate(all="ignore"):
         reading = plan.read(inputs)
     places = {name: (float(reading.at(name).x), float(reading.at(name).y)) for name in plan.points}
     lost = [name for name, place in places.items() if not np.isfinite(place).all()]
     if lost:
         raise unplaced(plan, lost[0], reading, f"at {strokes_text(plan, strokes)}")
-    return places, inputs
+    return places
 
 
 @np.errstate(all="ignore")

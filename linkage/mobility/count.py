@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from cmath import exp, phase
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import final
 
 import numpy as np
 
-from ..assembly import places_at
-from ..errors import AssemblyError, DefinitionError
+from ..assembly import places_at, places_drawn
+from ..errors import AssemblyError, DefinitionError, SingularError
 from ..plan import Part, Plan, Reading, Trace, carrying_pairs, member_sides, merged, strokes_text
 from ..program import FloatArray, Level, Node, Tangent, ancestors, interpret
 from ..quantities import quantity
@@ -178,36 +178,43 @@ class Mobility:
     redundant: tuple[str, ...]
     locking: tuple[str, ...]
     loose: tuple[str, ...] = ()
+    dead: str = ""
+    """Why it is that of a dead point alone, in words; "" where it is not."""
 
     def __str__(self) -> str:
         words = [f"mobility {self.rank} (strokes {self.strokes}, Gruebler count {self.gruebler})"]
         words += [f"the link {name} is redundant: the linkage is overconstrained, it moves the same without it" for name in self.redundant]
         words += [f"the link {name} locks the linkage" for name in self.locking]
         words += [f"loose, so that it can still move while the drives are locked: {', '.join(self.loose)}"] if self.loose else []
+        words += [f"so it is where it is drawn. {self.dead}"] if self.dead else []
         return "; ".join(words)
 
 
 def mobility(plan: Plan) -> Mobility:
     """Return the mobility at the sketch; where it is not the number of strokes there, in the middle of these or aside of it.
 
-    Where branches cross the rank is too small, and where a stroke starts at rest its own part of it is missing.
-    AssemblyError where the mechanism cannot be assembled at the sketch.
+    Where branches cross the rank is too small, and where a stroke starts at rest its own part of it is missing. Where a group is drawn in
+    a dead point it is that of the drawing. AssemblyError where the mechanism cannot be assembled at the sketch, nor there.
     """
-    found = mobility_at(plan, plan.sketch_strokes)
-    for share in ASIDE:
-        if found.rank == found.strokes:
-            break
-        aside = {name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()}
+    shares = [{name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()} for share in ASIDE]
+    found: list[Mobility] = []
+    lost: list[AssemblyError] = []
+    for strokes in (plan.sketch_strokes, *shares):
         try:
-            found = min(found, mobility_at(plan, aside), key=lambda each: abs(each.rank - each.strokes))
-        except AssemblyError:
-            continue
-    return found
+            found.append(mobility_at(plan, *places_at(plan, strokes)))
+        except SingularError as error:
+            return replace(mobility_at(plan, *places_drawn(plan)), dead=str(error))
+        except AssemblyError as error:
+            lost.append(error)
+        if found and found[-1].rank == found[-1].strokes:
+            break
+    if not found:
+        raise lost[0]
+    return min(found, key=lambda each: abs(each.rank - each.strokes))
 
 
-def mobility_at(plan: Plan, strokes: dict[str, float]) -> Mobility:
-    """Return the mobility at some strokes."""
-    places, inputs = places_at(plan, strokes)
+def mobility_at(plan: Plan, places: Places, inputs: Mapping[str, Numbers]) -> Mobility:
+    """Return the mobility at a pose."""
     steps = step_rows(plan, places, inputs)
     links = link_rows(plan, places, steps.unknowns)
     both = ConstraintRows(np.vstack([steps.matrix, links.matrix]), (*steps.owners, *links.owners), steps.unknowns)
@@ -257,6 +264,8 @@ def check(plan: Plan) -> None:
     try:
         found = mobility(plan)
     except AssemblyError:
+        return
+    if found.dead:
         return
     by_hand = any(point.hangs_from for point in plan.points.values())
     if found.rank < found.strokes or (found.rank > found.strokes and not by_hand):

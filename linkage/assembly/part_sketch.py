@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..plan import ArrayReading, Part, has_no_axes
 from ..quantities import FRAME_SIDE, Axes, Member, Reference, needs
-from ..steps import Group, Pin
+from ..steps import Drawn, Group, Pin
 from ..vectors import Line, Vec
 from .sketch import Place, Sketch, inputs_at, places_at
 
@@ -46,7 +46,8 @@ def begin(name: str, part: Part, members: dict[str, Member], title: str) -> None
         outside = [(each, part.aliases.get(dotted, dotted)) for each, dotted in outside]
         held = {each for each in needs(bound) if each in members}
         pairs = [(each, dotted) for each, dotted in outside if dotted in held]
-        sketch = Sketch(all_behind(members, [dotted for _, dotted in pairs]), title)
+        drawings = [name for name, member in members.items() if isinstance(member, Drawn)]
+        sketch = Sketch(all_behind(members, [*drawings, *(dotted for _, dotted in pairs)]), title)
         places = laid_on([own[each] for each, _ in pairs], [sketch.at(dotted) for _, dotted in pairs], part.mirrored, own, group.pins)
         for pin, place in places.items():
             member = members[f"{name}.{pin}"]

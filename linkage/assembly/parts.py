@@ -67,7 +67,8 @@ class Shape:
     def coincide(self, P: str, Q: str) -> bool:
         """Return whether two points of the body stand at one place, measured by its longest distance and by where they are."""
         known = [found.number for found in starmap(self.distance, combinations(self.points, 2)) if isinstance(found, Number)]
-        known += [abs(each) for point in (P, Q) for each in self.drawn(point) or ()]
+        if self.measured(P, Q) is not None:
+            known += [abs(each) for point in (P, Q) for each in self.drawn(point) or ()]
         between = self.distance(P, Q)
         return isinstance(between, Number) and between.number <= ONE_PLACE * max(known)
 

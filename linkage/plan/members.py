@@ -35,7 +35,7 @@ from ..quantities import (
     quantity,
     unnamed,
 )
-from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, with_bodies
+from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, strokes_drawn, with_bodies
 from ..units import deg
 from .bodies import Body, merged
 from .table import Table
@@ -338,9 +338,9 @@ class Members:
 
     @cached_property
     def sketch_strokes(self) -> dict[str, float]:
-        """The strokes at which sketch positions hold: the start of each, unless the class says `drawn(...)`."""
-        said = {name: value for drawing in self.of_kind(Drawn).values() for name, value in drawing.strokes.items()}
-        return FrozenDict({name: float(said.get(name, stroke.start)) for name, stroke in self.strokes.items()})
+        """The strokes at which sketch positions hold: the start of each, unless the class says `drawn(...)`, or one of its parts."""
+        found = strokes_drawn(self.members)
+        return FrozenDict({name: found[name] for name in self.strokes})
 
     @cached_property
     def moving(self) -> tuple[str, ...]:

@@ -380,7 +380,8 @@ class Renamed(Renaming):
             if name in left_out or member.kind in LEFT_BEHIND or dotted in self.aliases:
                 continue
             if isinstance(member, Drawn):
-                strokes = {self.names[each]: value for each, value in member.strokes.items() if each not in part.given}
+                kept = [each for each in member.strokes if each not in part.given or f"{part.name}.{each}" in self.aliases]
+                strokes = {self.names[each]: member.strokes[each] for each in kept}
                 if strokes:
                     found[dotted] = Drawn(strokes).renewed(_name=dotted)
                 continue

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import DefinitionError, unknown
 from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, Where, name_of, needs
-from ..steps import Drawn, Group, Point
+from ..steps import Group, Point, strokes_drawn
 from ..vectors import Line, Scalar, Vec
 
 
@@ -107,12 +107,9 @@ class Reading(Where):
         if groups:
             what = f"{quantity} at one pose hangs on {groups[0]}, whose pins are found together and have no closed form"
             raise DefinitionError(f"{what}; give the length itself, filled=dict(...).")
-        sketch = {name: member.start for name, member in self.members.items() if isinstance(member, Stroke)}
-        for drawn in self.members.values():
-            sketch |= drawn.strokes if isinstance(drawn, Drawn) else {}
         inputs = {name: value for name, value in self.inputs.items() if "(" not in name}  # no references of angles, which are of this pose
         with np.errstate(all="ignore"):
-            return Reading(self.members, self.lengths, {**inputs, **sketch, **strokes}).value(quantity)
+            return Reading(self.members, self.lengths, {**inputs, **strokes_drawn(self.members), **strokes}).value(quantity)
 
     def behind(self, quantity: Reference) -> set[str]:
         """Return the names of all that a quantity is built from."""

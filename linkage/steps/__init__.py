@@ -9,7 +9,7 @@ from .keeping import with_bodies
 from .labels import DimensionTable, Slot, match
 from .link import Link
 from .onlink import OnLink
-from .pin import Drawn, Group, Pin, drawn
+from .pin import Drawn, Group, Pin, drawn, strokes_drawn
 from .primitives import Arrow, Axis, CosineAngle, Offset, Turn, Vector, triangle
 from .sliders import GuideCross, PinSlotDyad, SliderDyad, YokeDyad
 from .step import UNBOUND, Assignment, Bar, Contour, Point, Step

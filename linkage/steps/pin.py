@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from types import MappingProxyType
 
 from ..errors import DefinitionError, cited
-from ..quantities import Member, Quantity, Reference, Where, is_number, joined_names, name_of, quantity
+from ..quantities import Member, Quantity, Reference, Stroke, Where, is_number, joined_names, name_of, quantity
 from ..vectors import Scalar, Vec
 from .guide import Guide, Slide
 from .labels import DimensionTable, Slot, Spoken
@@ -143,3 +144,12 @@ def drawn(**strokes: float) -> Drawn:
         if not is_number(value):
             raise DefinitionError(f"drawn({name}={cited(value)}): a finite number is expected, in m or rad.")
     return Drawn(strokes)
+
+
+def strokes_drawn(members: Mapping[str, Member]) -> dict[str, float]:
+    """Return the strokes [SI] at which sketch positions hold: the start of each, unless the class says `drawn(...)`, or one of its parts."""
+    drawings = {name: member for name, member in members.items() if isinstance(member, Drawn)}
+    found = {name: float(member.start) for name, member in members.items() if isinstance(member, Stroke)}
+    for name in sorted(drawings, key=lambda each: -each.count(".")):  # the whole has the last word
+        found |= {each: float(value) for each, value in drawings[name].strokes.items() if each in found}
+    return found

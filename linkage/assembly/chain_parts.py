@@ -28,7 +28,8 @@ def chain_parts(
     phi, (O, *_), (first, *others) = stroke[1], fixed, crank
     found: dict[str, Member] = {stroke[0]: phi, **{name: Ground(*place) for name, place in fixed.items()}}
     lengths = {name: hypot(place[0] - fixed[O][0], place[1] - fixed[O][1]) for name, place in crank.items()}
-    found[first] = Crank(O, angle=phi, **{f"{O}{first}": lengths[first]})
+    arm: dict[str, Any] = {f"{O}{first}": lengths[first]}
+    found[first] = Crank(O, angle=phi, **arm)
     for name in others:
         angle = atan2(crank[name][1] - fixed[O][1], crank[name][0] - fixed[O][0])
         labels: dict[str, Any] = {f"{O}{name}": lengths[name], f"{first}{O}{name}": angle}

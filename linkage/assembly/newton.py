@@ -425,8 +425,8 @@ def started(plan: Plan) -> dict[str, FloatArray]:
         names, strokes = " ".join(pin.name for pin in pins), strokes_text(plan, plan.sketch_strokes)
         if newton.is_dead(inputs, rough) or not (done or not newton.is_dead(inputs, found[name])):
             raise SingularError(
-                f"{plan.title}: the pins {names} stand in a dead point at {strokes}: what is drawn fits together, but it is singular, so that "
-                "how the pins go on from there is not settled. Draw them at other strokes, drawn(...), and out of line.",
+                f"{plan.title}: the pins {names} stand in a dead point at {strokes}: what is drawn fits together, but it is "
+                "singular, so that how the pins go on from there is not settled. Draw them at other strokes, drawn(...), and out of line.",
                 point=pins[0].name, mask=np.ones((), bool),
             )  # fmt: skip
         if not done:

@@ -80,7 +80,7 @@ class Shape:
         return None if first is None or second is None else Number(float(np.hypot(first[0] - second[0], first[1] - second[1])))
 
     def drawn(self, point: str) -> tuple[float, float] | None:
-        """Return a point's place in the drawing, or where it is placed [m]; None for a pin with only a rough place and what is not placed yet."""
+        """Return a point's place in the drawing, or where it is placed [m]; None for what is neither drawn nor placed."""
         if point in self.pins and (self.pins[point].drawn_at or point not in self.placed):
             return self.pins[point].drawn_at
         return self.sketch().at(point) if point in self.placed else None
@@ -161,9 +161,16 @@ class Parts:
 
     def driveless(self) -> str:
         """Return which stroke moves nothing, and how a link follows it, in words; "" where each moves something."""
-        hung = [(*self.firm(link), *self.loose(link)) for link in self.links.values() if len(self.firm(link)) == len(self.loose(link)) == 1]
-        ways = [f" Write {pin} = Crank({P}, at=(x, y), angle=?) for a crank, Link(\"{P} {pin}\", {P}{pin}=?) for a cylinder." for P, pin in hung]
-        return f" The stroke {self.idle[0]} moves nothing.{''.join(ways[:1]).replace('?', self.idle[0])}" if self.idle else ""
+        if not self.idle:
+            return ""
+        stroke = self.idle[0]
+        text = f" The stroke {stroke} moves nothing."
+        for link in self.links.values():
+            if len(self.firm(link)) == len(self.loose(link)) == 1:
+                P, X = *self.firm(link), *self.loose(link)
+                crank, ram = f"{X} = Crank({P}, at=(x, y), angle={stroke})", f'Link("{P} {X}", {P}{X}={stroke})'
+                return f"{text} For a crank write {crank}, for a cylinder {ram}."
+        return f"{text} Let a length or an angle follow it."
 
     def is_placed(self, guide: str) -> bool:
         """Return whether a guide lies on placed points."""

@@ -76,7 +76,7 @@ class Sketch:
 
     def __init__(self, settled: Mapping[str, Member], title: str) -> None:
         self.plan = Plan(settled, title)
-        self.reading = drawing_of(self.plan, inputs_at(self.plan, self.plan.sketch_strokes))
+        self.reading = sketch_reading(self.plan, inputs_at(self.plan, self.plan.sketch_strokes))
 
     def at(self, name: str) -> Place:
         """Return a point's place [m]; AssemblyError where it cannot be assembled in the sketch."""
@@ -103,7 +103,7 @@ class Sketch:
 
 
 @np.errstate(all="ignore")
-def drawing_of(plan: Plan, inputs: Mapping[str, Numbers]) -> ArrayReading:
+def sketch_reading(plan: Plan, inputs: Mapping[str, Numbers]) -> ArrayReading:
     """Return the reading of a plan's sketch, with the points that are drawn where the drawing has them."""
     reading = ArrayReading(plan.members, plan.table.lengths, inputs)
     reading.positions = {name: Vec(*point.drawn_at) for name, point in plan.points.items() if point.drawn_at is not None}

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from ..assembly import sketch_words
 from ..errors import DefinitionError
 from ..language import said
 from ..loads import TwoPoint
@@ -62,10 +63,15 @@ class HasVerdicts(Member):
 
 
 def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
-    """Return what can be said of any machine over all that it runs; of a batch, how many designs fail.
+    """Return what can be said of any machine over all that it runs, and where it is not as drawn; of a batch, how many designs fail.
 
     Where there are no forces, for a `fault` of the machine, only what is said of places.
     """
+    return [*run_verdicts(judge, fault), *map(Remark, sketch_words(judge.plan, judge.designs))]
+
+
+def run_verdicts(judge: Judge, fault: str) -> list[Verdict]:
+    """Return what is said of a machine over all that it runs; of a batch, how many designs fail."""
     if any(map(np.ndim, judge.designs.values())):
         return batch_verdicts(judge, fault)
     if not judge.is_reached:

@@ -147,7 +147,7 @@ def drawn(**strokes: float) -> Drawn:
 
 
 def strokes_drawn(members: Mapping[str, Member]) -> dict[str, float]:
-    """Return the strokes [SI] at which sketch positions hold: the start of each, unless the class says `drawn(...)`, or one of its parts."""
+    """Return the strokes [SI] at which sketch positions hold: the start of each, unless the class or one of its parts says `drawn`."""
     drawings = {name: member for name, member in members.items() if isinstance(member, Drawn)}
     found = {name: float(member.start) for name, member in members.items() if isinstance(member, Stroke)}
     for name in sorted(drawings, key=lambda each: -each.count(".")):  # the whole has the last word

@@ -8,7 +8,7 @@ from .drawing import sketch_words
 from .groups import GroupSolution, solve_groups
 from .live import angles_text, constants_text, groups_text, json_of
 from .modes import Assembly, assemblies, members_on_sides
-from .newton import Newton
+from .newton import Newton, lost_at_sketch
 from .sketch import places_at, places_drawn
 
 declare_public(globals())

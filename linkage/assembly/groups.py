@@ -9,11 +9,12 @@ from typing import final
 import numpy as np
 import numpy.typing as npt
 
+from ..errors import SingularError
 from ..plan import Plan
 from ..program import FloatArray
 from ..vectors import Numbers
 from .group_continuation import GroupPath, Index, InputRoute, Lanes
-from .newton import Newton, at_sketch
+from .newton import Newton, at_sketch, lost_at_sketch
 
 SAMPLED = 1024
 NEARBY = 0.05
@@ -38,7 +39,16 @@ class GroupSolution:
 
 
 def solve_groups(plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[str, FloatArray]) -> GroupSolution:
-    """Return the pins of all groups for designs (float or (m,)) and strokes (n,); NaN where they cannot be reached."""
+    """Return the pins of all groups for designs (float or (m,)) and strokes (n,); NaN where they cannot be reached.
+
+    SingularError where they are drawn in a dead point. Where the sketch cannot be assembled no pose is reached.
+    """
+    lost = lost_at_sketch(plan)
+    if isinstance(lost, SingularError):
+        raise lost.with_traceback(None)
+    if lost is not None:
+        shape = (max(map(np.size, designs.values()), default=1), max(map(np.size, strokes.values()), default=1))
+        return GroupSolution(dict.fromkeys(plan.grouped, np.full(shape, np.nan)), np.zeros(shape, int))
     newtons = [Newton(plan, group) for group in plan.groups.values()]
     if all(np.size(value) == 1 for value in designs.values()):
         designs = {name: float(np.ravel(value)[0]) if np.ndim(value) else value for name, value in designs.items()}

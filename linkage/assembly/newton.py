@@ -410,7 +410,24 @@ def pivots(values: FloatArray, filled: npt.NDArray[np.bool_]) -> list[tuple[int,
 
 def at_sketch(plan: Plan) -> dict[str, FloatArray]:
     """Return the pins of every group at the sketch, default dimensions, shape (coordinates, 1); AssemblyError where it is out of reach."""
-    return plan.made("sketch", started)
+    found = plan.made("sketch", started_or_lost)
+    if isinstance(found, AssemblyError):
+        raise found.with_traceback(None)
+    return found
+
+
+def started_or_lost(plan: Plan) -> dict[str, FloatArray] | AssemblyError:
+    """Return the pins of every group at the sketch, or why they cannot be assembled there."""
+    try:
+        return started(plan)
+    except AssemblyError as error:
+        return error
+
+
+def lost_at_sketch(plan: Plan) -> AssemblyError | None:
+    """Return why the groups of a plan cannot be assembled at the sketch; None where they can."""
+    found = plan.made("sketch", started_or_lost) if plan.groups else None
+    return found if isinstance(found, AssemblyError) else None
 
 
 def started(plan: Plan) -> dict[str, FloatArray]:

@@ -16,6 +16,7 @@ from ..steps import Pin, Point, Step
 from ..vectors import Numbers, Vec
 from .angle_continuation import NONE_SOLVED, with_angles
 from .groups import solve_groups
+from .newton import at_sketch
 
 Place = tuple[float, float]
 ONE_PLACE = 1e-9
@@ -27,6 +28,8 @@ SAME_TURN = 1e-12
 def inputs_at(plan: Plan, strokes: Mapping[str, float]) -> dict[str, Numbers]:
     """Return all inputs at some strokes and default dimensions, the pins of groups included [SI]."""
     inputs: dict[str, Numbers] = {**plan.defaults, **strokes}
+    if plan.groups:
+        at_sketch(plan)
     if plan.solved:
         at = {name: np.array([value]) for name, value in strokes.items()}
         solved = with_angles(solve_groups(plan, plan.defaults, at) if plan.groups else NONE_SOLVED, plan, plan.defaults, at)

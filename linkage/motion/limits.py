@@ -8,6 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
+from ..assembly import lost_at_sketch
 from ..errors import AssemblyError, DefinitionError
 from ..frozen import FrozenDict, refuses_changes
 from ..language import said, said_of
@@ -233,6 +234,9 @@ def assembly_error(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mappi
         words, shortfall = "rounding leaves no digit of its place, so near is it to a dead point. Change a length.", float("nan")
     else:
         words, shortfall = missing_words(plan, name, reading, lost)
+        never = lost_at_sketch(plan)
+        if never is not None and never.point in plan.reaches(name):
+            words, shortfall = str(never), never.shortfall
     text = f"{opening(plan, name)} cannot be assembled {where_words(plan, mask, strokes)}:\n{words}{stop}"
     return AssemblyError(text, point=name, mask=mask, shortfall=shortfall)
 

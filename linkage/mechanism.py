@@ -521,7 +521,8 @@ class Mechanism(Shown, metaclass=MechanismType):
     @property
     def freedom(self) -> Mobility:
         """The mobility by rank and by count, with the links that are redundant and what is loose while the drives are locked, in words."""
-        return replace(mobility(self.plan), loose=looseness(self.plan).bodies)
+        found = mobility(self.plan)
+        return found if found.dead else replace(found, loose=looseness(self.plan).bodies)
 
     @property
     def gruebler(self) -> int:

@@ -55,7 +55,7 @@ def contradictions(verdicts):
     for each in verdicts:
         text = str(each)
         low = re.search(r"least reserve is (-?[\d.]+)", text)
-        held = [float(one) for one in re.findall(r"holds up to (-?[\d.]+) bar", text)]
+        held = [float(one) for one in re.findall(r"holds up to (-?[\d.e+]+) bar", text)]
         limit = re.search(r"above the [^\d]*([\d.]+) bar", text)
         push = re.search(r"push with up to (-?[\d.]+)", text)
         if each.rule == "lifting" and low and each.ok is not (float(low[1]) >= 1.0):

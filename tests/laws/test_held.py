@@ -49,7 +49,7 @@ from linkage.study import zone
 from linkage.units import bar, deg, mm
 from linkage.verdict import Remark
 from tests.laws.test_oil_twins import Double
-from tests.laws.test_statics_laws import SHIPPED
+from tests.laws.test_statics_laws import shipped
 from tests.linkage.random_mechanisms import random_mechanism
 from tests.shipped import AT_WORK
 
@@ -67,7 +67,7 @@ def check_all_held(machines):
 
 
 def test_shipped_machines_are_held():
-    check_all_held(SHIPPED)
+    check_all_held(shipped())
 
 
 @pytest.mark.slow

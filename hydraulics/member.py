@@ -77,7 +77,7 @@ from linkage.quantities import (
     name_of,
     quantity,
 )  # fmt: skip
-from linkage.statics import AnyMotion, LawRequest, case_words, elements_of, held_in_case, member_thrust, same
+from linkage.statics import AnyMotion, LawRequest, applied_elements, case_words, elements_of, held_in_case, member_thrust, same
 from linkage.units import show, shown_number, unit_sign
 from linkage.verdict import Remark, Verdict
 
@@ -876,7 +876,15 @@ def cylinder_request(
     return LawRequest(
         formula=partial(formula_of_cylinder, formula, named), text=partial(cylinder_text, word, (named, *before), after),
         known=(word, named, before, after), acting=acting, measures=measures, mover=named, examine=partial(cylinder_in, named),
+        cases_in=partial(carries_in, named),
     )  # fmt: skip
+
+
+def carries_in(cylinder: str | Ram, plan: Plan, case: str) -> bool:
+    """Return whether a cylinder may carry something in a load case: not one whose lines the case leaves out."""
+    ram = cylinder_in(cylinder, plan)
+    feeding = {name for name, each in elements_of(plan, None) if any(same(ram, fed) for fed in each.feeds(plan.members))}
+    return not feeding or not feeding.isdisjoint(each.name for each in applied_elements(plan, Acting(case=case)))
 
 
 def cylinder_text(word: str, before: Sequence[Hashable], after: Sequence[Hashable], acting: Acting) -> str:

@@ -15,8 +15,18 @@ GROUPS = {
         "tail_lift", "spreader_tractor", "plough_tractor",
         "levelled_telehandler", "axle", "crossed_axle",
     ),
-    "Hitches, lifts and headers": ("three_point_hitch", "mower_lift", "header_balancer", "front_loader", "scissor_lift"),
-    "Cranes and grapples": ("crane", "boom_drive", "arm_drive", "grapple"),
+    "Hitches, lifts and headers": (
+        "three_point_hitch", "hitch_category_1", "hitch_category_2", "mower_lift", "marked_mower_lift", "header_balancer",
+        "improved_balancer", "three_headers", "front_loader", "scissor_lift",
+    ),
+    "Cranes": (
+        "crane", "bell_crank_crane", "direct_crane", "direct_crane_above", "chain_crane", "crane_skeleton", "back_broken_skeleton",
+    ),
+    "Drives of a crane": (
+        "boom_drive", "arm_drive", "arm_drive_by_cylinder", "bell_crank_arm_drive", "bell_crank_arm_drive_by_cylinder",
+        "angled_bell_crank_arm_drive", "direct_arm_drive", "direct_arm_drive_above",
+    ),
+    "Grapples": ("grapple", "inner_grapple", "crosshead_grapple"),
     "Four-bars": ("four_bar", "drag_link", "double_rocker", "triple_rocker", "parallelogram"),
     "Sliders and presses": ("slider_crank", "inverted_slider_crank", "scotch_yoke", "trammel", "toggle_press"),
     "Straight lines and copies": (

@@ -1,7 +1,7 @@
 """Forces: the drive's by virtual work, the joints' by equilibrium of every body, supports, friction. N and Nm."""
 
 from ..star import declare_public
-from .applied import applied_loads, elements_of, plan_in_case
+from .applied import applied_elements, applied_loads, elements_of, plan_in_case
 from .force_requests import drive_force, pin_force, pin_forces_under, thrust_from_forces
 from .held import held_fault, held_in_case, loose_movements, looseness
 from .holding import each_once, same, stroke_followed, tied_forces

@@ -288,3 +288,15 @@ def test_seals_act_against_the_growth_of_the_length():
         grows = sum(motion.ratio(distance("H", "P"), wrt=name) * rate for name, rate in rates.items())
         assert np.ptp(np.sign(grows)) == 2.0 or len(rates) == 2
         assert_allclose(free - line.thrust(motion, rates), np.sign(grows) * 3 * bar * size.area, rtol=1e-9)
+
+
+def test_a_load_case_may_leave_a_gas_line_out():
+    """In such a case its cylinder carries nothing: it is judged in the others, and a value in that case is refused in words."""
+    from mechanisms.header_balancer import ThreeHeaders
+
+    found = {each.heading: each.sentence for each in ThreeHeaders().verdicts() if each.rule.startswith("buckling")}
+    assert list(found) == ["buckling lift1", "buckling lift2", "buckling lift3"] and all("case plain" in each for each in found.values())
+    motion = ThreeHeaders().sweep(3)
+    assert np.all(ThreeHeaders.lift1.thrust(motion, case="first") == ThreeHeaders.lift1.thrust(motion))
+    with pytest.raises(DefinitionError, match="lift1 carries nothing here"):
+        ThreeHeaders.lift1.thrust(motion, case="second")

@@ -1,6 +1,7 @@
 """The working field: against a two-cylinder arm worked out by hand, brute force, and laws that hold for every field."""
 
 import pickle
+from functools import cache
 from itertools import product
 from math import acos, atan2, cos, hypot, pi, sin
 
@@ -439,21 +440,27 @@ def test_law_of_the_limiter_on_random_designs(seed):
         assert np.all(np.minimum(abs(thrust - low), abs(thrust - high))[mine] <= 1e-9 * size)
 
 
-class Sliding(Tipper):
-    """The scissor hoist, a class III group, lifts a body along which a slide is pushed out by a cylinder of its own."""
+@cache
+def sliding():
+    """Return a tipper with a slide, which takes long to define."""
 
-    way = Stroke(0.2, 1.2)
-    H = OnLink("O", "C", OH=0.4)
-    M = OnLink("O", "C", OM=1.8 + way)
-    push = Cylinder(H, M, bore=50 * mm, rod=30 * mm, works="both")
-    push_line = LiftCircuit(push, pressure=180 * bar, relief=200 * bar)
+    class Sliding(Tipper):
+        """The scissor hoist, a class III group, lifts a body along which a slide is pushed out by a cylinder of its own."""
+
+        way = Stroke(0.2, 1.2)
+        H = OnLink("O", "C", OH=0.4)
+        M = OnLink("O", "C", OM=1.8 + way)
+        push = Cylinder(H, M, bore=50 * mm, rod=30 * mm, works="both")
+        push_line = LiftCircuit(push, pressure=180 * bar, relief=200 * bar)
+
+    return Sliding
 
 
 @pytest.mark.parametrize("seed", range(2))
 def test_law_of_the_limiter_with_a_group_inside(seed):
     rng = np.random.default_rng(seed)
     names = ["load.mass", "lift.bore", "push.bore", "D.x", "A.y"]
-    machine = Sliding().replaced(**{name: Sliding()[name] * rng.uniform(0.99, 1.01) for name in names})
+    machine = sliding()().replaced(**{name: sliding()()[name] * rng.uniform(0.99, 1.01) for name in names})
     field = working_field(machine, "M", np.linspace(1.6, 2.9, 5), np.linspace(0.0, 1.6, 5), lifts=[["lift"], ["push"]][seed])
     motion, load, limiter, acting = loaded(field, own_loads(machine))
     assert np.sum(load > 0.0) > 4

@@ -235,6 +235,7 @@ class FloatCircuit(GasLine):
         {"charge_pressure": "bar", "at": "m", "seal_friction": "bar", "exponent": ""}
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
+    stroke_values: ClassVar[frozenset[str]] = frozenset({"at"})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "loads", "block": AccumulatorBlock})
 
     def __post_init__(self) -> None:

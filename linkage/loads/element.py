@@ -306,6 +306,8 @@ class ForceElement(Jointed):
     places: ClassVar[tuple[str, ...]] = ("point",)
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({})
     not_negative: ClassVar[frozenset[str]] = frozenset()
+    stroke_values: ClassVar[frozenset[str]] = frozenset()
+    """Parameters that are a value of a stroke, a length or an angle."""
     optional: ClassVar[frozenset[str]] = frozenset()
 
     def __post_init__(self) -> None:
@@ -442,7 +444,8 @@ class ForceElement(Jointed):
 
     def _check_numbers(self) -> None:
         for name, unit in self.numbers.items():
-            require_measure(self.given(name), unit, f"{type(self).__name__}: {name}")
+            if name not in self.stroke_values:
+                require_measure(self.given(name), unit, f"{type(self).__name__}: {name}")
             self._check_number(name)
 
     def _check_number(self, name: str) -> None:

@@ -6,13 +6,14 @@ import csv
 import json
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
 from ..disk import replacing_text
-from ..files.study_tasks import StudyTask, TaskResult, ZoneTask, read_study
-from ..study import Tornado
+from ..files.study_tasks import TaskResult, read_study
+from ..mechanism import Mechanism
+from ..study import Tornado, Zone
 from .command import Command
 from .optimise import NOT_FEASIBLE, finder, settings_of, study_arguments, study_progress
 
@@ -29,36 +30,32 @@ class StudyCommand(Command):
 
     def run(self, options: Namespace) -> int:
         study = read_study(options.file, finder(options.trust), settings_of(options.settings))
-        folder = Path(options.folder) if options.folder else study.folder
+        folder = Path(options.folder) if options.folder else None
         solved = True
-        for task in study.tasks:
-            with study_progress(task.section, asked=options.progress) as progress:
-                found = task.run(folder, progress)
+        for section in study.tasks:
+            with study_progress(section, asked=options.progress) as progress:
+                found = study.run(section, folder, progress)
             print(found.text)
-            for path in study.outputs.get(task.section, ()):
-                write_task(task, found, path)
+            for path in study.outputs.get(section, ()):
+                write_task(study.machine, found, path)
                 print(path)
             solved &= found.solved
         return 0 if solved else NOT_FEASIBLE
 
 
-def write_task(task: StudyTask, found: TaskResult, path: Path) -> None:
+def write_task(machine: Mechanism, found: TaskResult, path: Path) -> None:
     """Write a study's result into a file: a table, JSON lines in SI, or a picture of its bands."""
     if path.suffix.lower() == ".csv":
         write_rows(found, path)
     elif path.suffix.lower() == ".jsonl":
         write_lines(found, path)
     else:
-        picture_of(task, found).savefig(path)
+        from ..pictures import plot_bands, plot_tornado, plot_zone
 
-
-def picture_of(task: StudyTask, found: TaskResult) -> Any:
-    """Return the figure of a study."""
-    from ..pictures import plot_bands, plot_tornado, plot_zone
-
-    if isinstance(task, ZoneTask):
-        return plot_zone(task.machine, found.found, task.unit)
-    return (plot_tornado if isinstance(found.found, Tornado) else plot_bands)(found.found)
+        if isinstance(found.found, Zone):
+            plot_zone(machine, found.found, found.unit).savefig(path)
+        else:
+            (plot_tornado if isinstance(found.found, Tornado) else plot_bands)(found.found).savefig(path)
 
 
 def write_rows(found: TaskResult, path: Path) -> None:

@@ -19,8 +19,8 @@ from ..quantities.member import KEPT_AS, annotated_kind, kinds_said
 from ..steps import Point, Step
 from .design import Design
 from .names import NAME_LENGTH, Names, shortened
-from .source import Mistakes
-from .validators import KINDS, Kind, amount, each_of, kind_named, number_of, quantity_of
+from .source import Mistakes, each_of
+from .validators import KINDS, Kind, amount, kind_named, number_of, quantity_of
 
 LABELS = 100
 VALUES = 100

@@ -18,7 +18,7 @@ from typing import final
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, known_name, unknown
 from ..program import FloatArray
 from ..quantities import is_number
 from ..units import UNITS, factor, units_of
@@ -47,12 +47,8 @@ class PointColumn:
 
 def units_said(given: object) -> dict[str, float]:
     """Return factors of units by what they measure: of `"mm"`, or of a list `["mm", "deg"]`; DefinitionError for anything but a unit."""
-    found = {}
-    for each in given if isinstance(given, list) else [given]:
-        if each not in UNITS:
-            raise unknown("Unit", each, UNITS)
-        found[UNITS[each][1]] = factor(each)
-    return found
+    names = [known_name("Unit", each, UNITS) for each in (given if isinstance(given, list) else [given])]
+    return {UNITS[name][1]: factor(name) for name in names}
 
 
 def points_said(given: object, columns: Sequence[PointColumn], units: Mapping[str, float], base: Path) -> dict[str, FloatArray]:

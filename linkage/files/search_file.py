@@ -22,35 +22,34 @@ from ..errors import DefinitionError
 from ..mechanism import Mechanism
 from ..motion.regions import outside
 from ..quantities import is_number
-from ..study import Optimum
 from ..study.optimise import METHODS as SEARCH_METHODS
 from ..study.optimise import SOLVERS, optimise
 from ..study.optimum import COARSEST
-from ..study.pareto import Front
 from ..study.regions import point_regions
 from ..study.space import size_of_machine
 from ..study.survey import Progress
 from ..surroundings import Outline
 from .criterion import condition_said, measure_said
 from .names import shortened
+from .source import each_of
 from .study_file import (
     PICTURE_SUFFIXES,
     FindMachine,
+    Read,
     StudyHead,
     amount_said,
     case_said,
-    count_said,
+    file_path,
+    keywords_read,
+    one_of,
     outputs_said,
     over_said,
+    texts_said,
     tolerances_said,
     vary_said,
-    word_said,
+    whole_number,
 )
 
-SEARCH_KEYS = (
-    "minimise", "maximise", "vary", "subject_to", "regions", "case", "over", "robust", "sigmas", "method", "solver", "starts", "seed",
-    "limit", "folder", "round", "outputs",
-)  # fmt: skip
 SEARCH_OUTPUTS: Mapping[str, tuple[str, ...]] = {
     "table": (".csv",),
     "designs": (".csv", ".jsonl"),
@@ -70,18 +69,18 @@ _OUTSIDE = re.compile(r"\s*outside\s*\(\s*(?P<outline>[^()]+?)\s*\)\s*\Z")
 @final
 @dataclass(frozen=True, eq=False)
 class SearchFile:
-    """A search that a file asks for: the machine, what `optimise` takes beside it, the steps of `round`, and the files of its results."""
+    """A search that a file asks for: its function, the machine or several, the keywords, the steps of `round`, and the files of results."""
 
-    machine: Mechanism
+    search: Callable[..., Any]
+    machine: Any
     arguments: Mapping[str, Any]
     rounding: Mapping[str, float] | None
     outputs: Mapping[str, tuple[Path, ...]]
 
-    def run(self, folder: str | os.PathLike[str] | None = None, progress: bool | Progress = False) -> Optimum | Front:
-        """Return the best design, of several objectives the front; `folder` stands above the file's own."""
+    def run(self, folder: str | os.PathLike[str] | None = None, progress: bool | Progress = False) -> Any:
+        """Return what the search finds; `folder` stands above the file's own."""
         own = self.arguments.get("folder")
-        found: Optimum | Front = optimise(self.machine, **{**self.arguments, "folder": folder or own}, progress=progress)
-        return found
+        return self.search(self.machine, **{**self.arguments, "folder": folder or own}, progress=progress)
 
 
 def read_search(
@@ -91,83 +90,55 @@ def read_search(
 
     `find` returns a class by the machine's text; `settings` are dimensions that stand above those of the file.
     """
-    head = StudyHead.of(path, SEARCH_KEYS, find, settings)
+    head = StudyHead.of(path, (*SEARCH, "outputs"), find, settings)
     data, faults = head.data, head.faults
     arguments: dict[str, Any] = {}
-    over = over_said(head, data["over"]) if "over" in data else None
-    if over is not None:
-        arguments["over"] = over
-    objectives = objectives_listed(head, over)
-    arguments |= objectives
-    several = sum(len(each) for each in objectives.values()) > 1
-    arguments["subject_to"] = conditions_listed(head, data.get("subject_to", []), over)
-    arguments["vary"] = vary_said(head, data.get("vary", {}))
-    arguments["regions"] = regions_said(head, data.get("regions", {}))
-    readers: Mapping[str, Callable[[Any], Any]] = {
-        "case": lambda given: case_said(head, given),
-        "method": word_said(SEARCH_METHODS),
-        "solver": word_said(SOLVERS),
-        "sigmas": lambda given: amount_said(given, ""),
-        "robust": lambda given: tolerances_said(head, given, "robust"),
-        "starts": lambda given: count_said(given, 1),
-        "seed": lambda given: count_said(given, 0),
-        "limit": lambda given: count_said(given, 1),
-        "folder": head.path_of,
-    }
-    for key, read in readers.items():
-        if key in data:
-            with faults.at(key):
-                arguments[key] = read(data[key])
-    rounding = rounding_said(head, data.get("round"))
+    with faults.at():
+        arguments = keywords_read(head, optimise, {key: data[key] for key in data if key in SEARCH}, SEARCH)
+    count = sum(len(each) if isinstance(each, list) else 1 for each in (data.get("minimise"), data.get("maximise")) if each)
+    if not count:
+        faults.add((), 'say minimise or maximise, one measure such as maximise = "least(...)", or a list of several.')
     outputs = outputs_said(head, SEARCH_OUTPUTS)
-    for name in outputs:
-        if several and name != "designs":
+    if count > 1:
+        for name in outputs.keys() - {"designs"}:
             faults.add(("outputs", name), "of several objectives there is no single best design; write its front by designs = ...")
-    if several and "folder" in arguments:
-        faults.add(("folder",), "the search of several objectives is not kept in a folder; leave it out.")
+        if "folder" in data:
+            faults.add(("folder",), "the search of several objectives is not kept in a folder; leave it out.")
     faults.check()
-    return SearchFile(head.machine, arguments, rounding, outputs)
+    rounding = arguments.pop("round", None)
+    return SearchFile(optimise, head.machine, arguments, rounding, outputs)
 
 
-def objectives_listed(head: StudyHead, over: Mapping[str, object] | None) -> dict[str, list[Any]]:
-    """Return what is to be least and what greatest; mistakes are noted."""
-    found: dict[str, list[Any]] = {}
-    for key in ("minimise", "maximise"):
-        given = head.data.get(key, [])
-        for number, text in enumerate(given if isinstance(given, list) else [given], 1):
-            with head.faults.at(key, *([str(number)] if isinstance(given, list) else [])):
-                found.setdefault(key, []).append(measure_said(text, head.machine, over))
-    if not any(head.data.get(key) for key in ("minimise", "maximise")):
-        head.faults.add((), 'say minimise or maximise, one measure such as maximise = "least(...)", or a list of several.')
-    return found
+# What reads a key of a search.
 
 
-def conditions_listed(head: StudyHead, given: object, over: Mapping[str, object] | None, *key: str) -> list[Any]:
-    """Return the conditions of a list of texts; mistakes are noted behind a key, each with its number."""
-    found: list[Any] = []
-    if isinstance(given, str):
-        given = [given]
-    if not isinstance(given, list):
-        head.faults.add((*key, "subject_to"), f'{shortened(given)}: a list of conditions is expected, such as ["most(tilt) <= 8 deg"].')
-        return found
-    for number, text in enumerate(given, 1):
-        with head.faults.at(*key, "subject_to", str(number)):
-            found.append(condition_said(text, head.machine, over))
-    return found
+def objectives_said(head: StudyHead, given: object) -> list[Any]:
+    """Return what is to be least or greatest: the measure of a text, or those of a list, mistakes under their numbers."""
+
+    def measured(text: object) -> Any:
+        return measure_said(text, head.machine, head.found["over"])
+
+    return texts_said(given, measured) if isinstance(given, list) else [measured(given)]
 
 
-def regions_said(head: StudyHead, given: object, *key: str) -> dict[str, Any]:
-    """Return the regions of points as `optimise` takes them; mistakes are noted behind a key, each under its point."""
-    found: dict[str, Any] = {}
-    with head.faults.at(*key, "regions"):
-        if not isinstance(given, Mapping):
-            raise DefinitionError(f'{shortened(given)}: a region for each point is expected, such as regions = {{ C = "plate" }}.')
-        for point, shapes in given.items():
-            with head.faults.at(*key, "regions", point):
-                region = shape_said(shapes)
-                point_regions(head.machine, {point: region}, {}, ())
-                found[point] = region
-    return found
+def conditions_said(head: StudyHead, given: object) -> list[Any]:
+    """Return the conditions of a list of texts; SeveralError with all mistakes, each under its number."""
+    if not isinstance(given, (str, list)):
+        raise DefinitionError(f'{shortened(given)}: a list of conditions is expected, such as ["most(tilt) <= 8 deg"].')
+    return texts_said(given, lambda text: condition_said(text, head.machine, head.found["over"]))
+
+
+def regions_said(head: StudyHead, given: object) -> dict[str, Any]:
+    """Return the regions of points as `optimise` takes them; SeveralError with all mistakes, each under its point."""
+    if not isinstance(given, Mapping):
+        raise DefinitionError(f'{shortened(given)}: a region for each point is expected, such as regions = {{ C = "plate" }}.')
+
+    def region_said(point: str, shapes: object) -> tuple[str, Any]:
+        region = shape_said(shapes)
+        point_regions(head.machine, {point: region}, {}, ())
+        return point, region
+
+    return dict(each_of(given.items(), region_said))
 
 
 def shape_said(given: object) -> Any:
@@ -192,17 +163,38 @@ def is_corner(given: object) -> bool:
     return isinstance(given, list) and len(given) == 2 and all(is_number(each) or _NUMBER.match(str(each)) for each in given)
 
 
-def rounding_said(head: StudyHead, given: object, *key: str) -> dict[str, float] | None:
-    """Return the steps that a design is rounded to; None where the file says none. Mistakes are noted behind a key."""
+def rounding_said(head: StudyHead, given: object) -> dict[str, float] | None:
+    """Return the steps that a design is rounded to [m or rad]; None for none."""
+    if given is None:
+        return None
     found: dict[str, float] = {}
-    with head.faults.at(*key, "round"):
-        table = given if isinstance(given, Mapping) else {} if given is None else {"to": given}
-        for step, value in table.items():
-            if step not in ROUND_KEYS:
-                raise DefinitionError(f'{step} is no step; write round = {{ to = "1 mm", angle = "0.1 deg" }}.')
-            found[step] = amount_said(value, ROUND_KEYS[step])
-            if found[step] <= 0.0:
-                raise DefinitionError(f"{shortened(value)}: a step above zero is expected.")
-            if step == "to" and found[step] > COARSEST * size_of_machine(head.machine):
-                raise DefinitionError(f'{shortened(value)} is as coarse as the machine; write it with its unit, "1 mm".')
-    return None if given is None else found
+    for step, value in (given if isinstance(given, Mapping) else {"to": given}).items():
+        if step not in ROUND_KEYS:
+            raise DefinitionError(f'{step} is no step; write round = {{ to = "1 mm", angle = "0.1 deg" }}.')
+        found[step] = amount_said(value, ROUND_KEYS[step])
+        if found[step] <= 0.0:
+            raise DefinitionError(f"{shortened(value)}: a step above zero is expected.")
+        if step == "to" and found[step] > COARSEST * size_of_machine(head.machine):
+            raise DefinitionError(f'{shortened(value)} is as coarse as the machine; write it with its unit, "1 mm".')
+    return found
+
+
+SEARCH: Mapping[str, Read] = {
+    "over": over_said,
+    "minimise": objectives_said,
+    "maximise": objectives_said,
+    "vary": vary_said,
+    "subject_to": conditions_said,
+    "regions": regions_said,
+    "case": case_said,
+    "robust": tolerances_said("robust"),
+    "sigmas": lambda head, given: amount_said(given, ""),
+    "method": one_of(SEARCH_METHODS),
+    "solver": one_of(SOLVERS),
+    "starts": whole_number(1),
+    "seed": whole_number(0),
+    "limit": whole_number(1),
+    "folder": file_path,
+    "round": rounding_said,
+}
+"""The keywords of `optimise` that a file may say, and the steps of `round`, each with what reads it."""

@@ -7,7 +7,7 @@ import os
 import re
 import tomllib
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -187,6 +187,16 @@ class Mistakes:
         """Raise SeveralError where there are mistakes."""
         if self.found:
             raise SeveralError(self.found)
+
+
+def each_of(given: Iterable[tuple[object, object]], read: Callable[[Any, Any], Any]) -> list[Any]:
+    """Return what is read of each key and value; SeveralError with all mistakes, each under its key."""
+    found, mistakes = [], Mistakes()
+    for key, value in given:
+        with mistakes.at(str(key)):
+            found.append(read(key, value))
+    mistakes.check()
+    return found
 
 
 @final

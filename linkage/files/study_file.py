@@ -4,6 +4,9 @@
     set = { OB = "310 mm", M = ["220 mm", "950 mm"] }
 
 A range is `"270 mm to 330 mm"`, `"270 to 330 mm in steps of 5 mm"`, `"within 60 mm"` of the present value; a list is the choices.
+
+A table holds the keywords of one function. What reads a key stands at the keyword, `count: Annotated[int, whole_number(1)] = 1024`, or in
+a mapping by names beside the function; it takes the head of the file and what stands under the key.
 """
 
 from __future__ import annotations
@@ -11,9 +14,10 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from inspect import Parameter, signature
 from pathlib import Path
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias, final, get_type_hints
 
 from ..disk import check_place
 from ..errors import DefinitionError, FileError, known_name, one_word, unknown
@@ -29,7 +33,7 @@ from ..study.tolerances import Tolerance, tolerances_of
 from ..units import parse, parse_span
 from .criterion import CriterionParser
 from .names import by_whole_names, shortened
-from .source import TEXT, Faults, source
+from .source import TEXT, Faults, Mistakes, each_of, source
 
 FindMachine: TypeAlias = Callable[[str, Path], type[Mechanism]]
 """What returns the class of a machine by its text and the folder of the file that names it."""
@@ -51,6 +55,10 @@ class StudyHead:
     base: Path
     machines: Mapping[str, Mechanism] = field(default_factory=dict)
     """All machines by the file's texts, where it names a list of them."""
+    found: dict[str, Any] = field(default_factory=dict)
+    """The keywords that are read already, by name, those of the table around among them, and the defaults of the others."""
+    section: str = ""
+    """The section that is read, "" of what stands above all sections."""
 
     @classmethod
     def of(
@@ -90,11 +98,47 @@ class StudyHead:
         """The machine's plan."""
         return self.machine.plan
 
-    def path_of(self, given: object) -> Path:
-        """Return a path as it is meant: relative to the file's own folder. DefinitionError for anything else."""
-        if not isinstance(given, str) or not given.strip():
-            raise DefinitionError(f"{shortened(given)} is no path in quotes.")
-        return self.base / given
+
+Read: TypeAlias = Callable[[StudyHead, Any], Any]
+"""What reads what stands under a key; DefinitionError for what it cannot be, SeveralError for several mistakes under keys of its own."""
+
+
+def keywords_read(
+    head: StudyHead, function: Callable[..., Any], given: Mapping[str, Any], readers: Mapping[str, Read] | None = None
+) -> dict[str, Any]:
+    """Return the keywords of a function that a table gives, each read as `readers` say, else as its annotation does.
+
+    They are read in their order: `head.found` has those above. What must be given and is not is told by the annotation's example; without
+    one it is read as an empty table. SeveralError with all mistakes, each under its key.
+    """
+    mistakes, parameters = Mistakes(), signature(function).parameters
+    known = annotated_readers(function) if readers is None else {name: (read,) for name, read in readers.items()}
+    for key in given:
+        if key not in known:
+            mistakes.add((str(key),), str(unknown("Key", shortened(key, quote=False), known)))
+    defaults = {name: each.default for name, each in parameters.items() if each.default is not Parameter.empty}
+    head = replace(head, found=head.found | defaults)
+    for name, (read, *example) in known.items():
+        if name in given or (name in parameters and name not in defaults):
+            with mistakes.at(name):
+                if name not in given and example:
+                    raise DefinitionError(f"{name} is missing; write {example[0]}.")
+                head.found[name] = read(head, given.get(name, {}))
+    mistakes.check()
+    return {name: head.found[name] for name in known if name in given}
+
+
+def annotated_readers(function: Callable[..., Any]) -> dict[str, tuple[Any, ...]]:
+    """Return what the annotations of a function say of its keywords: what reads each, and an example of one that must be given."""
+    hints = get_type_hints(function, include_extras=True)
+    return {name: hint.__metadata__ for name, hint in hints.items() if hasattr(hint, "__metadata__")}
+
+
+def file_path(head: StudyHead, given: object) -> Path:
+    """Return a path as it is meant: relative to the file's own folder. DefinitionError for anything else."""
+    if not isinstance(given, str) or not given.strip():
+        raise DefinitionError(f"{shortened(given)} is no path in quotes.")
+    return head.base / given
 
 
 def machine_said(given: object, faults: Faults, find: FindMachine, base: Path) -> type[Mechanism] | None:
@@ -159,23 +203,23 @@ def value_said(given: object, plan: Plan, name: str) -> Any:
 RANGE_KEYS = ("from", "to", "step", "around", "choices")
 
 
-def vary_said(head: StudyHead, given: object, *key: str) -> dict[Any, Any]:
-    """Return what varies as `optimise` takes it; mistakes are noted, each under its name behind a key."""
-    found: dict[Any, Any] = {}
-    with head.faults.at(*key, "vary"):
-        entries = list(flattened(given, head.plan, "vary", RANGE_KEYS))
-        if not entries:
-            raise DefinitionError(f'nothing varies; write [{".".join((*key, "vary"))}] OB = "270 to 330 mm": {RANGE_WORDS}.')
-        for name, value in entries:
-            with head.faults.at(*key, "vary", name):
-                names = tuple(part.strip() for part in name.split(","))
-                for part in names:
-                    known_dimension(head.machine, part) if part not in head.plan.points and not is_side(part) else None
-                varied = names if len(names) > 1 else names[0]
-                said = rows_said(value, head.plan, names) if len(names) > 1 else range_said(value, head.plan, names[0])
-                Space.of(head.machine, {varied: said})
-                found[varied] = said
-    return found
+def vary_said(head: StudyHead, given: object) -> dict[Any, Any]:
+    """Return what varies as `optimise` takes it; SeveralError with all mistakes, each under its name."""
+    entries = list(flattened(given, head.plan, "vary", RANGE_KEYS))
+    if not entries:
+        where = f"{head.section}.vary" if head.section else "vary"
+        raise DefinitionError(f'nothing varies; write [{where}] OB = "270 to 330 mm": {RANGE_WORDS}.')
+
+    def varied(name: str, value: object) -> tuple[Any, Any]:
+        names = tuple(part.strip() for part in name.split(","))
+        for part in names:
+            known_dimension(head.machine, part) if part not in head.plan.points and not is_side(part) else None
+        said = rows_said(value, head.plan, names) if len(names) > 1 else range_said(value, head.plan, names[0])
+        found = {names if len(names) > 1 else names[0]: said}
+        Space.of(head.machine, found)
+        return next(iter(found.items()))
+
+    return dict(each_of(entries, varied))
 
 
 def range_said(given: object, plan: Plan, name: str) -> Any:
@@ -229,18 +273,21 @@ def rows_said(given: object, plan: Plan, names: Sequence[str]) -> list[Any]:
 TOLERANCE_KEYS = ("limits", "law")
 
 
-def tolerances_said(head: StudyHead, given: object, *key: str) -> dict[str, Any]:
-    """Return tolerances by the names of dimensions; mistakes are noted, each under its name behind a key."""
-    found: dict[str, Any] = {}
-    with head.faults.at(*key):
-        entries = [*flattened(given, head.plan, key[-1], TOLERANCE_KEYS)]
+def tolerances_said(key: str) -> Read:
+    """Return what reads tolerances by the names of dimensions under a key."""
+
+    def read(head: StudyHead, given: object) -> dict[str, Any]:
+        entries = [*flattened(given, head.plan, key, TOLERANCE_KEYS)]
         if not entries:
-            raise DefinitionError(f'no tolerance is given; write {key[-1]} = {{ OB = "0.1 mm", CD = ["-0.1 mm", "0.2 mm"] }}.')
-        for name, value in entries:
-            with head.faults.at(*key, name):
-                tolerances_of(head.plan, {name: 0.0})
-                found[name] = tolerance_said(value, measure_of_name(head.plan, name))
-    return found
+            raise DefinitionError(f'no tolerance is given; write {key} = {{ OB = "0.1 mm", CD = ["-0.1 mm", "0.2 mm"] }}.')
+
+        def one(name: str, value: object) -> tuple[str, Any]:
+            tolerances_of(head.plan, {name: 0.0})
+            return name, tolerance_said(value, measure_of_name(head.plan, name))
+
+        return dict(each_of(entries, one))
+
+    return read
 
 
 def tolerance_said(given: object, measures: str) -> Tolerance:
@@ -266,26 +313,23 @@ def limits_said(given: object, measures: str) -> float | tuple[float, float]:
 # Strokes, load cases, words and numbers.
 
 
-def over_said(head: StudyHead, given: object, *key: str) -> dict[str, Any]:
-    """Return the parts of the strokes that are looked at, as `optimise` takes them; mistakes are noted behind a key.
+def over_said(head: StudyHead, given: object) -> dict[str, Any]:
+    """Return the parts of the strokes that are looked at, as `optimise` takes them; SeveralError with all mistakes, each under its stroke.
 
     A text is the name of an `Over` that the machine declares.
     """
-    found: dict[str, Any] = {}
     if isinstance(given, str):
-        with head.faults.at(*key, "over"):
-            found = strokes_declared(head, given)
-        return found
+        return strokes_declared(head, given)
     if not isinstance(given, Mapping):
         what = 'a table of strokes is expected, such as over = { S = "0 to 200 mm" }, or the name of an Over that the machine declares.'
-        head.faults.add((*key, "over"), f"{shortened(given)}: {what}")
-        return found
-    for name, value in by_whole_names(given):
-        with head.faults.at(*key, "over", name):
-            said = part_said(head, known_name("Stroke", name, head.plan.strokes, where=head.plan.title), value)
-            ranges_of(head.machine, {name: said})
-            found[name] = said
-    return found
+        raise DefinitionError(f"{shortened(given)}: {what}")
+
+    def part(name: str, value: object) -> tuple[str, Any]:
+        said = part_said(head, known_name("Stroke", name, head.plan.strokes, where=head.plan.title), value)
+        ranges_of(head.machine, {name: said})
+        return name, said
+
+    return dict(each_of(by_whole_names(given), part))
 
 
 def strokes_declared(head: StudyHead, name: str) -> dict[str, Any]:
@@ -331,16 +375,25 @@ def case_said(head: StudyHead, given: object) -> Any:
     return known_name("Load case", given, (PLAIN_CASE, *cases), where=head.plan.title)
 
 
-def count_said(given: Any, least: int) -> int:
-    """Return a whole number of at least so much."""
-    if not is_whole(given) or given < least:
-        raise DefinitionError(f"{shortened(given)}: a whole number is expected, at least {least}.")
-    return int(given)
+def whole_number(least: int) -> Read:
+    """Return what reads a whole number of at least so much."""
+
+    def read(head: StudyHead, given: Any) -> int:
+        if not is_whole(given) or given < least:
+            raise DefinitionError(f"{shortened(given)}: a whole number is expected, at least {least}.")
+        return int(given)
+
+    return read
 
 
-def word_said(words: Sequence[str]) -> Callable[[Any], str]:
+def one_of(words: Sequence[str]) -> Read:
     """Return what reads one of a few words."""
-    return lambda given: one_word("it", given, words)
+    return lambda head, given: one_word("it", given, words)
+
+
+def texts_said(given: object, read: Callable[[object], Any]) -> list[Any]:
+    """Return what is read of each text of a list, or of a single one; SeveralError with all mistakes, each under its number."""
+    return each_of(enumerate(given if isinstance(given, list) else [given], 1), lambda number, text: read(text))
 
 
 # Where results go.
@@ -352,26 +405,23 @@ def outputs_said(head: StudyHead, kinds: Mapping[str, Sequence[str]]) -> dict[st
     `kinds` are the endings that a file's name may have, by what it holds.
     """
     found: dict[str, tuple[Path, ...]] = {}
-    given = head.data.get("outputs", {})
-    if not isinstance(given, Mapping):
-        head.faults.add(("outputs",), f"{shortened(given)}: a table is expected, such as [outputs] {next(iter(kinds))} = ...")
-        return found
-    for name, value in given.items():
-        with head.faults.at("outputs", name):
-            suffixes = kinds[known_name("Output", name, kinds)]
-            paths = [head.path_of(each) for each in (value if isinstance(value, list) else [value])]
-            for path in paths:
-                if path.suffix.lower() not in suffixes:
-                    raise DefinitionError(f"{path.name}: the file's name ends in one of {', '.join(suffixes)}.")
-                check_output(path)
-            found[name] = tuple(paths)
+    with head.faults.at("outputs"):
+        given = head.data.get("outputs", {})
+        if not isinstance(given, Mapping):
+            raise DefinitionError(f"{shortened(given)}: a table is expected, such as [outputs] {next(iter(kinds))} = ...")
+        paths = each_of(given.items(), lambda name, value: output_paths(head, value, kinds[known_name("Output", name, kinds)]))
+        found = dict(zip(given, paths, strict=True))
     return found
 
 
-def check_output(path: Path) -> None:
-    """Raise DefinitionError where a file cannot be written."""
-    try:
-        check_place(path)
-    except FileError as error:
-        raise DefinitionError(str(error)) from None
-
+def output_paths(head: StudyHead, given: object, suffixes: Sequence[str]) -> tuple[Path, ...]:
+    """Return the files of one kind of result; DefinitionError for another ending and where one cannot be written."""
+    paths = [file_path(head, each) for each in (given if isinstance(given, list) else [given])]
+    for path in paths:
+        if path.suffix.lower() not in suffixes:
+            raise DefinitionError(f"{path.name}: the file's name ends in one of {', '.join(suffixes)}.")
+        try:
+            check_place(path)
+        except FileError as error:
+            raise DefinitionError(str(error)) from None
+    return tuple(paths)

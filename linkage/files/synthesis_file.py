@@ -15,9 +15,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any, final
+from dataclasses import replace
+from typing import Annotated, Any
 
 from ..errors import DefinitionError, known_name, unknown
 from ..mechanism import Mechanism
@@ -25,25 +24,29 @@ from ..motion import stroke_measure
 from ..motion.kinds import measure_of
 from ..motion.measures import words_of
 from ..study.problem import is_still, ranges_of
-from ..study.survey import Progress
-from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis
+from ..synthesis import FunctionTask, PathTask, PoseTask
 from ..synthesis.task_search import synthesise
-from ..synthesis.tasks import Task
 from .criterion import measure_said, quantity_said
 from .names import shortened
 from .points import PointColumn, points_said, units_said
-from .search_file import conditions_listed, regions_said, rounding_said
-from .study_file import PICTURE_SUFFIXES, FindMachine, StudyHead, amount_said, case_said, count_said, outputs_said, over_said, vary_said
+from .search_file import SearchFile, conditions_said, regions_said, rounding_said
+from .source import Mistakes
+from .study_file import (
+    PICTURE_SUFFIXES,
+    FindMachine,
+    Read,
+    StudyHead,
+    amount_said,
+    case_said,
+    file_path,
+    keywords_read,
+    outputs_said,
+    over_said,
+    vary_said,
+    whole_number,
+)
 
 SECTION = "synthesis"
-TASK_KEYS: Mapping[str, tuple[str, ...]] = {
-    "path": ("of", "points", "unit", "in_order", "closed"),
-    "function": ("of", "points", "unit"),
-    "motion": ("of", "points", "unit", "in_order", "length"),
-}
-SYNTHESIS_KEYS = (
-    *TASK_KEYS, "vary", "subject_to", "regions", "timed", "rank", "case", "over", "starts", "seed", "limit", "folder", "round",
-)  # fmt: skip
 SYNTHESIS_OUTPUTS: Mapping[str, tuple[str, ...]] = {
     "table": (".csv",),
     "drawing": PICTURE_SUFFIXES,
@@ -52,78 +55,33 @@ SYNTHESIS_OUTPUTS: Mapping[str, tuple[str, ...]] = {
 }
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class SynthesisFile:
-    """A synthesis that a file asks for: one machine or several, what `synthesise` takes, the steps of `round`, where results go."""
-
-    machine: Mechanism | list[Mechanism]
-    arguments: Mapping[str, Any]
-    rounding: Mapping[str, float] | None
-    outputs: Mapping[str, tuple[Path, ...]]
-
-    def run(self, folder: str | os.PathLike[str] | None = None, progress: bool | Progress = False) -> Synthesis:
-        """Return the machines that do the task; `folder` stands above the file's own."""
-        own = self.arguments.get("folder")
-        machine: Any = self.machine
-        return synthesise(machine, **{**self.arguments, "folder": folder or own}, progress=progress)
-
-
 def read_synthesis(
     path: str | os.PathLike[str], find: FindMachine, settings: Callable[[type[Mechanism]], Mapping[str, Any]] = lambda machine: {}
-) -> SynthesisFile:
+) -> SearchFile:
     """Return the synthesis that a TOML or JSON file asks for; FileError with every mistake, its line and its key.
 
     `find` returns a class by the machine's text; `settings` are dimensions that stand above those of the file.
     """
-    head = StudyHead.of(path, (SECTION, "outputs"), find, settings, several=True)
+    head = replace(StudyHead.of(path, (SECTION, "outputs"), find, settings, several=True), section=SECTION)
     faults, given = head.faults, head.data.get(SECTION)
-    if not isinstance(given, Mapping):
-        faults.add((SECTION,), 'a table is expected, [synthesis] with path = { of = "P", points = "points.csv" } and vary = { ... }.')
-        faults.check()
-    assert isinstance(given, Mapping)
-    for key in given:
-        if key not in SYNTHESIS_KEYS:
-            faults.add((SECTION, str(key)), str(unknown("Key", shortened(key, quote=False), SYNTHESIS_KEYS)))
-    over = over_said(head, given["over"], SECTION) if "over" in given else None
-    arguments: dict[str, Any] = {} if over is None else {"over": over}
-    arguments |= varied_and_kept(head, given, over)
-    readers: Mapping[str, Callable[[Any], Any]] = {
-        "timed": timed_said,
-        "case": lambda text: case_said(head, text),
-        "starts": lambda given: given if given == "catalogue" else count_said(given, 1),
-        "seed": lambda number: count_said(number, 0),
-        "limit": lambda number: count_said(number, 1),
-        "folder": head.path_of,
-    }
-    for key, read in readers.items():
-        if key in given:
-            with faults.at(SECTION, key):
-                arguments[key] = read(given[key])
-    arguments |= task_said(head, given, over)
-    rounding = rounding_said(head, given.get("round"), SECTION)
+    arguments: dict[str, Any] = {}
+    with faults.at(SECTION):
+        if not isinstance(given, Mapping):
+            raise DefinitionError('a table is expected, [synthesis] with path = { of = "P", points = "points.csv" } and vary = { ... }.')
+        given = given if head.machines else {"vary": {}, **given}
+        arguments = keywords_read(head, synthesise, given, SYNTHESIS)
+        arguments = {key: value for key, value in arguments.items() if not head.machines or value != {}}
+    named = [name for name in TASKS if isinstance(given, Mapping) and name in given]
+    if isinstance(given, Mapping) and len(named) != 1:
+        words = f"{' and '.join(named)} are several tasks" if named else "there is no task"
+        faults.add((SECTION,), f'{words}; write one, path = {{ of = "P", points = "points.csv" }}, function = ... or motion = ...')
     outputs = outputs_said(head, SYNTHESIS_OUTPUTS)
     faults.check()
-    machine: Any = [*head.machines.values()] if head.machines else head.machine
-    return SynthesisFile(machine, arguments, rounding, outputs)
+    rounding = arguments.pop("round", None)
+    return SearchFile(synthesise, [*head.machines.values()] or head.machine, arguments, rounding, outputs)
 
 
-def varied_and_kept(head: StudyHead, given: Mapping[str, object], over: Mapping[str, object] | None) -> dict[str, Any]:
-    """Return what varies, what must be kept and what answers are ranked by; mistakes are noted.
-
-    Of several machines these are tables by the machines' names, or one thing for all; what `vary` leaves out the search chooses.
-    """
-    if not head.machines:
-        every = {key: read for key, read in BY_CLASS.items() if key != "rank"}
-        found = {key: read(head, given.get(key, [] if key == "subject_to" else {}), over) for key, read in every.items()}
-        return found | ({"rank": rank_said(head, given["rank"], over)} if "rank" in given else {})
-    several: dict[str, dict[type[Mechanism], Any]] = {}
-    for key, read in BY_CLASS.items():
-        for name, said in by_machine(head, given.get(key, {}), is_of_points=key == "regions").items():
-            with head.faults.at(SECTION, key):
-                machine = head.machines[known_name("Machine", name, head.machines)]
-                several.setdefault(key, {})[type(machine)] = read(replace(head, machine=machine), said, over)
-    return dict(several)
+# What reads a key of a synthesis.
 
 
 def by_machine(head: StudyHead, given: object, *, is_of_points: bool = False) -> Mapping[Any, Any]:
@@ -133,24 +91,24 @@ def by_machine(head: StudyHead, given: object, *, is_of_points: bool = False) ->
     return given
 
 
-def rank_said(head: StudyHead, given: object, over: Mapping[str, object] | None) -> Any:
-    """Return the measure that answers are ranked by; None, noted, for anything else."""
-    found = None
-    with head.faults.at(SECTION, "rank"):
-        found = measure_said(given, head.machine, over)
-    return found
+def by_class(read: Read, *, is_of_points: bool = False) -> Read:
+    """Return what reads one thing of a machine; of several the same by class, from a table by their names or from one thing for all."""
+
+    def read_each(head: StudyHead, given: object) -> Any:
+        if not head.machines:
+            return read(head, given)
+        found, mistakes = {}, Mistakes()
+        for name, said in by_machine(head, given, is_of_points=is_of_points).items():
+            with mistakes.at():
+                machine = head.machines[known_name("Machine", name, head.machines)]
+                found[type(machine)] = read(replace(head, machine=machine), said)
+        mistakes.check()
+        return found
+
+    return read_each
 
 
-BY_CLASS: Mapping[str, Callable[[StudyHead, Any, Any], Any]] = {
-    "vary": lambda head, given, over: vary_said(head, given, SECTION),
-    "subject_to": lambda head, given, over: conditions_listed(head, given, over, SECTION),
-    "regions": lambda head, given, over: regions_said(head, given, SECTION),
-    "rank": rank_said,
-}
-"""What may be said class by class, and what reads it."""
-
-
-def timed_said(given: object) -> Any:
+def timed_said(head: StudyHead, given: object) -> Any:
     """Return how the points are timed: true, false or "steps"."""
     if given is not True and given is not False and given != "steps":
         raise DefinitionError(f'{shortened(given)}: true, false or "steps" is expected.')
@@ -160,95 +118,125 @@ def timed_said(given: object) -> Any:
 # The task.
 
 
-def task_said(head: StudyHead, section: Mapping[str, object], over: Mapping[str, object] | None) -> dict[str, Task]:
-    """Return the task of a section by its keyword; mistakes are noted."""
-    named = [name for name in TASK_KEYS if name in section]
-    found: dict[str, Task] = {}
-    if len(named) != 1:
-        words = f"{' and '.join(named)} are several tasks" if named else "there is no task"
-        head.faults.add((SECTION,), f'{words}; write one, path = {{ of = "P", points = "points.csv" }}, function = ... or motion = ...')
-        return found
-    (name,) = named
-    given = section[name]
-    with head.faults.at(SECTION, name):
-        table = table_said(name, given)
-        of: Any = None
-        with head.faults.at(SECTION, name, "of"):
-            of = of_said(head, name, table.get("of")) if not head.machines else of_machines(head, name, table.get("of"))
-        units: dict[str, float] = {}
-        with head.faults.at(SECTION, name, "unit"):
-            units = units_said(table["unit"]) if "unit" in table else {}
-        with head.faults.at(SECTION, name, "points"):
-            if of is not None:
-                values = points_said(table["points"], task_columns(head, name, of, over), units, head.base)
-                found[name] = task_of_values(name, table, of or None, values)
-    return found
+def switch_said(key: str) -> Read:
+    """Return what reads true or false under a key."""
+
+    def read(head: StudyHead, given: object) -> bool:
+        if not isinstance(given, bool):
+            raise DefinitionError(f"{key} = {shortened(given)}: true or false is expected.")
+        return given
+
+    return read
 
 
-def of_machines(head: StudyHead, name: str, given: object) -> dict[type[Mechanism], Any]:
-    """Return whose path, values or poses are wanted of each class; none for a path if the machines name their coupler's point."""
-    if given is None and name == "path":
-        return {}
-    found = {}
-    for machine, text in by_machine(head, given).items():
-        own = head.machines[known_name("Machine", machine, head.machines)]
-        found[type(own)] = of_said(replace(head, machine=own), name, text)
-    return found
+OF = {"path": 'of = "P"', "function": 'of = "psi"', "motion": 'of = "A B"'}
+POINTS = 'points = [[30, 60], [15, 70]] with unit = "mm", or a CSV file, "points.csv"'
 
 
-def table_said(name: str, given: object) -> Mapping[str, Any]:
-    """Return the table of a task with its points; DefinitionError for anything else."""
-    if not isinstance(given, Mapping):
-        raise DefinitionError(f'{shortened(given)}: a table is expected, {name} = {{ of = "P", points = "points.csv" }}.')
-    for key in given:
-        if key not in TASK_KEYS[name]:
-            raise unknown("Key", shortened(key, quote=False), TASK_KEYS[name])
-    if "points" not in given:
-        raise DefinitionError('points is missing; write points = [[30, 60], [15, 70]] with unit = "mm", or a CSV file, "points.csv".')
-    return given
+def whose(name: str) -> Read:
+    """Return what reads whose path, values or poses are wanted: a point, a quantity, two points; of several machines by class."""
+
+    def read(head: StudyHead, given: object) -> Any:
+        if not isinstance(given, str) or not given.strip():
+            raise DefinitionError(f"of is missing; write {OF[name]}." if given is None else f"{shortened(given)}: write {OF[name]}.")
+        if name == "function":
+            found = quantity_said(given, head.machine)
+            return given.strip() if given.strip() in head.plan.members else found
+        parts = given.split()
+        for each in parts:
+            if each not in head.plan.moving:
+                raise unknown("Point", each, head.plan.moving, where=head.plan.title)
+        if len(parts) != (1 if name == "path" else 2):
+            raise DefinitionError(f"{given!r}: {'one point' if name == 'path' else 'two points of the body'} expected.")
+        return given
+
+    return by_class(read)
 
 
-def of_said(head: StudyHead, name: str, given: object) -> Any:
-    """Return whose path, values or poses are wanted: a point, a quantity, two points."""
-    if not isinstance(given, str) or not given.strip():
-        example = {"path": 'of = "P"', "function": 'of = "psi"', "motion": 'of = "A B"'}[name]
-        raise DefinitionError(f"of is missing; write {example}." if given is None else f"{shortened(given)}: write {example}.")
-    if name == "function":
-        found = quantity_said(given, head.machine)
-        return given.strip() if given.strip() in head.plan.members else found
-    parts = given.split()
-    for each in parts:
-        if each not in head.plan.moving:
-            raise unknown("Point", each, head.plan.moving, where=head.plan.title)
-    if len(parts) != (1 if name == "path" else 2):
-        raise DefinitionError(f"{given!r}: {'one point' if name == 'path' else 'two points of the body'} expected.")
-    return given
+def wanted_points(name: str) -> Read:
+    """Return what reads the points of a task; the column of the stroke goes by its own name or `at`."""
+
+    def read(head: StudyHead, given: object) -> dict[str, Any]:
+        if "of" not in head.found:
+            return {}  # which is told
+        of = head.found["of"]
+        moving = [each for each, one in ranges_of(head.machine, head.found["over"]).items() if not is_still(one)]
+        stroke = (moving or [*head.plan.strokes])[0]
+        at = PointColumn(("at", stroke), stroke_measure(head.plan, stroke), optional=name != "function")
+        columns = [PointColumn(("x",), "length"), PointColumn(("y",), "length"), at]
+        if name == "motion":
+            columns.insert(2, PointColumn(("angle",), "angle"))
+        if name == "function":
+            first = next(iter(of.values())) if head.machines else of
+            columns = [at, PointColumn(("value", words_of(first)), measure_of(head.plan, first))]
+        return points_said(given, columns, head.found["unit"] or {}, head.base)
+
+    return read
 
 
-def task_columns(head: StudyHead, name: str, of: Any, over: Mapping[str, Any] | None) -> list[PointColumn]:
-    """Return the columns that a task's points have; the stroke's goes by its own name or `at`."""
-    moving = [each for each, one in ranges_of(head.machine, over).items() if not is_still(one)]
-    stroke = (moving or [*head.plan.strokes])[0]
-    at = PointColumn(("at", stroke), stroke_measure(head.plan, stroke), optional=name != "function")
-    lengths = [PointColumn(("x",), "length"), PointColumn(("y",), "length")]
-    if name == "path":
-        return [*lengths, at]
-    if name == "motion":
-        return [*lengths, PointColumn(("angle",), "angle"), at]
-    first = next(iter(of.values())) if head.machines else of
-    return [at, PointColumn(("value", words_of(first)), measure_of(head.plan, first))]
+def path_task(
+    *,
+    of: Annotated[Any, whose("path"), OF["path"]],
+    unit: Annotated[dict[str, float] | None, lambda head, given: units_said(given)] = None,
+    points: Annotated[dict[str, Any], wanted_points("path"), POINTS],
+    in_order: Annotated[bool, switch_said("in_order")] = True,
+    closed: Annotated[bool | None, switch_said("closed")] = None,
+) -> PathTask:
+    """Return the task of a path."""
+    return PathTask([*zip(points["x"], points["y"], strict=True)], of or None, points.get("at"), in_order=in_order, closed=closed)
 
 
-def task_of_values(name: str, given: Mapping[str, Any], of: Any, values: Mapping[str, Any]) -> Task:
-    """Return a task of its values [SI]."""
-    at = values.get("at")
-    for key in ("in_order", "closed"):
-        if not isinstance(given.get(key, True), bool):
-            raise DefinitionError(f"{key} = {shortened(given[key])}: true or false is expected.")
-    order = given.get("in_order", True)
-    if name == "path":
-        return PathTask([*zip(values["x"], values["y"], strict=True)], of, at, in_order=order, closed=given.get("closed"))
-    if name == "motion":
-        length = amount_said(given["length"], "length") if "length" in given else None
-        return PoseTask(values["x"], values["y"], values["angle"], of, at, length=length, in_order=order)
-    return FunctionTask(at, values["value"], of)
+def function_task(
+    *,
+    of: Annotated[Any, whose("function"), OF["function"]],
+    unit: Annotated[dict[str, float] | None, lambda head, given: units_said(given)] = None,
+    points: Annotated[dict[str, Any], wanted_points("function"), POINTS],
+) -> FunctionTask:
+    """Return the task of a function of the stroke."""
+    return FunctionTask(points["at"], points["value"], of)
+
+
+def motion_task(
+    *,
+    of: Annotated[Any, whose("motion"), OF["motion"]],
+    unit: Annotated[dict[str, float] | None, lambda head, given: units_said(given)] = None,
+    points: Annotated[dict[str, Any], wanted_points("motion"), POINTS],
+    in_order: Annotated[bool, switch_said("in_order")] = True,
+    length: Annotated[float | None, lambda head, given: amount_said(given, "length")] = None,
+) -> PoseTask:
+    """Return the task of the poses of a body."""
+    return PoseTask(points["x"], points["y"], points["angle"], of, points.get("at"), length=length, in_order=in_order)
+
+
+TASKS: Mapping[str, Callable[..., Any]] = {"path": path_task, "function": function_task, "motion": motion_task}
+
+
+def task_said(name: str) -> Read:
+    """Return what reads the table of a task. The path of several machines may be left to their couplers' points."""
+
+    def read(head: StudyHead, given: object) -> Any:
+        if not isinstance(given, Mapping):
+            raise DefinitionError(f'{shortened(given)}: a table is expected, {name} = {{ of = "P", points = "points.csv" }}.')
+        if name == "path" and head.machines and given.get("of") is None:
+            given = {**given, "of": {}}
+        return TASKS[name](**keywords_read(head, TASKS[name], given))
+
+    return read
+
+
+SYNTHESIS: Mapping[str, Read] = {
+    "over": over_said,
+    "vary": by_class(vary_said),
+    "subject_to": by_class(conditions_said),
+    "regions": by_class(regions_said, is_of_points=True),
+    "timed": timed_said,
+    "rank": by_class(lambda head, given: measure_said(given, head.machine, head.found["over"])),
+    "case": case_said,
+    "starts": lambda head, given: given if given == "catalogue" else whole_number(1)(head, given),
+    "seed": whole_number(0),
+    "limit": whole_number(1),
+    "folder": file_path,
+    "round": rounding_said,
+    **{name: task_said(name) for name in TASKS},
+}
+"""The keywords of `synthesise` that a file may say, and the steps of `round`, each with what reads it."""

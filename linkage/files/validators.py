@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, TypeAlias
@@ -17,7 +17,7 @@ from ..vectors import Side
 from .design import Design, degrees_text, option
 from .expression import arrow_in, expression, one_unit
 from .names import Names, by_whole_names, shortened
-from .source import Mistakes
+from .source import each_of
 
 Read: TypeAlias = Callable[[Any, Names], Any]
 Write: TypeAlias = Callable[[Any, Design, str], Any]
@@ -192,16 +192,6 @@ def loads_of(given: object, names: Names) -> Any:
     if isinstance(given, str) or not isinstance(given, Sequence):
         return names.checked(given, "load")
     return [names.checked(each, "load") for each in given]
-
-
-def each_of(given: Iterable[tuple[object, object]], read: Callable[[Any, Any], Any]) -> list[Any]:
-    """Return what is read of each key and value; SeveralError with all mistakes, each under its key."""
-    found, mistakes = [], Mistakes()
-    for key, value in given:
-        with mistakes.at(str(key)):
-            found.append(read(key, value))
-    mistakes.check()
-    return found
 
 
 def load_list_of(given: object, names: Names) -> tuple[str, ...]:

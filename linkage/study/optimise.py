@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -55,6 +56,7 @@ if TYPE_CHECKING:
 
 METHODS = ("auto", "local", "multistart", "evolution")
 SOLVERS = ("slsqp", "trust-constr")
+"""What `solver=` takes for one more release: the second is gone, and SLSQP searches in its place."""
 SCREENED = 256
 """Designs looked at for each combination before the local searches begin; fewer each where there are many combinations."""
 SCREENED_IN_ALL = 1 << 14
@@ -67,7 +69,7 @@ SEARCHED = 64
 """Combinations searched from at the most, the most promising ones of more."""
 GENERATIONS = 200
 NEARLY = 1e-3
-"""A design that misses no more is searched on from by the other solver."""
+"""A design that misses no more is searched on from."""
 NO_VALUE = 1e6
 """What a design counts in an evolution whose objective has no value."""
 HOPES = 2
@@ -92,7 +94,7 @@ def optimise(
     robust: Mapping[str, object] | None = ...,
     sigmas: float = ...,
     method: str = ...,
-    solver: str = ...,
+    solver: str | None = ...,
     starts: int | None = ...,
     seed: int = ...,
     limit: int | None = ...,
@@ -110,7 +112,7 @@ def optimise(
     regions: Mapping[str, object] | None = ...,
     case: object = ...,
     over: Mapping[str, object] | None = ...,
-    solver: str = ...,
+    solver: str | None = ...,
     seed: int = ...,
     limit: int | None = ...,
     progress: object = ...,
@@ -128,7 +130,7 @@ def optimise(
     robust: Mapping[str, Any] | None = None,
     sigmas: float = 3.0,
     method: str = "auto",
-    solver: str = "slsqp",
+    solver: str | None = None,
     starts: int | None = None,
     seed: int = 0,
     limit: int | None = None,
@@ -156,8 +158,8 @@ def optimise(
     Of several objectives, given as lists, the front comes back: designs of which none is better in all (extra `pareto`). With
     `robust={"OB": 0.2 * mm}` every number counts as bad as `sigmas` standard deviations make it, by tolerances as in `tolerance`.
 
-    From the best of some hundred designs spread over the box, `starts` of them for each combination of choices, a `solver` ("slsqp" or
-    "trust-constr") goes on with exact derivatives. `method="local"` begins with the machine as it is, "evolution" with the best of a
+    From the best of some hundred designs spread over the box, `starts` of them for each combination of choices, SciPy's SLSQP goes on
+    with exact derivatives. `method="local"` begins with the machine as it is, "evolution" with the best of a
     differential evolution. The same seed gives the same result. `limit` is how many designs are looked at before the best so far comes
     back, with a word that it is that; by default as many as take about a minute. With `folder` finished searches are kept there, and the
     same call goes on where another one stopped; `progress=True` shows a bar.
@@ -172,7 +174,9 @@ def optimise(
     check_one_design(machine)
     title = machine.plan.title
     one_word("method", method, METHODS)
-    one_word("solver", solver, SOLVERS)
+    if solver is not None and one_word("solver", solver, SOLVERS) != "slsqp":
+        text = f'{title}: solver="{solver}" is gone and will be refused: SLSQP searches in its place. Leave solver= out.'
+        warnings.warn(text, FutureWarning, stacklevel=2)
     check_counts(title, starts, seed, limit)
     check_progress(progress)
     fitted = fitted_rows(machine, vary)
@@ -189,7 +193,7 @@ def optimise(
     cases, shares = cases_searched(machine, case, occurring)
     judge = machine.judge(over)
     held = pieces_in_cases(constraints, cases, judge)
-    plan = SearchPlan(method, solver, starts or STARTS, seed)
+    plan = SearchPlan(method, starts or STARTS, seed)
     if len(objectives) > 1:
         if (len(cases) > 1 and not shares) or robust is not None or folder is not None:
             raise DefinitionError(f"{title}: several objectives are sought in one load case, without robust= and without folder=.")
@@ -199,7 +203,7 @@ def optimise(
         problem = Problem(machine, goals, held, space, 1.0, over)
         problem.count.limit = limit or default_limit(problem, replace(plan, is_front=True))
         with progress_told(progress, machine.plan.heading) as tell:
-            return front(problem, plan.seed, solver, tell)
+            return front(problem, plan.seed, tell)
     sought = [mean_in_cases(objectives[0], shares)] if shares else [in_case(objectives[0], each) for each in cases]
     if all(each is objectives[0] for each in sought):
         sought = [objectives[0]]  # it names its load cases itself
@@ -466,7 +470,6 @@ class SearchPlan:
     """How is searched."""
 
     method: str
-    solver: str
     starts: int
     seed: int
     is_front: bool = False
@@ -723,11 +726,11 @@ class DesignSearch:
         except LinkageError:
             return SearchEnd(unit, np.nan, np.inf, False)
         if problem.space.variables:
-            found = local.run(self.plan.solver)
-            if self.plan.solver == "slsqp" and found.whole and not found.feasible and found.missing < NEARLY:
+            found = local.run()
+            if found.whole and not found.feasible and found.missing < NEARLY:
                 with problem.count.without_limit():
                     near = Local(problem, combination, found.unit)
-                again = near.run("trust-constr")
+                again = near.run()
                 found = min(found, again, key=lambda each: (not each.feasible, each.missing))
         else:
             found = local.judged(unit)
@@ -741,7 +744,7 @@ class DesignSearch:
         for each in sorted((one for one in ended if one.found.feasible), key=lambda one: sense * one.found.value):
             try:
                 everyone = [one.found for one in ended if one.combination == each.combination]
-                best = polished(self.problem, each.combination, each.found, everyone, searched, self.plan.solver, self.cut)
+                best = polished(self.problem, each.combination, each.found, everyone, searched, self.cut)
                 return replace(best, tried=self.tried(ended))
             except AssemblyError as error:
                 lost.append(str(error))

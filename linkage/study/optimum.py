@@ -229,12 +229,11 @@ def polished(
     found: SearchEnd,
     ended: Sequence[SearchEnd],
     searched: int,
-    solver: str,
     cut: Sequence[str],
 ) -> Optimum:
     """Return an optimum; AssemblyError where it cannot be assembled over the whole stroke."""
     if any(each.step is not None for each in problem.space.variables):
-        problem, combination, found = on_steps(problem, combination, found, solver)
+        problem, combination, found = on_steps(problem, combination, found)
     limit = problem.count.limit if problem.count.is_spent else None
     with problem.count.without_limit():
         return described(problem, combination, found, ended, searched, cut, limit)
@@ -424,14 +423,14 @@ def what_of(message: str) -> str:
     return text.partition(": " if " cannot be assembled" in text else "; ")[0].rstrip(".")
 
 
-def on_steps(problem: Problem, combination: Sequence[int], found: SearchEnd, solver: str) -> tuple[Problem, tuple[int, ...], SearchEnd]:
+def on_steps(problem: Problem, combination: Sequence[int], found: SearchEnd) -> tuple[Problem, tuple[int, ...], SearchEnd]:
     """Return the problem with its stepped variables held on steps, and the best design there; AssemblyError where none is assembled.
 
     Where everything goes in steps and there are not too many, it is the best of all of them, by few poses. Else the steps about each value
     are looked at, and the most promising of others. From the best of these on it goes a step up or down at a time, as long as that is
     better. The variables that are left are searched from each.
     """
-    search, count = StepSearch(problem, combination, found, solver), problem.count
+    search, count = StepSearch(problem, combination, found), problem.count
     if count.is_spent:
         search.look(search.about())
     else:
@@ -452,8 +451,8 @@ def on_steps(problem: Problem, combination: Sequence[int], found: SearchEnd, sol
 class StepSearch:
     """Designs on steps, by the numbers of their steps: `seen`, and the `best` of them."""
 
-    def __init__(self, problem: Problem, combination: Sequence[int], found: SearchEnd, solver: str) -> None:
-        self.problem, self.combination, self.found, self.solver = problem, tuple(combination), found, solver
+    def __init__(self, problem: Problem, combination: Sequence[int], found: SearchEnd) -> None:
+        self.problem, self.combination, self.found = problem, tuple(combination), found
         self.stepped = tuple(each for each in problem.space.variables if each.step is not None)
         self.rest = tuple(each for each in problem.space.variables if each.step is None)
         self.counts = tuple(each.steps for each in self.stepped)
@@ -550,11 +549,11 @@ class StepSearch:
                 local = Local(inner, whole, unit)
                 if not self.rest:
                     return local.judged(unit)
-            found = local.run(self.solver)
+            found = local.run()
             if found.feasible or not found.whole or inner.count.is_spent:
                 return found
             least = Local(inner, whole, found.unit, elastic=inner.constraints).run()
-            again = Local(inner, whole, least.unit).run(self.solver) if least.missing <= NEARLY_KEPT else least
+            again = Local(inner, whole, least.unit).run() if least.missing <= NEARLY_KEPT else least
         except LimitReachedError:
             return found
         except DefinitionError:

@@ -68,7 +68,7 @@ class Front(Shown):
     __repr__ = __str__
 
 
-def front(problem: Problem, seed: int, solver: str, tell: Progress) -> Front:
+def front(problem: Problem, seed: int, tell: Progress) -> Front:
     """Return the front of a problem's objectives, each to be least; those whose sign was changed are shown with their own."""
     from_pymoo()
     coarse, found = problem.with_counts(COARSE), []
@@ -77,7 +77,7 @@ def front(problem: Problem, seed: int, solver: str, tell: Progress) -> Front:
     for done, combination in enumerate(combinations):
         if done and problem.count.is_spent:
             break
-        found += exact_points(problem, combination, evolved_front(coarse, combination, seed, len(combinations) - done), solver)
+        found += exact_points(problem, combination, evolved_front(coarse, combination, seed, len(combinations) - done))
         tell(done + 1, len(combinations))
     limit = problem.count.limit if problem.count.is_spent else None
     if not found:
@@ -141,21 +141,21 @@ def evolved_front(problem: Problem, combination: Sequence[int], seed: int, left:
     return np.empty((0, n)) if found.X is None else np.atleast_2d(np.asarray(found.X, float))
 
 
-def exact_points(problem: Problem, combination: Sequence[int], units: FloatArray, solver: str) -> list[tuple[tuple[float, ...], Mechanism]]:
+def exact_points(problem: Problem, combination: Sequence[int], units: FloatArray) -> list[tuple[tuple[float, ...], Mechanism]]:
     """Return points on the front of one combination: each objective's best, and others spread between; with their machines."""
     if not len(units):
         return []
     with problem.count.without_limit():
         values, _, _ = problem.merits_of_each(combination, units)
-    found = [on_front(problem, combination, units[int(np.argmin(values[place]))], place, None, solver) for place in range(len(values))]
+    found = [on_front(problem, combination, units[int(np.argmin(values[place]))], place, None) for place in range(len(values))]
     order = np.argsort(values[0])
     for place in order[np.unique(np.linspace(0, len(order) - 1, POINTS).astype(int))]:
-        found.append(on_front(problem, combination, units[place], 0, values[:, place], solver))
+        found.append(on_front(problem, combination, units[place], 0, values[:, place]))
     return [each for each in found if each is not None]
 
 
 def on_front(
-    problem: Problem, combination: Sequence[int], unit: FloatArray, place: int, held: FloatArray | None, solver: str
+    problem: Problem, combination: Sequence[int], unit: FloatArray, place: int, held: FloatArray | None
 ) -> tuple[tuple[float, ...], Mechanism] | None:
     """Return a design with one objective as good as it can be, the others no worse than held; None where it cannot be built."""
     objectives = problem.objectives
@@ -165,7 +165,7 @@ def on_front(
     try:
         with problem.count.without_limit():
             local = Local(one, combination, unit)
-        result = local.run(solver) if problem.space.variables else local.judged(unit)
+        result = local.run() if problem.space.variables else local.judged(unit)
         machine = problem.machine_of(result.unit, combination)
         problem.assembled(machine)
     except (AssemblyError, LinkageError):

@@ -1,4 +1,4 @@
-"""One local search: a problem's rows handed to SciPy's SLSQP or trust-constr, from one start, with one combination of choices.
+"""One local search: a problem's rows handed to SciPy's SLSQP, from one start, with one combination of choices.
 
 A least or greatest value over the stroke becomes a variable of its own, held below or above every row, where the condition or the objective
 gains from its being so; elsewhere the row that stands worst counts by itself. A step onto designs that cannot be assembled sees how much
@@ -10,13 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol, TypeAlias, final
-from warnings import catch_warnings, simplefilter
+from typing import Any, NamedTuple, Protocol, final
 
 import numpy as np
 
 from ..errors import DefinitionError, StudyError
-from ..motion.line import Index
 from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most
 from ..program import FloatArray
 from .constrained_step import constrained_step
@@ -47,12 +45,6 @@ STEEP = 1e3
 """What an infinite derivative counts, of scaled numbers by unit coordinates."""
 DAMPED, MOST_DAMPED = 1e-3, 1e10
 """The damping of the first step of least squares, and that at which no step leads on."""
-LINES, WIDENED = 24, 8
-"""Lines of a constraint that trust-constr is given at most, and how often others are added that its end misses."""
-
-
-Lines: TypeAlias = Callable[[FloatArray], FloatArray]
-"""Some lines, or their derivatives, at the solver's variables."""
 
 
 class Graded(NamedTuple):
@@ -407,8 +399,8 @@ class Local:
 
     # -- one search --------------------------------------------------------------------------------------
 
-    def solve(self, unit: FloatArray, method: str = "slsqp", most: int = 200) -> FloatArray:
-        """Return the unit coordinates that a solver comes to from some."""
+    def solve(self, unit: FloatArray, most: int = 200) -> FloatArray:
+        """Return the unit coordinates that the solver comes to from some."""
         from scipy.optimize import Bounds
 
         z = self.first(unit)
@@ -422,8 +414,6 @@ class Local:
                 z = self._fitted(self.squares, z, (low, high), most)
             self._stages = APPROACH[-1:]  # with further poses, from where it stands
             return z
-        if method == "trust-constr":
-            return self._trusted(z, Bounds(low, high), most)
         return self._sequential(z, Bounds(low, high), most)
 
     def _stacked(self, z: FloatArray, equations: bool) -> tuple[FloatArray, FloatArray]:
@@ -440,7 +430,7 @@ class Local:
         for equations, kind in ((False, "ineq"), (True, "eq")):
             if self._stacked(z, equations)[0].size:
                 held.append(self._held(kind, equations))
-        watch = self._watched(z)
+        watch = self._watch = Watch(self, z)  # kept: the best so far is known where the solver is stopped
         try:
             result = minimize(
                 watch.objective, z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
@@ -506,11 +496,6 @@ class Local:
         by[len(by) - len(own) :, self.width :] = own
         return np.concatenate([held[0], equal[0], -equal[0], own @ at[self.width :] + beside]), by
 
-    def _watched(self, z: FloatArray, patience: float = PATIENCE) -> Watch:
-        """Return the objective for a solver; it is kept, so that the best so far is known where the solver is stopped."""
-        self._watch = Watch(self, z, patience)
-        return self._watch
-
     def violation(self, z: FloatArray) -> float:
         """Return by how much the worst line of the problem is missed, in scaled numbers."""
         missed = (np.abs(row.values) if row.equation else -row.values for row in self.solver_lines(z))
@@ -519,59 +504,11 @@ class Local:
     def _held(self, kind: str, equations: bool) -> dict[str, Any]:
         return {"type": kind, "fun": lambda at: self._stacked(at, equations)[0], "jac": lambda at: self._stacked(at, equations)[1]}
 
-    def _trusted(self, z: FloatArray, bounds: object, most: int) -> FloatArray:
-        """Return what trust-constr comes to: by the lines that stand worst, then with those that its end misses, too."""
-        known: list[Index | None] = [None] * 2
-        for _ in range(WIDENED):
-            chosen = [self._worst_lines(z, equations, each) for equations, each in zip((False, True), known, strict=True)]
-            known = [*chosen]
-            found = self._within(z, bounds, chosen, most)
-            values = self._stacked(found, False)[0]
-            if not np.any(np.delete(values, chosen[0]) < -MET):
-                return found
-            z = found
-        return z
-
-    def _worst_lines(self, z: FloatArray, equations: bool, known: Index | None) -> Index:
-        """Return the places of the lines that a solver is given: all equations, of each other constraint the worst; those known, too."""
-        rows, first, found = [row for row in self.solver_lines(z) if row.equation is equations], 0, []
-        for row in rows:
-            near = np.argsort(row.values, kind="stable")[: row.values.size if equations else LINES]
-            found.append(first + near)
-            first += row.values.size
-        lines = np.concatenate([*found, np.zeros(0, int) if known is None else known]) if found else np.zeros(0, int)
-        return np.unique(lines.astype(int))
-
-    def _within(self, z: FloatArray, bounds: object, chosen: Sequence[Index], most: int) -> FloatArray:
-        """Return what trust-constr comes to by some of the lines."""
-        from scipy.optimize import NonlinearConstraint, minimize
-
-        held = []
-        for equations, upper, lines in ((False, np.inf, chosen[0]), (True, 0.0, chosen[1])):
-            if lines.size:
-                values, slopes = self._chosen(equations, lines)
-                held.append(NonlinearConstraint(values, 0.0, upper, jac=slopes))
-        watch = self._watched(z, np.inf)
-        with catch_warnings(), np.errstate(all="ignore"):
-            simplefilter("ignore")  # of functions that happen to be linear, and of singular steps
-            try:
-                result = minimize(
-                    watch.objective, z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
-                    method="trust-constr", options={"maxiter": 5 * most, "gtol": 1e-9, "xtol": 1e-11},
-                )  # fmt: skip
-            except (ValueError, np.linalg.LinAlgError):  # a system of equations without a solution
-                return watch.best
-        return np.asarray(result.x, float)
-
-    def _chosen(self, equations: bool, lines: Index) -> tuple[Lines, Lines]:
-        """Return some lines' values and derivatives as functions of the solver's variables."""
-        return (lambda at: self._stacked(at, equations)[0][lines]), (lambda at: self._stacked(at, equations)[1][lines])
-
     def judged(self, unit: FloatArray) -> SearchEnd:
         """Return the objective and what is missing at unit coordinates, between the samples too."""
         return self._truth(unit)[0]
 
-    def run(self, method: str = "slsqp", rounds: int = ROUNDS) -> SearchEnd:
+    def run(self, rounds: int = ROUNDS) -> SearchEnd:
         """Return what a search from the start comes to, with poses between the samples added until none is worse than these.
 
         Where the limit of designs is reached it is the best so far.
@@ -579,7 +516,7 @@ class Local:
         try:
             unit = self.start
             for _ in range(rounds):
-                unit = self._nearest_good(np.clip(self.solve(unit, method)[: self.n], 0.0, 1.0))
+                unit = self._nearest_good(np.clip(self.solve(unit)[: self.n], 0.0, 1.0))
                 if self.refine(unit) or self._rescaled(unit):
                     continue
                 found, missed = self._truth(unit)
@@ -690,8 +627,8 @@ class NoProgressError(Exception):
 class Watch:
     """A local search's objective, which stops the solver where it has got no further for long, as at an edge of reach."""
 
-    def __init__(self, local: Local, start: FloatArray, patience: float = PATIENCE) -> None:
-        self.local, self.best, self.since, self.merit, self.patience = local, np.array(start, float), 0, np.inf, patience
+    def __init__(self, local: Local, start: FloatArray) -> None:
+        self.local, self.best, self.since, self.merit = local, np.array(start, float), 0, np.inf
 
     def objective(self, z: FloatArray) -> float:
         """Return the scaled objective; NoProgressError where there is no hope."""
@@ -699,7 +636,7 @@ class Watch:
         self.since += 1
         if merit < self.merit - NO_GAIN * (1.0 + abs(merit)):
             self.best, self.since, self.merit = np.array(z, float), 0, merit
-        elif self.since > self.patience:
+        elif self.since > PATIENCE:
             raise NoProgressError
         return value
 

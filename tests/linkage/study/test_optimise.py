@@ -123,10 +123,14 @@ def test_an_optimum_is_not_beaten_by_random_designs_and_holds_between_the_poses(
     assert np.max(fine[pin_force("O")]) <= 15 * kN * (1.0 + 1e-6)
 
 
-@pytest.mark.parametrize("solver", ["slsqp", "trust-constr"])
-def test_both_solvers_come_to_the_same(solver):
-    best = optimise(Lever(), maximise=least(ratio(distance("A", "B"))), vary={"A.x": (0.3, 1.2)}, solver=solver, starts=2)
+def test_a_second_solver_is_told_to_be_gone_and_the_first_one_searches():
+    ask = dict(maximise=least(ratio(distance("A", "B"))), vary={"A.x": (0.3, 1.2)}, starts=2)
+    best = optimise(Lever(), **ask)
     assert_allclose(best.machine["A.x"], 1.2, rtol=1e-4)
+    with pytest.warns(FutureWarning, match=r'solver="trust-constr" is gone and will be refused: SLSQP .* Leave solver= out'):
+        assert optimise(Lever(), **ask, solver="trust-constr").value == best.value
+    with pytest.raises(DefinitionError, match="solver='cobyla': say"):
+        optimise(Lever(), **ask, solver="cobyla")
 
 
 def test_evolution_comes_to_the_same_as_many_starts():

@@ -30,8 +30,8 @@ from .star import declare_public
 class Amount(float):
     """A number in SI that knows what it measures: `80 * mm` is 0.08, a "length". It calculates as any float.
 
-    With its sign changed, and added to its like, it goes on knowing. Anything else makes a plain number of it: a product may measure
-    anything.
+    With its sign changed, and added to its like, it goes on knowing, and so in a list of such. Anything else makes a plain number of it,
+    which is taken as SI: a product may measure anything, `0.5 + 3 * deg` is 0.552, an array holds numbers alone.
     """
 
     __slots__ = ("measures",)
@@ -168,9 +168,9 @@ def require_measure(value: object, unit: str, what: str) -> None:
     Parameters
     ----------
     value : object
-        What was given. Only an `Amount` knows what it measures; anything else passes.
+        What was given, or several of such in a list or a tuple. Only an `Amount` knows what it measures; anything else passes.
     unit : str
-        A unit of what is expected, such as "mm"; "" for a plain number.
+        A unit of what is expected, such as "mm", or what that measures, "length"; "" for a plain number.
     what : str
         What it was given for, `Weight: mass`, for the message.
 
@@ -180,14 +180,21 @@ def require_measure(value: object, unit: str, what: str) -> None:
         The amount measures something else. Moments, stiffnesses and numbers of an open kind take forces, since `5 * kN` may stand for
         5 kN m; they take no lengths, angles and pressures.
     """
+    for each in value if isinstance(value, (list, tuple)) else ():
+        require_measure(each, unit, what)
     if not isinstance(value, Amount):
         return
-    wanted = UNITS[unit][1] if unit in UNITS else ""
+    wanted = unit if unit in SI else UNITS[unit][1] if unit in UNITS else ""
     if value.measures == wanted or (wanted not in EXAMPLES and value.measures == "force"):
         return
     article = "an" if value.measures[0] in "aeiou" else "a"
     expected = f"value of {wanted}, such as {EXAMPLES[wanted]}" if wanted in EXAMPLES else "number in SI, without a unit"
     raise DefinitionError(f"{what}={float(value):.6g} was given as {article} {value.measures}; expected is a {expected}.")
+
+
+def amount_or_float(value: float) -> float:
+    """Return a number as a float, an amount as it is."""
+    return value if isinstance(value, Amount) else float(value)
 
 
 def units_of(measures: str) -> list[str]:

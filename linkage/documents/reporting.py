@@ -159,7 +159,7 @@ def composed(
     """Return the document, in the language and the units that hold."""
     machine, featured = subject.machine, subject.machine.featured()
     first = column_among(machine, subject.columns, None).name
-    names = list(curve_columns(subject))
+    names = curve_columns(subject)
     own = {name: given for name, given in featured.limits.items() if name in names}
     bounds = checked_limits(own if limits is None else limits, names, machine.plan.title)
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
@@ -257,14 +257,14 @@ def span_words(subject: ReportSubject) -> str:
     return ", ".join(words)
 
 
-def checked_limits(limits: Mapping[str, Sequence[object]], columns: Sequence[str], title: str) -> Mapping[str, Sequence[Any]]:
+def checked_limits(limits: Mapping[str, Sequence[object]], columns: Mapping[str, Column], title: str) -> Mapping[str, Sequence[Any]]:
     """Return limits by column; DefinitionError for one of no column, or that is none."""
     if not isinstance(limits, Mapping):
         raise DefinitionError(f'limits={cited(limits)}: limits by the names of columns are expected, limits={{"tilt": (0.1, "most")}}.')
     for name, given in limits.items():
         if name not in columns:
             raise unknown("Column", name, columns, where=f"limits of {title}")
-        limit_of(given)
+        limit_of(given, columns[name].unit)
     return limits
 
 

@@ -28,6 +28,7 @@ from ..program import Node
 from ..quantities import Member, Reference, is_number, joined_names, name_of
 from ..steps import Link
 from ..surroundings import CircleOutline, Corners, Outline, convex_pieces, crosses_itself, numbers_at, signed_area
+from ..units import require_measure
 from ..vectors import Scalar, Vec, pick
 from .cuts import FAR, Pick, how_sound, triangles
 from .requests import MotionLike, NodeRequest
@@ -47,6 +48,7 @@ def gap(a: Reference, b: Reference, *, width: float = 0.0) -> NodeRequest:
     """
     if not is_number(width) or width < 0.0:
         raise DefinitionError(f"gap(width={width!r}): the sum of the half widths is expected [m], zero or more.")
+    require_measure(width, "length", "gap: width")
     one, other = name_of(a), name_of(b)
 
     def nodes(plan: Plan) -> tuple[Node, ...]:

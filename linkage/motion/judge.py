@@ -25,7 +25,7 @@ from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUND
 from .box import values_a_stroke
 from .evaluation import Evaluation
 from .grid import Grid, recalled
-from .kinds import check_kinds
+from .kinds import check_condition, check_kinds
 from .limits import stroke_unit
 from .line import SAMPLES
 from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
@@ -147,6 +147,8 @@ class Domain:
         given = over if isinstance(over, Motion) else None
         self.over = over if isinstance(over, Over) else over.over
         self.plan, self.designs = plan, designs
+        for condition in self.over.only:
+            check_condition(plan, condition)
         with unwarned():
             own = given is not None and given._grid.per_design
             poses = None if given is None or given.is_swept else given.strokes

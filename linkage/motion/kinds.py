@@ -12,12 +12,13 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias, final
 
 from ..errors import DefinitionError
-from ..plan import Plan, plan_measure
-from ..quantities import Quantity, Ref
+from ..plan import Plan, plan_measure, require_kind
+from ..quantities import PoseCondition, Quantity, Ref
 from ..quantities.quantity import Function, Negative, Number, Operation, Sum
 from ..steps import Point
+from ..units import Amount, require_measure
 from .limits import stroke_unit
-from .measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, Worst, words_of
+from .measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, Worst, words_of
 from .requests import Combined, Request, Value, stroke_of
 
 KINDS = {
@@ -101,6 +102,8 @@ def kind_of_measure(plan: Plan, measure: Measure) -> MeasureKind | None:
         inner = kind_of_quantity(plan, measure.quantity)
         return None if inner is None or by not in plan.strokes else inner.times(kind_of_stroke(plan, by))
     if isinstance(measure, Leaf):
+        for name, value in measure.strokes.items() if isinstance(measure, At) else ():
+            require_kind(plan, name, value, f"{plan.title}: {measure}: {name}")
         return kind_of_quantity(plan, measure.quantity)
     assert isinstance(measure, CombinedMeasure)
     left, right = (kind_of_measure(plan, each) for each in (measure.left, measure.right))
@@ -214,6 +217,14 @@ def check_kinds(plan: Plan, measures: Any, constraints: Any) -> None:
         kind_of_measure(plan, each)
     for constraint in constraints:
         common_kind(plan, str(constraint), *(kind_of_measure(plan, side) for side in (constraint.left, constraint.right)))
+
+
+def check_condition(plan: Plan, condition: PoseCondition) -> None:
+    """Raise DefinitionError where a condition on poses compares a quantity with an amount of another kind: `y("G") <= 20 * deg`."""
+    for side, other in ((condition.left, condition.right), (condition.right, condition.left)):
+        kind = kind_of_quantity(plan, side) if isinstance(other, Amount) else None
+        if kind is not None and kind.is_sure and kind.name:
+            require_measure(other, kind.name, f"{plan.title}: {condition}: {words_of(side)}")
 
 
 def measure_unit(plan: Plan, measure: Measure | Constraint) -> str:

@@ -12,9 +12,10 @@ from ..errors import DefinitionError, cited, unknown
 from ..frozen import FrozenDict
 from ..language import said
 from ..loads import PLAIN_CASE, LoadCase
-from ..plan import Mask, Plan
+from ..plan import Mask, Plan, require_kind
 from ..program import FloatArray
 from ..quantities import Member, PoseCondition, Quantity, Stroke, is_number, keywords, name_of, needs, quantity, real
+from ..units import Amount, amount_or_float
 from .grid import MotionLike
 from .limits import place_text, span_text, stroke_unit
 from .strokes import check_magnitude
@@ -135,6 +136,8 @@ class Over(Member):
 
         Of a box its corners, an axis for each stroke that runs; of a path the places in an array of one axis; poses in one of two.
         """
+        for name, value in self.strokes.items():
+            require_kind(plan, name, value, f"{plan.title}: {self}: {name}")
         if self.shape != "box":
             known = [self.numbers(self.strokes[name], plan, number) for name in plan.strokes]
             values = dict(zip(plan.strokes, np.broadcast_arrays(*map(real, known)), strict=True))
@@ -285,13 +288,13 @@ def box_ends(name: str, value: object) -> Any:
     """Return what a stroke of a box is given: a number, a quantity or its name, or two of such; DefinitionError for anything else."""
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) == 2 and all(map(is_end, value)):
-            return tuple(float(each) if is_number(each) else each for each in value)
+            return tuple(amount_or_float(each) if is_number(each) else each for each in value)
         if len(value) > 2 and all(map(is_number, value)):
             raise DefinitionError(
                 f"Over({name}={cited(value)}): (low, high) or one value is expected; places in an order are Over.path(...)."
             )
     elif is_end(value):
-        return float(value) if is_number(value) else value
+        return amount_or_float(value) if is_number(value) else value
     if isinstance(value, PoseCondition):
         raise DefinitionError(f"Over({name}={value}): conditions on poses go into a list, only=[{value}].")
     raise DefinitionError(f"Over({name}={cited(value)}): (low, high) or one value is expected, in SI.")
@@ -301,15 +304,15 @@ def place_values(shape: str, name: str, value: object) -> Any:
     """Return what a stroke of a path is given: numbers or quantities in their order, or one where it is held."""
     if is_end(value) and not is_number(value):
         return value
-    if isinstance(value, (list, tuple)) and any(isinstance(each, (str, Quantity)) for each in value) and all(map(is_end, value)):
-        return tuple(float(each) if is_number(each) else each for each in value)
+    if isinstance(value, (list, tuple)) and any(isinstance(each, (str, Quantity, Amount)) for each in value) and all(map(is_end, value)):
+        return tuple(amount_or_float(each) if is_number(each) else each for each in value)
     try:
         found = real(value)
     except ValueError:
         found = np.empty(0)
     if found.ndim > 1 or not found.size or not np.all(np.isfinite(found)):
         raise DefinitionError(f"Over.{shape}({name}={cited(value)}): finite numbers in their order are expected, or one, in SI.")
-    return tuple(found.tolist()) if found.ndim else float(found)
+    return tuple(found.tolist()) if found.ndim else amount_or_float(value) if is_number(value) else float(found)
 
 
 def with_strokes(strokes: Mapping[str, FloatArray]) -> Mapping[str, FloatArray]:

@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, unwarned
 from ..frozen import FrozenDict
 from ..language import said
-from ..plan import Mask, Plan
+from ..plan import Mask, Plan, require_kind
 from ..program import QUICKEST, FloatArray, Kernel, RunOptions
 from ..program.elimination import is_zero
 from ..units import show
@@ -285,7 +285,8 @@ class Places:
 
 
 def traced_target(plan: Plan, target: Target, title: str) -> Request:
-    """Return what a target is of, bound to a plan; DefinitionError for what has no slopes in the program."""
+    """Return what a target is of, bound to a plan; DefinitionError for what has no slopes in the program, and for other units."""
+    target.check(plan)
     found = traced(plan, target.quantity)
     if found is None:
         what = f"{title}: {words_of(target.quantity)} is no part of the program, so that no slopes of it are known"
@@ -303,6 +304,7 @@ def held_strokes(plan: Plan, hold: object, title: str) -> dict[str, float]:
         checked_name("Stroke", name, plan.strokes, plan.title)
         if not is_one(value):
             raise DefinitionError(f"{title}: hold: {name}={cited(value)}: one number is expected, in SI.")
+        require_kind(plan, name, value, f"{title}: hold: {name}")
         check_magnitude(name, (float(value),), plan)
     return {name: float(value) for name, value in hold.items()}
 

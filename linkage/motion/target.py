@@ -9,10 +9,10 @@ import numpy as np
 
 from ..errors import DefinitionError, cited
 from ..frozen import FrozenDict, read_only
-from ..plan import Plan
+from ..plan import Plan, require_kind
 from ..program import FloatArray
 from ..quantities import Quantity, is_number, real
-from ..units import deg, display_unit, mm, unit_or_none
+from ..units import amount_or_float, deg, display_unit, mm, require_measure, unit_or_none
 from .kinds import measure_of
 from .requests import Request, RequestLike
 
@@ -35,14 +35,17 @@ class Target:
         if not all(map(is_one, strokes.values())):
             raise DefinitionError(f"{what}: one number is expected for each stroke, in SI.")
         known = float(value) if is_one(value) else values_along(what, value)
-        parts = {"quantity": quantity, "value": known, "within": within, "strokes": FrozenDict({k: float(v) for k, v in strokes.items()})}
-        vars(self).update(parts, unit=unit_or_none(unit, where="Target(unit=...)"))
+        pose = FrozenDict({name: amount_or_float(each) for name, each in strokes.items()})
+        parts = {"quantity": quantity, "value": known, "within": within, "strokes": pose}
+        vars(self).update(parts, unit=unit_or_none(unit, where="Target(unit=...)"), given=value)
 
     quantity: RequestLike
     value: float | FloatArray
     within: float | None
     unit: str
     strokes: Mapping[str, float]
+    given: object
+    """Its value as it was given, with the unit where that was said."""
 
     def __setattr__(self, name: str, value: object) -> NoReturn:
         raise DefinitionError(f"Target.{name} = ...: it does not change; make a new one, Target(...).")
@@ -55,6 +58,15 @@ class Target:
     def is_path(self) -> bool:
         """Whether its value is an array, one value a place along a path."""
         return isinstance(self.value, np.ndarray)
+
+    def check(self, plan: Plan) -> None:
+        """Raise DefinitionError for a value, `within` or a stroke in a unit of another kind than what they are of."""
+        kind = measure_of(plan, self.quantity)
+        for what, value in (("", self.given), (": within", self.within)):
+            if kind:
+                require_measure(value, kind, f"{plan.title}: Target({quantity_cited(self.quantity)}, ...){what}")
+        for name, value in self.strokes.items():
+            require_kind(plan, name, value, f"{plan.title}: Target({quantity_cited(self.quantity)}, ...): {name}")
 
     def miss(self, plan: Plan, value: float) -> float:
         """Return how far off it may be where it is to have a value [SI]: `within`, or what is usual of what it measures."""

@@ -16,7 +16,7 @@ from ..loads import AT_REST, PLAIN, TwoPoint
 from ..mechanism import Mechanism, verdicts_of
 from ..motion import Column, Judge, LiveText, Motion, Request, RequestLike, Tabled, speakers, stroke_display_unit, transmission
 from ..motion.requests import NodeRequest
-from ..plan import Plan, opening, plan_measure
+from ..plan import Plan, opening, plan_measure, require_kind
 from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
 from ..reports import NOTHING, At, column_requests, run_along, run_of
@@ -139,7 +139,8 @@ class PageRequests:
             if name not in self.columns:
                 raise unknown("Column", name, self.columns, where=f"{self.plan.title}: limit")
         known = {name: each for name, each in self.featured.limits.items() if name in self.columns}
-        return {name: (float((found := limit_of(each)).value), found.text, found.fails) for name, each in (known | given).items()}
+        found = {name: limit_of(each, self.columns[name][0].unit) for name, each in (known | given).items()}
+        return {name: (float(each.value), each.text, each.fails) for name, each in found.items()}
 
     def said_otherwise(self, name: str) -> str:
         """Return in Russian what a limit says, where the machine has said it; a limit that was given says what it says."""
@@ -236,6 +237,7 @@ def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[fl
     if not isinstance(ends, (list, tuple)) or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
         said = f"{machine.plan.title}: vary: {name}={cited(ends)}"
         raise DefinitionError(f"{said}: the least and the greatest value are expected, (0.28, 0.34).")
+    require_kind(machine.plan, name, ends, f"{machine.plan.title}: vary: {name}")
     if machine.plan.table.entries[name].kind == "length" and ends[0] <= 0.0:
         raise DefinitionError(f"{machine.plan.title}: vary: {name}={cited(ends)}: a length is above zero; give a least value that is.")
     low, high = sorted(sign * float(end) for end in ends)

@@ -19,7 +19,7 @@ from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
 from ..reports import NOTHING, At, results, run_of
-from ..units import factor
+from ..units import factor, require_measure
 from . import style
 from .sheet import panels, quiet
 from .strokes import StrokeAxis, column_shown, frame_count
@@ -121,12 +121,14 @@ class Limit(NamedTuple):
         return np.asarray(values > self.value if self.fails == "above" else values < self.value)
 
 
-def limit_of(given: Sequence[object]) -> Limit:
-    """Return a limit from a tuple of its parts; DefinitionError for a side that is neither above nor below."""
+def limit_of(given: Sequence[object], unit: str = "") -> Limit:
+    """Return a limit from a tuple of its parts; DefinitionError for a side that is neither above nor below, and for another `unit`."""
     parts = tuple(given) if isinstance(given, (list, tuple)) else ()
     if not 1 <= len(parts) <= 3 or not is_number(parts[0]) or not all(isinstance(each, str) for each in parts[1:]):
         raise DefinitionError(f'{cited(given)} is no limit; write (value [SI], text) or (value, text, "below").')
     found = Limit(*parts)
+    if unit:
+        require_measure(found.value, unit, f"the limit {found.text}".rstrip())
     if found.fails not in ("above", "below"):
         raise DefinitionError(f'the limit {found.text or found.value!r} fails {found.fails!r}: say "above" or "below".')
     return found
@@ -154,7 +156,7 @@ def panel(ax: Axes, motion: Motion, column: Column, bound: Sequence[object] | No
         ax.set_xlim(float(along.values.min()), float(along.values.max()))
     ax.xaxis.set_major_locator(locator(along.is_turning))
     ax.yaxis.set_major_locator(locator())
-    limit = None if bound is None else limit_of(bound)
+    limit = None if bound is None else limit_of(bound, column.unit)
     ax.set_ylim(*axis_range(column, limit))
     if limit is not None:
         mark_limit(ax, along, column, limit)

@@ -1,11 +1,9 @@
-"""What a design variable measures, by its unit, its label, or what it is added to."""
+"""What a design variable or a stroke measures, by its unit, its label, or what it is added to."""
 
 from __future__ import annotations
 
-from ..units import UNITS
+from ..units import require_measure
 from .plan import Plan
-
-VARIABLE_MEASURES = {"length": "length", "coordinate": "length", "angle": "angle"}
 
 
 def plan_measure(plan: Plan, variable: str) -> str:
@@ -13,11 +11,37 @@ def plan_measure(plan: Plan, variable: str) -> str:
 
     A dimension without a unit of its own measures what it is added to: `L0` in `AB=L0 + S` is a length.
     """
-    entry = plan.table.entries[variable]
-    if entry.unit:
-        return UNITS[entry.unit][1]
-    if entry.kind in VARIABLE_MEASURES:
-        return VARIABLE_MEASURES[entry.kind]
+    found = plan.table.entries[variable].measures
+    if found:
+        return found
     if any(variable in plan.terms(length) for length in plan.table.lengths.values()):
         return "length"
     return "angle" if variable in plan.turning else ""
+
+
+def require_kind(plan: Plan, name: str, value: object, what: str) -> None:
+    """Refuse an amount of another kind than a dimension, a fixed point or a stroke of a machine measures.
+
+    Parameters
+    ----------
+    plan : Plan
+        What the machine is made of.
+    name : str
+        The name of a dimension, of a fixed point, whose coordinates are lengths, or of a stroke; any other one passes.
+    value : object
+        What was given for it, or several values in a list or a tuple.
+    what : str
+        What it was given for, for the message: `Arm: S`.
+
+    Raises
+    ------
+    DefinitionError
+        An amount measures something else. A plain number is SI, whatever was meant.
+    """
+    if name in plan.strokes:
+        kind = plan.stroke_measure(name)
+    else:
+        spelling = name if name in plan.table.spellings else f"{name}.x"
+        kind = plan_measure(plan, plan.table.spellings[spelling][0]) if spelling in plan.table.spellings else ""
+    if kind:
+        require_measure(value, kind, what)

@@ -14,6 +14,7 @@ from ..errors import DefinitionError, about, unknown
 from ..frozen import FrozenDict
 from ..language import translated
 from ..quantities import (
+    Dimension,
     Distance,
     Function,
     Joint,
@@ -33,10 +34,11 @@ from ..quantities import (
     name_of,
     needs,
     quantity,
+    signed_terms,
     unnamed,
 )
 from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, strokes_drawn, with_bodies
-from ..units import deg
+from ..units import Amount, deg, require_measure
 from .bodies import Body, merged
 from .table import Table
 
@@ -116,6 +118,8 @@ class Members:
         for name, member in self.members.items():
             with about(name):
                 self._check_kinds(name, member)
+        for ends, length in self.table.lengths.items():
+            self._check_terms(length, "length", f"{title}: {'-'.join(sorted(ends))} = {length}")
         self.members = named_by(with_bodies(self.members, self.table.lengths), aliases)
 
     def _bound(self, name: str, member: Member) -> Member:
@@ -145,7 +149,8 @@ class Members:
         return tuple(name for name, point in self.points.items() if point.is_fixed)
 
     def _check_kinds(self, name: str, member: Member) -> None:
-        """Raise DefinitionError where a point, a vector or a quantity is given for another kind."""
+        """Raise DefinitionError where a point, a vector, a quantity or an amount is given for another kind."""
+        self._check_amounts(name, member)
         member.examine(self.members, self.title)
         for part in self.with_parts(name):
             for length in part.lengths():
@@ -162,6 +167,26 @@ class Members:
         if isinstance(member, Point) and member.is_fixed and self.moves(member):
             text = f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank."
             raise DefinitionError(text)
+
+    def _check_amounts(self, name: str, member: Member) -> None:
+        """Raise DefinitionError for an amount that stands for a length or an angle and measures something else, `20 * mm + phi`."""
+        if isinstance(member, Stroke) and (isinstance(member.start, Amount) or isinstance(member.end, Amount)):
+            require_measure((member.start, member.end), self.stroke_measure(name), f"{self.title}: {name}")
+        for each, value in member.strokes.items() if isinstance(member, Drawn) else ():
+            if each in self.strokes and isinstance(value, Amount):
+                require_measure(value, self.stroke_measure(each), f"{self.title}: {name} = drawn(...): {each}")
+        for _, value in member.coordinates() if isinstance(member, Point) else ():
+            self._check_terms(value, "length", f"{self.title}: {name} = {member}")
+        for part in self.with_parts(name):
+            for angle in part.in_radians():
+                self._check_terms(angle, "angle", f"{self.title}: {name} = {member}")
+
+    def _check_terms(self, given: Quantity, measures: str, what: str) -> None:
+        """Raise DefinitionError where a number or a dimension that a length or an angle is a sum of measures something else."""
+        for _, term in signed_terms(given, self.members):
+            amount = term.number if isinstance(term, Number) else term.default if isinstance(term, Dimension) else None
+            if isinstance(amount, Amount):
+                require_measure(amount, measures, f"{self.title}: {term.name}" if term.name else f"{what}: a term of the {measures}")
 
     # -- what moves with what --------------------------------------------------------------------------
 
@@ -294,6 +319,17 @@ class Members:
         """The names of what angles are sums of: strokes and dimensions in rad."""
         parts = [part for name in self.members for part in self.with_parts(name)]
         return frozenset().union(*(self.terms(angle) for part in parts for angle in part.in_radians()))
+
+    def stroke_measure(self, name: str) -> str:
+        """Return whether a stroke is an "angle" or a "length": by what it is added to, else as it was given; "" where nothing says so."""
+        if name in self.turning:
+            return "angle"
+        jointed = [each for each in self.members.values() if isinstance(each, Jointed) and each.kind != "load"]
+        driven = [drive.quantity for each in jointed for joint in each.joints() for drive in joint.drives]
+        if any(name in self.terms(length) for length in (*self.table.lengths.values(), *driven)):
+            return "length"
+        stroke = self.strokes[name]
+        return str(getattr(stroke.start, "measures", "") or getattr(stroke.end, "measures", ""))
 
     @cached_property
     def following(self) -> tuple[tuple[str, Quantity], ...]:

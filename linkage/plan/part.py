@@ -18,7 +18,6 @@ from ..quantities import (
     Coordinate,
     Dimension,
     Member,
-    Number,
     Operand,
     Quantity,
     Ref,
@@ -36,6 +35,7 @@ from ..quantities.axes import is_nothing
 from ..quantities.member import word_arguments
 from ..steps import Arrow, Drawn, Group, Link, Point, Step
 from ..steps.labels import Spoken
+from ..units import require_measure
 from .members import aliases_among
 from .plan import Plan
 
@@ -86,6 +86,7 @@ class Part(Member):
         self.given: dict[str, Any] = {**self._set_in(machine), **given}
         self.on = carriers_of(on)
         x, y = (0.0, 0.0) if at is None else pair_of(at, "Part(at=...)")
+        require_measure(angle, "angle", "Part: angle")
         self.at, self.angle = (quantity(x), quantity(y)), quantity(angle)
         self.mirrored = is_yes("Part: mirrored", mirrored)
         self._check_words({"on": on is not None, "at": at is not None, "angle": not is_nothing(self.angle), "mirrored": self.mirrored})
@@ -306,6 +307,7 @@ def pair_of(given: object, what: str) -> tuple[Operand, Operand]:
         raise DefinitionError(f"{what}: {cited(given)} is no place; write (x, y) in m, or name a point of the machine.")
     for each in pair:
         quantity(each)
+    require_measure(pair, "length", what)
     x, y = pair
     return x, y
 
@@ -407,7 +409,7 @@ class Renamed(Renaming):
         if name in given and isinstance(member, (Stroke, Dimension)) and not is_number(given[name]):
             return quantity(given[name]).renewed(_name=dotted)
         if name in given and isinstance(member, Stroke):
-            return Number(float(given[name])).renewed(_name=dotted)
+            return quantity(given[name]).renewed(_name=dotted)
         found = self.member(member)
         values: dict[str, Any] = {}
         if name in given and isinstance(member, Point):
@@ -510,7 +512,7 @@ class Renamed(Renaming):
 def with_sign(value: Any, sign: int) -> Any:
     """Return a number or a quantity with a sign."""
     if is_number(value):
-        return sign * float(value)
+        return value if sign > 0 else -value
     found = quantity(value)
     return found if sign > 0 else -found
 

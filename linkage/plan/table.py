@@ -15,7 +15,7 @@ from ..frozen import read_only
 from ..quantities import Number, Operand, Quantity, Variable, quantity, real, spelled
 from ..steps import Slot
 from ..steps.step import TURN
-from ..units import UNITS, deg
+from ..units import UNITS, deg, require_measure
 from ..vectors import Numbers
 
 Label: TypeAlias = frozenset[str] | tuple[str, frozenset[str]]
@@ -32,6 +32,11 @@ class DesignVariable:
     kind: str
     where: str
     unit: str = ""
+
+    @property
+    def measures(self) -> str:
+        """What it measures by its unit or its label: "length", "angle", "pressure"; "" where neither says so."""
+        return UNITS[self.unit][1] if self.unit else {"length": "length", "coordinate": "length", "angle": "angle"}.get(self.kind, "")
 
 
 class Table:
@@ -54,6 +59,8 @@ class Table:
             error = unknown("Unit", unit, UNITS, where=f"{self.title}: {where}, {name}")
             raise DefinitionError(f'{error} Write "" where none of them fits; the number is then shown in SI as it is.')
         entry = DesignVariable(name, default, kind, where, unit)
+        if entry.measures:
+            require_measure(default, entry.measures, f"{self.title}: {where}: {name}")
         value_in_range(entry, default)
         self.entries[name], self.defaults[name] = entry, float(default)
         self.spellings[name] = (name, 1)

@@ -8,7 +8,7 @@ from typing import ClassVar, final
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..units import UNITS, unit_or_none
+from ..units import UNITS, require_measure, unit_or_none
 from ..vectors import Scalar
 from .member import Where
 from .quantity import Quantity, in_degrees, is_number, plain
@@ -29,6 +29,9 @@ class Stroke(Quantity):
                 raise DefinitionError(f"Stroke({cited(self.start)}, {cited(self.end)}): both ends must be finite numbers.")
         object.__setattr__(self, "start", plain(self.start))
         object.__setattr__(self, "end", plain(self.end))
+        for value in (self.start, self.end):
+            if getattr(value, "measures", "") != "angle":
+                require_measure(value, "length", "Stroke: end")
         if self.start == self.end:
             raise DefinitionError(f"Stroke({self.start}, {self.end}) has no length: give two different ends.")
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes, unmasked
-from ..units import deg
+from ..units import amount_or_float, deg
 from ..vectors import FloatArray, Operators, Scalar, Vec
 from .arithmetic import Arithmetic
 from .member import Member, Reference, Turning, Where, is_reference
@@ -241,7 +241,7 @@ def quantity(value: Operand) -> Quantity:
     if isinstance(value, str):
         return ref(value)
     if is_number(value):
-        return Number(float(value))
+        return Number(amount_or_float(value))
     if isinstance(value, (float, int)) and not isinstance(value, bool):
         raise DefinitionError(f"{cited(value)} is not a finite number; give a value in SI.")
     raise DefinitionError(f"{cited(value)} stands where a number, a quantity or its name is expected.")
@@ -250,7 +250,7 @@ def quantity(value: Operand) -> Quantity:
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Number(Quantity):
-    """A number, in SI."""
+    """A number, in SI; one that was given with its unit is an `Amount` still."""
 
     number: float
 
@@ -259,7 +259,7 @@ class Number(Quantity):
         return self.name or repr(self.number)
 
     def rule(self, where: Where) -> Scalar:
-        return self.number
+        return float(self.number)
 
     @property
     def is_constant(self) -> bool:

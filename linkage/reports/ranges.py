@@ -13,6 +13,7 @@ from ..errors import DefinitionError, cited, unknown
 from ..language import said, with_and
 from ..mechanism import Mechanism
 from ..motion import Judge, Motion, Request, Run, out_of_reach, require_motion
+from ..plan import require_kind
 from ..program import FloatArray
 from ..quantities import as_mapping, is_number, real
 from ..units import show, shown_number
@@ -127,6 +128,7 @@ def stroke_way(machine: Mechanism, name: str, value: object) -> tuple[float, ...
     title = machine.plan.title
     if name not in machine.strokes:
         raise unknown("Stroke", name, machine.strokes, where=title)
+    require_kind(machine.plan, name, value, f"{title}: at: {name}")
     try:
         values = tuple(np.ravel(real(value)).tolist())
     except ValueError:

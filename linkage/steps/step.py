@@ -29,7 +29,7 @@ from ..quantities import (
     name_of,
     quantity,
 )
-from ..units import deg
+from ..units import deg, require_measure
 from ..vectors import Scalar, Side, Vec
 from .labels import DimensionTable, Slot, Spoken, match, relabelled, written_labels
 
@@ -339,6 +339,7 @@ def position(value: Position | None, what: str) -> tuple[float, float] | None:
         raise DefinitionError(f"{what}: {cited(value)} is not a position; write (x, y) in m.")
     if not all(map(is_number, pair)):
         raise DefinitionError(f"{what}: {cited(value)} is not a finite position.")
+    require_measure(pair, "length", what)
     return float(pair[0]), float(pair[1])
 
 

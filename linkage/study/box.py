@@ -15,7 +15,7 @@ from ..motion.line import Index
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number, is_whole
-from ..units import show, shown_number, unit_sign
+from ..units import amount_or_float, show, shown_number, unit_sign
 from .checks import check_mechanism, unit_of
 from .designs import check_once
 
@@ -88,7 +88,7 @@ def range_of(name: str, given: object) -> tuple[float, float]:
     """Return a range; DefinitionError unless it is (low, high)."""
     if not isinstance(given, (tuple, list)) or len(given) != 2 or not all(is_number(end) for end in given) or given[0] > given[1]:
         raise DefinitionError(f"{name}={cited(given)} is no range; write (low, high) in SI, or a list [first, second] of choices.")
-    return float(given[0]), float(given[1])
+    return amount_or_float(given[0]), amount_or_float(given[1])
 
 
 def choices_of(name: str, given: object) -> list[Any]:

@@ -22,7 +22,7 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
 from ..shown import Shown
-from ..units import deg, display_unit, mm, show
+from ..units import deg, display_unit, mm, require_measure, show
 from .box import unit_points
 from .checks import unit_of
 from .poles import check_bounded
@@ -589,6 +589,8 @@ def rounded_design(optimum: Optimum, to: float, angle: float) -> Rounded:
     for name, value in (("to", to), ("angle", angle)):
         if not is_number(value) or value <= 0.0:
             raise DefinitionError(f"rounded({name}={cited(value)}): a step above zero is expected, such as 1 * mm.")
+    require_measure(to, "length", "rounded: to")
+    require_measure(angle, "angle", "rounded: angle")
     if to > COARSEST * size_of_machine(optimum.machine):
         raise DefinitionError(f"rounded({to:.6g}): steps of {to:.6g} m are as coarse as the machine; write {to:.6g} * mm if that is meant.")
     problem, space = optimum.problem, optimum.problem.space

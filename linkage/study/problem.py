@@ -37,7 +37,7 @@ from ..motion.measures import (
     words_of,
 )
 from ..motion.strokes import check_magnitude
-from ..plan import Mask, Plan
+from ..plan import Mask, Plan, require_kind
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
 from ..vectors import Numbers
@@ -106,6 +106,7 @@ def ranges_of(machine: Mechanism, over: object) -> dict[str, Range]:
             raise DefinitionError(
                 f"{title}: over={{{name!r}: ...}}: there is no stroke of that name; its strokes are {', '.join(plan.strokes)}."
             )
+        require_kind(plan, name, ends, f"{title}: over: {name}")
         if is_number(ends):
             continue
         if not isinstance(ends, (tuple, list)) or len(ends) != 2:

@@ -15,7 +15,7 @@ from ..errors import DefinitionError, cited, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint
-from ..plan import Plan, plan_measure
+from ..plan import Plan, plan_measure, require_kind
 from ..program import FloatArray
 from ..quantities import is_number, label
 from ..units import show
@@ -57,7 +57,7 @@ def around(by: float | None = None, step: float | None = None, *, radius: float 
         if value is not None and (not is_number(value) or value <= 0.0):
             raise DefinitionError(f"around({cited(by)}{'' if step is None else f', {cited(step)}'}): {what} above zero is expected.")
     assert by is not None
-    return Around(float(by), step, is_round)
+    return Around(by, step, is_round)
 
 
 @final
@@ -93,7 +93,10 @@ class Space:
                 variables += ranged(machine, parts, given)
             else:
                 owners = tuple(owner for part in parts for owner in owners_of(machine.plan, part))
-                choices.append((owners, rows_of(title, parts, given, owners)))
+                rows = rows_of(title, parts, given, owners)
+                choices.append((owners, tuple(tuple(map(float, row)) for row in rows)))
+                for place, part in enumerate(coordinates(machine.plan, parts)):
+                    require_kind(machine.plan, part, [row[place] for row in rows], f"{title}: vary: {part}")
                 names.append(tuple(coordinates(machine.plan, parts)))
         check_unit_of_ranges(machine, variables, about)
         check_once(machine, {part: None for name in vary for part in (name if isinstance(name, tuple) else (name,))})
@@ -217,6 +220,7 @@ def ranged(machine: Mechanism, names: Sequence[str], given: Around | tuple[Any, 
     plan, found = machine.plan, []
     for name in coordinates(plan, names):
         owner, sign = plan.table.spellings[name]
+        require_kind(plan, name, [given.by, given.step] if isinstance(given, Around) else given, f"{plan.title}: vary: {name}")
         if isinstance(given, Around):
             now = float(sign * machine.dimensions[owner])
             low, high, step = now - given.by, now + given.by, given.step
@@ -277,5 +281,5 @@ def rows_of(
         if len(row) != width or not all(is_number(value) for value in row):
             many = f"{width} numbers are" if width > 1 else "a number is"
             raise DefinitionError(f"{title}: {', '.join(names)}: {cited(each)} is no choice; {many} expected.")
-        rows.append(tuple(map(float, row)))
+        rows.append(row)
     return tuple(rows)

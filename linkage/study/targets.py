@@ -106,6 +106,7 @@ class Aim:
                 raise DefinitionError(f"{plan.title}: {each!r}: {said}.")
             if set(each.strokes) != set(machine.strokes):
                 raise DefinitionError(f"{plan.title}: {each!r}: say the pose, {', '.join(f'{name}=...' for name in machine.strokes)}.")
+            each.check(plan)
         bound = tuple(traced_number(plan, each.quantity) for each in targets)
         strokes = {name: np.array([each.strokes[name] for each in targets]) for name in machine.strokes}
         scale = [each.miss(plan, float(each.value)) for each in targets]

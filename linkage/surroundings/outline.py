@@ -35,6 +35,7 @@ from ..quantities import (
 from ..quantities.axes import NOTHING, negated, plus
 from ..quantities.quantity import plain
 from ..steps import Link
+from ..units import require_measure
 from .dxf import dxf_lines
 
 Array: TypeAlias = npt.NDArray[np.float64]
@@ -357,6 +358,7 @@ def corner_of(given: object, what: str) -> tuple[Quantity, ...]:
     pair = tuple(given) if isinstance(given, (list, tuple)) or (isinstance(given, np.ndarray) and given.ndim == 1) else ()
     if len(pair) != 2 or not all(isinstance(each, (str, Quantity)) or is_number(each) for each in pair):
         raise DefinitionError(f"{what}: {cited(given)} is not a place; write (x, y) in m, numbers or dimensions.")
+    require_measure(pair, "length", what)
     return tuple(quantity(plain(each)) for each in pair)
 
 
@@ -364,6 +366,7 @@ def length_above_zero(given: object, what: str) -> Quantity:
     """Return a size as a quantity; DefinitionError for one that is not above zero."""
     if not isinstance(given, (str, Quantity)) and not (is_number(given) and given > 0.0):
         raise DefinitionError(f"{what}: {cited(given)} is no size; give a length above zero [m], or a dimension.")
+    require_measure(given, "length", what)
     return quantity(plain(given))
 
 

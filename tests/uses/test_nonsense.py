@@ -8,42 +8,57 @@ from hydraulics import Accumulator, Cylinder, HoldingValve, LiftCircuit, OilLine
 from linkage import (
     RIGHT,
     Actuator,
+    Crank,
     Damper,
+    Dimension,
     Dyad,
     Force,
     Ground,
+    Guide,
     GuideFriction,
     LinkageError,
     LinkMass,
     LoadCase,
     Mechanism,
     Moment,
+    OnGuide,
     OnLink,
+    Outline,
+    Over,
+    Part,
     PinFriction,
     Pulley,
     Rope,
     Spring,
     Stroke,
     Support,
+    Target,
     Weight,
     animate,
     around,
+    at,
     bar,
     deg,
     draw,
+    drawn,
     drive_force,
     equations,
+    gap,
     kN,
     mm,
     most,
     optimise,
     page,
     plot,
+    ref,
     report,
+    strokes_for,
+    y,
 )
+from linkage import angle as angle_of
 from linkage.cli import main
 from linkage.files.criterion import measure_said
-from linkage.study import Tolerance, monte_carlo, sobol, tornado
+from linkage.study import Tolerance, monte_carlo, settings_for, sobol, tornado
 
 
 class Arm(Mechanism):
@@ -91,6 +106,83 @@ KINDS = {
 }  # fmt: skip
 
 
+class Boom(Mechanism):
+    """A rack with a boom on its pinion: one stroke is a length, one an angle, one a length by a factor alone."""
+
+    z, phi, turn = Stroke(0.0, 0.2), Stroke(0.2, 0.9), Stroke(0.0, 1.0)
+    O = Ground(0.0, 0.0)
+    rail, post = Guide(O, angle=90 * deg), Guide(O, angle=0)
+    C = OnGuide(rail, at=0.4 + z)
+    D = OnGuide(post, at=0.6 + 0.05 * turn)
+    P = Crank(C, CP=0.5, angle=30 * deg + phi)
+
+
+def amounts(folder):
+    """Return calls of public doors with amounts of another kind than is expected, each with words of its refusal."""
+    AT = dict(z=0.1, phi=0.5, turn=0.2)
+    length, angle = "given as an angle; expected is a value of length", "given as a length; expected is a value of angle"
+    one = dict(minimise=FORCE, starts=1)
+
+    def made(**members):
+        return type("Made", (Arm,), members)
+
+    def boom(**members):
+        return type("Made", (Boom,), members)
+
+    return {
+        "at": (lambda: ARM.at(S=5 * deg), length), "at, list": (lambda: ARM.at(S=[0.0, 5 * deg]), length),
+        "at, angle": (lambda: Boom().at(**AT | dict(phi=20 * mm)), angle),
+        "sweep": (lambda: Boom().sweep(z=5, phi=20 * mm, turn=0.0), angle),
+        "assemblies": (lambda: ARM.assemblies(S=5 * deg), length),
+        "Over": (lambda: ARM.answers([FORCE], over=Over(S=(0, 10 * deg))), length),
+        "Over, held": (lambda: Boom().answers([most(y("P"))], over=Over(phi=2 * mm)), angle),
+        "Over.path": (lambda: ARM.judge(Over.path(S=[0, 5 * deg, 0.1])), length),
+        "over=": (lambda: ARM.judge({"S": (0, 3 * deg)}), length),
+        "Over, only": (lambda: ARM.judge(Over(only=[y("T") <= 20 * deg])), length),
+        "Over, only turned": (lambda: ARM.judge(Over(only=[3 * mm >= angle_of("O", "T")])), angle),
+        "Over, of the class": (lambda: made(lifts=Over(S=(0, 5 * deg)))().verdicts(), length),
+        "Target": (lambda: strokes_for(ARM, [Target(y("T"), 20 * deg)]), length),
+        "Target, within": (lambda: strokes_for(ARM, [Target(y("T"), 0.2, within=1 * deg)]), length),
+        "Target, path": (lambda: ARM.follow([Target(y("T"), [20 * deg, 30 * deg])]), length),
+        "Target, pose": (lambda: settings_for(ARM, {"OB": (0.5, 0.7)}, [Target(y("T"), 0.2, S=2 * deg)]), length),
+        "hold": (lambda: strokes_for(Boom(), [Target(y("P"), 0.7)], hold={"phi": 3 * mm, "turn": 0.0}), angle),
+        "design": (lambda: Arm(OB=30 * deg), length), "design, batch": (lambda: Arm(OB=[30 * deg, 40 * deg]), length),
+        "design, point": (lambda: Arm(A=(0.5, 3 * bar)), "given as a pressure; expected is a value of length"),
+        "design, load": (lambda: Arm(**{"w.mass": 2 * kN}), "given as a force; expected is a value of mass"),
+        "design, circuit": (lambda: ARM.replaced(**{"line.pressure": 20 * kN}), "given as a force; expected is a value of pressure"),
+        "Stroke": (lambda: made(S=Stroke(0, 30 * bar)), "given as a pressure"), "Stroke, use": (lambda: made(S=Stroke(0, 9 * deg)), length),
+        "Stroke, turning": (lambda: boom(phi=Stroke(0, 200 * mm)), angle), "drawn": (lambda: made(s=drawn(S=3 * deg)), length),
+        "Dimension": (lambda: made(L=Dimension(30 * deg), B=Dyad("A", "O", AB=ref("L") + ref("S"), OB=0.6, side=RIGHT)), length),
+        "Dimension, unit": (lambda: made(L=Dimension(30 * deg, unit="mm")), length),
+        "Dimension, angle": (lambda: boom(L=Dimension(30 * mm), P=Crank("C", CP=0.5, angle=ref("L") + ref("phi"))), angle),
+        "Ground": (lambda: made(O=Ground(10 * deg, 0)), length),
+        "Ground, sum": (lambda: made(L=Dimension(0.1), O=Ground(0, ref("L") + 1 * deg)), length),
+        "Dyad": (lambda: made(B=Dyad("A", "O", AB=0.6 + ref("S"), OB=30 * deg, side=RIGHT)), length),
+        "Dyad, sum": (lambda: made(B=Dyad("A", "O", AB=30 * deg + ref("S"), OB=0.6, side=RIGHT)), length),
+        "Dyad, near": (lambda: made(B=Dyad("A", "O", AB=0.6 + ref("S"), OB=0.6, near=(0.5, 3 * deg))), length),
+        "Crank": (lambda: boom(P=Crank("C", CP=0.5, angle=30 * mm + ref("phi"))), angle),
+        "OnLink": (lambda: made(T=OnLink("O", "B", OT=1.2, BOT=20 * mm)), angle),
+        "OnLink, arm": (lambda: made(T=OnLink("O", "B", OT=1 * bar)), "given as a pressure"),
+        "Guide": (lambda: boom(rail=Guide("O", angle=90 * mm)), angle),
+        "Guide, origin": (lambda: boom(rail=Guide((0, 1 * deg), angle=0)), length),
+        "Part": (lambda: type("Two", (Mechanism,), dict(a=Part(Arm, OB=30 * deg))), length),
+        "Part, at": (lambda: Part(Arm, at=(0, 3 * deg)), length), "Part, angle": (lambda: Part(Arm, angle=3 * mm), angle),
+        "Outline": (lambda: Outline([(0, 0), (1, 0), (1, 3 * deg)]), length),
+        "Outline.circle": (lambda: Outline.circle((0, 0), 3 * deg), length),
+        "gap": (lambda: gap("OB", "A", width=3 * deg), length),
+        "vary": (lambda: optimise(ARM, vary={"OB": (16 * deg, 40 * deg)}, **one), length),
+        "vary, choices": (lambda: optimise(ARM, vary={"OB": [0.5, 40 * deg]}, **one), length),
+        "around": (lambda: optimise(ARM, vary={"O": around(3 * deg)}, **one), length),
+        "around, step": (lambda: optimise(ARM, vary={"OB": around(3 * mm, 1 * deg)}, **one), length),
+        "over of a study": (lambda: optimise(ARM, vary={"OB": around(3 * mm)}, over={"S": (0, 3 * deg)}, **one), length),
+        "page, vary": (lambda: page(ARM, folder / "a.html", vary={"OB": (5 * deg, 40 * deg)}), length),
+        "plot, limits": (lambda: plot(ARM, ["T_y"], limits={"T_y": (20 * deg, "most")}), length),
+        "report, limits": (lambda: report(ARM, folder / "a.md", limits={"T_y": (20 * deg, "most")}, count=3), length),
+        "report, at": (lambda: report(ARM, folder / "a.md", at={"S": (0, 5 * deg)}, count=3), length),
+        "measure": (lambda: ARM.answers([at(y("T"), S=3 * deg)]), length),
+    }  # fmt: skip
+
+
 def doors(folder):
     """Return calls of public doors with nonsense, each with words of its refusal."""
     study = dict(vary={"OB": around(30 * mm)}, starts=1)
@@ -107,6 +199,7 @@ def doors(folder):
         "page, unknown": (lambda: page(ARM, folder / "a.html", vary={"zz": (5, 6)}), "Dimension 'zz' is unknown"),
         "plot, unknown": (lambda: plot(ARM, "zz"), "zz"),
         "draw, unknown": (lambda: draw(ARM, path=["zz"]), "zz"),
+
         "sweep": (lambda: ARM.sweep(-3), "-3"),
         "at": (lambda: ARM.at(zz=3), "zz"),
         "robust, too large": (lambda: optimise(ARM, minimise=FORCE, robust={"OB": 1.0}, **study), "OB: a tolerance of 1 m is too large"),
@@ -145,6 +238,22 @@ def failures(calls):
 def test_amounts_of_another_kind_are_refused_by_every_element():
     assert not failures(KINDS)
     assert Moment("O B", M=5 * kN).M == 5000.0 and Weight("T", mass=250).mass == 250  # kN m; SI without a unit
+
+
+def test_amounts_of_another_kind_are_refused_at_every_door(tmp_path):
+    assert not failures(amounts(tmp_path))
+
+
+def test_amounts_of_the_right_kind_and_plain_numbers_are_taken():
+    assert ARM.at(S=[0 * mm, 50 * mm]).shape == (2,) and Boom().at(z=20 * mm, phi=20 * deg, turn=20 * deg).shape == ()
+    turned = type("Turned", (Boom,), {"turn": Stroke(0.0, 90 * deg)})  # a factor alone makes a length of it: its own unit says what it is
+    assert not failures({"turn": (lambda: turned().at(z=0.0, phi=0.5, turn=3 * mm), "given as a length; expected is a value of angle")})
+    assert Arm(OB=[500 * mm, 0.6], A=(400 * mm, -0.5))["OB"].tolist() == [0.5, 0.6]
+    assert ARM.replaced(OB=0.5 + 3 * deg)["OB"] == 0.5 + 3 * deg
+    sums = type("Sums", (Arm,), {"L": Dimension(600 * mm), "B": Dyad("A", "O", AB=ref("L") + ref("S"), OB=0.6, side=RIGHT)})
+    assert str(sums.plan.members["L"]) == "Dimension(0.6)" and (sums().at(S=0.1)["T"] == ARM.at(S=0.1)["T"]).all()
+    assert strokes_for(ARM, [Target(y("T"), 600 * mm, within=1 * mm)]).strokes.shape == (1, 1)
+    assert str(Over(S=(0, 50 * mm), only=[y("T") <= 2])) == "Over(S=(0.0, 0.05), only=[y(T) <= 2])"
 
 
 def test_doors_refuse_what_makes_no_sense(tmp_path):

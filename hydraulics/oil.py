@@ -440,7 +440,7 @@ class OilLine(PumpLine, GasLine):
         if kind == "given":
             return None
         gives = next((f"{ram.name}.length" for ram, _ in self.filling(members) if self._gives(ram, members)), "")
-        added = None if gives or self.oil_given.is_constant else self.oil_given
+        added = None if self.oil_given.is_constant else self.oil_given
         return Tie(self.name, self.shares(members), held=False, cut=self.cut if gives else "", gives=gives, added=added)
 
     @property

@@ -7,6 +7,7 @@ import numpy as np
 from ..language import said
 from ..loads import Acting, TwoPoint
 from ..motion import Judge, most, stroke_unit
+from ..plan import Plan
 from ..units import show
 from ..verdict import Remark, Verdict
 from .applied import plan_in_case
@@ -32,21 +33,29 @@ LEAST = 1e-3
 def drive_remarks(judge: Judge) -> list[Remark]:
     """Return what the drives of strokes give that no cylinder holds, of one design of a machine with cylinders.
 
-    Strokes that put oil into closed lines or wind ropes are held by these.
+    Strokes that put oil into closed lines or wind ropes are held by these; in a load case that shuts a line, others may be.
     """
     plan = judge.plan
     if not any(each.holds for each in plan.of_kind(TwoPoint).values()) or any(map(np.ndim, judge.designs.values())):
         return []
+    held = {case: held_strokes(plan_in_case(plan, Acting(case=case))) for case in judge.cases}
+    loose = {name: [case for case, strokes in held.items() if name not in strokes] for name in plan.strokes}
+    asked = [(name, case) for name, cases in loose.items() for case in (cases if len(cases) < len(held) else [""])]
+    answers = judge.lost_allowed().answers([most(abs(drive_force(name, case=case or None))) for name, case in asked]) if asked else []
+    found: dict[str, tuple[float, Remark]] = {}
+    for (name, case), answer in zip(asked, answers, strict=True):
+        size = float(answer.value)
+        if size > max(LEAST, found[name][0] if name in found else 0.0):
+            unit = "kN" if stroke_unit(plan, name) == "m" else "kNm"
+            force = answer.amount if np.isinf(size) else show(size, unit, 4)
+            what = said("{stroke} is held by no cylinder: its drive gives up to {force}", stroke=name, force=force)
+            found[name] = size, Remark(f"{what}, {said('in the case {case}', case=case) + ', ' if case else ''}{answer.place}.")
+    return [remark for _, remark in found.values()]
+
+
+def held_strokes(plan: Plan) -> set[str]:
+    """Return the strokes that cylinders, closed lines and ropes hold."""
     held = set(holders_of(plan).taken)
     for tie in closed_ties(plan):
         held |= set(tie.run.strokes if tie.run is not None else ()) | (plan.reaches(tie.added) if tie.added is not None else set())
-    names = [name for name in plan.strokes if name not in held]
-    answers = judge.lost_allowed().answers([most(abs(drive_force(name))) for name in names]) if names else []
-    found = []
-    for name, answer in zip(names, answers, strict=True):
-        if float(answer.value) > LEAST:
-            unit = "kN" if stroke_unit(plan, name) == "m" else "kNm"
-            force = answer.amount if np.isinf(answer.value) else show(float(answer.value), unit, 4)
-            what = said("{stroke} is held by no cylinder: its drive gives up to {force}", stroke=name, force=force)
-            found.append(Remark(f"{what}, {answer.place}."))
-    return found
+    return held

@@ -6,8 +6,9 @@ from math import pi
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
-from hydraulics import Cylinder, LiftCircuit, capacity, pressure, reserve, thrust
+from hydraulics import Cylinder, LiftCircuit, OilLine, Tank, capacity, pressure, reserve, thrust
 from linkage import (
     LEFT,
     RIGHT,
@@ -16,10 +17,14 @@ from linkage import (
     Dyad,
     Force,
     Ground,
+    Guide,
     Link,
+    LoadCase,
     Mechanism,
     Offset,
+    OnGuide,
     OnLink,
+    Over,
     Part,
     SingularWarning,
     Stroke,
@@ -44,9 +49,9 @@ from linkage import (
     working_field,
 )
 from linkage.reports import results
-from linkage.statics import looseness
+from linkage.statics import drive_remarks, looseness
 from linkage.study import zone
-from linkage.units import bar, deg, mm
+from linkage.units import bar, deg, litre, mm
 from linkage.verdict import Remark
 from tests.laws.test_oil_twins import Double
 from tests.laws.test_statics_laws import shipped
@@ -289,6 +294,55 @@ def test_strokes_that_no_cylinder_holds_are_named_with_the_force_of_their_drive(
     (remark,) = [each for each in Crane().verdicts() if isinstance(each, Remark) and "no cylinder" in each]
     assert remark.startswith("phi is held by no cylinder: its drive gives up to 0.9807 kNm, at")
     assert bool(remark) and remark.ok is None
+
+
+class Legs(Mechanism):
+    """A frame on two legs that share one closed line: it keeps its height in the middle and rolls freely."""
+
+    S = Stroke(0.5, 0.7)
+    L, R = Ground(-1.0, 0.0), Ground(1.0, 0.0)
+    on_left, on_right = Guide(L, angle=90 * deg), Guide(R, angle=90 * deg)
+    left, right = Cylinder(L, "A", bore=80 * mm, rod=56 * mm), Cylinder(R, "B", bore=80 * mm, rod=56 * mm)
+    A, B = OnGuide(on_left, at=S), OnGuide(on_right, at=right.length)
+    line = OilLine(left, right, filled=dict(left=0.6, right=0.6))
+    on_the_left, on_the_right = Force(A, (0.0, -1000.0)), Force(B, (0.0, -4000.0))
+
+
+class Apart(Legs):
+    """Each leg on a line of its own: the left one is fed by a tank, which a valve can shut."""
+
+    lift, drain, pump = Stroke(0.5, 0.7), Tank(5 * bar), LiftCircuit(Legs.right, pressure=200 * bar)
+    B, line = OnGuide(Legs.on_right, at=lift), OilLine(Legs.left, "drain")
+
+
+def unheld(machine):
+    return [str(each) for each in drive_remarks(machine().judge())]
+
+
+def test_a_frame_whose_legs_share_a_closed_line_rolls_freely():
+    """By hand: one pressure pushes both legs alike, so that the drive of S carries the difference of the loads, 3 kN."""
+    lift = Stroke(0.0, 0.4 * litre)
+    for oil in (None, "lift", lift, 2.0 * lift):
+        line = OilLine(Legs.left, Legs.right, filled=dict(left=0.6, right=0.6), oil=0.0 if oil is None else oil)
+        machine = type("Fed", (Legs,), {"line": line} if oil is None else {"lift": lift, "line": line})
+        (remark,) = unheld(machine)
+        assert remark.startswith("S is held by no cylinder: its drive gives up to 3 kN, at S = 0.5"), oil
+        poses = machine().at(S=[0.55, 0.62], **({} if oil is None else {"lift": 1e-4}))
+        assert_allclose(driving_force(poses, drive="S"), -3000.0, rtol=1e-12)
+        assert_allclose(machine.line.pressure(poses), 4000.0 / (pi / 4.0 * 0.08**2), rtol=1e-12)
+
+
+def test_a_valve_that_is_shut_holds_a_leg_that_a_tank_feeds():
+    """By hand: the tank pushes with 5 bar on 80 mm, 2.513 kN, against 1 kN."""
+    given = "S is held by no cylinder: its drive gives up to 1.513 kN"
+    assert unheld(Apart) == [f"{given}, at rest, at S = 0.5000 m, lift = 0.5000 m."]
+    parked = LoadCase("parked", scale={"on_the_left": 9.0}, shut=["line"])
+    shut = type("Apart", (Apart,), {"parked": parked})
+    assert unheld(shut) == [f"{given}, in the case plain, at rest, at S = 0.5000 m, lift = 0.5000 m."]
+    assert unheld(type("Apart", (shut,), {"always": Over(cases=["parked"])})) == []
+    assert unheld(type("Apart", (Apart,), {"heavy": LoadCase("heavy", scale={"on_the_left": 9.0})}))[0].startswith(
+        "S is held by no cylinder: its drive gives up to 6.487 kN, at rest, in the case heavy, at S"
+    )
 
 
 def test_a_field_of_a_loose_machine_is_refused():

@@ -15,7 +15,7 @@ from ..mechanism import Mechanism
 from ..motion import Target
 from ..motion.kinds import measure_of
 from ..units import parse, parse_span
-from .command import PICTURES, Command, lined_up, machine_arguments
+from .command import PICTURES, Command, lined_up, machine_arguments, repeatable
 from .follow import strokes_said
 from .machines import find
 from .settings import design, pair, parsed_over, si_value
@@ -41,17 +41,17 @@ class ChartCommand(Command):
         parser.add_argument("--y", metavar="FROM:TO:STEP", required=True, help="the heights, in the same way")
         against = "the direction against which the load pulls (default 0,1: it hangs)"
         parser.add_argument("--along", metavar="X,Y", default="0,1", help=against)
-        parser.add_argument("--hold", metavar="S=1.1m", action="append", default=[], help="hold a stroke there; repeatable")
+        repeatable(parser, "--hold", "S=1.1m", "hold a stroke there; repeatable")
         runs = "how far strokes run, two ends of each, or a declared Over by its name (default: as far as declared)"
         parser.add_argument("--over", metavar='"t=0:2m"', help=runs)
-        parser.add_argument("--keep", metavar="tilt=0deg", action="append", default=[], help="a value kept at every place; repeatable")
+        repeatable(parser, "--keep", "tilt=0deg", "a value kept at every place; repeatable")
         lifting = "this cylinder lifts, those not named hold; repeatable (default: all lift)"
-        parser.add_argument("--lift", metavar="RAM", action="append", default=[], help=lifting)
+        repeatable(parser, "--lift", "RAM", lifting)
         parser.add_argument("--rule", metavar="RULE", help="the rule whose factors count: ISO 10567, ISO 14397-1, OECD Code 2")
         parser.add_argument("--case", metavar="CASE", help="the load case of this name")
-        parser.add_argument("--without", metavar="LOAD", action="append", default=[], help="leave a declared load out; repeatable")
+        repeatable(parser, "--without", "LOAD", "leave a declared load out; repeatable")
         most = "a load that is not exceeded; repeatable"
-        parser.add_argument("--limit", dest="limits", metavar='"rated load=20kN"', action="append", default=[], help=most)
+        repeatable(parser, "--limit", '"rated load=20kN"', most, "limits")
         parser.add_argument("-o", "--output", metavar="FILE", help=f"write it: {', '.join(SUFFIXES)}")
 
     def run(self, options: Namespace) -> int:

@@ -37,6 +37,11 @@ class Command(ABC):
         """Do it and return the exit code; a LinkageError ends it with one line and exit code 2."""
 
 
+def repeatable(parser: _ActionsContainer, option: str, metavar: str, help: str, dest: str | None = None) -> None:
+    """Declare an argument that may be given several times: a list of texts."""
+    parser.add_argument(option, metavar=metavar, action="append", default=[], help=help, dest=dest)
+
+
 def machine_arguments(parser: ArgumentParser, default: str | None = None) -> None:
     """Declare the arguments that every command on a machine has; with a `default` the machine need not be named."""
     what = "a machine of `list`, package.module:Class, file.py, file.py:Class or file.toml"
@@ -44,10 +49,8 @@ def machine_arguments(parser: ArgumentParser, default: str | None = None) -> Non
         parser.add_argument("machine", metavar="NAME", help=what)
     else:
         parser.add_argument("machine", metavar="NAME", nargs="?", default=default, help=f"{what} (default {default})")
-    parser.add_argument(
-        "--set", dest="settings", metavar="OB=180mm", action="append", default=[],
-        help="change a design variable, with its unit (without: SI); a point: M=0.22,0.95 or M.x=220mm; repeatable",
-    )  # fmt: skip
+    what = "change a design variable, with its unit (without: SI); a point: M=0.22,0.95 or M.x=220mm; repeatable"
+    repeatable(parser, "--set", "OB=180mm", what, "settings")
     link_argument(parser)
 
 
@@ -77,20 +80,18 @@ def path_argument(parser: ArgumentParser) -> None:
 def run_arguments(parser: ArgumentParser, count: int, what: str) -> None:
     """Declare the arguments that choose what runs, and at how many poses."""
     parser.add_argument("--count", metavar="N", type=whole_number, default=count, help=f"{what} (default {count})")
-    parser.add_argument(
-        "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
-        help="hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, the others are held at mid-stroke",
-    )  # fmt: skip
+    what = "hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, the others are held at mid-stroke"
+    repeatable(parser, "--at", "S=0.6", what, "strokes")
 
 
 def motion_arguments(parser: ArgumentParser, count: int) -> None:
     """Declare the arguments that choose the poses."""
     parser.add_argument("--count", metavar="N", type=whole_number, default=count, help=f"poses over the stroke (default {count})")
-    parser.add_argument(
-        "--at", dest="strokes", metavar="S=0.6,650mm", action="append", default=[],
-        help="these values of a stroke instead; repeatable. Without it the machine's path runs, else the first stroke; others are held at "
-        "mid-stroke",
-    )  # fmt: skip
+    what = (
+        "these values of a stroke instead; repeatable. Without it the machine's path runs, else the first stroke; others are held at "
+        "mid-stroke"
+    )
+    repeatable(parser, "--at", "S=0.6,650mm", what, "strokes")
 
 
 def every_argument(parser: ArgumentParser) -> None:

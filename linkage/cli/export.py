@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import plugins
 from ..disk import check_place
-from .command import Command, default_path, machine_arguments, whole_number
+from .command import Command, default_path, machine_arguments, repeatable, whole_number
 from .machines import find
 from .settings import design, stroke_values, tell_gaps
 
@@ -30,13 +30,13 @@ class ExportCommand(Command):
         formats = ", ".join([*OWN_FORMATS, *plugins.entry_points(plugins.EXPORTERS)])
         parser.add_argument("--format", metavar="NAME", help=f"{formats}: one of them, whatever the file's name ends in")
         parser.add_argument("--count", metavar="N", type=whole_number, default=101, help="poses over the stroke (default 101)")
-        parser.add_argument(
-            "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
-            help="hold a stroke at a value; in a workbook the one with two values runs between them: S=0.1,650mm; in a drawing each value "
-            "is a pose on layers of its own; repeatable",
-        )  # fmt: skip
+        what = (
+            "hold a stroke at a value; in a workbook the one with two values runs between them: S=0.1,650mm; in a drawing each value "
+            "is a pose on layers of its own; repeatable"
+        )
+        repeatable(parser, "--at", "S=0.6", what, "strokes")
         parser.add_argument("--poses", metavar="N", type=whole_number, help="a drawing of so many poses over the first stroke")
-        parser.add_argument("--path", metavar="G", action="append", default=[], help="draw this point's path; repeatable")
+        repeatable(parser, "--path", "G", "draw this point's path; repeatable")
 
     def run(self, options: Namespace) -> int:
         found = find(options.machine)

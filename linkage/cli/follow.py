@@ -20,7 +20,7 @@ from ..motion import Column, Motion, RequestLike, Target, stroke_measure
 from ..motion.kinds import measure_of
 from ..quantities import x, y
 from ..units import UNITS, parse, units_of
-from .command import Command, machine_arguments, picture, progress_bar
+from .command import Command, machine_arguments, picture, progress_bar, repeatable
 from .machines import find
 from .settings import acting_of, columns_picked, design, force_arguments, pair, plain_value, si_value
 from .table import COLUMNS, csv_argument, write_table
@@ -52,9 +52,9 @@ class FollowCommand(Command):
             help="the places, a row each; the first line names what is wanted, with its unit: 'x(M) [mm]', M_y, 'tilt [deg]'",
         )  # fmt: skip
         held = "hold a stroke there; repeatable, or several with commas"
-        parser.add_argument("--hold", metavar="S=1.1m", action="append", default=[], help=held)
+        repeatable(parser, "--hold", "S=1.1m", held)
         begun = "begin on the branch near these strokes (default: the first one that goes all the way)"
-        parser.add_argument("--start", metavar="S=1.1m,T=0.2m", action="append", default=[], help=begun)
+        repeatable(parser, "--start", "S=1.1m,T=0.2m", begun)
         parser.add_argument("--gaps", action="store_true", help="leave places empty that are not reached, instead of saying why")
         csv_argument(parser)
         shown = f"a picture, an animation along the path, its live page: {', '.join(PICTURES)}"

@@ -12,7 +12,7 @@ from ..errors import DefinitionError
 from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, limits_over
 from ..reports import force_columns, is_loaded
 from ..statics import PinForces
-from .command import Command, every_argument, machine_arguments, motion_arguments
+from .command import Command, every_argument, machine_arguments, motion_arguments, repeatable
 from .machines import find
 from .settings import (
     POSES,
@@ -95,9 +95,7 @@ class LimitsCommand(Command):
 
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
-        parser.add_argument(
-            "--at", dest="strokes", metavar="S=0.6", action="append", default=[], help="where other strokes are held; repeatable"
-        )
+        repeatable(parser, "--at", "S=0.6", "where other strokes are held; repeatable", "strokes")
         over_argument(parser)
         check_argument(parser)
 

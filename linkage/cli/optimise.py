@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import json
 import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterator, Mapping
@@ -11,23 +9,25 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, final
 
-from ..disk import replacing_text
+import numpy as np
+
 from ..errors import DefinitionError, StudyError, unknown
 from ..files import save
 from ..files.read import load
 from ..files.search_file import SearchFile, read_search
 from ..mechanism import Mechanism
+from ..motion import Column
 from ..study import Front, Optimum
 from ..study.checks import unit_of
 from ..study.optimum import Rounded
-from ..study.result_tables import heading_with_unit, tried_names
+from ..study.result_tables import tried_names
 from ..study.space import Space
 from ..study.survey import Progress as ProgressLike
-from ..units import factor, shown_in
-from .command import Command, link_argument, progress_bar
+from .command import Command, link_argument, progress_bar, repeatable
 from .listing import OWN, registered
 from .machines import find, machine, split
 from .settings import parsed_setting
+from .table import write_columns
 
 NOT_FEASIBLE = 1
 """The exit code where the study came to its end and found no design."""
@@ -36,15 +36,10 @@ NOT_FEASIBLE = 1
 def study_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments that every command on a study file has."""
     parser.add_argument("file", metavar="FILE", help="a study file, .toml or .json")
-    parser.add_argument(
-        "--set", dest="settings", metavar="OB=180mm", action="append", default=[],
-        help="change a design variable, above the file's own `set`; repeatable",
-    )  # fmt: skip
+    repeatable(parser, "--set", "OB=180mm", "change a design variable, above the file's own `set`; repeatable", "settings")
     link_argument(parser)
-    parser.add_argument(
-        "--trust", metavar="PACKAGE", action="append", default=[],
-        help="a package, or a .py file, that the study file may name as its machine and that is run for it; repeatable",
-    )  # fmt: skip
+    what = "a package, or a .py file, that the study file may name as its machine and that is run for it; repeatable"
+    repeatable(parser, "--trust", "PACKAGE", what)
     parser.add_argument("--folder", metavar="DIR", help="keep what is done there, and go on from it (default: the file's own `folder`)")
     parser.add_argument("--progress", action="store_true", help="say how far it is where stderr is no terminal, too")
 
@@ -148,17 +143,11 @@ def optimum_writers(found: Optimum, rounded: Rounded | None) -> Mapping[str, Cal
 def write_front(search: SearchFile, found: Front) -> None:
     """Write the designs of a front: their objectives and what varied, in CSV with units, in JSON lines in SI."""
     plan = search.machine.plan
-    names = tried_names(Space.of(search.machine, search.arguments["vary"]))
-    units = [*found.units, *(unit_of(plan, name) for name in names)]
-    heads = [*map(str, found.objectives), *names]
-    rows = [[*each.values, *(sign * float(each.machine.dimensions[owner]) for owner, sign in map(plan.table.spellings.__getitem__, names))]
-            for each in found.points]  # fmt: skip
+    objectives = zip(map(str, found.objectives), found.units, zip(*(each.values for each in found.points), strict=True), strict=True)
+    columns = [Column(name, np.array(values, float), unit) for name, unit, values in objectives]
+    for name in tried_names(Space.of(search.machine, search.arguments["vary"])):
+        owner, sign = plan.table.spellings[name]
+        columns.append(Column(name, np.array([sign * float(each.machine.dimensions[owner]) for each in found.points]), unit_of(plan, name)))
     for path in search.outputs.get("designs", ()):
-        with replacing_text(path) as stream:
-            if path.suffix.lower() == ".csv":
-                lines = csv.writer(stream)
-                lines.writerow(map(heading_with_unit, zip(heads, units, strict=True)))
-                lines.writerows([repr(value / factor(shown_in(unit))) for value, unit in zip(row, units, strict=True)] for row in rows)
-            else:
-                stream.writelines(json.dumps(dict(zip(heads, row, strict=True))) + "\n" for row in rows)
+        write_columns(columns, path)
         print(path)

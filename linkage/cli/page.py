@@ -7,7 +7,7 @@ from typing import final
 
 from ..errors import DefinitionError
 from ..plan import Plan, plan_measure
-from .command import Command, machine_arguments, picture, run_arguments
+from .command import Command, machine_arguments, picture, repeatable, run_arguments
 from .machines import find
 from .settings import design, motion_along, over_argument, overs_of, si_value, stroke_values, with_overs
 
@@ -24,10 +24,8 @@ class PageCommand(Command):
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
         parser.add_argument("-o", "--output", metavar="FILE", help="the page, .html (default: NAME.html)")
-        parser.add_argument(
-            "--vary", metavar="OB=280mm,340mm", action="append", default=[],
-            help="a dimension with a slider, and its range if it is given; a point has two; repeatable (default: the first lengths)",
-        )  # fmt: skip
+        what = "a dimension with a slider, and its range if it is given; a point has two; repeatable (default: the first lengths)"
+        repeatable(parser, "--vary", "OB=280mm,340mm", what)
         parser.add_argument("--column", metavar="I", help="the column of `table` that is shown first")
         parser.add_argument("--path", metavar="G", action="append", help="draw this point's path; repeatable")
         over_argument(parser)

@@ -18,6 +18,7 @@ from .command import (
     picture,
     picture_argument,
     progress_bar,
+    repeatable,
     run_arguments,
     whole_number,
 )
@@ -48,10 +49,8 @@ class DrawCommand(Command):
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
         picture_argument(parser, "default: NAME.png")
-        parser.add_argument(
-            "--at", dest="strokes", metavar="S=0.6,650mm", action="append", default=[],
-            help="at these values of a stroke, the last one bold (default: both ends of the first stroke); repeatable",
-        )  # fmt: skip
+        what = "at these values of a stroke, the last one bold (default: both ends of the first stroke); repeatable"
+        repeatable(parser, "--at", "S=0.6,650mm", what, "strokes")
         path_argument(parser)
         parser.add_argument("--count", metavar="N", type=whole_number, default=101, help="poses along a path (default 101)")
         forces = parser.add_argument_group("over the machine, at one pose")

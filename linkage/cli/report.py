@@ -8,7 +8,7 @@ from typing import final
 
 from ..disk import check_place
 from ..errors import DefinitionError
-from .command import Command, machine_arguments, motion_arguments, path_argument, whole_number
+from .command import Command, machine_arguments, motion_arguments, path_argument, repeatable, whole_number
 from .machines import find
 from .settings import design, over_argument, overs_of, pair, stroke_values
 
@@ -38,9 +38,7 @@ class ReportCommand(Command):
         block = parser.add_argument_group("title block", "what is left out is an empty line to write on")
         for name, example in TITLE.items():
             block.add_argument(f"--{name}", metavar=example, default="")
-        block.add_argument(
-            "--row", dest="rows", metavar="NAME=TEXT", action="append", default=[], help="a row below the title block; repeatable"
-        )
+        repeatable(block, "--row", "NAME=TEXT", "a row below the title block; repeatable", "rows")
 
     def run(self, options: Namespace) -> int:
         from ..documents import report

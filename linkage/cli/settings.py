@@ -23,7 +23,7 @@ from ..reports import NOTHING, At, Run, force_columns, results, run_along, run_o
 from ..steps import Point
 from ..units import UNITS, parse, parse_span
 from ..verdict import Verdict
-from .command import MOST, say_remark
+from .command import MOST, repeatable, say_remark
 
 FAILED = 1
 """The exit code of `--check` where a verdict fails."""
@@ -45,11 +45,11 @@ def check_argument(parser: ArgumentParser) -> None:
 
 def over_argument(parser: ArgumentParser) -> None:
     """Declare the argument that says where a judgement looks."""
-    parser.add_argument(
-        "--over", metavar='"phi=15deg:80deg,t=0"', action="append", default=[],
-        help="where verdicts and largest values are looked for: a declared Over by its name, or strokes, two ends or one value of each; "
-        "others run; repeatable (default: all declared ones, else the box of all strokes)",
-    )  # fmt: skip
+    what = (
+        "where verdicts and largest values are looked for: a declared Over by its name, or strokes, two ends or one value of each; "
+        "others run; repeatable (default: all declared ones, else the box of all strokes)"
+    )
+    repeatable(parser, "--over", '"phi=15deg:80deg,t=0"', what)
 
 
 def overs_of(machine: Mechanism, texts: Sequence[str]) -> list[Over] | None:
@@ -381,10 +381,8 @@ LIMITS = {"<=": ("above", "at most"), ">=": ("below", "at least")}
 
 def limit_argument(parser: ArgumentParser) -> None:
     """Declare the argument that says which values of a column fail."""
-    parser.add_argument(
-        "--limit", dest="limits", metavar='"pressure<=180bar"', action="append", default=[],
-        help="draw this limit of a column, COLUMN<=VALUE or COLUMN>=VALUE with its unit, the side that fails shaded; repeatable",
-    )  # fmt: skip
+    what = "draw this limit of a column, COLUMN<=VALUE or COLUMN>=VALUE with its unit, the side that fails shaded; repeatable"
+    repeatable(parser, "--limit", '"pressure<=180bar"', what, "limits")
 
 
 def parse_limit(text: str, columns: Sequence[Column]) -> tuple[str, tuple[float, str, str]]:

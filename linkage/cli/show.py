@@ -13,7 +13,7 @@ from ..mechanism import Mechanism
 from ..plan import strokes_text, written_out
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
-from .command import Command, lined_up, machine_arguments, picture, picture_argument, whole_number
+from .command import Command, lined_up, machine_arguments, picture, picture_argument, repeatable, whole_number
 from .machines import find
 from .settings import check_argument, design, judged_code, over_argument, overs_of, stroke_values
 
@@ -38,7 +38,7 @@ class ShowCommand(Command):
         group.add_argument("--wrt", metavar="S", help="the stroke of these derivatives, where there are several")
         group.add_argument("--forces", action="store_true", help="the loads, the driving forces, what cylinders and circuits have")
         group.add_argument("--numbers", action="store_true", help="with the numbers filled in, at the start of each stroke")
-        group.add_argument("--at", dest="strokes", metavar="S=0.6", action="append", default=[], help="numbers at this stroke; repeatable")
+        repeatable(group, "--at", "S=0.6", "numbers at this stroke; repeatable", "strokes")
         group.add_argument("--latex", action="store_true", help="as LaTeX, and nothing else")
         modes = parser.add_argument_group("assembly modes")
         modes.add_argument("--modes", action="store_true", help="all assembly modes with the lines that choose them, and nothing else")

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import csv
-import json
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import final
 
-import numpy as np
-
-from ..disk import replacing_text
 from ..files.study_tasks import TaskResult, read_study
 from ..mechanism import Mechanism
 from ..study import Tornado, Zone
 from .command import Command
 from .optimise import NOT_FEASIBLE, finder, settings_of, study_arguments, study_progress
+from .table import write_columns
 
 
 @final
@@ -45,10 +41,8 @@ class StudyCommand(Command):
 
 def write_task(machine: Mechanism, found: TaskResult, path: Path) -> None:
     """Write a study's result into a file: a table, JSON lines in SI, or a picture of its bands."""
-    if path.suffix.lower() == ".csv":
-        write_rows(found, path)
-    elif path.suffix.lower() == ".jsonl":
-        write_lines(found, path)
+    if path.suffix.lower() in (".csv", ".jsonl"):
+        write_columns(found.columns, path, found.labels)
     else:
         from ..pictures import plot_bands, plot_tornado, plot_zone
 
@@ -56,22 +50,3 @@ def write_task(machine: Mechanism, found: TaskResult, path: Path) -> None:
             plot_zone(machine, found.found, found.unit).savefig(path)
         else:
             (plot_tornado if isinstance(found.found, Tornado) else plot_bands)(found.found).savefig(path)
-
-
-def write_rows(found: TaskResult, path: Path) -> None:
-    """Write a table as CSV, in full precision and with units; an empty field where there is no value."""
-    with replacing_text(path) as stream:
-        writer = csv.writer(stream)
-        writer.writerow([*(["name"] if found.labels else []), *(column.heading for column in found.columns)])
-        for number, row in enumerate(zip(*(column.shown.tolist() for column in found.columns), strict=True)):
-            writer.writerow([*found.labels[number : number + 1], *("" if value != value else repr(value) for value in row)])
-
-
-def write_lines(found: TaskResult, path: Path) -> None:
-    """Write a table as JSON lines, in SI; null where there is no value."""
-    names = [column.name for column in found.columns]
-    with replacing_text(path) as stream:
-        for number, row in enumerate(zip(*(np.asarray(column.values, float).tolist() for column in found.columns), strict=True)):
-            label = {"name": found.labels[number]} if found.labels else {}
-            values = (value if np.isfinite(value) else None for value in row)
-            stream.write(json.dumps({**label, **dict(zip(names, values, strict=True))}) + "\n")

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import csv
 import io
+import json
 import re
 import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
+from pathlib import Path
 from shutil import get_terminal_size
 from typing import TextIO, final
+
+import numpy as np
 
 from ..disk import replacing_text
 from ..errors import DefinitionError, cited
@@ -16,7 +21,7 @@ from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over
 from ..reports import is_loaded, rich_tables, text_table, write_csv
 from ..statics import PinForces, max_table, pin_forces, table_text
-from .command import Command, every_argument, machine_arguments, motion_arguments, progress_bar
+from .command import Command, every_argument, machine_arguments, motion_arguments, progress_bar, repeatable
 from .machines import find
 from .settings import (
     Acting,
@@ -48,7 +53,7 @@ class TableCommand(Command):
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
         parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help=COLUMNS)
-        parser.add_argument("--columns", dest="listed", metavar="I,kz", action="append", default=[], help="the same, separated by commas")
+        repeatable(parser, "--columns", "I,kz", "the same, separated by commas", "listed")
         csv_argument(parser)
         motion_arguments(parser, 11)
         every_argument(parser)
@@ -89,7 +94,7 @@ def column_names(text: str) -> list[str]:
 
 def ratio_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments that add derivatives."""
-    parser.add_argument("--ratio", metavar="G", action="append", default=[], help="the derivatives of a point or an output; repeatable")
+    repeatable(parser, "--ratio", "G", "the derivatives of a point or an output; repeatable")
     parser.add_argument("--wrt", metavar="S", help="the stroke of these derivatives (default: each)")
 
 
@@ -114,17 +119,17 @@ def csv_argument(parser: ArgumentParser) -> None:
     parser.add_argument("--csv", metavar="FILE", help="write the table as CSV in full precision instead; - for stdout")
 
 
-def write_table(columns: Sequence[Column], rows: int, csv: str | None) -> None:
+def write_table(columns: Sequence[Column], rows: int, file: str | None) -> None:
     """Print a table, or write it as CSV where a file is named, "-" being stdout."""
-    if csv is None:
+    if file is None:
         print_table(columns, rows)
-    elif csv == "-":
+    elif file == "-":
         keep_line_ends(sys.stdout)
         write_with_progress(columns, sys.stdout)
     else:
-        with replacing_text(csv) as stream:
+        with replacing_text(file) as stream:
             write_with_progress(columns, stream)
-        print(f"{csv}: {rows} rows")
+        print(f"{file}: {rows} rows")
 
 
 def write_with_progress(columns: Sequence[Column], stream: TextIO) -> None:
@@ -151,3 +156,24 @@ def print_table(columns: Sequence[Column], rows: int) -> None:
     console = Console(width=width)
     for table in rich_tables(columns, width):
         console.print(table)
+
+
+def write_columns(columns: Sequence[Column], path: Path, labels: Sequence[str] = ()) -> None:
+    """Write columns into a file: CSV in full precision with units, or JSON lines in SI; an empty field, or null, where there is no value.
+
+    `labels` are the first field of each row, its name.
+    """
+    is_json = path.suffix.lower() == ".jsonl"
+    names = ["name"][: len(labels)] + [column.name if is_json else column.heading for column in columns]
+    values = [(np.asarray(column.values, float) if is_json else column.shown).tolist() for column in columns]
+    with replacing_text(path) as stream:
+        rows = csv.writer(stream)
+        if not is_json:
+            rows.writerow(names)
+        for number, row in enumerate(zip(*values, strict=True)):
+            label = labels[number : number + 1]
+            if is_json:
+                known = (value if np.isfinite(value) else None for value in row)
+                stream.write(json.dumps(dict(zip(names, [*label, *known], strict=True))) + "\n")
+            else:
+                rows.writerow([*label, *("" if value != value else repr(value) for value in row)])

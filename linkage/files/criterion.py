@@ -11,6 +11,7 @@ A name is an output, a dimension or a stroke of the machine. Nothing is run but 
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Callable, Mapping
 from inspect import signature
 from types import MappingProxyType
@@ -23,12 +24,9 @@ from ..mechanism import Mechanism
 from ..motion import Request
 from ..motion.kinds import KINDS, MeasureKind, common_kind, kind_of_quantity
 from ..motion.measures import (
-    CombinedMeasure,
     Condition,
     Constraint,
     Given,
-    Integral,
-    Leaf,
     Measure,
     Worst,
     as_measure,
@@ -43,13 +41,12 @@ from ..motion.measures import (
     worst,
 )
 from ..motion.requests import Combined
-from ..plan import plan_measure
 from ..quantities import Number, Quantity, angle, distance, is_number, x, y
 from ..steps import Point
 from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
 from .callables import request_function
-from .expression import BINARY, Grammar, constant, tokens
+from .expression import BINARY, Grammar, tokens
 
 CRITERION_GRAMMAR = (
     "a criterion is made of least(...), most(...), integral(...), at(..., S=...), names, numbers with units, + - * / **, and <= >= =="
@@ -138,7 +135,6 @@ class CriterionParser(Grammar):
     def __init__(self, text: str, machine: Mechanism) -> None:
         super().__init__(text, tokens(text, _CRITERION, CRITERION_GRAMMAR))
         self.machine, self.plan = machine, machine.plan
-        self.kinds: list[str] = []
 
     def whole(self) -> Any:
         """Return what the whole text says: a number, a quantity, a measure or a condition."""
@@ -154,42 +150,18 @@ class CriterionParser(Grammar):
     def compared(self) -> Any:
         """Return a sum, or the condition that two of them make."""
         left = self.sum()
-        kinds = [*self.kinds]
         sign = self.take(*COMPARING)
         if not sign:
             return left
-        if sign not in BOUNDS:
+        if sign not in ("<=", ">=", "=="):
             raise DefinitionError(f"a search meets its conditions exactly; write >=, <= or == for {sign}.")
-        self.kinds.clear()
         right = self.sum()
         if self.next.text in COMPARING:
             raise DefinitionError("one comparison makes a condition; write two conditions for a value between two limits.")
         if is_number(left) and is_number(right):
             raise DefinitionError("two numbers are compared; one side is a measure such as least(...).")
         one, other = (measure_or_constant(each, self.machine) for each in (left, right))
-        self.check_units(one, other, self.kinds if is_number(right) else kinds if is_number(left) else [])
-        return BOUNDS[sign](one, other)
-
-    def check_units(self, left: Measure, right: Measure, kinds: list[str]) -> None:
-        """Raise DefinitionError where a limit's only unit measures something else than what it limits; `kinds` are those of its units."""
-        measured = {self.measured(each) for each in (left, right) if each.leaves} - {""}
-        if len(measured) == 1 and len(set(kinds)) == 1 and set(kinds) != measured:
-            raise DefinitionError(f"the limit has the unit of a value of kind {kinds[0]}, and it limits one of kind {measured.pop()}.")
-
-    def measured(self, measure: Measure) -> str:
-        """Return what a measure measures where that is plain, "" elsewhere."""
-        if isinstance(measure, CombinedMeasure):
-            kinds = {self.measured(each) for each in (measure.left, measure.right) if each.leaves}
-            both = bool(measure.left.leaves and measure.right.leaves)
-            is_scaled = (measure.symbol == "*" and not both) or (measure.symbol == "/" and not measure.right.leaves)
-            is_same = measure.symbol in ("+", "-") or is_scaled
-            return kinds.pop() if is_same and len(kinds) == 1 else ""
-        if not isinstance(measure, Leaf) or isinstance(measure, Integral):
-            return ""
-        quantity = measure.quantity.quantity if isinstance(measure.quantity, Worst) else measure.quantity
-        if isinstance(quantity, str):
-            return plan_measure(self.plan, self.plan.table.spellings[quantity][0]) if quantity in self.plan.table.spellings else ""
-        return quantity.measures if isinstance(quantity, (Quantity, Request)) else ""
+        return {"<=": operator.le, ">=": operator.ge, "==": operator.eq}[sign](one, other)
 
     # -- parts -----------------------------------------------------------------------------------------
 
@@ -230,7 +202,7 @@ class CriterionParser(Grammar):
         """Return a number; DefinitionError where a calculation has no finite one."""
         if not isinstance(value, (int, float)) or not math.isfinite(value):
             raise DefinitionError(f"{text} has no finite value.")
-        return float(value)
+        return value if isinstance(value, Amount) else float(value)
 
     def atom(self) -> Any:
         token = self.next
@@ -238,7 +210,6 @@ class CriterionParser(Grammar):
             raise self.fault("a number, a name or a bracket")
         self.place += 1
         if token.kind == "number":
-            self.kinds += [UNITS[token.unit][1]] if token.unit else []
             return Amount(token.value, UNITS[token.unit][1]) if token.unit else token.value
         if token.kind == "name" and self.next.text == "(":
             return self.called(token.text)
@@ -259,9 +230,10 @@ class CriterionParser(Grammar):
             return name
         if (coordinate := self.coordinate(name)) is not None:
             return coordinate
-        if (value := constant(name)) is not None:
-            self.kinds += [UNITS[name][1]] if name in UNITS else []
-            return value
+        if name in UNITS:
+            return UNITS[name][0]
+        if name == "pi":
+            return math.pi
         quantities = [each for each, one in plan.members.items() if isinstance(one, Quantity)]
         raise unknown("Quantity", name, list(dict.fromkeys([*quantities, *plan.table.names()])), where=plan.title)
 
@@ -372,8 +344,3 @@ def is_count(value: object, make: Callable[..., Any], key: str) -> bool:
 def usage(make: Callable[..., Any]) -> str:
     """Return how a function is called: its arguments by name."""
     return f"({', '.join(signature(make).parameters)})"
-
-
-BOUNDS: Mapping[str, Callable[[Measure, Measure], Condition]] = MappingProxyType(
-    {"<=": lambda a, b: a <= b, ">=": lambda a, b: a >= b, "==": lambda a, b: a == b}
-)

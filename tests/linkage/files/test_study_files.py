@@ -226,9 +226,10 @@ def test_what_is_no_measure_is_told(text, words):
 @for_all(
     ("text", "words"),
     [
-        ("most(lift) <= 8 mm", "unit of a value of kind length, and it limits one of kind angle"),
-        ("3 kN >= most(lift)", "kind force, and it limits one of kind angle"),
-        ("most(pin_force(O)) - least(pin_force(O)) <= 8 bar", "kind pressure, and it limits one of kind force"),
+        ("most(lift) <= 8 mm", "an angle and a length neither add nor compare"),
+        ("3 kN >= most(lift)", "a force and an angle neither add nor compare"),
+        ("most(lift) <= 2 * mm", "an angle and a length neither add nor compare"),
+        ("most(pin_force(O)) - least(pin_force(O)) <= 8 bar", "a force and a pressure neither add nor compare"),
         ("most(lift) < 8 deg", "write >=, <= or == for <"),
         ("1 <= most(lift) <= 2", "write two conditions"),
         ("3 <= 4", "two numbers are compared"),

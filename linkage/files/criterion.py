@@ -77,7 +77,7 @@ def measure_said(text: object, machine: Mechanism, over: Mapping[str, object] | 
 
     What depends on no stroke is one too: `mass`.
     """
-    found = CriterionParser(checked_text(text), machine).whole()
+    found = parsed(text, machine)
     if isinstance(found, Condition):
         raise DefinitionError(f"{text!r} is a condition; a measure is expected, such as least(...), with no <=, >= or ==.")
     if is_number(found) or isinstance(found, Given):
@@ -95,8 +95,7 @@ def measure_or_constant(found: Any, machine: Mechanism) -> Measure:
 
 def condition_said(text: object, machine: Mechanism, over: Mapping[str, object] | None = None) -> Condition:
     """Return the condition on this machine that a text says; DefinitionError for anything else."""
-    parser = CriterionParser(checked_text(text), machine)
-    found = parser.whole()
+    found = parsed(text, machine)
     if not isinstance(found, Condition):
         what = words_of(found) if isinstance(found, (Request, Quantity, Worst)) else str(found)
         raise DefinitionError(f"{text!r}: {what} says no limit; write one such as most(...) <= 8 deg.")
@@ -106,7 +105,7 @@ def condition_said(text: object, machine: Mechanism, over: Mapping[str, object] 
 
 def quantity_said(text: object, machine: Mechanism) -> Any:
     """Return the quantity over poses that a text says: an output's name, a quantity or a request; DefinitionError for anything else."""
-    found = CriterionParser(checked_text(text), machine).whole()
+    found = parsed(text, machine)
     if is_number(found) or isinstance(found, (Measure, Condition, Worst)):
         raise DefinitionError(f"{text!r} has no value at every pose; write an output such as tilt, or a request such as drive_force().")
     check_measures(machine, [most(found)], [], None)
@@ -114,11 +113,11 @@ def quantity_said(text: object, machine: Mechanism) -> Any:
     return found
 
 
-def checked_text(text: object) -> str:
-    """Return a text; DefinitionError for anything else."""
+def parsed(text: object, machine: Mechanism) -> Any:
+    """Return the number, quantity, measure or condition of a machine that a text says; DefinitionError for anything else."""
     if not isinstance(text, str) or not text.strip():
         raise DefinitionError(f'{text!r:.60} is no text in quotes, such as "least(tilt)".')
-    return text
+    return CriterionParser(text, machine).whole()
 
 
 def check_measures(machine: Mechanism, measures: list[Measure], constraints: list[Constraint], over: Mapping[str, object] | None) -> None:

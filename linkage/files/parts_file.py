@@ -20,7 +20,8 @@ from .design import Design, degrees_text
 from .names import Names, by_whole_names, shortened
 from .validators import coordinates_of, points_of, quantity_of, switch_of
 
-OWN_KEYS = ("machine", "on", "at", "angle", "mirrored")
+OWN_KEYS = {"on": points_of, "at": coordinates_of, "angle": quantity_of, "mirrored": switch_of}
+"""What a part has beside its machine and the members that it is given, each with what reads it."""
 FILES = (".toml", ".json")
 
 
@@ -46,17 +47,9 @@ def part_read(given: object, names: Names) -> Part:
         raise DefinitionError(f'{shortened(given)} is no part; write {{ machine = "Arm", S = "s1" }}.')
     machine = machine_named(given["machine"], names)
     plan = machine.plan
-    options: dict[str, Any] = {}
-    if "on" in given:
-        options["on"] = points_of(given["on"], names)
-    if "at" in given:
-        options["at"] = coordinates_of(given["at"], names)
-    if "angle" in given:
-        options["angle"] = quantity_of(given["angle"], names)
-    if "mirrored" in given:
-        options["mirrored"] = switch_of(given["mirrored"], names)
+    options: dict[str, Any] = {key: read(given[key], names) for key, read in OWN_KEYS.items() if key in given}
     for name, value in by_whole_names(given):
-        if name in OWN_KEYS:
+        if name == "machine" or name in OWN_KEYS:
             continue
         if value is False:
             options[name] = None

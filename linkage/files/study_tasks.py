@@ -42,7 +42,7 @@ from ..study.optimise import constraint_in_case
 from ..study.space import Around, coordinates
 from ..study.survey import Progress
 from ..units import display_unit, parse_span, show
-from .criterion import CriterionParser, checked_text, condition_said, measure_said, quantity_said
+from .criterion import condition_said, measure_said, parsed, quantity_said
 from .names import by_whole_names, shortened
 from .source import each_of
 from .study_file import (
@@ -180,7 +180,7 @@ def with_case(quantity: Any, case: Any) -> Any:
 
 def quantity_or_measure(text: object, machine: Mechanism) -> Any:
     """Return the quantity over poses that a text says, or a measure; DefinitionError for what is neither."""
-    found = CriterionParser(checked_text(text), machine).whole()
+    found = parsed(text, machine)
     return measure_said(text, machine) if isinstance(found, Measure) else quantity_said(text, machine)
 
 

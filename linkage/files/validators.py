@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from math import inf
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -120,30 +121,20 @@ def several(what: str, one: Read) -> Read:
     return read
 
 
-def corners_of(given: object, names: Names) -> Any:
-    """Return a list of places, each by two coordinates."""
-    if not isinstance(given, (list, tuple)) or len(given) > CORNERS:
-        raise DefinitionError(f"{shortened(given)} is no list of up to {CORNERS} places in m, such as [[0, 0], [0.4, 0]].")
-    return tuple(each_of(enumerate(given), lambda place, each: coordinates_of(each, names)))
+def listed(one: Read, wrong: str, most: float = inf) -> Read:
+    """Return what reads a list, each item by itself; `wrong` says what anything else is not."""
+
+    def read(given: object, names: Names) -> tuple[Any, ...]:
+        if not isinstance(given, (list, tuple)) or len(given) > most:
+            raise DefinitionError(f"{shortened(given)} {wrong}")
+        return tuple(each_of(enumerate(given), lambda place, each: one(each, names)))
+
+    return read
 
 
-def lengths_of(given: object, names: Names) -> tuple[Any, ...]:
-    """Return a list of lengths [m], each of which may follow dimensions."""
-    if not isinstance(given, (list, tuple)):
-        raise DefinitionError(f'{shortened(given)} is no list of lengths, such as ["145 mm", "125 mm"].')
-    return tuple(each_of(enumerate(given), lambda place, each: amount_of(each, names, "length")))
-
-
-def centre_of(given: object, names: Names) -> Any:
-    """Return the name of a point, or a place by two coordinates."""
-    return names.checked(given, "point") if isinstance(given, str) else coordinates_of(given, names)
-
-
-def word_list_of(given: object, names: Names) -> tuple[str, ...]:
-    """Return words from a list."""
-    if not isinstance(given, (list, tuple)):
-        raise DefinitionError(f"{shortened(given)} is no list of words.")
-    return tuple(each_of(enumerate(given), lambda place, each: word_of(each)))
+def point_or(place: Read) -> Read:
+    """Return what reads the name of a point, or a place by two coordinates."""
+    return lambda given, names: names.checked(given, "point") if isinstance(given, str) else place(given, names)
 
 
 def lists_of(given: object, names: Names, depth: int = 0) -> Any:
@@ -165,24 +156,25 @@ def arrow_of(given: object, names: Names) -> Arrow | str:
     return arrow_in(given, names)
 
 
-def origin_of(given: object, names: Names) -> str | tuple[float, float]:
-    """Return the name of a point, or a position [m]."""
-    return names.checked(given, "point") if isinstance(given, str) else place_of(given, names)
+def words_in(given: object, what: str) -> Sequence[Any]:
+    """Return the words of a text such as `O B C`, or of a list; DefinitionError where there is none."""
+    words = given.split() if isinstance(given, str) else given
+    if not isinstance(words, Sequence) or not words:
+        raise DefinitionError(f"{shortened(given)} is not {what}.")
+    return words
 
 
 def points_of(given: object, names: Names) -> tuple[str, ...]:
     """Return the names of points, from a text such as `O B C` or a list."""
-    words = given.split() if isinstance(given, str) else given
-    if not isinstance(words, Sequence) or not words:
-        raise DefinitionError(f'{shortened(given)} is not a list of points, such as "O B C".')
-    return tuple(names.checked(word, "point") for word in words)
+    return tuple(names.checked(word, "point") for word in words_in(given, 'a list of points, such as "O B C"'))
 
 
 def body_of(given: object, names: Names) -> str:
     """Return the name of a link, or the names of points of a body, in one text."""
-    words = given.split() if isinstance(given, str) else given
-    if not isinstance(words, Sequence) or not words or len(set(map(str, words))) < len(words):
-        raise DefinitionError(f'{shortened(given)} is not a body; name a link, or two of its points such as "O B".')
+    what = 'a body; name a link, or two of its points such as "O B"'
+    words = words_in(given, what)
+    if len(set(map(str, words))) < len(words):
+        raise DefinitionError(f"{shortened(given)} is not {what}.")
     kind = "point" if len(words) > 1 else "link"
     return " ".join(names.checked(word, kind) for word in words)
 
@@ -192,13 +184,6 @@ def loads_of(given: object, names: Names) -> Any:
     if isinstance(given, str) or not isinstance(given, Sequence):
         return names.checked(given, "load")
     return [names.checked(each, "load") for each in given]
-
-
-def load_list_of(given: object, names: Names) -> tuple[str, ...]:
-    """Return the names of loads from a list."""
-    if not isinstance(given, (list, tuple)):
-        raise DefinitionError("is not a list [...].")
-    return tuple(each_of(enumerate(given), lambda place, name: names.checked(name, "load")))
 
 
 def factors_of(given: object, names: Names) -> dict[str, float]:
@@ -229,10 +214,7 @@ def member_of(given: object, names: Names) -> str:
 
 def rope_points_of(given: object, names: Names) -> tuple[str, ...]:
     """Return the names of points and pulleys, from a text such as `A sheave D` or a list."""
-    words = given.split() if isinstance(given, str) else given
-    if not isinstance(words, Sequence) or not words:
-        raise DefinitionError(f'{shortened(given)} is not what a rope runs over, such as ["A", "sheave", "D"].')
-    return tuple(member_of(word, names) for word in words)
+    return tuple(member_of(word, names) for word in words_in(given, 'what a rope runs over, such as ["A", "sheave", "D"]'))
 
 
 def side_named(given: object, names: Names) -> Side:
@@ -332,6 +314,12 @@ stroke_ends = several("two numbers, such as [0.0, 0.25]", number_of)
 coordinates_of = several("two coordinates in m, such as [0.20, 0.55]", quantity_of)
 
 
+corners_of = listed(coordinates_of, f"is no list of up to {CORNERS} places in m, such as [[0, 0], [0.4, 0]].", CORNERS)
+lengths_of = listed(amount("m").read, 'is no list of lengths, such as ["145 mm", "125 mm"].')
+loads_listed = listed(reference("load").read, "is not a list [...].")
+word_list_of = listed(word_of, "is no list of words.")
+
+
 KINDS: Mapping[str, Kind] = MappingProxyType(
     {kind: reference(kind) for kind in ("point", "guide", "load", "link")}
     | {
@@ -345,16 +333,16 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "loads": Kind(loads_of, written_names, refers=True),
         "member": Kind(member_of, refers=True),
         "run": Kind(rope_points_of, lambda value, design, name: list(map(name_of, value)), refers=True),
-        "load list": Kind(load_list_of, lambda value, design, name: [name_of(each) for each in value]),
+        "load list": Kind(loads_listed, lambda value, design, name: [name_of(each) for each in value]),
         "load factors": Kind(factors_of),
-        "origin": Kind(origin_of, written_origin),
+        "origin": Kind(point_or(place_of), written_origin),
         "place": Kind(place_of, written_pair),
         "pair": Kind(pair_of, written_pair),
         "gravity": Kind(gravity_of, written_pair),
         "force vector": Kind(force_of, written_force),
         "corner": Kind(lambda given, names: coordinates_of(given, names)),
         "corners": Kind(corners_of, refers=True),
-        "centre": Kind(centre_of, written_centre, refers=True),
+        "centre": Kind(point_or(coordinates_of), written_centre, refers=True),
         "carrier": Kind(points_of, written_carrier),
         "path": Kind(word_of, refers=True),
         "lengths": Kind(lengths_of, written_lengths),

@@ -143,20 +143,19 @@ def json_inline(value: object) -> str:
 
 def toml_text(data: Mapping[str, Any]) -> str:
     """Return the text of a file's tables: plain values first, then a table for each section."""
+    return "\n\n".join(toml_blocks(data, "")) + "\n"
+
+
+def toml_blocks(data: Mapping[str, Any], path: str) -> Iterator[str]:
+    """Yield the head of a machine, then its sections; `path` is that of one that the file holds for its parts."""
     head = [f"{toml_key(name)} = {long_text(value)}" for name, value in data.items() if not isinstance(value, Mapping)]
-    sections = ["\n".join(toml_section(toml_key(name), table)) for name, table in data.items() if is_section(name, table)]
-    for title, machine in data.get("machines", {}).items():
-        path = f"machines.{toml_key(title)}"
-        own = [f"{toml_key(name)} = {long_text(value)}" for name, value in machine.items() if not isinstance(value, Mapping)]
-        sections.append("\n".join([f"[{path}]", *own]))
-        tables = {name: table for name, table in machine.items() if isinstance(table, Mapping)}
-        sections += ["\n".join(toml_section(f"{path}.{toml_key(name)}", table)) for name, table in tables.items()]
-    return "\n\n".join(["\n".join(head), *sections]) + "\n"
-
-
-def is_section(name: str, table: object) -> bool:
-    """Return whether a key of a file is a section of members."""
-    return isinstance(table, Mapping) and name != "machines"
+    yield "\n".join([*([f"[{path}]"] if path else []), *head])
+    for name, table in data.items():
+        if name == "machines" and not path:
+            for title, machine in table.items():
+                yield from toml_blocks(machine, f"machines.{toml_key(title)}")
+        elif isinstance(table, Mapping):
+            yield "\n".join(toml_section(f"{path}.{toml_key(name)}" if path else toml_key(name), table))
 
 
 def toml_section(name: str, table: Mapping[str, Any]) -> Iterator[str]:

@@ -1,15 +1,14 @@
 """Measures and conditions as text: `least(capacity(lift, G))`, `most(abs(tilt)) <= 8 deg`, `fits(lift)`, `reachable`.
 
-    criterion = sum [("<=" | ">=" | "==") sum]
-    sum       = as in expressions
-    atom      = number [unit] | name | function "(" [argument {"," argument}] ")" | "(" sum ")"
-    argument  = [name "="] (sum | name | text | "(" number "," number ")")
+A criterion is an expression of a file, or two of them with <=, >= or == between. An argument of a function may be a word, a text in
+quotes, or two numbers in brackets, and may stand by its name, `S=100 mm`.
 
 A name is an output, a dimension or a stroke of the machine. Nothing is run but the functions that are known by name.
 """
 
 from __future__ import annotations
 
+import ast
 import math
 import operator
 from collections.abc import Callable, Mapping
@@ -46,7 +45,7 @@ from ..steps import Point
 from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
 from .callables import request_function
-from .expression import BINARY, Grammar, tokens
+from .expression import BINARY, Grammar, Token
 
 CRITERION_GRAMMAR = (
     "a criterion is made of least(...), most(...), integral(...), at(..., S=...), names, numbers with units, + - * / **, and <= >= =="
@@ -55,7 +54,7 @@ _CRITERION = (
     r"(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*)|(?P<text>'[^'\n]*'|\"[^\"\n]*\")"
     r"|(?P<sign>\*\*|<=|>=|==|!=|[-+*/(),=<>])"
 )
-COMPARING = ("<=", ">=", "==", "!=", "<", ">")
+COMPARING: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {ast.LtE: operator.le, ast.GtE: operator.ge, ast.Eq: operator.eq}
 
 MEASURES: Mapping[str, Callable[..., Any]] = MappingProxyType(
     {"least": least, "most": most, "integral": integral, "at": at, "worst": worst}
@@ -130,37 +129,34 @@ class CriterionParser(Grammar):
     """Reads one measure, quantity or condition of a machine."""
 
     grammar: ClassVar[str] = CRITERION_GRAMMAR
+    pattern: ClassVar[str] = _CRITERION
 
     def __init__(self, text: str, machine: Mechanism) -> None:
-        super().__init__(text, tokens(text, _CRITERION, CRITERION_GRAMMAR))
+        super().__init__(text)
         self.machine, self.plan = machine, machine.plan
 
     def whole(self) -> Any:
         """Return what the whole text says: a number, a quantity, a measure or a condition."""
         try:
-            found = self.compared()
+            return self.compared(self.tree) if isinstance(self.tree, ast.Compare) else self.value(self.tree)
         except DefinitionError as error:
             said = str(error)
             raise DefinitionError(said if said.startswith(repr(self.text)) else f"{self.text!r}: {said}") from None
-        if self.next.kind != "end":
-            raise self.fault("an operator or the end")
-        return found
 
-    def compared(self) -> Any:
-        """Return a sum, or the condition that two of them make."""
-        left = self.sum()
-        sign = self.take(*COMPARING)
-        if not sign:
-            return left
-        if sign not in ("<=", ">=", "=="):
-            raise DefinitionError(f"a search meets its conditions exactly; write >=, <= or == for {sign}.")
-        right = self.sum()
-        if self.next.text in COMPARING:
+    def compared(self, node: ast.Compare) -> Condition:
+        """Return the condition that two sums make."""
+        sign = COMPARING.get(type(node.ops[0]))
+        if sign is None:
+            other = next(token.text for token in self.tokens if token.text in ("<", ">", "!="))
+            raise DefinitionError(f"a search meets its conditions exactly; write >=, <= or == for {other}.")
+        if len(node.ops) > 1:
             raise DefinitionError("one comparison makes a condition; write two conditions for a value between two limits.")
+        left, right = self.value(node.left), self.value(node.comparators[0])
         if is_number(left) and is_number(right):
             raise DefinitionError("two numbers are compared; one side is a measure such as least(...).")
         one, other = (measure_or_constant(each, self.machine) for each in (left, right))
-        return {"<=": operator.le, ">=": operator.ge, "==": operator.eq}[sign](one, other)
+        found: Condition = sign(one, other)
+        return found
 
     # -- parts -----------------------------------------------------------------------------------------
 
@@ -203,15 +199,9 @@ class CriterionParser(Grammar):
             raise DefinitionError(f"{text} has no finite value.")
         return value if isinstance(value, Amount) else float(value)
 
-    def atom(self) -> Any:
-        token = self.next
-        if token.kind not in ("number", "name", "text"):
-            raise self.fault("a number, a name or a bracket")
-        self.place += 1
+    def atom(self, token: Token) -> Any:
         if token.kind == "number":
             return Amount(token.value, UNITS[token.unit][1]) if token.unit else token.value
-        if token.kind == "name" and self.next.text == "(":
-            return self.called(token.text)
         return self.named(token.text.strip("'\""))
 
     def named(self, name: str) -> Any:
@@ -242,10 +232,16 @@ class CriterionParser(Grammar):
 
     # -- functions -------------------------------------------------------------------------------------
 
-    def called(self, name: str) -> Any:
-        """Return what a function makes of its arguments."""
-        make = self.function(name)
-        positional, named = self.arguments(name in MEASURES or name in NUMERIC)
+    def called(self, node: ast.Call, depth: int) -> Any:
+        name = self.word(node.func).text
+        make, of_quantities = self.function(name), name in MEASURES or name in NUMERIC
+        positional = [self.argument(each, of_quantities, depth) for each in node.args]
+        named: dict[str, Any] = {}
+        for each in node.keywords:
+            key = self.word(each).text
+            if key in named:
+                raise DefinitionError(f"{key}= stands twice.")
+            named[key] = self.argument(each.value, False, depth)
         try:
             given = signature(make).bind(*positional, **named)
             given.arguments |= {key: int(value) for key, value in given.arguments.items() if is_count(value, make, key)}
@@ -285,54 +281,16 @@ class CriterionParser(Grammar):
 
         return made
 
-    def arguments(self, of_quantities: bool) -> tuple[list[Any], dict[str, Any]]:
-        """Return a function's arguments, those by place and those by name, up to the closing bracket."""
-        positional: list[Any] = []
-        named: dict[str, Any] = {}
-        self.want("(")
-        self.deeper(+1)
-        while not self.take(")"):
-            if positional or named:
-                self.want(",")
-            follows = self.tokens[min(self.place + 1, len(self.tokens) - 1)].text
-            if self.next.kind == "name" and follows == "=":
-                key = self.next.text
-                if key in named:
-                    raise DefinitionError(f"{key}= stands twice.")
-                self.place += 2
-                named[key] = self.argument(False)
-            elif named:
-                raise self.fault("an argument by name")
-            else:
-                positional.append(self.argument(of_quantities))
-        self.depth -= 1
-        return positional, named
-
-    def argument(self, of_quantities: bool) -> Any:
+    def argument(self, node: ast.expr, of_quantities: bool, depth: int) -> Any:
         """Return one argument: a name or a text as it stands, two numbers in brackets, or a sum."""
-        token = self.next
-        ends = self.tokens[min(self.place + 1, len(self.tokens) - 1)].text in (",", ")")
-        if not of_quantities and ends and token.kind in ("name", "text"):
-            self.place += 1
-            word = token.text.strip("'\"")
+        if not of_quantities and self.is_word(node, "name", "text"):
+            word = self.word(node).text.strip("'\"")
             if word not in self.plan.members and (coordinate := self.coordinate(word)) is not None:
                 return coordinate
             return {"true": True, "false": False, "least": least, "most": most}.get(word, word)
-        if not of_quantities and token.text == "(":
-            return self.pair_or_sum()
-        return self.sum()
-
-    def pair_or_sum(self) -> Any:
-        """Return two numbers in brackets, or a sum that begins with a bracket."""
-        start = self.place
-        self.want("(")
-        first = self.sum()
-        if not self.take(","):
-            self.place = start
-            return self.sum()
-        second = self.sum()
-        self.want(")")
-        return first, second
+        if not of_quantities and isinstance(node, ast.Tuple) and len(node.elts) == 2:
+            return tuple(self.value(each, depth) for each in node.elts)
+        return self.value(node, depth)
 
 
 def is_count(value: object, make: Callable[..., Any], key: str) -> bool:

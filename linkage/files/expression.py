@@ -1,21 +1,21 @@
-"""The arithmetic of a file: text to quantities, by a grammar that knows nothing but these words.
+"""The arithmetic of a file: text to quantities, by Python's own syntax and no other words than these.
 
-    sum     = product {("+" | "-") product}
-    product = signed {("*" | "/") signed}
-    signed  = ("-" | "+") signed | power
-    power   = atom ["**" signed]
-    atom    = number [unit] | name | function "(" arguments ")" | "(" sum ")"
+A number may have a unit, `500 mm`. Beside numbers there are names, + - * / **, brackets and a few functions. Python's parser says how the
+parts hang together; it sees none of them: each word stands in its tree by its place in the text.
 """
 
 from __future__ import annotations
 
+import ast
 import math
 import operator
 import re
 from abc import ABC, abstractmethod
+from bisect import bisect_right
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import accumulate
 from types import MappingProxyType
 from typing import Any, ClassVar, final
 
@@ -155,28 +155,49 @@ def expression(text: str, names: Names) -> Quantity:
 
     What holds no name is calculated at once, as Python does it in a class: `"2 * 0.3"` is the number 0.6.
     """
-    found: Quantity = Parser(text, names).whole("quantity")
+    parser = Parser(text, names)
+    found: Quantity = parser.argument(parser.tree, "quantity")
     return found
 
 
 def arrow_in(text: str, names: Names) -> Arrow | str:
     """Return the vector that a text says, or the name of one; DefinitionError where it says none."""
-    found: Arrow | str = Parser(text, names).whole("vector")
+    parser = Parser(text, names)
+    found: Arrow | str = parser.argument(parser.tree, "vector")
     return found
 
 
+SIGNS: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
+
+
 class Grammar(ABC):
-    """Reads one expression from left to right: sums, products, powers and brackets. A subclass says what its atoms are."""
+    """Reads one text by the tree that Python's parser makes of it. A subclass says what its words and functions are."""
 
     grammar: ClassVar[str] = GRAMMAR
+    pattern: ClassVar[str] = OWN_WORDS
 
-    def __init__(self, text: str, words: list[Token]) -> None:
-        self.text, self.tokens = text, words
-        self.place = self.depth = self.operations = 0
+    def __init__(self, text: str) -> None:
+        self.text, self.tokens = text, tokens(text, self.pattern, self.grammar)
+        signs = [token.text for token in self.tokens if token.kind == "sign"]
+        depths = accumulate({"(": 1, ")": -1}.get(sign, 0) for sign in signs)
+        if max(depths, default=0) > NESTING or sum(sign not in (")", ",", "=") for sign in signs) > OPERATIONS:
+            raise self.too_deep()
+        parts = [token.text if token.kind == "sign" else "_" for token in self.tokens[:-1]]
+        self.starts = [*accumulate((len(part) + 1 for part in parts), initial=0)]
+        try:
+            self.tree: ast.expr = ast.parse(" ".join(parts), mode="eval").body
+        except SyntaxError as error:
+            word = self.tokens[bisect_right(self.starts, error.offset - 1) - 1].text if error.offset else ""
+            what = f"{word!r} does not fit where it stands" if word else "something is missing at its end"
+            raise DefinitionError(f"{text!r}: {what if error.msg == 'invalid syntax' else error.msg}; {self.grammar}.") from None
 
     @abstractmethod
-    def atom(self) -> Any:
-        """Return a number, what a name stands for, or what a function makes."""
+    def atom(self, token: Token) -> Any:
+        """Return a number, or what a name stands for."""
+
+    @abstractmethod
+    def called(self, node: ast.Call, depth: int) -> Any:
+        """Return what a function makes of its arguments."""
 
     @abstractmethod
     def joined(self, sign: str, a: Any, b: Any) -> Any:
@@ -186,86 +207,39 @@ class Grammar(ABC):
         """Return a part with the other sign."""
         return -part
 
-    # -- words -----------------------------------------------------------------------------------------
+    def word(self, node: ast.expr | ast.keyword) -> Token:
+        """Return the word that a part begins with."""
+        return self.tokens[bisect_right(self.starts, node.col_offset) - 1]
 
-    @property
-    def next(self) -> Token:
-        """The word that comes next."""
-        return self.tokens[self.place]
+    def is_word(self, node: ast.expr, *kinds: str) -> bool:
+        """Return whether a part is one word of some kinds."""
+        return isinstance(node, ast.Name) and self.word(node).kind in kinds
 
-    def take(self, *signs: str) -> str:
-        """Return the next word if it is one of the signs, and go on; else ""."""
-        if self.next.kind != "sign" or self.next.text not in signs:
-            return ""
-        self.place += 1
-        return self.tokens[self.place - 1].text
+    def fault(self, wanted: str, node: ast.expr | ast.keyword) -> DefinitionError:
+        """Return the error for a part that does not fit."""
+        return DefinitionError(f"{self.text!r}: {wanted} is expected where {self.word(node).text!r} stands; {self.grammar}.")
 
-    def want(self, sign: str) -> None:
-        """Go on behind a sign; DefinitionError where it is missing."""
-        if not self.take(sign):
-            raise self.fault(repr(sign))
+    def too_deep(self) -> DefinitionError:
+        """Return the error for too many brackets or operations."""
+        return DefinitionError(
+            f"{self.text[:40]!r}... is more than {NESTING} brackets deep or longer than {OPERATIONS} operations; give a part a name."
+        )
 
-    def fault(self, wanted: str) -> DefinitionError:
-        """Return the error for a word that does not fit."""
-        found = repr(self.next.text) if self.next.text else "its end"
-        return DefinitionError(f"{self.text!r}: {wanted} is expected where {found} stands; {self.grammar}.")
-
-    def deeper(self, step: int) -> None:
-        """Count brackets and operations; DefinitionError for too many."""
-        self.depth += step
-        self.operations += step > 0
-        if self.depth > NESTING or self.operations > OPERATIONS:
-            raise DefinitionError(
-                f"{self.text[:40]!r}... is more than {NESTING} brackets deep or longer than {OPERATIONS} operations; give a part a name."
-            )
-
-    # -- the grammar -----------------------------------------------------------------------------------
-
-    def sum(self) -> Any:
-        """Return a sum."""
-        return self.chain(self.product, "+", "-")
-
-    def product(self) -> Any:
-        """Return a product or a quotient."""
-        return self.chain(self.signed, "*", "/")
-
-    def chain(self, part: Callable[[], Any], *signs: str) -> Any:
-        """Return parts joined by signs, from left to right."""
-        found = part()
-        while sign := self.take(*signs):
-            self.deeper(+1)
-            found = self.joined(sign, found, part())
-            self.depth -= 1
-        return found
-
-    def signed(self) -> Any:
-        """Return a power with its sign; of a number it is a number."""
-        sign = self.take("-", "+")
-        if not sign:
-            return self.power()
-        self.deeper(+1)
-        found = self.signed()
-        self.depth -= 1
-        return found if sign == "+" else self.negative(found)
-
-    def power(self) -> Any:
-        """Return an atom or what stands in brackets, or a power of it."""
-        base = self.bracket() if self.next.kind == "sign" and self.next.text == "(" else self.atom()
-        if not self.take("**"):
-            return base
-        self.deeper(+1)
-        found = self.joined("**", base, self.signed())
-        self.depth -= 1
-        return found
-
-    def bracket(self) -> Any:
-        """Return what stands in brackets."""
-        self.want("(")
-        self.deeper(+1)
-        found = self.sum()
-        self.depth -= 1
-        self.want(")")
-        return found
+    def value(self, node: ast.expr, depth: int = 0) -> Any:
+        """Return what a part says; of numbers alone it is a number."""
+        if depth > NESTING:
+            raise self.too_deep()
+        if isinstance(node, ast.BinOp):
+            left = self.value(node.left, depth)
+            return self.joined(SIGNS[type(node.op)], left, self.value(node.right, depth + 1))
+        if isinstance(node, ast.UnaryOp):
+            found = self.value(node.operand, depth + 1)
+            return self.negative(found) if isinstance(node.op, ast.USub) else found
+        if isinstance(node, ast.Call) and self.is_word(node.func, "name"):
+            return self.called(node, depth + 1)
+        if not isinstance(node, ast.Name):
+            raise self.fault("a number, a name or a bracket", node)
+        return self.atom(self.word(node))
 
 
 @final
@@ -273,15 +247,8 @@ class Parser(Grammar):
     """Reads one expression of a file."""
 
     def __init__(self, text: str, names: Names) -> None:
-        super().__init__(text, tokens(text))
+        super().__init__(text)
         self.names = names
-
-    def whole(self, kind: str) -> Any:
-        """Return what the whole text says, of a kind."""
-        found = self.argument(kind)
-        if self.next.kind != "end":
-            raise self.fault("an operator or the end")
-        return found
 
     def negative(self, part: Quantity) -> Quantity:
         return Number(-part.number) if isinstance(part, Number) else -part
@@ -296,72 +263,46 @@ class Parser(Grammar):
         except ArithmeticError:
             raise DefinitionError(f"{text} has no finite value.") from None
 
-    def atom(self) -> Quantity:
-        token = self.next
-        if token.kind not in ("number", "name"):
-            raise self.fault("a number, a name or a bracket")
-        self.place += 1
+    def atom(self, token: Token) -> Quantity:
         if token.kind == "number":
             return Number(token.value)
-        if self.next.text == "(":
-            made = self.called(token.text, "quantity")
-            assert isinstance(made, Quantity)
-            return made
         if token.text not in self.names.kinds and (value := constant(token.text)) is not None:
             return Number(value)
         return self.names.quantity(self.checked(token.text, "quantity"))
 
-    # -- functions -------------------------------------------------------------------------------------
-
-    def called(self, name: str, kind: str) -> Member:
+    def called(self, node: ast.Call, depth: int, kind: str = "quantity") -> Member:
         """Return what a function makes of its arguments; it must be of a kind."""
+        name = self.word(node.func).text
         if name not in CALLS:
             raise DefinitionError(f"{self.text!r}: {unknown('Function', name, CALLS)}")
         call = CALLS[name]
         if call.makes_vector != (kind == "vector"):
             raise DefinitionError(f"{self.text!r}: {name}(...) is not a {kind}.")
-        self.want("(")
-        self.deeper(+1)
-        found = call.make(*self.arguments(call), **self.keywords(call))
-        self.depth -= 1
-        self.want(")")
-        return found
+        if len(node.args) != len(call.kinds):
+            raise DefinitionError(f"{self.text!r}: {name}(...) takes {len(call.kinds)} arguments, not {len(node.args)}.")
+        found = [self.argument(each, kind, depth) for each, kind in zip(node.args, call.kinds, strict=True)]
+        keywords: dict[str, Any] = {}
+        for each in node.keywords:
+            key = self.word(each).text
+            if key not in call.keywords or key in keywords:
+                raise self.fault(" or ".join(f"{one}=" for one in call.keywords) or "no argument by name", each)
+            keywords[key] = self.value(each.value, depth)
+        return call.make(*found, **keywords)
 
-    def arguments(self, call: Call) -> list[Any]:
-        """Return a function's arguments, each of its kind."""
-        found = []
-        for place, kind in enumerate(call.kinds):
-            if place:
-                self.want(",")
-            found.append(self.argument(kind))
-        return found
-
-    def keywords(self, call: Call) -> dict[str, Any]:
-        """Return the arguments that are given by name."""
-        found: dict[str, Any] = {}
-        while call.keywords and self.take(","):
-            name = self.next.text
-            if name not in call.keywords or name in found:
-                raise self.fault(" or ".join(f"{each}=" for each in call.keywords))
-            self.place += 1
-            self.want("=")
-            found[name] = self.sum()
-        return found
-
-    def argument(self, kind: str) -> Any:
+    def argument(self, node: ast.expr, kind: str, depth: int = 0) -> Any:
         """Return one argument: a point's name, a vector or its name, or a quantity."""
-        name, follows = self.next.text, self.tokens[min(self.place + 1, len(self.tokens) - 1)].text
-        is_name = self.next.kind == "name"
-        called_vector = is_name and follows == "(" and name in CALLS and CALLS[name].makes_vector
+        name, is_name = self.word(node).text, self.is_word(node, "name")
+        calls = isinstance(node, ast.Call) and self.is_word(node.func, "name")
         if kind == "any":
-            is_vector = called_vector or (is_name and follows != "(" and self.names.kinds.get(name) == "vector")
+            is_vector = (calls and name in CALLS and CALLS[name].makes_vector) or (is_name and self.names.kinds.get(name) == "vector")
             kind = "vector" if is_vector else "quantity"
         if kind == "quantity":
-            return self.sum()
+            return self.value(node, depth)
+        if isinstance(node, ast.Call) and calls and kind == "vector":
+            return self.called(node, depth + 1, kind)
         if not is_name:
-            raise self.fault(f"the name of a {kind}")
-        self.place += 1
-        return self.called(name, kind) if kind == "vector" and follows == "(" else self.checked(name, kind)
+            raise self.fault(f"the name of a {kind}", node)
+        return self.checked(name, kind)
 
     def checked(self, name: str, kind: str) -> str:
         """Return a name of a kind; DefinitionError, with the expression, for any other."""

@@ -48,6 +48,7 @@ from .measures import (
 )
 from .motion import Motion
 from .over import ALLOWED, Over, Run, with_strokes
+from .quadrature import quadrature
 from .requests import Request, SmoothPiece, identity_of
 from .search import extremum, strokes_moved
 from .strokes import at_values
@@ -56,8 +57,6 @@ Question: TypeAlias = "Measure | Condition"
 
 INNER = 65
 """Values of the stroke over which `worst` is taken."""
-PANELS = 4096
-"""Intervals of an integral, by Simpson's rule."""
 COARSE = 5
 """Values of each stroke of a coarse grid."""
 MET = 1e-9
@@ -699,7 +698,8 @@ class Judge:
         found: dict[Any, Sought] = {}
         for situation in place.situations(request, self.acting):
             situated = request.under(situation.acting, keep=True) if isinstance(request, Request) else request
-            pieces = situated.pieces(self.plan) if isinstance(situated, Request) else (SmoothPiece(situated),)
+            whole = isinstance(leaf, Integral) or not isinstance(situated, Request)  # the integral of the worst piece is not the worst one
+            pieces = (SmoothPiece(situated),) if whole else situated.pieces(self.plan)
             for piece in pieces:
                 key = key_of(self.plan, piece.request)
                 row = Sought(leaf, piece, situation, sense)
@@ -1050,14 +1050,15 @@ def integrated(row: Sought, place: Domain) -> WorstPiece:
         what = f"{plan.title}: {leaf}: an integral is over one stroke that runs, here run {', '.join(place.running) or 'none'}"
         raise DefinitionError(f"{what}; hold the others, over=Over({leaf.by or next(iter(plan.strokes))}=(...), ...=0.0).")
     (name,) = place.running
-    low, high = float(np.min(place.motion.strokes[name])), float(np.max(place.motion.strokes[name]))
-    along = np.linspace(low, high, PANELS + 1)
     held = {each: float(np.min(value)) for each, value in place.motion.strokes.items()}
-    strokes = {each: along if each == name else np.full(along.shape, value) for each, value in held.items()}
-    motion = Motion(plan, place.designs, strokes, "nan")
-    with np.errstate(all="ignore"):
-        values, _ = Asked(place, [row]).values(motion)
-    weights = np.full(PANELS + 1, 2.0)
-    weights[1::2], weights[[0, -1]] = 4.0, 1.0
-    total = (values[0] * weights).sum(axis=-1) * (high - low) / PANELS / 3.0
+    low, span = held[name], float(np.ptp(place.motion.strokes[name]))
+
+    def values(parts: FloatArray) -> FloatArray:
+        order = np.argsort(parts)
+        strokes = {each: np.full(parts.shape, value) for each, value in held.items()} | {name: low + span * parts[order]}
+        with np.errstate(all="ignore"):
+            found, _ = Asked(place, [row]).values(Motion(plan, place.designs, strokes, "nan"))
+        return np.asarray(found[0][..., np.argsort(order)])
+
+    total = quadrature(values).value * span
     return WorstPiece(row, np.asarray(total), {}, np.isinf(total), float(np.isnan(total).any()), 0.0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from math import prod
 from typing import Any, TypeAlias, final
 
@@ -15,7 +16,8 @@ from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, at_values, each_at_its_stroke, evaluate_grid, stroke_display_unit
 from ..motion.grid import JoinedTo
 from ..motion.line import Index
-from ..motion.measures import At, Integral, Leaf, Least, Measure, Most, Worst, strokes_behind, traced, words_of
+from ..motion.measures import At, Integral, Leaf, Least, Measure, Worst, strokes_behind, traced, words_of
+from ..motion.quadrature import PANELS, gauss, quadrature
 from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import Quantity
@@ -130,9 +132,12 @@ class StudyPoses:
         """Return what is taken of a quantity over the poses, of m designs, shape (m,)."""
         if isinstance(leaf, At):
             return self.at(leaf).values(machine, leaf.quantity, way)[:, 0]
+        if isinstance(leaf, Integral):
+            row, weights = self.row(leaf)
+            return np.asarray((row.values(machine, leaf.quantity, way) * weights).sum(axis=1))
         total: Any = fold_start(leaf)
-        for place, column in enumerate(self.values(machine, leaf.quantity, way).T):
-            total = fold(leaf, total, column, self.weight(leaf, place))
+        for column in self.values(machine, leaf.quantity, way).T:
+            total = fold(leaf, total, column)
         return np.asarray(total)
 
     def at(self, leaf: At) -> StudyPoses:
@@ -145,17 +150,43 @@ class StudyPoses:
         strokes = {name: leaf.strokes.get(name, float(value[0])) for name, value in self.stroke_values.items()}
         return StudyPoses(Motion(plan, self.base.designs, at_values(strokes, plan), "raise"))
 
-    def weight(self, leaf: Leaf, place: int) -> float:
-        """Return what one pose counts in an integral over a row of poses, by trapezia; 1 of anything else."""
-        if not isinstance(leaf, Integral):
-            return 1.0
+    def row(self, leaf: Integral) -> tuple[StudyPoses, FloatArray]:
+        """Return the poses (n,) of an integral over a row of strokes, fine enough for the machine as it is set, and their weights [SI]."""
+        if leaf not in self._rows:
+            self._rows[leaf] = self._row(leaf)
+        return self._rows[leaf]
+
+    @cached_property
+    def _rows(self) -> dict[Integral, tuple[StudyPoses, FloatArray]]:
+        return {}
+
+    def _row(self, leaf: Integral) -> tuple[StudyPoses, FloatArray]:
+        check_no_worst(leaf)
+        plan, designs = self.base.plan, self.base.designs
         by = leaf.by or (next(iter(self.stroke_values)) if len(self.stroke_values) == 1 else "")
         if by not in self.stroke_values or len(self.base.shape) != 1:
-            raise DefinitionError(
-                f"{self.base.plan.title}: {leaf}: give one row of strokes, and say by which, by= one of {', '.join(self.stroke_values)}."
-            )
-        values = self.stroke_values[by]
-        return float(0.5 * (values[min(place + 1, self.pose_count - 1)] - values[max(place - 1, 0)]))
+            names = ", ".join(self.stroke_values)
+            raise DefinitionError(f"{plan.title}: {leaf}: give one row of strokes, and say by which, by= one of {names}.")
+        turns = turns_of(self.stroke_values)
+        legs = [self._leg(leaf, by, ends, max(PANELS // (len(turns) - 1), 1)) for ends in pairwise(turns)]
+        strokes = {name: np.concatenate([poses[name] for poses, _ in legs]) for name in self.stroke_values}
+        return StudyPoses(Motion(plan, designs, strokes, "nan")), np.concatenate([weights for _, weights in legs])
+
+    def _leg(self, leaf: Integral, by: str, ends: tuple[int, int], panels: int) -> tuple[dict[str, FloatArray], FloatArray]:
+        """Return the strokes and weights of an integral on the straight way between two of the poses."""
+        low, high = ({name: float(value[end]) for name, value in self.stroke_values.items()} for end in ends)
+
+        def strokes(parts: FloatArray) -> dict[str, FloatArray]:
+            return {name: low[name] + (high[name] - low[name]) * parts for name in low}
+
+        def values(parts: FloatArray) -> FloatArray:
+            order = np.argsort(parts)
+            motion = Motion(self.base.plan, self.base.designs, strokes(parts[order]), "nan")
+            return eager(motion, leaf.quantity)[np.argsort(order)]
+
+        found = quadrature(values, np.linspace(0.0, 1.0, panels + 1))
+        parts, shares = gauss(found.edges)
+        return strokes(parts), shares * (np.nan if np.isinf(found.value) else high[by] - low[by])
 
     def values(self, machine: Mechanism, quantity: object, way: RunOptions) -> FloatArray:
         """Return a quantity of m designs at the poses, shape (m, n), or (m, 1) of one number for each design."""
@@ -269,18 +300,34 @@ def nothing_limits(motion: Motion, quantity: Any) -> Mask | None:
 # What a measure takes of its quantity, pose by pose.
 
 
-def fold_start(leaf: Leaf) -> float:
-    """Return what a leaf has before the first pose; DefinitionError for one over another stroke."""
+def check_no_worst(leaf: Leaf) -> None:
+    """Raise DefinitionError for a leaf that is over another stroke."""
     if isinstance(leaf.quantity, Worst):
         raise DefinitionError(
             f"{leaf}: a study of tolerances looks at the strokes it is given; take most(...) over a grid of both strokes."
         )
-    return np.inf if isinstance(leaf, Least) else -np.inf if isinstance(leaf, Most) else 0.0
 
 
-def fold(leaf: Leaf, total: Any, values: FloatArray, weight: float) -> FloatArray:
-    """Return what a leaf has after one more pose; NaN where one of them has no value."""
-    if isinstance(leaf, (Least, Most)):
-        best = np.minimum if isinstance(leaf, Least) else np.maximum
-        return np.asarray(best(total, values, out=total if isinstance(total, np.ndarray) else None))
-    return np.asarray(total + weight * values)
+def fold_start(leaf: Leaf) -> float:
+    """Return what an extreme has before the first pose; DefinitionError for one over another stroke."""
+    check_no_worst(leaf)
+    return np.inf if isinstance(leaf, Least) else -np.inf
+
+
+def fold(leaf: Leaf, total: Any, values: FloatArray) -> FloatArray:
+    """Return what an extreme has after one more pose; NaN where one of them has no value."""
+    best = np.minimum if isinstance(leaf, Least) else np.maximum
+    return np.asarray(best(total, values, out=total if isinstance(total, np.ndarray) else None))
+
+
+def turns_of(strokes: Mapping[str, FloatArray]) -> list[int]:
+    """Return the numbers of the poses of a row (n,) at which its way turns, the first and the last among them."""
+    last = len(next(iter(strokes.values()))) - 1
+    moving = [value for value in strokes.values() if np.ptp(value) > 0.0]
+    if not moving:
+        return [0, last]
+    if len(moving) > 1:
+        return [*range(last + 1)]
+    steps = np.flatnonzero(np.diff(moving[0]))
+    ways = np.sign(np.diff(moving[0]))[steps]
+    return [0, *(int(each) for each in steps[1:][ways[1:] != ways[:-1]]), last]

@@ -15,7 +15,7 @@ from ..mechanism import Mechanism
 from ..motion import Request
 from ..motion.kinds import measure_of
 from ..motion.line import Index
-from ..motion.measures import At, Condition, Constraint, Leaf, Least, Measure, Most, Worst, conditions_of
+from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of
 from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import is_number
@@ -136,7 +136,8 @@ def monte_carlo(
     pose or for each design. Dimensions are independent of each other; a tolerance's law is normal with three sigmas to its limit unless
     `Tolerance` says another. `method` is "sobol", "latin" or "random", `count` the number of designs; strokes as in `machine.at`, by
     default 21 over a single one. A design that cannot be assembled at one of the strokes is lost, and no good machine; percentiles
-    are of the others there. Measures and conditions look at these strokes alone.
+    are of the others there. Measures and conditions look at these strokes alone; an integral looks between
+    them, too.
 
     The worst case begins at the corner of the tolerances where each dimension's own effect is the worst, and is bettered by true
     evaluation of the neighbouring corners and middles until none is worse. Beside the results it needs the dimensions of all designs, and
@@ -234,7 +235,7 @@ class MonteCarloRun:
         """Measure quantities and conditions of all designs."""
         measures = [each for each in asked.values() if isinstance(each, Measure)] + [each.margin for each in conditions]
         leaves = list(dict.fromkeys(leaf for measure in measures for leaf in measure.leaves))
-        self._leaves = {leaf: fold_start(leaf) for leaf in leaves if not isinstance(leaf, At)}
+        self._leaves = {leaf: fold_start(leaf) for leaf in leaves if not isinstance(leaf, (At, Integral))}
         every = [each for each in asked.values() if not isinstance(each, Measure)] + [leaf.quantity for leaf in self._leaves]
         quantities = self._asked = {self._key(each): each for each in every}
         bound = [key for key, each in quantities.items() if number_bound(self.poses.base.plan, each) is not None]
@@ -250,6 +251,7 @@ class MonteCarloRun:
                 parts = [self.poses.of_function(self._block(block), quantity).T for block in blocks(self.count, self.poses.pose_count)]
                 self._take([key], np.concatenate(parts, axis=1)[None], 0, found)
         self._leaves |= {leaf: self._at(leaf) for leaf in leaves if isinstance(leaf, At)}
+        self._leaves |= {leaf: self._integral(leaf) for leaf in leaves if isinstance(leaf, Integral)}
         for leaf, places in self._unlimited.items():
             self._leaves[leaf] = np.where(places == (1 if isinstance(leaf, At) else self.poses.pose_count), np.nan, self._leaves[leaf])
         self.kept = [self._keeps(each) for each in conditions]
@@ -287,6 +289,13 @@ class MonteCarloRun:
         self.lost |= np.isnan(found) if free is None else np.isnan(found) & ~free[0]
         return found
 
+    def _integral(self, leaf: Integral) -> FloatArray:
+        """Return an integral over the row of strokes, shape (designs,)."""
+        parts = blocks(self.count, self.poses.row(leaf)[0].pose_count)
+        found = np.concatenate([self.poses.of_leaf(self._block(block), leaf, self.way) for block in parts])
+        self.lost |= np.isnan(found)
+        return found
+
     def _keeps(self, condition: Constraint) -> Mask:
         """Return which designs keep a condition; one says nothing of those at which a quantity of it is limited nowhere."""
         kept = np.asarray(condition.margin.of(self._leaves.__getitem__) >= 0.0) & np.ones(self.count, bool)
@@ -316,12 +325,12 @@ class MonteCarloRun:
         for key, rows in zip(keys, store, strict=True):
             free = self._free_of(key, rows, first)
             self.lost |= (np.isnan(rows) if free is None else np.isnan(rows) & ~free).any(axis=0)
-            for leaf in [each for each in self._leaves if not isinstance(each, At) and self._key(each.quantity) == key]:
-                if free is not None and isinstance(leaf, (Least, Most)):
+            for leaf in [each for each in self._leaves if self._key(each.quantity) == key]:
+                if free is not None:
                     self._unlimited[leaf] = self._unlimited.get(leaf, 0) + free.sum(axis=0)
                     rows = np.where(free, fold_start(leaf), rows)
-                for place, column in enumerate(rows, start=first):
-                    self._leaves[leaf] = fold(leaf, self._leaves[leaf], column, self.poses.weight(leaf, place))
+                for column in rows:
+                    self._leaves[leaf] = fold(leaf, self._leaves[leaf], column)
         columns = [column for row in store for column in row]
         moments = np.array(self._on_threads(self._moments, columns)).reshape(*store.shape[:2], -1)
         for key, each in zip(keys, moments, strict=True):

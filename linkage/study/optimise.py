@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from hashlib import blake2b
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, final, overload
 
@@ -43,10 +44,10 @@ from .checkpoint import measure_text
 from .checks import check_one_design
 from .cylinder_rows import fitted_rows
 from .infeasible import infeasible_error
-from .optimum import Optimum, in_units, polished, unit_of_constraint
+from .optimum import Optimum, in_units, polished, unit_of_constraint, unit_of_measure
 from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of, reduced
 from .result_tables import EvaluatedDesigns
-from .solver import Local, SearchEnd, grows
+from .solver import Local, SearchEnd, grows, local_search
 from .space import Space
 from .survey import Progress, check_progress, progress_told
 from .tolerances import sigma
@@ -54,7 +55,7 @@ from .tolerances import sigma
 if TYPE_CHECKING:
     from .pareto import Front
 
-METHODS = ("auto", "local", "multistart", "evolution")
+METHODS = ("auto", "local", "multistart")
 SOLVERS = ("slsqp", "trust-constr")
 """What `solver=` takes for one more release: the second is gone, and SLSQP searches in its place."""
 SCREENED = 256
@@ -67,15 +68,14 @@ FRONT_DESIGNS = 6000
 """Designs that the genetic search of a front looks at, of each combination."""
 SEARCHED = 64
 """Combinations searched from at the most, the most promising ones of more."""
-GENERATIONS = 200
 NEARLY = 1e-3
-"""A design that misses no more is searched on from."""
-NO_VALUE = 1e6
-"""What a design counts in an evolution whose objective has no value."""
+"""Designs that miss no more may yet be brought to keep all."""
 HOPES = 2
 """Starts, and combinations, from which is looked for a design that keeps all where none of those spread over the box does."""
 KEPT = 4
 """Combinations, and designs of each, that are judged beside the ends of local searches where the limit is reached."""
+MOVED, SAME_TO_DIGITS = 16, 1e-13
+"""Designs, and combinations, at which an objective is looked at that may follow nothing that varies; how near its values are then."""
 NEAR = 0.1
 """Starts are not nearer to one another than this part of the box's diagonal."""
 
@@ -159,10 +159,9 @@ def optimise(
     `robust={"OB": 0.2 * mm}` every number counts as bad as `sigmas` standard deviations make it, by tolerances as in `tolerance`.
 
     From the best of some hundred designs spread over the box, `starts` of them for each combination of choices, SciPy's SLSQP goes on
-    with exact derivatives. `method="local"` begins with the machine as it is, "evolution" with the best of a
-    differential evolution. The same seed gives the same result. `limit` is how many designs are looked at before the best so far comes
-    back, with a word that it is that; by default as many as take about a minute. With `folder` finished searches are kept there, and the
-    same call goes on where another one stopped; `progress=True` shows a bar.
+    with exact derivatives. `method="local"` begins with the machine as it is. The same seed gives the same result. `limit` is how many
+    designs are looked at before the best so far comes back, with a word that it is that; by default as many as take about a minute. With
+    `folder` finished searches are kept there, and the same call goes on where another one stopped; `progress=True` shows a bar.
 
     A design that has no value of a condition at some pose does not keep it, and a quotient whose divisor passes zero within the stroke has
     no value. Lengths, angles, forces and pressures neither add nor compare. What limits the result is said: conditions, ends of ranges,
@@ -173,6 +172,8 @@ def optimise(
     """
     check_one_design(machine)
     title = machine.plan.title
+    if method == "evolution":
+        raise DefinitionError(f"{title}: method='evolution' is no more: leave it out, and give more starts= where they are too few.")
     one_word("method", method, METHODS)
     if solver is not None and one_word("solver", solver, SOLVERS) != "slsqp":
         text = f'{title}: solver="{solver}" is gone and will be refused: SLSQP searches in its place. Leave solver= out.'
@@ -202,6 +203,7 @@ def optimise(
         goals = [mean_in_cases(each, shares) if shares else in_case(each, cases[0]) for each in objectives]
         problem = Problem(machine, goals, held, space, 1.0, over)
         problem.count.limit = limit or default_limit(problem, replace(plan, is_front=True))
+        check_moved(problem)
         with progress_told(progress, machine.plan.heading) as tell:
             return front(problem, plan.seed, tell)
     sought = [mean_in_cases(objectives[0], shares)] if shares else [in_case(objectives[0], each) for each in cases]
@@ -210,6 +212,7 @@ def optimise(
     problem = Problem(machine, sought, held, space, sense, over)
     if robust is not None:
         problem = with_spread(problem, robust, sigmas)
+    check_moved(problem)
     problem.count.limit = limit or default_limit(problem, plan)
     with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):  # the same to the last bit whatever ran before
         return DesignSearch(problem, plan, Journal.of(folder, problem, plan), tell).run()
@@ -259,12 +262,10 @@ def default_limit(problem: Problem, plan: SearchPlan) -> int:
 
     A design with derivatives takes about 1.5 ms, and one more for some 70 poses of it.
     """
-    count, n = problem.space.count, len(problem.space.variables)
+    count = problem.space.count
     spread = max(min(SCREENED, SCREENED_IN_ALL // count), 16) * count
     if plan.is_front:
         spread += FRONT_DESIGNS * count
-    if plan.method == "evolution":
-        spread += (GENERATIONS + 1) * max(15 * n, 16) * count
     return spread + int(LOCAL_DESIGNS / (1.0 + problem.poses / POSES_AS_ONE))
 
 
@@ -296,6 +297,21 @@ def objective_of(machine: Mechanism, given: object) -> Measure:
     raise DefinitionError(
         f"{machine.plan.title}: {words_of(quantity)} has a value at every pose: say which is meant, least(...), most(...)."
     )
+
+
+def check_moved(problem: Problem) -> None:
+    """Raise StudyError where nothing that varies moves an objective: it is the same of designs spread over the box."""
+    alone, space = problem.anew(), problem.space
+    units = unit_points(MOVED, len(space.variables), "sobol", 0) if space.variables else np.zeros((1, 0))
+    some = islice(space.combinations(), MOVED)
+    seen = np.concatenate([alone.merits_of_each(each, units)[0] for each in some], axis=1)
+    for objective, row in zip(problem.objectives, seen, strict=True):
+        known = row[np.isfinite(row)]
+        if known.size > 1 and np.ptp(known) <= SAME_TO_DIGITS * np.abs(known).max():
+            names = ", ".join([each.name for each in space.variables] + [name for group in space.names for name in group])
+            value = show(float(known[0]), unit_of_measure(problem.plan, objective))
+            what = f"{problem.plan.title}: nothing that varies moves {objective}, which is {value} whatever {names}"
+            raise StudyError(f"{what}; vary what it depends on, or give another objective.")
 
 
 # Load cases.
@@ -651,8 +667,6 @@ class DesignSearch:
     def starts(self, screened: Screened, combinations: int) -> list[FloatArray]:
         """Return where the local searches of a combination begin: the best designs that stand apart, that of today always."""
         many = 1 if self.plan.method == "local" else max(self.plan.starts if combinations == 1 else self.plan.starts // 2, 1)
-        if self.plan.method == "evolution":
-            return [self.evolved(screened)]
         chosen: list[FloatArray] = []
         apart = NEAR * np.sqrt(screened.unit.shape[1])
         for place in screened.order:
@@ -665,41 +679,6 @@ class DesignSearch:
         if screened.begins[0] and not any(np.array_equal(each, present) for each in chosen):
             chosen = [*chosen[: max(many - 1, 0)], present]
         return chosen
-
-    def evolved(self, screened: Screened) -> FloatArray:
-        """Return the best design of a differential evolution, whose generations are looked at all at once."""
-        from scipy.optimize import differential_evolution
-
-        n = len(self.problem.space.variables)
-
-        best = [np.inf, screened.unit[screened.order[0]]]
-
-        def merit(population: FloatArray) -> FloatArray:
-            found = self.looked_at(screened.combination, np.ascontiguousarray(population.T))
-            short = np.where(np.isfinite(found.missing), found.missing, 1.0)
-            without = ~np.isfinite(found.value)  # of no value, or out of reach: the last of all
-            worth = np.where(without, 0.0, found.value) / self.scale_of(screened)
-            merits = np.asarray(worth + 10.0 * short + NO_VALUE * without * (2.0 - found.reached))
-            place = int(np.argmin(merits))
-            if merits[place] < best[0]:
-                best[:] = merits[place], found.unit[place]
-            return merits
-
-        first = screened.unit[screened.order[: max(15 * n, 16)]]
-        try:
-            result = differential_evolution(
-                merit, [(0.0, 1.0)] * n, init=padded(first, n), vectorized=True, updating="deferred", polish=False, seed=self.plan.seed,
-                maxiter=GENERATIONS, tol=1e-6,
-            )  # fmt: skip
-        except LimitReachedError:
-            return np.asarray(best[1], float)
-        return np.asarray(result.x, float)
-
-    @staticmethod
-    def scale_of(screened: Screened) -> float:
-        """Return what objectives are measured with."""
-        finite = np.abs(screened.value[np.isfinite(screened.value)])
-        return float(np.median(finite)) if finite.size and np.median(finite) > 0.0 else 1.0
 
     # -- local searches -------------------------------------------------------------------------------------
 
@@ -717,24 +696,15 @@ class DesignSearch:
         return found
 
     def locally(self, combination: tuple[int, ...], unit: FloatArray) -> SearchEnd:
-        """Return what a local search comes to; where the samples are kept but what lies between them fails, what stands there."""
-        problem = self.problem.with_counts(SAMPLES)  # its samples are its own: no search depends on those before it
+        """Return what a local search comes to, with samples of its own: no search depends on those before it."""
+        problem = self.problem.with_counts(SAMPLES)
         try:
             local = Local(problem, combination, unit)
+            return local_search(local, NEARLY) if problem.space.variables else local.judged(unit)
         except LimitReachedError:
             raise
         except LinkageError:
             return SearchEnd(unit, np.nan, np.inf, False)
-        if problem.space.variables:
-            found = local.run()
-            if found.whole and not found.feasible and found.missing < NEARLY:
-                with problem.count.without_limit():
-                    near = Local(problem, combination, found.unit)
-                again = near.run()
-                found = min(found, again, key=lambda each: (not each.feasible, each.missing))
-        else:
-            found = local.judged(unit)
-        return found
 
     # -- the winner -----------------------------------------------------------------------------------------
 
@@ -782,8 +752,3 @@ class DesignSearch:
         else:
             text += f"; some are refused: {self.coarse.refusal}" if self.coarse.refusal else ""
         return StudyError(f"{text.rstrip('.')}. Widen vary=, or look at a part of the stroke, over={{...}}.")
-
-
-def padded(first: FloatArray, n: int) -> FloatArray:
-    """Return a first population of at least five designs."""
-    return np.concatenate([first, np.random.default_rng(0).random((max(5 - len(first), 0), n))])

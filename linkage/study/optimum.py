@@ -26,10 +26,10 @@ from ..units import deg, display_unit, mm, require_measure, show
 from .box import unit_points
 from .checks import unit_of
 from .poles import check_bounded
-from .problem import LeafNumbers, LimitReachedError, Problem
+from .problem import LeafNumbers, Problem
 from .result_tables import EvaluatedDesigns, ResultRow, result_text, tried_header, tried_names, tried_rows, write_result
 from .sampling import no_value
-from .solver import MET, Local, SearchEnd, missing_of, scale_of, scales_of, true_worth
+from .solver import MET, Local, SearchEnd, local_search, missing_of, scale_of, scales_of, true_worth, worth_in_order
 from .space import Space, Varied, size_of_machine
 
 ACTIVE = 1e-6
@@ -50,8 +50,8 @@ SAID_STEPS: Mapping[str, float] = MappingProxyType({"mm": 10.0 * mm, "deg": 1.0 
 NOISE = 1e-9
 """A number [SI] that is smaller is shown as zero."""
 MOST_ROUNDINGS = 4096
-SPREAD, PROMISING, NEARLY_KEPT = 1024, 4, 1e-5
-"""Designs spread over the box to see which steps are promising, so many of which are searched from; what misses less is searched again."""
+SPREAD, PROMISING = 1024, 4
+"""Designs spread over the box to see which steps are promising, so many of which are searched from."""
 MOST_STEPS, JUDGED, NEAR_KEPT = 1 << 14, 24, 1e-3
 """So many designs on steps are all looked at, so many of the best judged; what misses by no more at few poses may be kept."""
 
@@ -312,11 +312,6 @@ def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
     return true_worth(problem, values), missing_of(problem.constraints, scales, values)
 
 
-def worth_in_order(problem: Problem, found: SearchEnd) -> tuple[bool, float]:
-    """Return by what the ends of local searches are put in order, the best first: those that keep all, by the objective."""
-    return not found.feasible, problem.sense * found.value if found.feasible else found.missing
-
-
 def order_of_worth(problem: Problem, value: float, missing: float) -> tuple[float, float]:
     """Return by what designs are put in order, the best first: what is missing, then the objective."""
     return (missing if missing > MET else 0.0), problem.sense * value
@@ -543,22 +538,15 @@ class StepSearch:
         return (inner, whole, min(found, key=lambda each: worth_in_order(inner, each))) if found else None
 
     def _from(self, inner: Problem, whole: tuple[int, ...], unit: FloatArray) -> SearchEnd | None:
-        """Return what a search of the variables that are left comes to; where it misses conditions, what misses them least."""
+        """Return what a search of the variables that are left comes to; None where there is none."""
         try:
             with inner.count.without_limit():
                 local = Local(inner, whole, unit)
                 if not self.rest:
                     return local.judged(unit)
-            found = local.run()
-            if found.feasible or not found.whole or inner.count.is_spent:
-                return found
-            least = Local(inner, whole, found.unit, elastic=inner.constraints).run()
-            again = Local(inner, whole, least.unit).run() if least.missing <= NEARLY_KEPT else least
-        except LimitReachedError:
-            return found
+            return local_search(local)
         except DefinitionError:
             return None
-        return min((found, least, again), key=lambda each: worth_in_order(inner, each))
 
 
 # Drawing dimensions.

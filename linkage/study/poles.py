@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import StudyError, unwarned
 from ..motion import Motion
 from ..motion.judge import MET
-from ..motion.measures import At, Leaf, Measure
+from ..motion.measures import At, Leaf, Measure, words_of
 from ..program import FloatArray
 from .box import unit_points
 from .problem import LeafNumbers, Problem, reduced, size_of_rows, terms_size
@@ -19,8 +19,9 @@ from .solver import divisors
 
 NEXT_TO_NOTHING = 1e-4
 """A divisor that is smaller than this part of its usual size has come to zero."""
-SPREAD, HALVINGS, FAR = 64, 40, 1e6
-"""Designs over the box at which divisors are looked at, halvings towards a zero of one, and a value so much beyond the usual is none."""
+SPREAD, HALVINGS, FAR, TINY = 64, 40, 1e6, 1e-300
+"""Designs over the box at which divisors are looked at, halvings towards a zero of one; a value that is so many times the usual
+has no bound; the least number that is divided by."""
 
 
 def check_bounded(problem: Problem, now: LeafNumbers, combination: Sequence[int], unit: FloatArray) -> None:
@@ -28,34 +29,35 @@ def check_bounded(problem: Problem, now: LeafNumbers, combination: Sequence[int]
 
     `now` are the numbers of the best design, at unit coordinates (n,). A pole at which the objective is worse than there is none.
     """
-    asked = divisors(problem.objectives)
+    problem = problem.anew()  # these looks are no part of the search
+    asked, named = divisors(problem.objectives), f"{problem.plan.title}: {', '.join(map(str, problem.objectives))}"
     n = len(problem.space.variables)
     looks = [problem.evaluated(problem.dimensions_at(np.full(n, part), combination)) for part in (0.1, 0.5, 0.9)] if asked else []
     sizes = {leaf: max(size_of_rows(look.rows[leaf].values) for look in looks) for leaf in problem.leaves} if asked else {}
     for each in asked:
         small = abs(float(each.of(lambda leaf: now[leaf])))
         if small <= NEXT_TO_NOTHING * terms_size(each, sizes, now):
-            raise boundless_error(problem, each)
+            raise boundless_error(named, each, "subject_to=[{} >= ...]")
     units = np.concatenate([unit[None], unit_points(SPREAD, n, "sobol", 0)])
     seen = values_at(problem, units, combination)
     known = np.abs(seen["objective"][np.isfinite(seen["objective"])])
-    if known.size and abs(float(problem.value(lambda leaf: np.float64(now[leaf])))) > FAR * max(float(np.median(known)), 1e-300):
-        raise boundless_error(problem, None)
+    if known.size and abs(float(problem.value(lambda leaf: np.float64(now[leaf])))) > FAR * max(float(np.median(known)), TINY):
+        raise boundless_error(named, None, "")
     for name, each in zip([key for key in seen if key != "objective"], divided_by(problem), strict=True):
         signs = np.sign(seen[name])
         other = np.flatnonzero(signs == -signs[0])
         if other.size and grows_towards(problem, combination, unit, units[other[0]], name):
-            raise boundless_error(problem, each)
+            raise boundless_error(named, each, "subject_to=[{} >= ...]")
 
 
-def boundless_error(problem: Problem, divisor: Measure | None) -> StudyError:
-    """Return the error of an objective without a bound, with the number that it is divided by where that is known."""
-    named = ", ".join(map(str, problem.objectives))
+def boundless_error(named: str, divisor: object, remedy: str) -> StudyError:
+    """Return the error of a number without a bound, with what it is divided by where that is known."""
     if divisor is None:
-        what = f"{problem.plan.title}: {named} grows without bounds in the box"
-        return StudyError(f"{what}, as at a pole; keep what it is divided by away from zero, or take vary= narrower.")
-    what = f"{problem.plan.title}: {named} has no bound in the box, for {divisor} comes to zero there"
-    return StudyError(f"{what}; keep it away from zero, subject_to=[{divisor} >= ...], or take vary= narrower.")
+        text = "grows without bounds in the box, as at a pole; keep what it is divided by away from zero"
+    else:
+        words = str(divisor) if isinstance(divisor, Measure) else words_of(divisor)
+        text = f"has no bound in the box, for {words} comes to zero there; keep it away from zero, {remedy.format(words)}"
+    return StudyError(f"{named} {text}, or take vary= narrower.")
 
 
 def divided_by(problem: Problem) -> list[Measure]:
@@ -102,4 +104,4 @@ def grows_towards(problem: Problem, combination: Sequence[int], best: FloatArray
             return False
         ends[int(np.sign(seen[2]) != np.sign(seen[0]))] = middle
     found = problem.sense * values_at(problem, ends, combination)["objective"]
-    return bool(np.any(found < -FAR * max(float(usual), 1e-300)))
+    return bool(np.any(found < -FAR * max(float(usual), TINY)))

@@ -36,6 +36,7 @@ from ..motion.measures import (
     traced,
     words_of,
 )
+from ..motion.quadrature import PANELS, Quadrature, gauss, quadrature
 from ..motion.strokes import check_magnitude
 from ..plan import Mask, Plan, require_kind
 from ..program import Enclosure, FloatArray, enclosures
@@ -59,10 +60,6 @@ ON_THE_WAY = 33
 """Poses on the way to a single one, from where the ranges begin: an angle is continued along them."""
 INNER = 65
 """Samples of the stroke over which the worst value is taken."""
-PANELS, NODES = 24, 5
-"""An integral's panels, and the Gauss points of each."""
-BISECTIONS, WORK = 16, 1e-10
-"""How often panels are halved at the most, and what part of an integral a panel may be wrong by."""
 
 
 NOWHERE = Space((), (), ())
@@ -776,7 +773,7 @@ class Problem:
             rows = self.evaluated(design).rows
             for leaf in sampled:
                 if isinstance(leaf, Integral):
-                    value = self.panels(leaf, design)[0] * self.span_of(leaf, design)
+                    value = float(self.panels(leaf, design).value) * self.span_of(leaf, design)
                 else:
                     value = float(reduced(leaf, rows[leaf].values)[0])
                 found[leaf] = Truth(value, {}, bool(rows[leaf].lost[0]))
@@ -830,8 +827,8 @@ class Problem:
             found.append({name: 0.5 * (low + high)})
         return found
 
-    def panels(self, leaf: Leaf, design: Mapping[str, Numbers]) -> tuple[float, FloatArray]:
-        """Return an integral of one design over the parts (0 to 1) of its stroke, and the panels that it takes: fine where it has kinks."""
+    def panels(self, leaf: Leaf, design: Mapping[str, Numbers]) -> Quadrature:
+        """Return an integral of one design over the parts (0 to 1) of its stroke, and the panels that it takes."""
         poses, place, _ = self._of_leaf[leaf]
         (name,) = [each for each in poses.axes if each != poses.inner]
         sampling, ends = self._sampling(self.sets.index(poses)), self._ends(design, slopes=False)
@@ -844,29 +841,13 @@ class Problem:
                 found, _ = worst_along(found, None, len(poses.axes[poses.inner]), leaf.quantity.sense)
             return np.asarray(found[0])
 
-        edges = np.linspace(0.0, 1.0, PANELS + 1)
-        shares = by_panel(values(gauss(edges)[0]), edges)
-        for _ in range(BISECTIONS):
-            finer = halved(edges)
-            seen = values(np.concatenate([gauss(finer)[0], finer]))
-            inside, ends_of = seen[: -len(finer)], seen[-len(finer) :]
-            halves = by_panel(inside, finer)
-            error = np.abs(halves.reshape(-1, 2).sum(axis=1) - shares)
-            coarse = error > WORK * np.abs(halves).sum()
-            coarse |= bent_at_ends(inside, ends_of).reshape(-1, 2).any(axis=1)
-            if not coarse.any():
-                return float(halves.sum()), edges
-            keep = np.concatenate([[True], np.stack([coarse, np.ones_like(coarse)], axis=1).ravel()])
-            pairs = halves.reshape(-1, 2)
-            shares = np.concatenate([pair if split else [pair.sum()] for pair, split in zip(pairs, coarse, strict=True)])
-            edges = finer[keep]
-        return float(shares.sum()), edges
+        return quadrature(values)
 
     def refined_panels(self, leaf: Leaf, design: Mapping[str, Numbers]) -> bool:
         """Look at an integral in panels that are fine enough for one design; return whether they are others than before."""
         poses, *_ = self._of_leaf[leaf]
         (name,) = [each for each in poses.axes if each != poses.inner]
-        places, weights = gauss(self.panels(leaf, design)[1])
+        places, weights = gauss(self.panels(leaf, design).edges)
         if len(places) <= len(poses.axes[name]):
             return False
         poses.set_axis(name, places)
@@ -945,31 +926,6 @@ def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray], size: flo
     says_nothing = np.any([np.isnan(numbers[leaf]) for leaf in constraint.margin.leaves], axis=0)
     unlimited = np.isnan(margin) & (constraint.symbol != "==") & says_nothing
     return np.where(unlimited, 0.0, np.where(np.isnan(short), np.inf, short))
-
-
-def gauss(edges: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return places and weights of Gauss's rule in the panels between edges."""
-    places, weights = np.polynomial.legendre.leggauss(NODES)
-    widths = np.diff(edges)[:, None]
-    return (edges[:-1, None] + 0.5 * (places + 1.0) * widths).ravel(), (0.5 * weights * widths).ravel()
-
-
-def by_panel(values: FloatArray, edges: FloatArray) -> FloatArray:
-    """Return the integrals over the panels between edges, of values at Gauss's places."""
-    return np.asarray((values * gauss(edges)[1]).reshape(len(edges) - 1, NODES).sum(axis=1))
-
-
-def bent_at_ends(values: FloatArray, ends: FloatArray) -> Any:
-    """Return in which panels a value at an end is not what those at Gauss's places say of it: there is a kink beside the end."""
-    places, _ = np.polynomial.legendre.leggauss(NODES)
-    told = values.reshape(-1, NODES) @ np.linalg.solve(np.vander(places).T, np.vander([-1.0, 1.0], NODES).T)
-    apart = np.abs(told - np.stack([ends[:-1], ends[1:]], axis=1)).max(axis=1)
-    return apart > WORK**0.5 * np.abs(values).max(initial=0.0)
-
-
-def halved(edges: FloatArray) -> FloatArray:
-    """Return edges with one more in the middle of each panel."""
-    return np.sort(np.concatenate([edges, 0.5 * (edges[:-1] + edges[1:])]))
 
 
 def worst_along(values: FloatArray, slopes: FloatArray | None, count: int, sense: float) -> tuple[FloatArray, FloatArray | None]:

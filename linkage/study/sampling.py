@@ -161,8 +161,8 @@ class Sampling:
 
     def _differences(self, grid: Grid, quantity: object) -> FloatArray:
         """Return the central differences of a quantity that is not traced, shape (p, n)."""
-        found = []
-        for owner in self.owners:
+        found = np.zeros((len(self.owners), grid.size[1]))
+        for row, owner in enumerate(self.owners):
             given = grid.strokes if owner in grid.strokes else grid.designs
             step = DIFFERENCE * max(float(np.max(np.abs(given[owner]))), 0.01)
             ends = []
@@ -172,8 +172,8 @@ class Sampling:
                 strokes = dict(grid.strokes) | (moved if given is grid.strokes else {})
                 near = Grid(grid.plan, designs, strokes, per_design=grid.per_design)
                 ends.append(eager(motion_of(near), quantity).reshape(-1))
-            found.append((ends[0] - ends[1]) / (2.0 * step))
-        return np.array(found)
+            found[row] = (ends[0] - ends[1]) / (2.0 * step)
+        return found
 
 
 def rows_of_motion(plan: Plan, quantities: Sequence[object]) -> Callable[[Motion], FloatArray]:

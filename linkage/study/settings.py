@@ -23,10 +23,13 @@ from ..units import show, unit_or_none
 from .box import range_of
 from .checks import check_one_design, unit_of, why_not_assembled
 from .measured import QuantityLike, StudyPoses, quantity_values
+from .poles import FAR, TINY
 from .targets import Solutions, solutions_for
 
 SAMPLES = 1025
-TOUCH = 1e-9  # of the values' span: what comes as near as this to the target touches it
+TOUCH, USUAL, POLES = 1e-9, (5.0, 95.0), 10.0
+"""Of the values' span: what comes so near to the target touches it. Beside a pole values are as large as numbers go: the span is at most so
+many times that of the usual ones [%]."""
 
 
 @final
@@ -120,7 +123,10 @@ def roots_of(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatAr
     at = ends_of_reach(curve, np.linspace(low, high, SAMPLES))
     off = curve(at)
     found = np.sort(np.concatenate([at[off == 0.0], zeros_passed(curve, at, off), zeros_touched(curve, at, off)]))
-    span = float(np.nanmax(off) - np.nanmin(off)) if np.isfinite(off).any() else 0.0
+    found = found[np.isfinite(found)]
+    known = off[np.isfinite(off)]
+    span, most = (float(np.ptp(each)) for each in (known, np.percentile(known, USUAL))) if known.size else (0.0, 0.0)
+    span = min(span, POLES * most) or span
     found = found[np.abs(curve(found)) <= max(TOUCH * span, 1e-13)]  # where it does not jump over zero
     return at, off, found[np.diff(found, prepend=-np.inf) > 1e-9 * (high - low)].tolist()
 
@@ -191,7 +197,9 @@ class SettingWords:
                 "Look farther, or change the stroke.",
                 **names,
             )
-        least, most = (show(float(end), self.shown_in) for end in (value[known].min(), value[known].max()))
+        endless = FAR * max(float(np.median(np.abs(value[known]))), TINY)
+        ends = (float(end) for end in (value[known].min(), value[known].max()))
+        least, most = (show(end if abs(end) < endless else np.copysign(np.inf, end), self.shown_in) for end in ends)
         first, last = (show(float(end), self.unit) for end in (at[known].min(), at[known].max()))
         return said(
             "No {name} between {low} and {high} gives {what} = {target}: it can be assembled from {first} to {last}, "

@@ -45,6 +45,8 @@ STEEP = 1e3
 """What an infinite derivative counts, of scaled numbers by unit coordinates."""
 DAMPED, MOST_DAMPED = 1e-3, 1e10
 """The damping of the first step of least squares, and that at which no step leads on."""
+NEARLY_KEPT = 1e-5
+"""Designs that let conditions give way by no more are searched from again."""
 
 
 class Graded(NamedTuple):
@@ -617,6 +619,24 @@ def divisors(expressions: Sequence[Measure]) -> list[Measure]:
             elif each.symbol == "**" and each.left.leaves and isinstance(each.right, Given) and each.right.value < 0.0:
                 found.append(each.left)
     return found
+
+
+def local_search(local: Local, nearly: float = np.inf) -> SearchEnd:
+    """Return what a search comes to; where it misses conditions by no more than `nearly`, they give way as little as can be, and again."""
+    problem, combination, found = local.problem, local.combination, local.run()
+    if found.feasible or not np.isfinite(found.value) or found.missing > nearly or problem.count.is_spent:
+        return found
+    try:
+        least = Local(problem, combination, found.unit, elastic=problem.constraints).run()
+        again = Local(problem, combination, least.unit).run() if least.missing <= NEARLY_KEPT else least
+    except LimitReachedError:
+        return found
+    return min((found, least, again), key=lambda each: worth_in_order(problem, each))
+
+
+def worth_in_order(problem: Problem, found: SearchEnd) -> tuple[bool, float]:
+    """Return by what the ends of local searches are put in order, the best first: those that keep all, by the objective."""
+    return not found.feasible, problem.sense * found.value if found.feasible else found.missing
 
 
 class NoProgressError(Exception):

@@ -22,6 +22,8 @@ from ..program import FloatArray
 from .box import Box, setting_words
 from .checks import check_one_design, check_vary
 from .measured import QuantityLike, StudyPoses, function_value, quantity_values
+from .poles import FAR, TINY, boundless_error
+from .sampling import divisors_of
 
 POSES = 51
 MOST_RANGES = 8
@@ -84,12 +86,21 @@ def zone(
 
     tasks = int(np.prod(shape, dtype=int))
     found = extremes(f, tasks, len(box.ranges), len(box.choices))
+    check_not_endless(machine, quantity, found)
     ends = [{name: shaped(value, shape) for name, value in box.settings(found.unit[row], found.choice[row]).items()} for row in (0, 1)]
     share = np.mean(np.isfinite(found.seen), axis=1)
     return Zone(
         words_of(quantity), poses, found.value[0].reshape(shape), found.value[1].reshape(shape), ends[0], ends[1],
         share.reshape(shape), found.seen.shape[1], tuple(remarks(machine, quantity, box, flat, found.seen)),
     )  # fmt: skip
+
+
+def check_not_endless(machine: Mechanism, quantity: QuantityLike, found: Extremes) -> None:
+    """Raise StudyError where extremes are as large as next to a pole: what the quantity is divided by comes to zero in the box."""
+    seen = np.abs(found.seen[np.isfinite(found.seen)])
+    if seen.size and bool(np.any(np.abs(found.value) > FAR * max(float(np.median(seen)), TINY))):
+        divisors, named = () if callable(quantity) else divisors_of(machine.plan, quantity), f"{machine.plan.title}: {words_of(quantity)}"
+        raise boundless_error(named, divisors[0] if len(divisors) == 1 else None, "look at other strokes")
 
 
 def shaped(value: Any, shape: tuple[int, ...]) -> Any:

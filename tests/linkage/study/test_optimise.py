@@ -133,9 +133,24 @@ def test_a_second_solver_is_told_to_be_gone_and_the_first_one_searches():
         optimise(Lever(), **ask, solver="cobyla")
 
 
-def test_evolution_comes_to_the_same_as_many_starts():
-    by = {way: optimise(Boom(), maximise=least(reserve("lift")), vary=VARY, method=way, starts=2) for way in ("multistart", "evolution")}
-    assert_allclose(by["evolution"].value, by["multistart"].value, rtol=1e-6)
+def test_a_method_that_is_no_more_says_what_serves():
+    ask = dict(maximise=least(reserve("lift")), vary={"OB": (0.27, 0.33)})
+    with pytest.raises(DefinitionError, match="'evolution' is no more: leave it out, and give more starts="):
+        optimise(Boom(), **ask, method="evolution")
+    with pytest.raises(DefinitionError, match='say "auto" or "local" or "multistart"'):
+        optimise(Boom(), **ask, method="genetic")
+
+
+def test_an_objective_that_nothing_moves_is_refused_in_words():
+    fixed = [at("lift.bore"), at("O.x"), most(x("O")), at("lift.bore") * 2.0 + at("lift.rod"), most(lambda motion: 0.0 * motion.x("B"))]
+    for way in ("minimise", "maximise"):
+        for objective in fixed:
+            for vary in ({"OB": (0.25, 0.35)}, {"OB": [0.27, 0.3], "A": around(60 * mm)}, {"OB": [0.27, 0.3]}):
+                with pytest.raises(StudyError, match=r"nothing that varies moves .* whatever .*OB; vary what it depends on"):
+                    optimise(Boom(), **{way: objective}, vary=vary, method="local")
+    with pytest.raises(StudyError, match=r"nothing that varies moves at\(OB\), which is 300 mm whatever A.x, A.y"):
+        optimise(Boom(), minimise="OB", vary={"A": around(60 * mm)}, subject_to=[least(reserve("lift")) >= 1.0])
+    assert optimise(Boom(), minimise=at("OB"), vary={"OB": [0.27, 0.3]}).value == 0.27
 
 
 def test_the_same_seed_gives_the_same_to_the_last_bit():

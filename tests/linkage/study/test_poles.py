@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from linkage import LEFT, Crank, Dyad, Ground, Mechanism, Stroke, StudyError, at, least, most, optimise, x, y
+from linkage.study import settings_for, zone
 
 
 class Rocker(Mechanism):
@@ -34,3 +35,36 @@ def test_what_stays_bounded_is_found():
         best = optimise(Rocker(), minimise=each, **BOX)
         values = [Rocker(OA=size).answers([each])[0].value for size in np.linspace(0.25, 0.35, 12)]
         assert best.value <= min(values) * (1.0 + 1e-9)
+
+
+def test_a_pole_within_the_stroke_of_a_part_of_the_box_ends_soon_in_words():
+    """The best goes towards designs whose divisor begins to pass zero: it is refused, or what is found has a value and names that edge."""
+    gap = y("D") - float(Rocker().at(S=0.4).y("D"))
+    for quantity, vary in ((1 / gap, {"OA": (0.25, 0.35)}), (x("D") / gap, {"OA": (0.29, 0.35), "CD": (0.495, 0.505)})):
+        try:
+            best = optimise(Rocker(), minimise=most(quantity), vary=vary, starts=1)
+        except StudyError as error:
+            assert "it is divided by y(D) - 0.596058, and where it passes zero within the stroke, it grows without bounds" in str(error)
+        else:
+            assert "has no value: it is divided by y(D)" in best.edges[0]
+            assert np.max(best.machine.sweep(2001).y("D")) < HEIGHT - 1e-4
+            assert best.value == pytest.approx(np.max(best.machine.sweep(2001)[quantity]), rel=1e-6)
+
+
+def test_a_zone_and_settings_tell_no_pole_as_a_value():
+    gap = y("D") - float(Rocker().at(S=0.4).y("D"))
+    for quantity, vary in ((1 / gap, {"OA": (0.25, 0.35)}), (x("D") / gap, {"OA": (0.25, 0.35), "CD": (0.45, 0.55)})):
+        with pytest.raises(StudyError, match=r"has no bound in the box, for y\(D\) - 0.596"):
+            zone(Rocker(), quantity, vary, S=[0.3, 0.4, 0.5])
+        with pytest.raises(StudyError, match="grows without bounds in the box"):
+            zone(Rocker(), lambda motion, of=quantity: motion[of], vary, S=[0.4])
+        band = zone(Rocker(), quantity, {"OA": (0.25, 0.255)}, S=[0.4])
+        assert np.isfinite([band.low, band.high]).all()
+    nearest = 1.0 / max(float(Rocker(OA=size).at(S=0.4).y("D") - Rocker().at(S=0.4).y("D")) for size in np.linspace(0.25, 0.35, 2001))
+    for value in (0.0, 50.0, 0.99 * nearest):  # the divisor is never so large
+        assert settings_for(Rocker(), "OA", 1 / gap, value, between=(0.25, 0.35), S=0.4).values == ()
+    for value in (1.01 * nearest, 500.0, 1e5, -200.0, -1e4):
+        found = settings_for(Rocker(), "OA", 1 / gap, value, between=(0.25, 0.35), S=0.4)
+        assert found.values
+        for size in found.values:
+            assert 1.0 / float(Rocker(OA=size).at(S=0.4).y("D") - Rocker().at(S=0.4).y("D")) == pytest.approx(value, rel=1e-6)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import singledispatch
 from typing import Any, final
 
-from linkage.errors import DefinitionError, cited, unknown
+from linkage.errors import DefinitionError, cited, known_name, unknown
 from linkage.quantities import Number, is_number
 from linkage.quantities.quantity import plain
 
@@ -30,8 +30,7 @@ def gas_of(given: Any, number: Callable[[Any], float]) -> Gas:
     if not isinstance(table, Mapping) or not isinstance(table.get("law"), str):
         raise DefinitionError(f"{cited(given)} is no gas law; write {EXAMPLE}.")
     name = table["law"]
-    if name not in LAWS:
-        raise unknown("Gas law", name, LAWS)
+    known_name("Gas law", name, LAWS)
     make, keys = LAWS[name]
     for key in table:
         if key not in ("law", *keys):

@@ -17,6 +17,7 @@ from typing import Any, ClassVar, TypeAlias, cast, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkage.checks import require_type
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import refuses_changes
 from linkage.language import said
@@ -133,8 +134,7 @@ class GasLine(Circuit):
 
         Frictionless at rest, or while strokes move at rates, with the seals' friction. (37), (39)
         """
-        if not isinstance(rates, Mapping):
-            raise DefinitionError(f"FloatCircuit: rates={cited(rates)}: a speed for each stroke is expected, such as dict(S=0.05).")
+        require_type("FloatCircuit: rates", rates, Mapping, "a speed for each stroke is expected, such as dict(S=0.05)")
         ram = self.ram(motion) if cylinder is None else the_cylinder(motion, cylinder)
         return self.thrust_of(ram, motion, rates)
 

@@ -22,6 +22,7 @@ from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
 
 import numpy as np
 
+from linkage.checks import require_type
 from linkage.errors import DefinitionError, cited, unknown
 from linkage.frozen import FrozenDict, refuses_changes
 from linkage.language import said
@@ -244,8 +245,8 @@ class OilLine(PumpLine, GasLine):
                 raise DefinitionError(f"{what}; write lift.piston_side, a Pump, a Tank, an AccumulatorBlock.")
         if isinstance(self.filled, str) and self.filled not in ("open", "closed"):
             raise DefinitionError(f'OilLine(filled={self.filled!r}): say "open", "closed", or lengths, filled=dict(slave=0.72).')
-        if self.filled is not None and not isinstance(self.filled, (str, Mapping)):
-            raise DefinitionError(f"OilLine(filled={cited(self.filled)}): lengths of cylinders are expected, filled=dict(slave=0.72).")
+        if self.filled is not None:
+            require_type("OilLine(filled", self.filled, (str, Mapping), "lengths of cylinders are expected, filled=dict(slave=0.72)")
         for name, length in self.filled.items() if isinstance(self.filled, Mapping) else ():
             if not isinstance(length, (str, Quantity)):
                 one_number(length, f"OilLine: filled, {name}")

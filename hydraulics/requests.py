@@ -12,7 +12,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, known_name, unknown
+from linkage.errors import DefinitionError, known_name
 from linkage.loads import DIRECTIONS, Acting, Case, situation_of
 from linkage.mechanism import Mechanism
 from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most
@@ -74,8 +74,8 @@ def circuit_with(plan: Plan, ram: Ram, circuit: Circuits, word: str) -> LiftLine
     circuits = plan.of_kind(LiftLine)
     if not isinstance(circuit, str):
         return circuit
-    if circuit and circuit not in circuits:
-        raise unknown("LiftCircuit", circuit, circuits, where=plan.title)
+    if circuit:
+        known_name("LiftCircuit", circuit, circuits, where=plan.title)
     feeding = {name: each for name, each in circuits.items() if any(same(ram, one) for one in each.members(plan.members))}
     if circuit and circuit not in feeding:
         raise DefinitionError(f"{plan.title}: {circuit} does not feed {ram.name}; that is on {', '.join(feeding) or 'none'}.")

@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Unpack, cast, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, cited, unknown
+from linkage.errors import DefinitionError, cited, known_name, unknown
 from linkage.frozen import refuses_changes
 from linkage.language import said
 from linkage.loads import (
@@ -308,8 +308,7 @@ def over_valve(word: str, valve: str, motion: AnyMotion, acting: Acting) -> Arra
 def valve_in(valve: str, plan: Plan) -> HoldingValve:
     """Return the holding valve of a name; DefinitionError where there is none."""
     valves = plan.of_kind(HoldingValve)
-    if valve not in valves:
-        raise unknown("HoldingValve", valve, valves, where=plan.title)
+    known_name("HoldingValve", valve, valves, where=plan.title)
     return valves[valve]
 
 

@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies
+from .checks import require_one_design
 from .errors import DefinitionError, cited, is_yes, known_name, told, unknown
 from .frozen import FrozenDict
 from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
@@ -507,8 +508,7 @@ class Mechanism(Shown, metaclass=MechanismType):
     @property
     def four_bars(self) -> list[FourBar]:
         """The four-bars on the frame, each with its Grashof class."""
-        if any(np.ndim(value) for value in self._values.values()):
-            raise DefinitionError(f"{self.plan.title}: four-bars are classed for one design, this is a batch; choose one of them.")
+        require_one_design(self._values, f"{self.plan.title}: four-bars are classed for one design")
         return four_bars(self.plan, self.at(unreachable="nan", **self.plan.sketch_strokes).inputs)
 
     @property

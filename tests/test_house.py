@@ -15,7 +15,7 @@ from tests.for_all import for_all
 ROOT = Path(__file__).parents[1]
 
 FLOORS = (
-    ("errors", "units", "vectors", "disk", "frozen", "pickling", "language", "plugins", "shown", "star", "verdict"),
+    ("errors", "checks", "units", "vectors", "disk", "frozen", "pickling", "language", "plugins", "shown", "star", "verdict"),
     ("quantities",),
     ("steps", "loads", "surroundings"),
     ("program",),

@@ -68,8 +68,7 @@ def parsed_over(machine: Mechanism, text: str) -> Over:
     strokes: dict[str, float | tuple[float, float]] = {}
     for part in text.split(","):
         name, given = pair(part, "--over", "phi=15deg:80deg,t=0")
-        if name not in machine.strokes:
-            raise unknown("Stroke", name, machine.strokes, where=f"--over {text}")
+        known_name("Stroke", name, machine.strokes, where=f"--over {text}")
         if name in strokes:
             raise DefinitionError(f"--over {text}: {name} stands twice; give it two ends, {name}=LOW:HIGH.")
         strokes[name] = parsed_ends(machine.plan, name, given)
@@ -276,8 +275,7 @@ def motion_along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
 def stroke_values(plan: Plan, text: str) -> tuple[str, Any]:
     """Return a stroke's name and its values, shape (n,) [m or rad]."""
     name, values = pair(text, "--at", "S=0.6,650mm")
-    if name not in plan.strokes:
-        raise unknown("Stroke", name, plan.strokes, where=plan.title)
+    known_name("Stroke", name, plan.strokes, where=plan.title)
     return name, np.array([si_value(value, stroke_measure(plan, name), f"--at {name}") for value in values.split(",")])
 
 
@@ -290,8 +288,8 @@ def acting_of(machine: Mechanism, options: Namespace) -> Acting:
     In a judgement a case or a direction that is not given means all that occur.
     """
     check_case(machine, options.case)
-    if options.drive is not None and options.drive not in machine.strokes:
-        raise unknown("Stroke", options.drive, machine.strokes, where=machine.plan.title)
+    if options.drive is not None:
+        known_name("Stroke", options.drive, machine.strokes, where=machine.plan.title)
     return Acting(case=options.case, direction=options.direction, drive=options.drive)
 
 
@@ -361,8 +359,8 @@ PER = {("angle", "m"): "rad/m"}
 def ratio_columns(machine: Mechanism, motion: Motion, targets: Sequence[str], wrt: str | None) -> Iterator[Column]:
     """Yield the derivatives of points and outputs by a stroke, by each of them where none is named: `dG_y/dS`."""
     plan = machine.plan
-    if wrt is not None and wrt not in plan.strokes:
-        raise unknown("Stroke", wrt, plan.strokes, where=plan.title)
+    if wrt is not None:
+        known_name("Stroke", wrt, plan.strokes, where=plan.title)
     for target in targets:
         member = plan.members.get(target)
         if not isinstance(member, (Point, Quantity)):

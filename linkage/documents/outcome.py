@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..errors import LinkageError, unknown, unwarned
+from ..errors import LinkageError, known_name, unwarned
 from ..language import heading_of, noted, said, translated
 from ..loads import PLAIN_CASE, Acting
 from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, most, speakers
@@ -77,8 +77,7 @@ def reported_columns(subject: ReportSubject, names: Sequence[str] | None) -> lis
         return found
     known = {column.name: column for column in found}
     for name in names:
-        if name not in known:
-            raise unknown("Column", name, known, where=f"the table of {subject.machine.plan.title}")
+        known_name("Column", name, known, where=f"the table of {subject.machine.plan.title}")
     return [known[name] for name in dict.fromkeys([*(each for each in subject.machine.strokes if each in known), *names])]
 
 

@@ -11,8 +11,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ..checks import require_type
 from ..disk import check_name, check_place
-from ..errors import DefinitionError, LinkageError, cited, unknown, unwarned
+from ..errors import DefinitionError, LinkageError, cited, known_name, unwarned
 from ..language import current_language, heading_of, said, said_of, translated
 from ..language import language as spoken
 from ..loads import PLAIN_CASE, Acting, situation_of
@@ -259,11 +260,9 @@ def span_words(subject: ReportSubject) -> str:
 
 def checked_limits(limits: Mapping[str, Sequence[object]], columns: Mapping[str, Column], title: str) -> Mapping[str, Sequence[Any]]:
     """Return limits by column; DefinitionError for one of no column, or that is none."""
-    if not isinstance(limits, Mapping):
-        raise DefinitionError(f'limits={cited(limits)}: limits by the names of columns are expected, limits={{"tilt": (0.1, "most")}}.')
+    require_type("limits", limits, Mapping, 'limits by the names of columns are expected, limits={"tilt": (0.1, "most")}')
     for name, given in limits.items():
-        if name not in columns:
-            raise unknown("Column", name, columns, where=f"limits of {title}")
+        known_name("Column", name, columns, where=f"limits of {title}")
         limit_of(given, columns[name].unit)
     return limits
 

@@ -9,13 +9,14 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, LinkageError, SingularError, cited, unwarned
+from ..checks import require_whole
+from ..errors import AssemblyError, DefinitionError, LinkageError, SingularError, unwarned
 from ..language import said
 from ..loads import PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Judge, Motion, Request, Tabled, speakers, stroke_display_unit
 from ..motion.measures import MeasuredQuantity
-from ..quantities import Quantity, is_whole
+from ..quantities import Quantity
 from ..reports import At, Run, column_requests, is_column, results, run_of
 from ..reports.results import asked_by_name
 from ..statics import PinForces, drive_force, pin_forces, pin_forces_under
@@ -51,8 +52,7 @@ class ReportSubject:
             raise DefinitionError(
                 f"{title}: a report is of one design, and {batch[0]} has {np.size(machine[batch[0]])} values; choose one of them."
             )
-        if not is_whole(count) or not 2 <= count <= MANY:
-            raise DefinitionError(f"count={cited(count)}: the rows of the report's tables, 2 to {MANY}; give a whole number such as 11.")
+        require_whole("count", count, f"the rows of the report's tables, 2 to {MANY}; give a whole number such as 11", least=2, most=MANY)
         found = cls(machine, run_of(machine, at), count, over, machine.judge(over, acting).lost_allowed())
         found.judge.cases  # noqa: B018  refuses a load case that is unknown
         if not found.curve.reached.any():

@@ -12,8 +12,9 @@ from typing import Any, final
 import numpy as np
 
 from .. import plugins
+from ..checks import require_type
 from ..disk import Place, check_name, check_place, replacing
-from ..errors import DefinitionError, cited, known_name
+from ..errors import DefinitionError, known_name
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, columns_of
 from ..pictures.strokes import stroke_words
@@ -229,14 +230,11 @@ def check_exportable(what: Any, exporter: Exporter, at: Any, trace: Any, columns
         raise DefinitionError(f"{title}: a file holds one design, and this machine is a batch of them; choose one of its designs.")
     if isinstance(what, Motion) and exporter.of_machines:
         raise DefinitionError(f"{title}: {exporter.of_machines}, so it is made of a machine: export(machine, ...).")
-    if not isinstance(at, Mapping) or not all(isinstance(name, str) for name in at):
-        raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
+    require_type(f"{title}: at", at, Mapping, "values of strokes by name are expected, such as at=dict(S=0.1)", of=str)
     if isinstance(what, Motion) and at:
         raise DefinitionError(f"{title}: a motion has its poses; at= goes with a machine.")
-    if not isinstance(trace, (list, tuple)):
-        raise DefinitionError(f'{title}: trace={cited(trace)}: a list of points is expected, such as trace=["G"].')
-    if not isinstance(columns, (list, tuple)) or not all(isinstance(each, Column) for each in columns):
-        raise DefinitionError(f"{title}: columns={cited(columns)}: a list of columns is expected, such as results(machine, motion).")
+    require_type(f"{title}: trace", trace, (list, tuple), 'a list of points is expected, such as trace=["G"]')
+    require_type(f"{title}: columns", columns, (list, tuple), "a list of columns is expected, such as results(machine, motion)", of=Column)
     if trace and "trace" not in exporter.takes:
         raise DefinitionError(f"{title}: trace= draws the paths of points, in {' and '.join(suffixes('trace'))}.")
     if columns and "columns" not in exporter.takes:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, final
 import numpy as np
 import sympy
 
-from ..errors import DefinitionError
+from ..checks import require_whole
 from ..formulas.numbered import CONVENTION, DEFINITIONS, uses
 from ..motion import Column, stroke_display_unit, stroke_unit
 from ..reports import Run
@@ -432,6 +432,4 @@ def without_jump(text: str, turns: int, before: str) -> str:
 
 def check_count(count: object) -> int:
     """Return the number of poses; DefinitionError for anything but a whole number of rows that a sheet has."""
-    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 2 <= count <= 100_000:
-        raise DefinitionError(f"count={count!r}: a number of poses from 2 to 100000 is expected, such as 101.")
-    return int(count)
+    return require_whole("count", count, "a number of poses from 2 to 100000 is expected, such as 101", least=2, most=100_000)

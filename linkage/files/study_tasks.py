@@ -23,7 +23,7 @@ from typing import Annotated, Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, known_name, unknown
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Request, stroke_display_unit, stroke_measure
@@ -119,8 +119,7 @@ def strokes_said(head: StudyHead, given: object) -> dict[str, Any]:
         raise DefinitionError(f'{shortened(given)}: a table of strokes is expected, such as strokes = {{ S = "100 mm" }}.')
 
     def values(name: str, value: object) -> tuple[str, Any]:
-        if name not in head.plan.strokes:
-            raise unknown("Stroke", name, head.plan.strokes, where=head.plan.title)
+        known_name("Stroke", name, head.plan.strokes, where=head.plan.title)
         return name, stroke_values_said(value, stroke_measure(head.plan, name), head.found.get("poses", 1))
 
     return dict(each_of(by_whole_names(given), values))

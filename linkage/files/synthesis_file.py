@@ -18,7 +18,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Annotated, Any
 
-from ..errors import DefinitionError, known_name, unknown
+from ..errors import DefinitionError, known_name
 from ..mechanism import Mechanism
 from ..motion import stroke_measure
 from ..motion.kinds import measure_of
@@ -144,8 +144,7 @@ def whose(name: str) -> Read:
             return given.strip() if given.strip() in head.plan.members else found
         parts = given.split()
         for each in parts:
-            if each not in head.plan.moving:
-                raise unknown("Point", each, head.plan.moving, where=head.plan.title)
+            known_name("Point", each, head.plan.moving, where=head.plan.title)
         if len(parts) != (1 if name == "path" else 2):
             raise DefinitionError(f"{given!r}: {'one point' if name == 'path' else 'two points of the body'} expected.")
         return given

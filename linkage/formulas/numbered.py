@@ -14,7 +14,8 @@ import mpmath
 import numpy as np
 import sympy
 
-from ..errors import DefinitionError, cited, known_name, unknown
+from ..checks import require, require_type, require_whole
+from ..errors import DefinitionError, cited, known_name
 from ..language import translated
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..motion.requests import stroke_of
@@ -121,22 +122,20 @@ def check_given(design: Mechanism, start: object, at: object, ratio: object, fla
     if not isinstance(names, (list, tuple)) or not all(isinstance(name, str) for name in names):
         raise DefinitionError(f'ratio={cited(ratio)}: the name of a point or an output is expected, ratio="G", or a list of them.')
     for flag, value in flags.items():
-        if np.ndim(value):
-            raise DefinitionError(f"{flag}={cited(value)}: True or False is expected.")
+        require(not np.ndim(value), flag, value, "True or False is expected")
 
 
 def check_pose(design: Mechanism, at: object) -> None:
     """Raise DefinitionError for anything but a pose: strokes by name, or None."""
-    if at is not None and not isinstance(at, Mapping):
-        raise DefinitionError(f"{design.plan.title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
+    if at is not None:
+        require_type(f"{design.plan.title}: at", at, Mapping, "values of strokes by name are expected, such as at=dict(S=0.1)")
 
 
 def differentiated(design: Mechanism, listing: Listing, target: str, wrt: str | None) -> list[ListingLine]:
     """Return the lines that lead to a target's transfer ratio; DefinitionError for a name without one."""
     plan = design.plan
     known = members_with_lines(listing)
-    if target not in known:
-        raise unknown("Point or output", target, known, where=plan.title)
+    known_name("Point or output", target, known, where=plan.title)
     stroke = stroke_of(plan, wrt)
     together = {listing.names.vector(pin) for pin in listing.unknowns}
     if together & {known[target], *(symbol for line in lines_needed(listing.lines, known[target]) for symbol in line.rhs.free_symbols)}:
@@ -310,8 +309,7 @@ class Equations(Sequence[Equation], Shown):
         if not isinstance(place, str):
             return self._items[place]
         found = {each.name: each for each in self._items}
-        if place not in found:
-            raise unknown("Equation", place, found, where=self.machine.plan.title)
+        known_name("Equation", place, found, where=self.machine.plan.title)
         return found[place]
 
     @property
@@ -342,8 +340,8 @@ class Equations(Sequence[Equation], Shown):
         `at` are strokes, numbers or arrays; those not named are at their start. With `digits` the values are
         SymPy numbers of so many digits, from the dimensions as decimals. Raises AssemblyError where the pose cannot be assembled.
         """
-        if digits is not None and (not is_whole(digits) or not 1 <= digits <= MOST_DIGITS):
-            raise DefinitionError(f"digits={cited(digits)}: a whole number of digits is expected, 1 to {MOST_DIGITS}.")
+        if digits is not None:
+            require_whole("digits", digits, f"a whole number of digits is expected, 1 to {MOST_DIGITS}", least=1, most=MOST_DIGITS)
         found = evaluated(self._lines, self._inputs(at), digits)
         return {line.name: found[line.lhs] for line in self._lines}
 
@@ -382,8 +380,7 @@ class Equations(Sequence[Equation], Shown):
 
         For short chains: a closed form grows by a factor at each step. Raises DefinitionError above `limit` operations.
         """
-        if not is_whole(limit):
-            raise DefinitionError(f"limit={cited(limit)}: the number of operations is expected, such as 20000.")
+        require_whole("limit", limit, "the number of operations is expected, such as 20000")
         target = self[known_name("Equation", name, [each.name for each in self._items], self.machine.plan.title)]
         known: dict[sympy.Symbol, sympy.Expr] = {}
         for each in self._items[: self._items.index(target) + 1]:

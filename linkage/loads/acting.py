@@ -9,6 +9,7 @@ from typing import Protocol, Self, TypeAlias, TypedDict, TypeVar, final
 
 from numpy.typing import ArrayLike
 
+from ..checks import require_type
 from ..errors import DefinitionError, cited, known_name
 from ..frozen import keep_own, refuses_changes
 from ..quantities import name_of
@@ -51,8 +52,8 @@ class Acting:
             known_name("Direction", self.direction, DIRECTIONS)
         if self.drive is not None:
             object.__setattr__(self, "drive", name_of(self.drive))
-        if self.rates is not None and not isinstance(self.rates, Mapping):
-            raise DefinitionError(f"Acting(rates={cited(self.rates)}): a value for each stroke is expected, such as rates=dict(S=0.05).")
+        if self.rates is not None:
+            require_type("Acting(rates", self.rates, Mapping, "a value for each stroke is expected, such as rates=dict(S=0.05)")
         keep_own(self)
 
     @property
@@ -120,8 +121,7 @@ def situation_of(what: str, acting: Acting | None = None, **keywords: object) ->
         raise TypeError(f"{what}() got an unexpected keyword argument {unknown!r}")
     if acting is None:
         return Acting(**given)  # type: ignore[arg-type]
-    if not isinstance(acting, Acting):
-        raise DefinitionError(f'{what}(acting={cited(acting)}): a situation is expected, such as acting=Acting(case="full").')
+    require_type(f"{what}(acting", acting, Acting, 'a situation is expected, such as acting=Acting(case="full")')
     if given:
         raise DefinitionError(f"{what}: {next(iter(given))}= and acting= both say it; give acting= alone, Acting({next(iter(given))}=...).")
     return acting

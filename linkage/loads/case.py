@@ -8,7 +8,7 @@ from math import pi
 from types import MappingProxyType
 from typing import ClassVar, final
 
-from ..errors import DefinitionError, cited, unknown
+from ..errors import DefinitionError, cited, known_name, unknown
 from ..frozen import keep_own, refuses_changes
 from ..quantities import Member, Reference, in_degrees, is_number, name_of
 from ..quantities.quantity import plain
@@ -79,8 +79,7 @@ class LoadCase(Member):
         """Raise DefinitionError for a name that is no load of the class."""
         loads = [name for name, member in members.items() if isinstance(member, ForceElement)]
         for name in self.mentioned:
-            if name not in loads:
-                raise unknown("Load", name, loads, where=f"{title}.{self.name}")
+            known_name("Load", name, loads, where=f"{title}.{self.name}")
         for name in self.scale:
             check_factor(self, name, members[name], f"{title}.{self.name}")
         shut_members(self, members, f"{title}.{self.name}")

@@ -12,10 +12,11 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
+from ..checks import require
 from ..errors import DefinitionError, SingularError, UntracedError, one_word
 from ..plan import ArrayReading, Mask, Plan, failures, negative
 from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions
-from ..quantities import real
+from ..quantities import numbers_in
 from . import conditions
 from .conditions import Conditioning
 from .grid import Angles, Grid, angles_of, to_rounding, varies
@@ -505,10 +506,7 @@ class PoseFunction:
 
 def one_value(value: object, name: str, title: str) -> FloatArray:
     """Return a stroke's one value, shape (); DefinitionError for several, and for anything but a finite number."""
-    try:
-        found = real(value)
-    except ValueError:
-        found = np.empty(0)
+    found = numbers_in(value)
     if found.size != 1 or not np.isfinite(found).all():
         raise DefinitionError(f"{title}: the stroke {name}={value!r:.60}: one finite number is expected; evaluate takes arrays.")
     return found.reshape(())
@@ -520,8 +518,7 @@ def one_value(value: object, name: str, title: str) -> FloatArray:
 def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], language: object, name: str) -> str:
     """Return requests as text in a language; see Mechanism.source."""
     writer = LANGUAGES.given(language) or LANGUAGES[one_word("language", language, tuple(LANGUAGES))]
-    if not (isinstance(name, str) and name.isascii() and name.isidentifier()):
-        raise DefinitionError(f"name={name!r}: a function's name is expected, such as poses.")
+    require(isinstance(name, str) and name.isascii() and name.isidentifier(), "name", name, "a function's name is expected, such as poses")
     if name in writer.words.split():
         raise DefinitionError(f"name={name!r} has a meaning in {language} already; give the function another name, such as poses.")
     if any(np.ndim(value) for value in designs.values()):

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, final
 
+from ..checks import require_type
 from ..errors import DefinitionError, cited
 from ..quantities import is_number
 
@@ -27,14 +28,10 @@ class Featured:
     coupler: str = ""
 
     def __post_init__(self) -> None:
-        if not isinstance(self.column, str):
-            raise DefinitionError(f'Featured(column={cited(self.column)}): the name of a column of results is expected, "tilt".')
-        if not isinstance(self.coupler, str):
-            raise DefinitionError(f'Featured(coupler={cited(self.coupler)}): the name of a point is expected, "P".')
-        if not isinstance(self.path, (list, tuple)) or not all(isinstance(name, str) for name in self.path):
-            raise DefinitionError(f'Featured(path={cited(self.path)}): a list of points is expected, path=["G"].')
-        if not isinstance(self.limits, Mapping):
-            raise DefinitionError(f'Featured(limits={cited(self.limits)}): limits by column are expected, dict(tilt=(0.1, "most")).')
+        require_type("Featured(column", self.column, str, 'the name of a column of results is expected, "tilt"')
+        require_type("Featured(coupler", self.coupler, str, 'the name of a point is expected, "P"')
+        require_type("Featured(path", self.path, (list, tuple), 'a list of points is expected, path=["G"]', of=str)
+        require_type("Featured(limits", self.limits, Mapping, 'limits by column are expected, dict(tilt=(0.1, "most"))')
         for name, limit in self.limits.items():
             value, *words = limit if isinstance(limit, (list, tuple)) and limit else (None,)
             if not is_number(value) or len(words) > 2 or not all(isinstance(each, str) for each in words):

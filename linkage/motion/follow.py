@@ -14,6 +14,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
+from ..checks import require
 from ..errors import AssemblyError, DefinitionError, SingularError, cited, one_word, unwarned
 from ..language import said
 from ..plan import Mask, Plan, opening
@@ -94,8 +95,7 @@ def start_of(places: Places, start: Any) -> FloatArray | None:
         raise DefinitionError(f"{title}: start={cited(start)}: the strokes it begins near are expected, start={{{example}}}.")
     for name, value in start.items():
         checked_name("Stroke", name, places.plan.strokes, places.plan.title)
-        if not is_one(value):
-            raise DefinitionError(f"{title}: start: {name}={cited(value)}: one number is expected, in SI.")
+        require(is_one(value), f"{title}: start: {name}", value, "one number is expected, in SI")
     missing = [name for name in places.free if name not in start]
     if missing:
         raise DefinitionError(f"{title}: start= does not say {', '.join(missing)}; give a value for each stroke that is not held.")

@@ -21,11 +21,12 @@ from typing import final
 import numpy as np
 import numpy.typing as npt
 
+from ..checks import require_number
 from ..errors import DefinitionError, unknown
 from ..loads import TwoPoint
 from ..plan import Plan, Reading
 from ..program import Node
-from ..quantities import Member, Reference, is_number, joined_names, name_of
+from ..quantities import Member, Reference, joined_names, name_of
 from ..steps import Link
 from ..surroundings import CircleOutline, Corners, Outline, convex_pieces, crosses_itself, numbers_at, signed_area
 from ..units import require_measure
@@ -46,8 +47,7 @@ def gap(a: Reference, b: Reference, *, width: float = 0.0) -> NodeRequest:
     goes by its name, with all its corners; two outlines may belong to bodies that share a pin. What steps draw of themselves does not
     count. DefinitionError for two bodies that share a pin, and for an outline that is open.
     """
-    if not is_number(width) or width < 0.0:
-        raise DefinitionError(f"gap(width={width!r}): the sum of the half widths is expected [m], zero or more.")
+    require_number("gap(width", width, "the sum of the half widths is expected [m], zero or more", least=0.0)
     require_measure(width, "length", "gap: width")
     one, other = name_of(a), name_of(b)
 

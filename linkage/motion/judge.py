@@ -14,6 +14,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
+from ..checks import require_type
 from ..errors import DefinitionError, cited, known_name, told, unwarned
 from ..language import said
 from ..loads import FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
@@ -564,8 +565,8 @@ class Judge:
         self, plan: Plan, designs: Mapping[str, Numbers], overs: Sequence[Over | Motion], acting: Acting | None = None,
         machine: object = None,
     ) -> None:
-        if acting is not None and not isinstance(acting, Acting):
-            raise DefinitionError(f'{plan.title}: acting={cited(acting)}: a situation is expected, such as Acting(case="full").')
+        if acting is not None:
+            require_type(f"{plan.title}: acting", acting, Acting, 'a situation is expected, such as Acting(case="full")')
         self.plan, self.designs, self.acting, self.machine = plan, designs, acting or PLAIN, machine
         cases = [*plan.of_kind(LoadCase)]
         if self.acting.case is not None and not isinstance(self.acting.case, LoadCase):

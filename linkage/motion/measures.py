@@ -19,6 +19,7 @@ from typing import Any, ClassVar, NoReturn, TypeAlias, final
 
 import numpy as np
 
+from ..checks import require, require_number, require_type
 from ..errors import DefinitionError, LawError, UntracedError, cited
 from ..loads import Acting, Case, LoadCase
 from ..plan import Plan
@@ -272,8 +273,7 @@ def at(quantity: MeasuredQuantity, *, case: Case | Spectrum = None, **strokes: f
     `case` as in `least`.
     """
     for name, value in strokes.items():
-        if not is_number(value):
-            raise DefinitionError(f"at(..., {name}={cited(value)}): one number is expected for a stroke, in SI.")
+        require_number(f"at(..., {name}", value, "one number is expected for a stroke, in SI")
     return in_duty(At(require_quantity(quantity, "at"), dict(strokes)), case)
 
 
@@ -282,8 +282,7 @@ def worst(quantity: MeasuredQuantity, over: str, by: Callable[..., Any] = most) 
 
     `least(available - worst(drive_force("phi"), over="psi"))` is written with it, an upper bound of moments.
     """
-    if by not in (least, most):
-        raise DefinitionError(f"worst(..., by={cited(by)}): least or most is expected, the functions of linkage.")
+    require(by in (least, most), "worst(..., by", by, "least or most is expected, the functions of linkage")
     inner = require_quantity(quantity, "worst")
     if isinstance(inner, Worst):
         raise DefinitionError(f"{inner} is the worst over one stroke already; name the stroke of both in one function of a motion.")
@@ -380,15 +379,15 @@ reachable = Reachable()
 def conditions_of(given: object, machine: object) -> list[Constraint]:
     """Return the constraints of conditions; DefinitionError for anything else."""
     listed = [given] if isinstance(given, (Condition, Measure, PoseCondition, bool)) else given
-    if not isinstance(listed, (list, tuple)):
-        raise DefinitionError(f"subject_to={cited(given)}: a list of conditions is expected, such as [least(...) >= 35 * kN].")
-    for each in listed:
+    example = "a list of conditions is expected, such as [least(...) >= 35 * kN]"
+    conditions = require_type("subject_to", listed, (list, tuple), example)
+    for each in conditions:
         if isinstance(each, PoseCondition):
             bool(each)
         if not isinstance(each, Condition):
             what = f"{each} says no limit" if isinstance(each, Measure) else f"{cited(each)} is no condition"
             raise DefinitionError(f"subject_to: {what}; write one such as most(...) <= 8 * deg.")
-    return [found for each in listed for found in each.constraints(machine)]
+    return [found for each in conditions for found in each.constraints(machine)]
 
 
 # Load cases.

@@ -8,13 +8,14 @@ from typing import Any, ClassVar, Self, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, unknown
+from ..checks import require
+from ..errors import DefinitionError, cited, known_name, unknown
 from ..frozen import FrozenDict
 from ..language import said
 from ..loads import PLAIN_CASE, LoadCase
 from ..plan import Mask, Plan, require_kind
 from ..program import FloatArray
-from ..quantities import Member, PoseCondition, Quantity, Stroke, is_number, keywords, name_of, needs, quantity, real
+from ..quantities import Member, PoseCondition, Quantity, Stroke, is_number, keywords, name_of, needs, numbers_in, quantity, real
 from ..units import Amount, amount_or_float
 from .grid import MotionLike
 from .limits import place_text, span_text, stroke_unit
@@ -92,8 +93,7 @@ class Over(Member):
             isinstance(cases, (list, tuple)) and cases and all(isinstance(each, (str, LoadCase)) for each in cases)
         ):
             raise DefinitionError(f'Over(cases={cited(cases)}): names of load cases are expected, cases=("full",); leave it out for all.')
-        if lost not in ("", ALLOWED):
-            raise DefinitionError(f'Over(lost={cited(lost)}): "allowed" is expected, or nothing: places that are lost are then a fault.')
+        require(lost in ("", ALLOWED), "Over(lost", lost, '"allowed" is expected, or nothing: places that are lost are then a fault')
         names = None if cases is None else tuple(map(name_of, cases))
         for name, value in (("shape", shape), ("strokes", FrozenDict(strokes)), ("only", tuple(listed)), ("cases", names), ("lost", lost)):
             object.__setattr__(self, name, value)
@@ -109,8 +109,7 @@ class Over(Member):
         )  # fmt: skip
         for each in self.only:
             for name in (name for side in (each.left, each.right) if isinstance(side, (str, Quantity)) for name in needs(quantity(side))):
-                if name not in members:
-                    raise unknown("Name", name, members, where=f"{title}.{self.name}: only={each}")
+                known_name("Name", name, members, where=f"{title}.{self.name}: only={each}")
 
     def check(self, title: str, strokes: Iterable[str], cases: Iterable[str]) -> None:
         """Raise DefinitionError for strokes and load cases that there are not, and for a path that leaves a stroke open."""
@@ -126,8 +125,7 @@ class Over(Member):
                 f"{where}: it does not say where {', '.join(missing)} stand; give {example}, one number where it is held."
             )
         for name in self.cases or ():
-            if name not in (PLAIN_CASE, *cases):
-                raise unknown("Load case", name, (PLAIN_CASE, *cases), where=where)
+            known_name("Load case", name, (PLAIN_CASE, *cases), where=where)
 
     # -- of a machine ------------------------------------------------------------------------------------
 
@@ -306,10 +304,7 @@ def place_values(shape: str, name: str, value: object) -> Any:
         return value
     if isinstance(value, (list, tuple)) and any(isinstance(each, (str, Quantity, Amount)) for each in value) and all(map(is_end, value)):
         return tuple(amount_or_float(each) if is_number(each) else each for each in value)
-    try:
-        found = real(value)
-    except ValueError:
-        found = np.empty(0)
+    found = numbers_in(value)
     if found.ndim > 1 or not found.size or not np.all(np.isfinite(found)):
         raise DefinitionError(f"Over.{shape}({name}={cited(value)}): finite numbers in their order are expected, or one, in SI.")
     return tuple(found.tolist()) if found.ndim else amount_or_float(value) if is_number(value) else float(found)

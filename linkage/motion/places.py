@@ -14,6 +14,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
+from ..checks import require, require_one_design, require_type
 from ..errors import DefinitionError, cited, unwarned
 from ..frozen import FrozenDict
 from ..language import said
@@ -136,8 +137,7 @@ class Places:
     ) -> Places:
         """Return targets bound to one design; DefinitionError for anything else, and where they do not ask for the strokes there are."""
         title = f"{plan.title}: {where}"
-        if any(np.ndim(value) for value in designs.values()):
-            raise DefinitionError(f"{title} is of one design, this is a batch; choose one of them.")
+        require_one_design(designs, f"{title} is of one design")
         if not isinstance(targets, (list, tuple)) or not targets or not all(isinstance(each, Target) for each in targets):
             example = 'a list of targets is expected, such as [Target(x("G"), 2.5), Target(y("G"), 0.5)]'
             raise DefinitionError(f"{title}: {cited(targets)}: {example}.")
@@ -298,15 +298,14 @@ def held_strokes(plan: Plan, hold: object, title: str) -> dict[str, float]:
     """Return the strokes that are held, by name; DefinitionError for a name that is no stroke, and for a value that is no number."""
     if hold is None:
         return {}
-    if not isinstance(hold, Mapping):
-        raise DefinitionError(f'{title}: hold={cited(hold)}: strokes by name are expected, hold={{"{next(iter(plan.strokes))}": 0.1}}.')
-    for name, value in hold.items():
+    example = f'hold={{"{next(iter(plan.strokes))}": 0.1}}'
+    held = require_type(f"{title}: hold", hold, Mapping, f"strokes by name are expected, {example}")
+    for name, value in held.items():
         checked_name("Stroke", name, plan.strokes, plan.title)
-        if not is_one(value):
-            raise DefinitionError(f"{title}: hold: {name}={cited(value)}: one number is expected, in SI.")
+        require(is_one(value), f"{title}: hold: {name}", value, "one number is expected, in SI")
         require_kind(plan, name, value, f"{title}: hold: {name}")
         check_magnitude(name, (float(value),), plan)
-    return {name: float(value) for name, value in hold.items()}
+    return {name: float(value) for name, value in held.items()}
 
 
 def check_targets(places: Places, title: str) -> None:

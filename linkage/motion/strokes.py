@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, known_name, unknown
+from ..checks import require_whole
+from ..errors import DefinitionError, cited, known_name, one_word, unknown
 from ..plan import Plan, require_kind
 from ..program import FloatArray
-from ..quantities import Member, Stroke, as_mapping, is_number, is_whole, keywords, real
+from ..quantities import Member, Stroke, as_mapping, is_number, keywords, real
 from ..units import Amount
 from .limits import stroke_unit
 
@@ -170,15 +171,12 @@ def checked_rate(what: str, value: object, shape: tuple[int, ...], title: str, *
 
 def order_of(order: object) -> int:
     """Return the order of a derivative; DefinitionError unless it is 1 or 2."""
-    if not is_whole(order) or order not in (1, 2):
-        raise DefinitionError(f"order={order!r}: derivatives of order 1 and 2 are provided.")
-    return int(order)
+    return require_whole("order", order, "derivatives of order 1 and 2 are provided", least=1, most=2)
 
 
 def method_of(method: object, step: object) -> str:
     """Return how to differentiate; DefinitionError for an unknown word or a step that is not a positive number."""
-    if not isinstance(method, str) or method not in ("exact", "central"):
-        raise DefinitionError(f'method={method!r}: say "exact" or "central".')
+    word = one_word("method", method, ("exact", "central"))
     if step is not None and not (is_number(step) and step > 0.0 and method == "central"):
         raise DefinitionError(f'step={step!r}: a positive number in the unit of the stroke, together with method="central", is expected.')
-    return method
+    return word

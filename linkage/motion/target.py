@@ -7,11 +7,12 @@ from typing import NoReturn, final
 
 import numpy as np
 
+from ..checks import require_number
 from ..errors import DefinitionError, cited
 from ..frozen import FrozenDict, read_only
 from ..plan import Plan, require_kind
 from ..program import FloatArray
-from ..quantities import Quantity, is_number, real
+from ..quantities import Quantity, is_number, numbers_in
 from ..units import amount_or_float, deg, display_unit, mm, require_measure, unit_or_none
 from .kinds import measure_of
 from .requests import Request, RequestLike
@@ -30,8 +31,8 @@ class Target:
         self, quantity: RequestLike, value: float | FloatArray, *, within: float | None = None, unit: str = "", **strokes: float
     ) -> None:
         what = f"Target({quantity_cited(quantity)}, {cited(value)})"
-        if within is not None and not (is_number(within) and within > 0.0):
-            raise DefinitionError(f"{what}: within={cited(within)}: how far off it may be [SI], a number above zero, is expected.")
+        if within is not None:
+            require_number(f"{what}: within", within, "how far off it may be [SI], a number above zero, is expected", above=0.0)
         if not all(map(is_one, strokes.values())):
             raise DefinitionError(f"{what}: one number is expected for each stroke, in SI.")
         known = float(value) if is_one(value) else values_along(what, value)
@@ -90,10 +91,7 @@ def is_one(value: object) -> bool:
 
 def values_along(what: str, value: object) -> FloatArray:
     """Return the values of a path, shape (places,), a copy; DefinitionError for anything but finite numbers in a row."""
-    try:
-        found = real(value)
-    except (TypeError, ValueError, OverflowError):
-        found = np.empty(())
+    found = numbers_in(value)
     if found.ndim != 1 or not found.size or not np.isfinite(found).all():
         raise DefinitionError(f"{what}: one number is expected for the value, in SI. Along a path it is an array, a number a place.")
     return read_only(found)

@@ -136,8 +136,7 @@ class PageRequests:
         """Return the limits by column: (value [SI], words, the side that fails)."""
         given = dict(limit) if isinstance(limit, Mapping) else {} if limit is None else {self.column: limit}
         for name in given:
-            if name not in self.columns:
-                raise unknown("Column", name, self.columns, where=f"{self.plan.title}: limit")
+            known_name("Column", name, self.columns, where=f"{self.plan.title}: limit")
         known = {name: each for name, each in self.featured.limits.items() if name in self.columns}
         found = {name: limit_of(each, self.columns[name][0].unit) for name, each in (known | given).items()}
         return {name: (float(each.value), each.text, each.fails) for name, each in found.items()}

@@ -12,7 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..errors import DefinitionError, cited, unknown
+from ..checks import require_type
+from ..errors import DefinitionError, cited, known_name, unknown
 from ..language import said, translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
@@ -34,8 +35,8 @@ LETTERS_AN_INCH = 8.0
 def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[object]] | None = None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; see `plot`."""
     along, columns = StrokeAxis.of(motion), columns_named(motion, columns)
-    if limits is not None and not isinstance(limits, Mapping):
-        raise DefinitionError(f"limits={cited(limits)}: a limit for each column by its name is expected, dict(tilt=(0.1, 'max')).")
+    if limits is not None:
+        require_type("limits", limits, Mapping, "a limit for each column by its name is expected, dict(tilt=(0.1, 'max'))")
     given = dict(limits or {})
     shown = [column for column in columns if column.name not in motion.strokes]
     for name in given:
@@ -78,8 +79,7 @@ def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> li
     names = [each for each in columns if isinstance(each, str)]
     own = {column.name: column for column in columns_of(motion)} if names else {}
     for name in names:
-        if name not in own:
-            raise unknown("Column", name, own, where=motion.plan.title)
+        known_name("Column", name, own, where=motion.plan.title)
     found = [own[each] if isinstance(each, str) else each if isinstance(each, Column) else Column.of(motion, each) for each in columns]
     for column in found:
         check_poses(column, motion)

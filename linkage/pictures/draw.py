@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 
 from ..assembly import Assembly
-from ..errors import DefinitionError, cited, is_yes
+from ..checks import require
+from ..errors import DefinitionError, is_yes
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike
 from ..reports import NOTHING
@@ -134,8 +135,7 @@ def draw(
             title = machine.start.plan.title
             raise DefinitionError(f"{title}: what a synthesis found is drawn beside its task; it takes answers= and count= alone.")
         return draw_synthesis(machine, 3 if answers is None else answers, count)
-    if answers is not None:
-        raise DefinitionError(f"draw(answers={cited(answers)}): answers are those of a synthesis; leave it out.")
+    require(answers is None, "draw(answers", answers, "answers are those of a synthesis; leave it out")
     if isinstance(machine, Sequence):
         modes = [each for each in machine if isinstance(each, Assembly)]
         designs = [each for each in machine if not isinstance(each, Assembly)]

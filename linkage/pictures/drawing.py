@@ -16,7 +16,8 @@ from matplotlib.patches import Circle, Polygon
 from matplotlib.transforms import Affine2D
 from PIL import Image
 
-from ..errors import DefinitionError, FileError, cited
+from ..checks import require_type
+from ..errors import FileError
 from ..motion import Motion
 from ..program import FloatArray
 from . import style
@@ -37,8 +38,7 @@ def mechanism(ax: Axes, motion: Motion, pose: int | tuple[int, ...] = 0, *, fain
     Raises DefinitionError for a batch of designs or a pose that is not there.
     """
     scene = Scene(motion)
-    if not isinstance(ax, Axes):
-        raise DefinitionError(f"draw(ax={cited(ax)}): axes of matplotlib are expected, Figure().add_subplot().")
+    require_type("draw(ax", ax, Axes, "axes of matplotlib are expected, Figure().add_subplot()")
     index = scene.index(pose)
     if not ax.has_data():
         sheet(ax, scene.box())

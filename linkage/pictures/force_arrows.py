@@ -8,7 +8,8 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, SingularError, cited, unknown, unwarned
+from ..checks import require_type
+from ..errors import AssemblyError, DefinitionError, SingularError, unknown, unwarned
 from ..language import noted, said, translated
 from ..loads import ForceElement
 from ..motion import Motion
@@ -53,8 +54,8 @@ def force_question(forces: object, loads: Any, case: Any, direction: str, drive:
         if named:
             raise DefinitionError(f"draw({named}=...) says of which forces; say forces=True, or the name of a body, too.")
         return None
-    if forces is not True and not isinstance(forces, str):
-        raise DefinitionError(f'draw(forces={cited(forces)}): say forces=True, or the body whose forces are drawn, forces="OBC".')
+    if forces is not True:
+        require_type("draw(forces", forces, str, 'say forces=True, or the body whose forces are drawn, forces="OBC"')
     return ForceQuestion("" if forces is True else str(forces), loads, case, direction, drive, rates)
 
 

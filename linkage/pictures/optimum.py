@@ -13,11 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
+from ..checks import require_whole
 from ..errors import DefinitionError, cited
 from ..motion import Column, Motion, stroke_display_unit
 from ..motion.measures import At, Constraint, Given, Leaf, Least, Measure, Most, words_of
 from ..program import FloatArray
-from ..quantities import is_whole
 from ..study import Optimum
 from ..study.optimum import unit_of_leaf
 from ..units import factor, mm, shown_in
@@ -52,8 +52,7 @@ def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
     alone is drawn.
     """
     require_optimum(optimum)
-    if not is_whole(count) or count < 2:
-        raise DefinitionError(f"count={cited(count)}: a whole number of poses is expected, at least 2.")
+    require_whole("count", count, "a whole number of poses is expected, at least 2", least=2)
     name = next(iter(optimum.machine.strokes))
     before, after = (optimum.problem.along(each, name, count) for each in (optimum.start, optimum.machine))
     box = joined_box([Scene(each).box(AIR) for each in (before, after)])

@@ -10,12 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from ..checks import require_type, require_whole
 from ..errors import DefinitionError, cited, known_name
 from ..language import said, said_of
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
 from ..program import FloatArray
-from ..quantities import is_whole, real
+from ..quantities import is_whole, numbers_in
 from ..reports import Run, first_stroke, stroke_middles
 from . import style
 from .arrows import grown
@@ -89,8 +90,7 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
     path = named_points(machine, path, "path")
     if overlays.has_gap and at is None:
         at = worst_strokes(machine, overlays.clearance)  # no others: what it runs may be less than its strokes
-    if not is_whole(count) or not 2 <= count <= MANY:
-        raise DefinitionError(f"count={cited(count)}: a path is drawn through 2 poses or more; give a whole number such as 101.")
+    require_whole("count", count, "a path is drawn through 2 poses or more; give a whole number such as 101", least=2, most=MANY)
     moving, shown, swept = motions(machine, at, count)
     whole, last = Scene(swept), Scene(shown).reached[-1]
     if overlays.forces is not None and overlays.forces.body:
@@ -187,10 +187,7 @@ def joint_motions(
 
 def chosen_values(machine: Mechanism, name: str, value: object) -> FloatArray:
     """Return a stroke's values; DefinitionError for anything but finite numbers, one at least."""
-    try:
-        values = real(value)
-    except ValueError:
-        values = np.empty(0)
+    values = numbers_in(value)
     if not values.size or not np.isfinite(values).all():
         raise DefinitionError(f"{machine.plan.title}: at={cited(value)}: values of {name} are expected, such as at=[0.0, 0.1].")
     return values
@@ -198,9 +195,8 @@ def chosen_values(machine: Mechanism, name: str, value: object) -> FloatArray:
 
 def named_points(machine: Mechanism, names: object, what: str) -> tuple[str, ...]:
     """Return the names of points whose paths are drawn; DefinitionError for anything but a list of such names."""
-    if not isinstance(names, (list, tuple)):
-        raise DefinitionError(f'{machine.plan.title}: {what}={cited(names)}: a list of points is expected, such as {what}=["G"].')
-    return tuple(known_name("Point", name, machine.plan.points, where=machine.plan.title) for name in names)
+    listed = require_type(f"{machine.plan.title}: {what}", names, (list, tuple), f'a list of points is expected, such as {what}=["G"]')
+    return tuple(known_name("Point", name, machine.plan.points, where=machine.plan.title) for name in listed)
 
 
 def draw_poses(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[FloatArray]) -> None:

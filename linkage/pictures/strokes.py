@@ -8,7 +8,8 @@ from typing import final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, known_name
+from ..checks import require_whole
+from ..errors import DefinitionError, known_name
 from ..language import said, translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, check_any, last_holding, require_motion, stroke_display_unit
@@ -183,9 +184,7 @@ def is_turn(machine: Mechanism, run: Run) -> bool:
 
 def frame_count(count: object) -> int:
     """Return a number of poses; DefinitionError unless it is a whole number of at least 2."""
-    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 2 <= count <= MANY:
-        raise DefinitionError(f"count={cited(count)}: an animation has at least 2 poses; give a whole number such as 60.")
-    return int(count)
+    return require_whole("count", count, "an animation has at least 2 poses; give a whole number such as 60", least=2, most=MANY)
 
 
 def eased_shares(count: int, eased: bool) -> FloatArray:

@@ -15,13 +15,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-from ..errors import DefinitionError, StudyError, cited
+from ..checks import require_whole
+from ..errors import StudyError
 from ..language import said, said_of, translated
 from ..motion import Column, Motion, stroke_display_unit
 from ..motion.kinds import measure_of
 from ..motion.measures import words_of
 from ..program import FloatArray
-from ..quantities import is_whole
 from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
 from ..synthesis.synthesis import CLOSEST_CHANGE_POINT, EXACT, miss_unit
 from ..synthesis.tasks import Task
@@ -131,10 +131,8 @@ def draw_synthesis(found: Synthesis, answers: int = 3, count: int = 101) -> Figu
 
     Raises StudyError where there is none, with the nearest miss.
     """
-    if not is_whole(answers) or not 1 <= answers <= MOST_ANSWERS:
-        raise DefinitionError(f"answers={cited(answers)}: a whole number from 1 to {MOST_ANSWERS} is expected.")
-    if not is_whole(count) or count < 2:
-        raise DefinitionError(f"count={cited(count)}: a whole number of poses is expected, at least 2.")
+    require_whole("answers", answers, f"a whole number from 1 to {MOST_ANSWERS} is expected", least=1, most=MOST_ANSWERS)
+    require_whole("count", count, "a whole number of poses is expected, at least 2", least=2)
     if not found.solutions:
         raise StudyError(str(found))
     shown = [ShownAnswer(found, each, place, count) for place, each in enumerate(found.solutions[:answers], 1)]

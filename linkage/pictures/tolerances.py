@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..errors import DefinitionError, cited, unknown
+from ..errors import DefinitionError, cited, known_name
 from ..motion.measures import Given, Least, Most
 from ..program import FloatArray
 from ..study.measured import number_bound
@@ -42,8 +42,7 @@ def plot_bands(found: MonteCarlo, names: Sequence[str] = (), *, units: Mapping[s
     if not isinstance(found, MonteCarlo):
         raise DefinitionError(f"{cited(found)} has no bands; give the result of monte_carlo(...).")
     for name in (*names, *(units or {})):
-        if name not in found.bands:
-            raise unknown("Quantity", name, found.bands, where="the study")
+        known_name("Quantity", name, found.bands, where="the study")
     along = StrokeAxis.of(found.machine.at(unreachable="nan", **found.strokes))
     shown = [found.bands[name] for name in names or found.bands if found.bands[name].nominal.shape == along.values.shape]
     if not shown:

@@ -10,6 +10,7 @@ from typing import TypeAlias, cast, final
 import numpy as np
 import numpy.typing as npt
 
+from ..checks import require
 from ..errors import DefinitionError, unknown
 from ..frozen import read_only
 from ..quantities import Number, Operand, Quantity, Variable, quantity, real, spelled
@@ -123,8 +124,7 @@ class Table:
             return [(name, value)]
         if f"{name}.x" in self.spellings or f"{name}.y" in self.spellings:
             pair = list(cast(Iterable[npt.ArrayLike], value)) if isinstance(value, (list, tuple)) or np.ndim(value) else []
-            if len(pair) != 2:
-                raise DefinitionError(f"{self.title}({name}={value!r}): a point takes two coordinates, {name}=(x, y) in m.")
+            require(len(pair) == 2, f"{self.title}({name}", value, f"a point takes two coordinates, {name}=(x, y) in m")
             return [part for axis, each in zip("xy", pair, strict=True) for part in self._pairs(f"{name}.{axis}", each)]
         if name in self.following:
             raise DefinitionError(f"{self.title}({name}=...): {name} follows {self.following[name]}; set what it follows.")

@@ -35,6 +35,7 @@ from .quantity import (
     in_degrees,
     is_number,
     is_whole,
+    numbers_in,
     quantity,
     real,
     ref,

@@ -11,11 +11,12 @@ from typing import Any, final
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import DefinitionError, cited
+from ..checks import require, require_number
+from ..errors import DefinitionError
 from ..frozen import read_only, refuses_changes
 from ..vectors import Scalar, pick
 from .member import Pick, Reference, Where
-from .quantity import Quantity, is_number, quantity, real, spelled
+from .quantity import Quantity, quantity, real, spelled
 
 Floats = npt.NDArray[np.float64]
 
@@ -56,8 +57,7 @@ class Curve:
 
     def _check_period(self, period: object) -> None:
         """Raise DefinitionError for a table that does not close after its period."""
-        if not is_number(period) or period <= 0.0:
-            raise DefinitionError(f"Curve: period={cited(period)}: a positive number is expected, such as 2 * pi.")
+        period = require_number("Curve: period", period, "a positive number is expected, such as 2 * pi", above=0.0)
         if abs(self.xs[-1] - self.xs[0] - period) > 1e-9 * period or abs(self.ys[-1] - self.ys[0]) > 1e-9 * np.ptp(self.ys):
             ends = f"from ({self.xs[0]:.6g}, {self.ys[0]:.6g}) to ({self.xs[-1]:.6g}, {self.ys[-1]:.6g})"
             raise DefinitionError(f"Curve: the last row must lie one period after the first, with the same value; the table goes {ends}.")
@@ -163,8 +163,7 @@ def column(what: str, given: npt.ArrayLike) -> Floats:
         found = read_only(real(given))
     except (ValueError, TypeError):
         found = np.zeros(())
-    if found.ndim != 1 or not np.isfinite(found).all():
-        raise DefinitionError(f"Curve: {what}={cited(given)}: a list of finite numbers is expected.")
+    require(found.ndim == 1 and np.isfinite(found).all(), f"Curve: {what}", given, "a list of finite numbers is expected")
     return found
 
 

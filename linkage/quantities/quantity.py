@@ -5,15 +5,15 @@ Each says its rule once, in plain arithmetic; a reading (arrays, traced nodes) s
 
 from __future__ import annotations
 
-import math
 import operator
 from abc import abstractmethod
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, NoReturn, TypeAlias, TypeGuard, cast, final
+from typing import Any, NoReturn, TypeAlias, cast, final
 
 import numpy as np
 
+from ..checks import is_number, is_whole
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes, unmasked
 from ..units import amount_or_float, deg
@@ -38,21 +38,6 @@ EXACT = 2**53
 """Up to this every whole number is a float."""
 
 
-def is_number(value: object) -> TypeGuard[float]:
-    """Return whether a value is one finite real number."""
-    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
-        return False
-    try:
-        return math.isfinite(value)
-    except OverflowError:
-        return False
-
-
-def is_whole(value: object) -> bool:
-    """Return whether a value is one whole number, Python's or NumPy's."""
-    return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
-
-
 def plain(value: object) -> Any:
     """Return NumPy's number as Python's own, which prints as it is written in a class; a whole one that no float holds as a float."""
     if isinstance(value, int) and abs(value) > EXACT and is_number(value):
@@ -68,6 +53,14 @@ def real(value: object) -> FloatArray:
     if array.dtype.kind not in "fiu":
         raise ValueError(f"{value!r} is not a real number")
     return np.array(array, float)
+
+
+def numbers_in(value: object) -> FloatArray:
+    """Return a value as `real` does; an empty array for anything but real numbers."""
+    try:
+        return real(value)
+    except (TypeError, ValueError, OverflowError):
+        return np.empty(0)
 
 
 # How quantities are written, so that the text gives the same value when it is pasted back.

@@ -9,13 +9,14 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from .. import motion as between
-from ..errors import DefinitionError, cited, unknown
+from ..checks import require_type
+from ..errors import DefinitionError, cited, known_name
 from ..language import said, with_and
 from ..mechanism import Mechanism
 from ..motion import Judge, Motion, Request, Run, out_of_reach, require_motion
 from ..plan import require_kind
 from ..program import FloatArray
-from ..quantities import as_mapping, is_number, real
+from ..quantities import as_mapping, is_number, numbers_in
 from ..units import show, shown_number
 
 Range: TypeAlias = tuple[float, float]
@@ -108,8 +109,7 @@ def run_of(machine: Mechanism, at: At | Motion = NOTHING) -> Run:
     title = machine.plan.title
     if isinstance(at, Motion):
         return run_along(at)[0]
-    if not isinstance(at, Mapping):
-        raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at={as_mapping({one: 0.1})}.")
+    require_type(f"{title}: at", at, Mapping, f"values of strokes by name are expected, such as at={as_mapping({one: 0.1})}")
     given = {name: stroke_way(machine, name, value) for name, value in at.items()}
     ways = {name: given[name] for name in machine.strokes if len(given.get(name, ())) > 1}
     free = [name for name in machine.strokes if name not in given]
@@ -126,13 +126,9 @@ def run_of(machine: Mechanism, at: At | Motion = NOTHING) -> Run:
 def stroke_way(machine: Mechanism, name: str, value: object) -> tuple[float, ...]:
     """Return what a stroke is given: one value, or those that it passes; DefinitionError for anything else."""
     title = machine.plan.title
-    if name not in machine.strokes:
-        raise unknown("Stroke", name, machine.strokes, where=title)
+    known_name("Stroke", name, machine.strokes, where=title)
     require_kind(machine.plan, name, value, f"{title}: at: {name}")
-    try:
-        values = tuple(np.ravel(real(value)).tolist())
-    except ValueError:
-        values = ()
+    values = tuple(np.ravel(numbers_in(value)).tolist())
     if not values or (len(values) > 1 and len(set(values)) == 1) or not np.all(np.isfinite(values)):
         said = "one number holds a stroke, two different ones are the ends of its run, more are passed one after the other"
         raise DefinitionError(f"{title}: {name}={value!r}: {said}.")

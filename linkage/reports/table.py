@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TextIO
 
 import numpy as np
 
+from ..checks import require
 from ..errors import DefinitionError, cited
 from ..motion import Column
 from ..program import FloatArray
@@ -40,8 +41,7 @@ def column_texts(column: Column, values: FloatArray) -> list[str]:
 
 def checked_width(width: int | None) -> int | None:
     """Return a width; DefinitionError unless it is a number of characters, or none."""
-    if width is not None and not (is_whole(width) and width > 0):
-        raise DefinitionError(f"width={cited(width)}: a number of characters is expected, such as 80.")
+    require(width is None or (is_whole(width) and width > 0), "width", width, "a number of characters is expected, such as 80")
     return width
 
 

@@ -200,8 +200,7 @@ def applied_elements(plan: Plan, acting: Acting, without: str = "") -> list[Appl
     load_case, present = case_of(plan, acting.case), elements_of(plan, acting.loads)
     known = dict.fromkeys(name for name, _ in [*present, *elements_of(plan, None)])
     for name in load_case.mentioned:
-        if name not in known:
-            raise unknown("Load", name, known, where=f"{plan.title}, {load_case.label}")
+        known_name("Load", name, known, where=f"{plan.title}, {load_case.label}")
     found = []
     for name, element in present:
         check_factor(load_case, name, element, f"{plan.title}, {load_case.label}")
@@ -265,8 +264,7 @@ def elements_of(plan: Plan, loads: Loads) -> list[tuple[str, ForceElement]]:
 def named_element(element: object, own: Mapping[str, ForceElement], title: str) -> tuple[str, ForceElement]:
     """Return a force element with its name, or with its own words where it has none."""
     if isinstance(element, str):
-        if element not in own:
-            raise unknown("Load", element, own, where=title)
+        known_name("Load", element, own, where=title)
         return element, own[element]
     if isinstance(element, ForceElement):
         return element.name or str(element), element

@@ -294,8 +294,8 @@ def joint_on(joints: Sequence[JointForce], point: str, on: str, title: str, by: 
     found = [each for each in joints_at(joints, point, title) if each.has_force]
     names = dict.fromkeys(name for each in found for name in (each.on, each.by))
     for body in (on, by):
-        if body and body not in names:
-            raise unknown("Body", body, names, where=f"the joint {point} of {title}")
+        if body:
+            known_name("Body", body, names, where=f"the joint {point} of {title}")
     taken = [(each, 1.0) for each in found if on in ("", each.on) and by in ("", each.by)]
     taken += [(each, -1.0) for each in found if (on or by) and on in ("", each.by) and by in ("", each.on)]
     if len(taken) != 1:

@@ -156,8 +156,7 @@ class Structure:
             raise DefinitionError(f"{opening} holds {joint.holds!r}, across (n) or along (t) a line, but says none; give line=.")
         if drives - letters:
             raise DefinitionError(f"{opening} drives {', '.join(sorted(drives - letters))}, which it does not hold ({joint.holds!r}).")
-        if joint.point not in self.plan.points:
-            raise unknown("Point", joint.point, self.plan.points, where=opening)
+        known_name("Point", joint.point, self.plan.points, where=opening)
 
     def left(self, owner: str, joint: Joint) -> str:
         """Return what a joint still holds when cylinders have taken over strokes."""
@@ -215,8 +214,7 @@ class Structure:
 
     def bearer(self, load: Load) -> int:
         """Return the body that a load acts on."""
-        if load.point not in self.plan.points:
-            raise unknown("Point", load.point, self.plan.points, where=self.plan.title)
+        known_name("Point", load.point, self.plan.points, where=self.plan.title)
         if len(load.on) == 1:
             pair = next((each for each in self.pairs if each.member.name == load.on[0] and load.point in each.points), None)
             return self.index(load.on[0]) if pair is None else self.halves_with(load.point, *pair.member.ends)[0]

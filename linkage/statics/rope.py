@@ -11,7 +11,7 @@ from typing import ClassVar, Unpack, cast, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, unknown
+from ..errors import DefinitionError, cited, known_name, unknown
 from ..language import noted, said
 from ..loads import (
     Acting,
@@ -408,8 +408,7 @@ def tension_text(name: str, acting: Acting) -> str:
 def rope_in(name: str, plan: Plan | Declared) -> Rope:
     """Return the rope of a name; DefinitionError where a plan has no such."""
     found = plan.of_kind(Rope)
-    if name not in found:
-        raise unknown("Rope", name, found, where=plan.title)
+    known_name("Rope", name, found, where=plan.title)
     return found[name]
 
 

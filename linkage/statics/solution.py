@@ -9,7 +9,7 @@ from typing import final
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError
+from ..errors import DefinitionError, SingularError, one_word
 from ..motion.limits import where_words
 from ..plan import Mask
 from ..program import FloatArray
@@ -231,8 +231,7 @@ class Equilibrium:
 
     def check(self) -> None:
         """Raise DefinitionError for a mechanism with loose bodies, or with redundant links unless a split is asked for."""
-        if self.split not in SPLITS:
-            raise DefinitionError(f'split={self.split!r}: say "refuse" or "least squares".')
+        one_word("split", self.split, SPLITS)
         if self.lacks:
             raise NotHeldError(self.loose_words())
         columns = self.A.shape[2]

@@ -8,6 +8,7 @@ from typing import TypeVar, Unpack
 
 import numpy as np
 
+from ..checks import require_number
 from ..errors import DefinitionError, UntracedError
 from ..loads import (
     AT_REST,
@@ -27,7 +28,7 @@ from ..motion import Motion, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Mask
 from ..program import FloatArray, is_traced
-from ..quantities import is_number, needs
+from ..quantities import needs
 from .agreement import AGREES, disagreeing
 from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
@@ -80,8 +81,7 @@ def stroke_force(motion: Motion, acting: Acting, drive: str | None, efficiency: 
 
 def with_losses(force: FloatArray, efficiency: float, sense: int) -> FloatArray:
     """Return F / k where the load resists the motion, F k where it drives it."""
-    if not (is_number(efficiency) and 0.0 < efficiency <= 1.0):
-        raise DefinitionError(f"efficiency={efficiency!r}: a number above 0 and up to 1 is expected.")
+    require_number("efficiency", efficiency, "a number above 0 and up to 1 is expected", above=0.0, most=1.0)
     if efficiency != 1.0 and not sense:
         raise DefinitionError('An efficiency works against the motion: say direction="extending" or "retracting".')
     return np.where(force * sense > 0.0, force / efficiency, force * efficiency)

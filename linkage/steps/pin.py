@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from ..checks import require_number
 from ..errors import DefinitionError, cited
-from ..quantities import Member, Quantity, Reference, Stroke, Where, is_number, joined_names, name_of, quantity
+from ..quantities import Member, Quantity, Reference, Stroke, Where, joined_names, name_of, quantity
 from ..vectors import Scalar, Vec
 from .guide import Guide, Slide
 from .labels import DimensionTable, Slot, Spoken
@@ -141,8 +142,7 @@ class Drawn(Member):
 def drawn(**strokes: float) -> Drawn:
     """Return the statement at which strokes [SI] the positions `near` and `at` hold; default: the start of each."""
     for name, value in strokes.items():
-        if not is_number(value):
-            raise DefinitionError(f"drawn({name}={cited(value)}): a finite number is expected, in m or rad.")
+        require_number(f"drawn({name}", value, "a finite number is expected, in m or rad")
     return Drawn(strokes)
 
 

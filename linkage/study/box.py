@@ -9,12 +9,13 @@ from typing import Any, final
 
 import numpy as np
 
+from ..checks import require, require_whole
 from ..errors import DefinitionError, cited, one_word, unknown
 from ..mechanism import Mechanism
 from ..motion.line import Index
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import is_number, is_whole
+from ..quantities import is_number
 from ..units import amount_or_float, show, shown_number, unit_sign
 from .checks import check_mechanism, unit_of
 from .designs import check_once
@@ -113,13 +114,10 @@ def unit_points(count: int, k: int, method: str, seed: int) -> FloatArray:
 
     By a scrambled Sobol sequence, evenest where count is a power of two, a Latin hypercube, or pseudo-random numbers.
     """
-    if not is_whole(count) or count < 1:
-        raise DefinitionError(f"count={cited(count)}: a whole number of designs is expected, at least 1.")
-    if count > MOST_SETTINGS:
-        raise DefinitionError(f"count={cited(count)}: so many designs do not fit into memory; ask for fewer.")
+    require_whole("count", count, "a whole number of designs is expected, at least 1", least=1)
+    require(count <= MOST_SETTINGS, "count", count, "so many designs do not fit into memory; ask for fewer")
     one_word("method", method, METHODS)
-    if not is_whole(seed) or seed < 0:
-        raise DefinitionError(f"seed={seed!r}: a whole number is expected, at least 0.")
+    require_whole("seed", seed, "a whole number is expected, at least 0", least=0)
     if not k:
         return np.empty((count, 0))
     from scipy.stats import qmc

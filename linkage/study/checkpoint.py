@@ -20,8 +20,9 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
+from ..checks import require
 from ..disk import check_name, in_words, read, replacing
-from ..errors import DefinitionError, FileError, cited
+from ..errors import DefinitionError, FileError
 from ..mechanism import Mechanism
 from .designs import Batch, Designs, Task
 
@@ -46,8 +47,7 @@ class Checkpoint:
     @classmethod
     def of(cls, folder: str | os.PathLike[str], facts: Facts) -> Checkpoint:
         """Return the checkpoint of a study; DefinitionError where the folder holds another one, with what differs."""
-        if not isinstance(folder, (str, os.PathLike)) or folder == "":
-            raise DefinitionError(f"folder={cited(folder)}: the path of a folder is expected.")
+        require(isinstance(folder, (str, os.PathLike)) and folder != "", "folder", folder, "the path of a folder is expected")
         place = Path(folder)
         note = place / NOTE
         there = read_note(note)

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..checks import require_one_design
 from ..errors import AssemblyError, DefinitionError, cited
 from ..mechanism import Mechanism
 from ..plan import Plan
@@ -32,8 +33,7 @@ def check_mechanism(machine: object) -> None:
 def check_one_design(machine: Mechanism) -> None:
     """Raise DefinitionError for a batch of designs, and for anything but a mechanism."""
     check_mechanism(machine)
-    if any(np.ndim(value) for value in machine.dimensions.values()):
-        raise DefinitionError(f"{type(machine).__name__}: a study starts from one design, this is a batch; choose one of them.")
+    require_one_design(machine.dimensions, f"{type(machine).__name__}: a study starts from one design")
 
 
 def check_vary(machine: Mechanism, what: str, over: object) -> None:

@@ -9,7 +9,7 @@ from typing import TypeAlias, TypeVar, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, one_word, unknown, unwarned
+from ..errors import DefinitionError, cited, known_name, one_word, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import Request
@@ -92,8 +92,7 @@ class MonteCarlo:
     def __getitem__(self, quantity: Measured) -> Band:
         """Return the band of a quantity, by its words or as it was asked for."""
         name = quantity if isinstance(quantity, str) else measured_title(self.machine.plan, quantity)
-        if name not in self.bands:
-            raise unknown("Quantity", name, self.bands, where=f"the study of {self.machine.plan.title}")
+        known_name("Quantity", name, self.bands, where=f"the study of {self.machine.plan.title}")
         return self.bands[name]
 
     def design(self, place: int) -> Mechanism:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, final, overload
 
 import numpy as np
 
+from ..checks import require, require_number, require_whole
 from ..disk import check_name, in_words, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited, known_name, one_word
 from ..loads import PLAIN_CASE, Case, LoadCase
@@ -36,7 +37,7 @@ from ..motion.measures import (
     words_of,
 )
 from ..program import FloatArray, fixed_backend
-from ..quantities import Quantity, is_number, is_whole, ref
+from ..quantities import Quantity, ref
 from ..statics.applied import case_of
 from ..units import show
 from .box import unit_points
@@ -283,8 +284,8 @@ def objectives_of(machine: Mechanism, minimise: object, maximise: object) -> tup
 def check_counts(title: str, starts: Any, seed: Any, limit: Any) -> None:
     """Raise DefinitionError for numbers that are none."""
     for name, value, least in (("starts", starts, 1), ("seed", seed, 0), ("limit", limit, 1)):
-        if value is not None and (not is_whole(value) or value < least):
-            raise DefinitionError(f"{title}: {name}={cited(value)}: a whole number is expected, at least {least}.")
+        if value is not None:
+            require_whole(f"{title}: {name}", value, f"a whole number is expected, at least {least}", least=least)
 
 
 def objective_of(machine: Mechanism, given: object) -> Measure:
@@ -358,8 +359,7 @@ def pieces_in_cases(constraints: Sequence[Constraint], cases: Sequence[Case], ju
 def with_spread(problem: Problem, robust: object, sigmas: object) -> Problem:
     """Return a problem whose numbers are worse by so many standard deviations of what tolerances of dimensions make of them."""
     title = problem.plan.title
-    if not is_number(sigmas) or sigmas < 0.0:
-        raise DefinitionError(f"{title}: sigmas={cited(sigmas)}: a number is expected, zero or more.")
+    sigmas = require_number(f"{title}: sigmas", sigmas, "a number is expected, zero or more", least=0.0)
     present = problem.space.unit(problem.space.present(problem.machine))
     look = problem.evaluated(problem.dimensions_at(present, [0] * len(problem.space.choices)))
     values = {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
@@ -412,8 +412,7 @@ class Journal:
         """Return the journal of a search; DefinitionError where the folder holds that of another one."""
         if folder is None:
             return cls(None, {})
-        if not isinstance(folder, (str, os.PathLike)) or folder == "":
-            raise DefinitionError(f"folder={cited(folder)}: the path of a folder is expected.")
+        require(isinstance(folder, (str, os.PathLike)) and folder != "", "folder", folder, "the path of a folder is expected")
         path = Path(folder) / "search.jsonl"
         check_name(path)
         try:

@@ -13,14 +13,14 @@ from typing import Any, final
 
 import numpy as np
 
+from ..checks import require_number
 from ..disk import Place, replacing_text
-from ..errors import AssemblyError, DefinitionError, LinkageError, cited
+from ..errors import AssemblyError, DefinitionError, LinkageError
 from ..mechanism import Mechanism
 from ..motion.kinds import measure_of, measure_unit
 from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, Worst
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import is_number
 from ..shown import Shown
 from ..units import deg, display_unit, mm, require_measure, show
 from .box import unit_points
@@ -575,8 +575,7 @@ class Rounded:
 def rounded_design(optimum: Optimum, to: float, angle: float) -> Rounded:
     """Return an optimum on drawing dimensions; see `Optimum.rounded`."""
     for name, value in (("to", to), ("angle", angle)):
-        if not is_number(value) or value <= 0.0:
-            raise DefinitionError(f"rounded({name}={cited(value)}): a step above zero is expected, such as 1 * mm.")
+        require_number(f"rounded({name}", value, "a step above zero is expected, such as 1 * mm", above=0.0)
     require_measure(to, "length", "rounded: to")
     require_measure(angle, "angle", "rounded: angle")
     if to > COARSEST * size_of_machine(optimum.machine):

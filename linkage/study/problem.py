@@ -16,6 +16,7 @@ from typing import Any, NamedTuple, final
 
 import numpy as np
 
+from ..checks import require_type
 from ..errors import DefinitionError, StudyError, cited
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, greatest
@@ -95,9 +96,8 @@ def is_still(one: Range) -> bool:
 def ranges_of(machine: Mechanism, over: object) -> dict[str, Range]:
     """Return the part of each stroke that is looked at; DefinitionError for anything else."""
     title, plan = machine.plan.title, machine.plan
-    given = {} if over is None else over
-    if not isinstance(given, Mapping):
-        raise DefinitionError(f'{title}: over={cited(over)}: a dictionary is expected, such as over={{"S": (0.0, 0.2)}}.')
+    example = 'a dictionary is expected, such as over={"S": (0.0, 0.2)}'
+    given = require_type(f"{title}: over", {} if over is None else over, Mapping, example)
     for name, ends in given.items():
         if name not in plan.strokes:
             raise DefinitionError(

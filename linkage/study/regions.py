@@ -8,7 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, unknown
+from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint, least
 from ..motion.regions import Disc, Region, inside_region, region_of
@@ -72,8 +72,7 @@ def point_regions(machine: Mechanism, given: object, circles: Mapping[str, float
     reading = Reading(plan.members, plan.table.lengths, machine.dimensions)
     found = []
     for point, shapes in given.items():
-        if point not in plan.points:
-            raise unknown("Point", point, plan.points, where=f"{title}: regions")
+        known_name("Point", point, plan.points, where=f"{title}: regions")
         where = f"{title}: regions={{{point!r}: ...}}"
         region = region_of(shapes, where, plan.of_kind(Outline), lambda each: float(reading.value(each)))
         found.append(point_region(machine, point, region, variables))

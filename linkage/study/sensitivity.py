@@ -9,7 +9,8 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, one_word, unwarned
+from ..checks import require, require_whole
+from ..errors import DefinitionError, one_word, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion.kinds import measure_of
@@ -191,10 +192,8 @@ def sobol(
     """
     poses, plan = StudyPoses.of(machine, strokes, POSES), machine.plan
     named, title = tolerances_of(plan, tolerances), measured_title(plan, quantity)
-    if not is_whole(count) or count < 2 or count & (count - 1):
-        raise DefinitionError(f"count={cited(count)}: a power of two is expected, such as {SAMPLES}.")
-    if not is_whole(seed) or seed < 0:
-        raise DefinitionError(f"seed={cited(seed)}: a whole number is expected, at least 0.")
+    require(is_whole(count) and count >= 2 and (not count & count - 1), "count", count, f"a power of two is expected, such as {SAMPLES}")
+    require_whole("seed", seed, "a whole number is expected, at least 0", least=0)
     way, sigmas = RunOptions(one_word("backend", backend, ("numpy", "numba")), threads), []
 
     def values(x: FloatArray) -> FloatArray:

@@ -8,6 +8,7 @@ from typing import Any, final, overload
 
 import numpy as np
 
+from ..checks import require
 from ..errors import DefinitionError, cited, known_name
 from ..language import said
 from ..mechanism import Mechanism
@@ -90,8 +91,7 @@ def settings_for(
             remedy = "of several settings every target says it itself, Target(quantity, value, S=0.1)"
             raise DefinitionError(f"settings_for(..., {given}): {remedy}.")
         return solutions_for(machine, name, quantity, points)
-    if points is not None:
-        raise DefinitionError(f"settings_for(..., points={cited(points)}): points are those of a box of several settings; leave it out.")
+    require(points is None, "settings_for(..., points", points, "points are those of a box of several settings; leave it out")
     check_one_design(machine)
     known_name("Dimension", name, machine.plan.table.spellings, where=machine.plan.title)
     unit_or_none(unit, where="settings_for(unit=...)")

@@ -11,6 +11,7 @@ from typing import Any, final
 
 import numpy as np
 
+from ..checks import require
 from ..errors import DefinitionError, cited, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism
@@ -74,8 +75,7 @@ class Space:
     def of(cls, machine: Mechanism, vary: Any, regions: Any = None) -> Space:
         """Return what `vary` and `regions` say; DefinitionError for an unknown dimension, an empty range, or anything else."""
         title = machine.plan.title
-        if not isinstance(vary, Mapping) or not vary:
-            raise DefinitionError(f'{title}: vary={cited(vary)}: a dictionary is expected, such as vary={{"OB": (0.27, 0.33)}}.')
+        require(isinstance(vary, Mapping) and vary, f"{title}: vary", vary, 'a dictionary is expected, such as vary={"OB": (0.27, 0.33)}')
         variables: list[Varied] = []
         choices, names = [], []
         circles: dict[str, float] = {}

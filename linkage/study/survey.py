@@ -20,6 +20,7 @@ from typing import Any, Protocol, TypeAlias, final
 
 import numpy as np
 
+from ..checks import require_whole
 from ..errors import DefinitionError, LinkageError, StudyError, cited, known_name, one_word
 from ..frozen import FrozenDict, read_only, refuses_changes
 from ..mechanism import Mechanism
@@ -417,6 +418,5 @@ def piece_size(machine: Mechanism, count: int, given: int | None) -> int:
     """Return how many designs are measured at a time: by their number alone, so that results do not depend on who does the work."""
     if given is None:
         return min(max(-(-count // PARTS), SMALLEST), LARGEST)
-    if not is_whole(given) or given < 1:
-        raise DefinitionError(f"{machine.plan.title}: piece={given!r}: a whole number of designs is expected, at least 1.")
+    require_whole(f"{machine.plan.title}: piece", given, "a whole number of designs is expected, at least 1", least=1)
     return int(given)

@@ -8,6 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
+from ..checks import require_whole
 from ..errors import DefinitionError, cited, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
@@ -73,8 +74,7 @@ def grid_size(k: int, points: int | None) -> int:
     """Return how many points of a box of k ranges are looked at first; DefinitionError for anything but a whole number from 1 to 2^20."""
     if points is None:
         return 1 << min(8 + 2 * k, 14) if k else 1
-    if isinstance(points, bool) or not isinstance(points, int) or not 1 <= points <= 1 << 20:
-        raise DefinitionError(f"points={cited(points)}: a whole number of points of the box is expected, such as 4096.")
+    require_whole("points", points, "a whole number of points of the box is expected, such as 4096", least=1, most=1 << 20)
     return points if k else 1
 
 

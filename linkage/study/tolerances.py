@@ -10,6 +10,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
+from ..checks import require_type
 from ..errors import DefinitionError, cited, one_word, unknown, unwarned
 from ..frozen import refuses_changes
 from ..mechanism import Mechanism
@@ -244,9 +245,6 @@ def spread(
     check_mechanism(machine)
     traced_number(machine.plan, quantity)
     for what, given in (("designs", designs), ("strokes", strokes)):
-        if not isinstance(given, Mapping):
-            raise DefinitionError(
-                f"{machine.plan.title}: {what}={cited(given)}: a dictionary of {what} by name is expected, such as {{...: 0.1}}."
-            )
+        require_type(f"{machine.plan.title}: {what}", given, Mapping, f"a dictionary of {what} by name is expected, such as {{...: 0.1}}")
     with unwarned(), np.errstate(all="ignore"):
         return machine.replaced(**designs).evaluate([sigma(quantity, tolerances)], unreachable="nan", **strokes)[0]

@@ -16,6 +16,7 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from ..checks import require, require_type
 from ..errors import DefinitionError, cited, known_name, unwarned
 from ..frozen import FrozenDict, frozen, read_only, refuses_changes
 from ..language import heading_of, noted, said
@@ -198,8 +199,7 @@ def axis_values(given: object, name: str, title: str) -> FloatArray:
     if found.ndim != 1 or not found.size or not np.isfinite(found).all():
         what = "it has no number" if found.ndim == 1 and not found.size else "numbers in a row [m] are expected"
         raise DefinitionError(f"{title}: {name}={cited(given)}: {what}, such as {name}=np.linspace(1, 6, 14).")
-    if np.unique(found).size < found.size:
-        raise DefinitionError(f"{title}: {name}={cited(given)}: a place stands in it twice; give each once.")
+    require(np.unique(found).size >= found.size, f"{title}: {name}", given, "a place stands in it twice; give each once")
     return frozen(found)
 
 
@@ -346,8 +346,8 @@ class FieldSearch:
             odd = next(each for each in (lifts or ()) if name_of(each) not in loads.bounded)
             what = f"{title}: lifts: {name_of(odd)} has no pressure to lift with"
             raise DefinitionError(f"{what}; name cylinders that hold and have a circuit: {', '.join(loads.bounded) or 'there are none'}.")
-        if limits is not None and not isinstance(limits, Mapping):
-            raise DefinitionError(f'{title}: limits={cited(limits)}: limits by name are expected, limits={{"rated load": 20 * kN}}.')
+        if limits is not None:
+            require_type(f"{title}: limits", limits, Mapping, 'limits by name are expected, limits={"rated load": 20 * kN}')
         further = {str(each): FurtherLimit.of(str(each), value, plan, title) for each, value in (limits or {}).items()}
         for each in further:
             if each in loads.kinds or each in (TIPPING, SLIPPING, CLEARANCE, OUT_OF_REACH, NOT_LIMITED):

@@ -11,6 +11,7 @@ from typing import final
 
 import numpy as np
 
+from ..checks import require_whole
 from ..errors import DefinitionError, cited
 from ..language import said
 from ..mechanism import Mechanism
@@ -89,8 +90,7 @@ class CurveCatalogue(Shown):
 
         DefinitionError for anything but a closed curve.
         """
-        if not is_whole(count) or count < 1:
-            raise DefinitionError(f"{self.kind.title}: count={cited(count)}: a whole number from 1 on is expected.")
+        require_whole(f"{self.kind.title}: count", count, "a whole number from 1 on is expected", least=1)
         task = PathTask(points, of=self.kind.of, closed=True)
         numbers, values, distance = self.laid(task.points)
         rows = [{each.owner: float(value) for each, value in zip(self.variables, row, strict=True)} for row in values[:count]]
@@ -198,8 +198,7 @@ def curve_catalogue(
     kind = CurveClass.for_point(machine, of, hold)
     if count is not None and not (is_whole(count) and 1 <= count <= MOST_CURVES):
         raise DefinitionError(f"{kind.title}: count={cited(count)}: a whole number of curves is expected, up to {MOST_CURVES}.")
-    if not is_whole(seed) or seed < 0:
-        raise DefinitionError(f"{kind.title}: seed={cited(seed)}: a whole number is expected, at least 0.")
+    require_whole(f"{kind.title}: seed", seed, "a whole number is expected, at least 0", least=0)
     check_progress(progress)
     check_executor(executor)
     with progress_told(progress, kind.title) as tell:

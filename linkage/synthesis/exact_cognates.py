@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..errors import DefinitionError, cited
+from ..checks import require_whole
+from ..errors import DefinitionError
 from ..mechanism import Mechanism, require_mechanism
 from ..mobility import FourBar
 from ..motion import Motion
-from ..quantities import is_whole
 from ..shown import ShownList
 from ..study.checks import check_one_design
 from .exact import ComplexArray, CouplerTask, ExactMachine, Pivoted, judged_machine
@@ -34,8 +34,7 @@ def cognates(machine: Mechanism, of: str = "P", *, count: int = 73) -> ShownList
     check_one_design(machine)
     title = machine.plan.title
     check_point(machine, of)
-    if not is_whole(count) or count < 3:
-        raise DefinitionError(f"cognates(count={cited(count)}): a whole number of poses is expected, at least 3.")
+    require_whole("cognates(count", count, "a whole number of poses is expected, at least 3", least=3)
     if len(machine.strokes) != 1:
         raise DefinitionError(f"{title}: cognates are those of a machine of one stroke; this one has {len(machine.strokes)}.")
     motion = machine.sweep(count)

@@ -9,10 +9,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..errors import DefinitionError, StudyError, cited
+from ..checks import require, require_number
+from ..errors import DefinitionError, StudyError
 from ..language import said
 from ..program import FloatArray
-from ..quantities import is_number
 from .exact import ComplexArray, CouplerTask, ExactMachine, ExactSynthesis, Pivoted, exact_synthesis, is_without_links, judged_machine
 from .tasks import check_radians, table_of
 
@@ -38,10 +38,8 @@ def freudenstein(pairs: object, *, free: str = "follower", ground: float = 1.0) 
     rows = table_of("freudenstein", "pairs", pairs, 2, "pairs (phi, psi)")
     if not 3 <= len(rows) <= 5:
         raise DefinitionError(f"freudenstein: {len(rows)} pairs; three to five of them decide a four-bar, more go with synthesise(...).")
-    if free not in FREE:
-        raise DefinitionError(f'freudenstein(free={cited(free)}): "crank" or "follower" is expected.')
-    if not (is_number(ground) and ground > 0.0):
-        raise DefinitionError(f"freudenstein(ground={cited(ground)}): a length above zero is expected, in m.")
+    require(free in FREE, "freudenstein(free", free, '"crank" or "follower" is expected')
+    require_number("freudenstein(ground", ground, "a length above zero is expected, in m", above=0.0)
     for name, column in zip(("phi", "psi"), rows.T, strict=True):
         check_radians("freudenstein", name, column)
         check_differing(name, column)

@@ -14,7 +14,8 @@ from typing import Any, TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import DefinitionError, StudyError, cited
+from ..checks import require
+from ..errors import DefinitionError, StudyError
 from ..language import said
 from ..program import FloatArray
 from .exact import ComplexArray, CouplerTask, ExactMachine, ExactSynthesis, Pivoted, exact_synthesis, is_without_links, judged_machine
@@ -67,8 +68,7 @@ def five_point(pivots: object, points: object, *, in_order: bool = True) -> Exac
 def complex_rows(name: str, given: object, count: int) -> ComplexArray:
     """Return places (n, 2) as complex numbers (n,); DefinitionError for another number of them, or for two at one place."""
     rows = table_of("five_point", name, given, 2)
-    if len(rows) != count:
-        raise DefinitionError(f"five_point: {name}={cited(given)}: {count} places (x, y) are expected, there are {len(rows)}.")
+    require(len(rows) == count, f"five_point: {name}", given, f"{count} places (x, y) are expected, there are {len(rows)}")
     found = rows @ np.array([1.0, 1.0j])
     apart = min(abs(one - other) for one, other in combinations(found, 2))
     if not apart > 1e-9 * np.ptp(rows, axis=0).max():

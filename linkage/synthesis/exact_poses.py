@@ -16,7 +16,8 @@ from typing import final
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import DefinitionError, StudyError, cited
+from ..checks import require
+from ..errors import DefinitionError, StudyError
 from ..frozen import read_only
 from ..language import said
 from ..mechanism import Mechanism
@@ -225,8 +226,7 @@ class Burmester(Shown):
             raise DefinitionError("link(...): say a circle point, link(point=(x, y)), or a centre point, link(centre=(x, y)).")
         name, given = ("point", point) if centre is None else ("centre", centre)
         row = table_of("burmester", name, given, 0)
-        if len(row) != 2:
-            raise DefinitionError(f"burmester: {name}={cited(given)}: x and y [m] are expected.")
+        require(len(row) == 2, f"burmester: {name}", given, "x and y [m] are expected")
         place = complex(*row)
         if len(self.poses) == 3:
             return self.body.link_at(place) if centre is None else self.body.link_about(place)

@@ -10,6 +10,7 @@ from typing import Any, final
 
 import numpy as np
 
+from ..checks import require_number
 from ..disk import Place, replacing_text
 from ..errors import DefinitionError, StudyError, cited
 from ..language import said, said_of
@@ -20,7 +21,6 @@ from ..motion.kinds import measure_of
 from ..motion.measures import Measure
 from ..plan import Mask
 from ..program import FloatArray
-from ..quantities import is_number
 from ..shown import Shown
 from ..study.checks import unit_of
 from ..study.optimum import steps_about
@@ -199,8 +199,7 @@ class Synthesis(Shown):
         Of the steps about each value those are taken that run, keep the conditions and miss the task least; untimed strokes are found anew.
         """
         for name, value in (("to", to), ("angle", angle)):
-            if not is_number(value) or value <= 0.0:
-                raise DefinitionError(f"rounded({name}={cited(value)}): a step above zero is expected, such as 1 * mm.")
+            require_number(f"rounded({name}", value, "a step above zero is expected, such as 1 * mm", above=0.0)
         return rounded_machine(self, self.answer_at(place, "rounded"), to, angle)
 
     def measure(self, place: int = 0) -> Measure:

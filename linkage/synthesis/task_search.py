@@ -10,6 +10,7 @@ from typing import Any, final
 
 import numpy as np
 
+from ..checks import require_type
 from ..errors import DefinitionError, LinkageError, cited, unwarned
 from ..frozen import frozen
 from ..language import said
@@ -138,8 +139,8 @@ def synthesise(
     fitted = fitted_rows(machine, vary)
     machine = fitted.machine
     rows, space = task.rows(machine), Space.of(machine, fitted.vary, regions)
-    if rank is not None and not isinstance(rank, Measure):
-        raise DefinitionError(f'{title}: rank={cited(rank)}: one number of a design is expected, such as -least(transmission("B")).')
+    if rank is not None:
+        require_type(f"{title}: rank", rank, Measure, 'one number of a design is expected, such as -least(transmission("B"))')
     over, occurring = where_searched(machine, over)
     over = {**fitted.travels, **(over or {})} or over
     cases, shares = cases_searched(machine, case, occurring)

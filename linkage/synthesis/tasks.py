@@ -10,6 +10,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
+from ..checks import require, require_number, require_type
 from ..errors import DefinitionError, cited, is_yes
 from ..frozen import frozen, read_only, refuses_changes
 from ..mechanism import Mechanism
@@ -17,7 +18,7 @@ from ..motion.kinds import measure_of
 from ..motion.strokes import TURN, is_in_degrees
 from ..plan import Mask
 from ..program import FloatArray
-from ..quantities import angle, is_number, real, x, y
+from ..quantities import angle, numbers_in, x, y
 
 SAME_PLACE = 1e-9
 """Of a task's size: the last point is the first one again where it is so near to it."""
@@ -175,8 +176,8 @@ class PoseTask:
             sizes = ", ".join(f"{name} {len(each)}" for name, each in parts.items())
             raise DefinitionError(f"{what}: x, y and angle are to have one length; theirs are {sizes}.")
         check_radians(what, "angle", parts["angle"])
-        if length is not None and not (is_number(length) and length > 0.0):
-            raise DefinitionError(f"{what}: length={cited(length)}: a length above zero is expected, in m.")
+        if length is not None:
+            require_number(f"{what}: length", length, "a length above zero is expected, in m", above=0.0)
         for each in of.values() if is_by_class(of) else [of]:
             if not isinstance(each, str) or len(each.split()) != 2:
                 raise DefinitionError(f'{what}: two points of the body are expected, such as of="C D".')
@@ -234,10 +235,7 @@ def of_class(given: Any, kind: type[Mechanism]) -> Any:
 
 def table_of(what: str, name: str, given: Any, width: int, row: str = "pairs (x, y)") -> FloatArray:
     """Return finite numbers (n,), or (n, width) where there is a width, a copy; DefinitionError for anything else."""
-    try:
-        found = real(given)
-    except (TypeError, ValueError, OverflowError):
-        found = np.empty(())
+    found = numbers_in(given)
     shape = (found.shape[0] if found.ndim else 0, *((width,) if width else ()))
     if found.shape != shape or not found.size or not np.isfinite(found).all():
         rows = f"{row}, shape (n, {width})" if width else "numbers in a row, shape (n,)"
@@ -272,8 +270,7 @@ def rows_of_values(what: str, given: Any, count: int) -> list[FloatArray]:
     for each in others:
         row = np.array(each, float) if isinstance(each, (list, tuple, np.ndarray)) else np.empty(())
         missing = np.isnan(row) if row.shape == found[0].shape else np.ones(1, bool)
-        if missing.all():
-            raise DefinitionError(f"{what}: values={cited(each)}: {len(found[0])} numbers are expected, NaN where nothing is wanted.")
+        require(not missing.all(), f"{what}: values", each, f"{len(found[0])} numbers are expected, NaN where nothing is wanted")
         table_of(what, "values", row[~missing], 0)
         found.append(read_only(row))
     return found
@@ -302,17 +299,15 @@ def task_of(title: str, given: Sequence[tuple[str, Any, type]]) -> Task:
     if len(said) != 1:
         raise DefinitionError(f"{title}: say one task, path=PathTask(...), function=FunctionTask(...) or motion=PoseTask(...).")
     ((name, value, kind),) = said
-    if not isinstance(value, kind):
-        raise DefinitionError(f"{title}: {name}={cited(value)}: a {kind.__name__}(...) is expected.")
-    return value  # type: ignore[return-value]
+    found: Task = require_type(f"{title}: {name}", value, kind, f"a {kind.__name__}(...) is expected")
+    return found
 
 
 def timed_as(title: str, task: Task, timed: Any) -> Any:
     """Return how the points of a task are timed: True, False or "steps"; by default True where their strokes are said."""
     if timed is None:
         return task.at is not None
-    if timed is not True and timed is not False and timed != "steps":
-        raise DefinitionError(f'{title}: timed={cited(timed)}: True, False or "steps" is expected.')
+    require(timed is True or timed is False or timed == "steps", f"{title}: timed", timed, 'True, False or "steps" is expected')
     if timed is True and task.at is None:
         raise DefinitionError(f"{title}: timed=True: the points have no strokes; give them, at=[...], or say timed=False.")
     if isinstance(task, FunctionTask) and timed is not True:

@@ -18,7 +18,7 @@ from linkage.cli.machines import find
 from linkage.cli.settings import check_argument, design, over_argument, overs_of, pair, print_verdicts, si_value
 from linkage.cli.table import csv_argument, write_table
 from linkage.disk import check_place, in_words
-from linkage.errors import unknown
+from linkage.errors import known_name
 
 from . import DRIVE_FIGURES, FIGURES, crane_figure, drive_figure
 from .arm_drive import DrivenArm
@@ -128,8 +128,7 @@ def duty_of_options(options: Namespace) -> Duty:
     names, given = [each.name for each in fields(Duty)], {}
     for text in options.settings:
         name, value = pair(text, "--set", "L=8.5m")
-        if name not in names:
-            raise unknown("Number of the duty", name, names)
+        known_name("Number of the duty", name, names)
         given[name] = si_value(value, KINDS.get(name, "length"), f"--set {name}")
     return Duty(**given)
 

@@ -14,6 +14,7 @@ from typing import Any, final
 import numpy as np
 
 from linkage import DefinitionError, Mechanism, StudyError, at, integral, least, most, optimise, ratio, ref, x, y
+from linkage.checks import require_number
 from linkage.errors import cited, one_word
 from linkage.motion.measures import Measure
 from linkage.quantities import is_number
@@ -236,8 +237,7 @@ def check_lengths(duty: DriveDuty, r_3_min: float, lowest_pin: float) -> None:
     """Raise DefinitionError for bounds that leave nothing."""
     if not is_number(r_3_min) or not 0.0 < r_3_min < duty.l_c:
         raise DefinitionError(f"r_3_min={cited(r_3_min)}: a length below the boom's {duty.l_c:.4g} m is expected, such as 300 * mm.")
-    if not is_number(lowest_pin) or not 0.0 <= lowest_pin <= 1.0:
-        raise DefinitionError(f"lowest_pin={cited(lowest_pin)}: a share of the closed length is expected, 0 to 1; the source has 0.5.")
+    require_number("lowest_pin", lowest_pin, "a share of the closed length is expected, 0 to 1; the source has 0.5", least=0.0, most=1.0)
 
 
 def boom_numbers(duty: DriveDuty) -> dict[str, float]:
@@ -320,14 +320,11 @@ class ArmRules:
     def __post_init__(self) -> None:
         one_word("excess_from", self.excess_from, ("phi_0", "psi_0"))
         one_word("angles", self.angles, TRAVELS)
-        if not is_number(self.excess) or self.excess <= 1.0:
-            raise DefinitionError(f"excess={cited(self.excess)}: k_r of (2.61) is a number above 1; the source's example has 1.6.")
+        require_number("excess", self.excess, "k_r of (2.61) is a number above 1; the source's example has 1.6", above=1.0)
         if not (self.above is None or self.above == "r_6" or is_number(self.above)):
             raise DefinitionError(f"above={cited(self.above)}: 'r_6', a height in m or None is expected.")
-        if not is_number(self.crank) or not 0.0 < self.crank < pi:
-            raise DefinitionError(f"crank={cited(self.crank)}: the bell crank's angle at its pivot is expected, between 0 and 180 * deg.")
-        if not is_number(self.transmission) or not 0.0 <= self.transmission < 0.5 * pi:
-            raise DefinitionError(f"transmission={cited(self.transmission)}: an angle below 90 * deg is expected, 0 for none.")
+        require_number("crank", self.crank, "the bell crank's angle at its pivot is expected, between 0 and 180 * deg", above=0.0, below=pi)
+        require_number("transmission", self.transmission, "an angle below 90 * deg is expected, 0 for none", least=0.0, below=0.5 * pi)
 
     def conditions(self, duty: DriveDuty, scheme: str = "a") -> list[Any]:
         """Return the conditions (2.61) to (2.65) of a duty, those that are kept by a drive of a scheme of fig. 2.13."""
@@ -399,8 +396,8 @@ def design_arm_drive(
     one_word("scheme", scheme, tuple(SCHEMES))
     bounds = SCHEMES[scheme].bounds if bounds is None else bounds
     check_bounds(bounds, duty, scheme)
-    if most_area is not None and (not is_number(most_area) or most_area <= 0.0):
-        raise DefinitionError(f"most_area={cited(most_area)}: a number above zero is expected, in N m rad.")
+    if most_area is not None:
+        require_number("most_area", most_area, "a number above zero is expected, in N m rad", above=0.0)
     bound = arm_drive(duty, cylinders, rules, *cylinders.sizes[-1], scheme)
     asked = work_of(lambda psi: bound.at(psi=psi)["M_l2"], max(duty.phi_0, duty.psi_0), duty.psi_k)
     area = area_of_duty(duty, asked)

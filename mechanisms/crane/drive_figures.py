@@ -10,8 +10,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from linkage import DefinitionError, Motion, draw
-from linkage.errors import unknown
+from linkage import Motion, draw
+from linkage.checks import require_one_design
+from linkage.errors import known_name
 from linkage.motion import Answer
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
@@ -26,10 +27,8 @@ COUNT = 361
 
 def drive_figure(name: str, drive: BoomDrive | DrivenArm) -> Figure:
     """Return a figure of a drive, "moments" or "positions"; DefinitionError for an unknown name, a batch of designs."""
-    if name not in DRAWN:
-        raise unknown("Figure", name, DRAWN)
-    if any(np.ndim(value) for value in drive.dimensions.values()):
-        raise DefinitionError(f"{drive.plan.title}: a figure shows one design, this is a batch; choose one of them.")
+    known_name("Figure", name, DRAWN)
+    require_one_design(drive.dimensions, f"{drive.plan.title}: a figure shows one design")
     return DRAWN[name](drive)
 
 

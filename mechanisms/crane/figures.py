@@ -11,8 +11,9 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from linkage import DefinitionError, draw, plot
-from linkage.errors import unknown
+from linkage import draw, plot
+from linkage.checks import require_one_design
+from linkage.errors import known_name
 from linkage.pictures import style
 from linkage.pictures.sheet import panels, sheet
 from linkage.study.reach import Reach
@@ -37,10 +38,8 @@ def crane_figure(name: str, crane: Crane | None = None) -> Figure:
     "reach" all that the tip reaches.
     """
     shown = crane if crane is not None else Crane()
-    if name not in DRAWN:
-        raise unknown("Figure", name, DRAWN)
-    if any(np.ndim(value) for value in shown.dimensions.values()):
-        raise DefinitionError(f"{shown.plan.title}: a figure shows one design, this is a batch; choose one of them.")
+    known_name("Figure", name, DRAWN)
+    require_one_design(shown.dimensions, f"{shown.plan.title}: a figure shows one design")
     return DRAWN[name](shown)
 
 

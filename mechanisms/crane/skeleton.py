@@ -30,6 +30,7 @@ from linkage import (
     angle,
     ref,
 )
+from linkage.checks import require
 from linkage.errors import cited
 from linkage.language import noted, said, translated
 from linkage.program import FloatArray
@@ -181,8 +182,7 @@ class CraneSkeleton(Mechanism):
 
         ">=": the folded tip clears the guard; "<=": it comes as near as that.
         """
-        if reading not in GUARDS:
-            raise DefinitionError(f'reading={cited(reading)}: (2.13) is read as ">=", the tip clears the guard, or "<=", it comes so near.')
+        require(reading in GUARDS, "reading", reading, '(2.13) is read as ">=", the tip clears the guard, or "<=", it comes so near')
         name, words = GUARDS[reading]
         return {**cls.margins, name: words}
 

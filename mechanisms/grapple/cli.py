@@ -11,7 +11,7 @@ from linkage.cli.command import Command, figure_path, machine_arguments, motion_
 from linkage.cli.machines import find_like
 from linkage.cli.settings import check_argument, design, judged_over, motion_at, over_argument, pair, print_verdicts, si_value
 from linkage.cli.table import csv_argument, write_table
-from linkage.errors import unknown
+from linkage.errors import known_name
 from linkage.language import said
 from linkage.units import show, shown_number, unit_sign
 
@@ -74,8 +74,7 @@ def designed_grapple(options: Namespace) -> Grapple:
     names, given = tuple(each.name for each in fields(Duty) if isinstance(each.default, float)), dict[str, Any]()
     for text in options.settings:
         name, value = pair(text, "--set", "D_0=600mm")
-        if name not in names:
-            raise unknown("Number of the duty", name, names)
+        known_name("Number of the duty", name, names)
         given[name] = si_value(value, KINDS.get(name, "length"), f"--set {name}")
     found = design_for(Duty(**given), options.design)
     print(f"{found}\n")

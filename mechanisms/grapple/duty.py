@@ -14,6 +14,7 @@ from typing import Any, ClassVar, TypeAlias, final
 from hydraulics.cylinder import CylinderSize
 from hydraulics.inputs import efficient, in_pascals, one_number, positive
 from linkage import DefinitionError, Stroke, ref
+from linkage.checks import require
 from linkage.errors import cited
 from linkage.frozen import refuses_changes
 from linkage.quantities import Quantity, quantity
@@ -73,8 +74,7 @@ class Duty:
         object.__setattr__(self, "cylinders", tuple((float(size.bore), float(size.rod)) for size in sizes_of(self.cylinders)))
         object.__setattr__(self, "strokes", strokes_of(self.strokes))
         object.__setattr__(self, "box", box_of(self.box))
-        if not callable(self.moment):
-            raise DefinitionError(f"moment={cited(self.moment)}: a function of the diameter and the arm is expected, as assumed_moment.")
+        require(callable(self.moment), "moment", self.moment, "a function of the diameter and the arm is expected, as assumed_moment")
 
     @classmethod
     def at_breast_height(cls, diameter: float, q_0: float, **others: Any) -> Duty:
@@ -108,8 +108,7 @@ def sizes_of(given: Any) -> list[CylinderSize]:
         rows = [(float(bore), float(rod)) for bore, rod in given]
     except (TypeError, ValueError):
         rows = []
-    if not rows:
-        raise DefinitionError(f"Duty: cylinders={cited(given)}: rows of bore and rod [m] are expected, such as [(0.05, 0.028)].")
+    require(rows, "Duty: cylinders", given, "rows of bore and rod [m] are expected, such as [(0.05, 0.028)]")
     return [CylinderSize(bore, rod) for bore, rod in rows]
 
 
@@ -130,8 +129,7 @@ def box_of(given: Any) -> tuple[float, float, float, float]:
         left, right, low, high = (float(each) for each in given)
     except (TypeError, ValueError):
         left = right = low = high = 0.0
-    if not (left < right and low < high):
-        raise DefinitionError(f"Duty: box={cited(given)}: left, right, low and high [m] are expected, such as (-0.15, 0.15, 0.3, 0.62).")
+    require(left < right and low < high, "Duty: box", given, "left, right, low and high [m] are expected, such as (-0.15, 0.15, 0.3, 0.62)")
     return left, right, low, high
 
 

@@ -15,8 +15,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 
 from hydraulics import Cylinder
-from linkage import DefinitionError, Motion, ref
-from linkage.errors import unknown
+from linkage import Motion, ref
+from linkage.checks import require_one_design
+from linkage.errors import known_name
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
@@ -36,10 +37,8 @@ THICK = 0.055
 def figure(name: str, grapple: Grapple | None = None) -> Figure:
     """Return a figure of a grapple, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch."""
     shown = grapple if grapple is not None else Grapple()
-    if name not in DRAWN:
-        raise unknown("Figure", name, DRAWN)
-    if any(np.ndim(value) for value in shown.dimensions.values()):
-        raise DefinitionError(f"{shown.plan.title}: a figure shows one design, this is a batch; choose one of them.")
+    known_name("Figure", name, DRAWN)
+    require_one_design(shown.dimensions, f"{shown.plan.title}: a figure shows one design")
     return DRAWN[name](shown)
 
 

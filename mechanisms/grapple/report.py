@@ -9,10 +9,10 @@ import numpy as np
 
 from hydraulics import LiftCircuit
 from linkage import Column, DefinitionError, Force, Motion, least, most, pin_force, ref
+from linkage.checks import require_whole
 from linkage.language import said
 from linkage.motion import Answer, Judge, MotionFunction, Question, require_motion
 from linkage.program import FloatArray
-from linkage.quantities import is_whole
 from linkage.units import show, shown_number
 from linkage.verdict import Verdict
 
@@ -43,8 +43,7 @@ def travelling(motion: Motion, count: int = 101) -> Motion:
 
 
 def _over(motion: Motion, start: FloatArray, end: FloatArray, count: int) -> Motion:
-    if not is_whole(count) or count < 2:
-        raise DefinitionError(f"count={count!r}: a whole number of poses is expected, at least 2.")
+    require_whole("count", count, "a whole number of poses is expected, at least 2", least=2)
     shape = motion._design_shape
     first, last = (each.reshape(shape)[..., None] for each in (start, end))
     theta = first + (last - first) * np.linspace(0.0, 1.0, count)

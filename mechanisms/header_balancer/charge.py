@@ -12,12 +12,11 @@ import numpy as np
 from hydraulics import AccumulatorBlock, adiabatic, isothermal
 from hydraulics.gas import Gas
 from linkage import DefinitionError, Motion, least
-from linkage.errors import cited
+from linkage.checks import require_number
 from linkage.language import noted
 from linkage.motion import Judge, last_holding, require_motion
 from linkage.plan import Mask
 from linkage.program import FloatArray
-from linkage.quantities import is_number
 from linkage.units import deg, kgf_cm2, mm, show
 
 from .following import HeaderState, at_horizon, over_following
@@ -67,8 +66,7 @@ def charge_for(motion: Motion, wanted: float) -> float:
 
     DefinitionError where it is below zero: so much reaction the weights do not give.
     """
-    if not is_number(wanted):
-        raise DefinitionError(f"wanted={cited(wanted)}: one reaction of all shoes is expected, in N.")
+    require_number("wanted", wanted, "one reaction of all shoes is expected, in N")
     if wanted < 0.0:
         raise DefinitionError(f"A reaction of {show(wanted, 'kgf', 4)} would pull at the ground; ask for zero or more.")
     balance = HeaderState(at_horizon(motion))

@@ -10,13 +10,13 @@ import numpy as np
 
 from hydraulics import Cylinder, FloatCircuit, pressure
 from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, drive_force, most, ratio, ref
-from linkage.errors import cited
+from linkage.checks import require_number, require_whole
 from linkage.language import noted
 from linkage.loads import SENSES, PinFriction, Support
 from linkage.loads.element import Formulas
 from linkage.motion import Judge, Request, require_motion
 from linkage.program import FloatArray
-from linkage.quantities import Coordinate, Distance, Quantity, is_number, is_whole
+from linkage.quantities import Coordinate, Distance, Quantity
 from linkage.statics import driving_force, reaction
 from linkage.units import mm, show
 
@@ -46,8 +46,7 @@ def stroke_at(height: Any, O_y: Any, OA: Any, to_A: Any, L_OB: Any, L_OR: Any, B
 def stroke_of(motion: Motion, height: float) -> float:
     """Return the stroke [m] at which the shoe of one design stands at a height [m]; DefinitionError where it never does."""
     require_header(motion)
-    if not is_number(height):
-        raise DefinitionError(f"height={cited(height)}: one number in m is expected, above the horizon.")
+    require_number("height", height, "one number in m is expected, above the horizon")
     if motion._design_shape:
         raise DefinitionError("The following range is found for one design at a time; this motion has a batch of them.")
     given = motion.inputs
@@ -74,8 +73,7 @@ def require_header(motion: Motion) -> None:
 def over_following(motion: Motion, count: int = 101) -> Motion:
     """Return the same design over the following range, from the shoe's lowest place to its highest, equally spaced in h."""
     require_header(motion)
-    if not is_whole(count) or not 1 <= count <= MANY:
-        raise DefinitionError(f"count={cited(count)}: a whole number of poses is expected, such as 101.")
+    require_whole("count", count, "a whole number of poses is expected, such as 101", least=1, most=MANY)
     range_ = float(motion.inputs["follows"])
     return motion.moved({"h": np.linspace(stroke_of(motion, -range_), stroke_of(motion, range_), count)})
 

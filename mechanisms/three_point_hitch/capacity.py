@@ -14,14 +14,15 @@ import numpy as np
 from hydraulics import LiftCircuit
 from hydraulics.member import found_in
 from linkage import DefinitionError, Force, ForceElement, Motion, angle, least, most
-from linkage.errors import cited, unwarned
+from linkage.checks import require_number
+from linkage.errors import unwarned
 from linkage.language import noted, said, translated
 from linkage.loads.element import Formulas
 from linkage.motion import Judge, MotionFunction, Over, require_motion
 from linkage.motion.grid import recalled
 from linkage.plan import Plan
 from linkage.program import FloatArray
-from linkage.quantities import Distance, is_number
+from linkage.quantities import Distance
 from linkage.reports import closely
 from linkage.statics import AnyMotion, LawRequest
 from linkage.units import deg, g0, mm, show, unit_sign
@@ -99,8 +100,7 @@ def at_hitch_points(motion: Motion, share: float = SHARE) -> FloatArray:
 def behind(motion: Motion, distance: float = BEHIND, share: float = SHARE) -> FloatArray:
     """Return the capacity with the load's centre a distance [m] behind the hitch points, square to the upright [N], shape (...)."""
     require_motion(motion)
-    if not is_number(distance):
-        raise DefinitionError(f"distance={cited(distance)}: one number in m is expected, such as 0.61.")
+    require_number("distance", distance, "one number in m is expected, such as 0.61")
     tested = {"FG": distance, "KFG": 90 * deg}
     moved = Motion(motion.plan, motion.designs | tested, motion.strokes, motion.unreachable)
     return circuit_of(moved).lifted(moved, "G", own_loads(motion), share=share)

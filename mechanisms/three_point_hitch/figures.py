@@ -14,8 +14,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from linkage import DefinitionError, Motion, draw
-from linkage.errors import unknown
+from linkage import Motion, draw
+from linkage.checks import require_one_design
+from linkage.errors import known_name
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
@@ -34,10 +35,8 @@ COUNT = 101
 def figure(name: str, hitch: ThreePointHitch | None = None) -> Figure:
     """Return a figure of a hitch, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch."""
     shown = hitch if hitch is not None else ThreePointHitch()
-    if name not in DRAWN:
-        raise unknown("Figure", name, DRAWN)
-    if any(np.ndim(value) for value in shown.dimensions.values()):
-        raise DefinitionError(f"{shown.plan.title}: a figure shows one design, this is a batch; choose one of them.")
+    known_name("Figure", name, DRAWN)
+    require_one_design(shown.dimensions, f"{shown.plan.title}: a figure shows one design")
     return DRAWN[name](shown)
 
 

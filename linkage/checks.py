@@ -1,0 +1,88 @@
+"""What is given at a public door, checked: one number, one whole number, something of a kind; each refused in one form of words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import TypeGuard, TypeVar, cast
+
+import numpy as np
+
+from .errors import DefinitionError, cited
+
+Kind = TypeVar("Kind")
+
+
+def is_number(value: object) -> TypeGuard[float]:
+    """Return whether a value is one finite real number."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def is_whole(value: object) -> TypeGuard[int]:
+    """Return whether a value is one whole number, Python's or NumPy's."""
+    return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+
+
+def refused(what: str, value: object, expected: str) -> DefinitionError:
+    """Return the error for a value: `count=0: a number above zero is expected.`; `gap(width` is closed behind the value."""
+    return DefinitionError(f"{what}={cited(value)}{')' * (what.count('(') - what.count(')'))}: {expected}.")
+
+
+def require(holds: object, what: str, value: object, expected: str) -> None:
+    """Refuse a value of which something does not hold; in the words of `require_number`."""
+    if not holds:
+        raise refused(what, value, expected)
+
+
+def require_one_design(designs: Mapping[str, object], said: str) -> None:
+    """Refuse a batch of designs by their dimensions: `Crane: a figure shows one design, this is a batch; choose one of them.`"""
+    if any(np.ndim(cast(float, value)) for value in designs.values()):
+        raise DefinitionError(f"{said}, this is a batch; choose one of them.")
+
+
+def require_number(
+    what: str, value: object, expected: str, *, above: float = -math.inf, least: float = -math.inf,
+    most: float = math.inf, below: float = math.inf,
+) -> float:  # fmt: skip
+    """Return what is one finite number within its limits; refuse anything else.
+
+    Parameters
+    ----------
+    what : str
+        What it is given for, as it is written: "efficiency", "gap(width".
+    value : object
+        What was given.
+    expected : str
+        What is expected, for the message, without the full stop: "a number is expected, zero or more".
+    above, least, most, below : float
+        The number is more than `above`, at least `least`, at most `most`, less than `below`.
+
+    Raises
+    ------
+    DefinitionError
+        It is no such number.
+    """
+    if not (is_number(value) and above < value < below and least <= value <= most):
+        raise refused(what, value, expected)
+    return value
+
+
+def require_whole(what: str, value: object, expected: str, *, least: float = -math.inf, most: float = math.inf) -> int:
+    """Return what is one whole number from `least` to `most`; refuse anything else, as `require_number` does."""
+    if not (is_whole(value) and least <= value <= most):
+        raise refused(what, value, expected)
+    return int(value)
+
+
+def require_type(
+    what: str, value: object, kind: type[Kind] | tuple[type[Kind], ...], expected: str, of: type | tuple[type, ...] | None = None
+) -> Kind:
+    """Return what is of a kind, and its parts `of` a kind where that is said; refuse anything else, as `require_number` does."""
+    if not isinstance(value, kind) or (of is not None and not all(isinstance(each, of) for each in cast(Iterable[object], value))):
+        raise refused(what, value, expected)
+    return value

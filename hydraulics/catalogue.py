@@ -76,7 +76,7 @@ def catalogue(
     constant, factor = dead_length(dead)
     rows = []
     standard = chosen_series()
-    sizes = [listed(bores, standard.bores, "Bore"), listed(rods, standard.rods, "Rod"), listed(strokes, standard_strokes(), "Stroke")]
+    sizes = [series_values(bores, standard.bores, "Bore"), series_values(rods, standard.rods, "Rod"), series_values(strokes, standard_strokes(), "Stroke")]
     if len(sizes[0]) * len(sizes[1]) * len(sizes[2]) > MOST_ROWS:
         raise DefinitionError(f"The catalogue would have more than {MOST_ROWS} rows; give fewer bores, rods or strokes.")
     for bore, rod, stroke in product(*sizes):
@@ -89,7 +89,7 @@ def catalogue(
     return rows
 
 
-def listed(given: Sequence[float] | None, standard: Sequence[float], what: str) -> list[float]:
+def series_values(given: Sequence[float] | None, standard: Sequence[float], what: str) -> list[float]:
     """Return sizes [m], ascending, each once: those given, else those of a standard."""
     if given is None:
         return [*standard]

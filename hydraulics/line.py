@@ -118,8 +118,8 @@ class WayBack:
     """A cylinder on its way back against a resistance of the returning oil [Pa].
 
     Friction acts against it: the load brings T k_m where it drives and takes T / k_m where it resists. `working` is the pressure that the
-    load alone makes in the side that empties, `push` what the other side must give beyond what a tank has there, below zero where the
-    load does it by itself, `tank` what that has [Pa].
+    load alone makes in the side that empties [Pa]. `push` is what the other side must give beyond the pressure of its `tank`, below zero
+    where the load does it by itself [Pa].
     """
 
     working: Array

@@ -95,7 +95,7 @@ class Plugins(Generic[T]):
         return self._loaded[entry]
 
     def given(self, value: object) -> T | None:
-        """Return what an object that is given instead of a name stands for; None for a name, and for what is no such object."""
+        """Return what an object that is given instead of a name stands for; None for a name, and for any other object."""
         return None if isinstance(value, str) else self.made(value)
 
     def loaded(self) -> tuple[dict[str, T], list[str]]:

@@ -52,8 +52,8 @@ class Motion(Shown):
 
     Arrays are component-first, designs before strokes: a position has the shape (2, *designs, *strokes).
     Raises AssemblyError where a pose cannot be assembled, unless `unreachable="nan"`. With `per_design` the arrays of strokes begin with
-    the shape of the designs, each of which has strokes of its own; `joining` says how angles are made continuous, `tangent` how several
-    strokes go on along a path, `over` where the machine is looked at: the declared path of a sweep along it.
+    the shape of the designs, each of which has strokes of its own. `joining` says how angles are made continuous. `tangent` is how several
+    strokes go on along a path, `over` the declared `Over` that a sweep keeps.
     """
 
     _limits_of: ClassVar[Callable[[Any], Limits]] = stroke_search.limits

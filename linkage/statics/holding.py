@@ -268,7 +268,7 @@ def check_run(motion: AnyMotion, tie: Tie, run: Reeving, stroke: str) -> None:
     sizes = [np.hypot(*load.force) * np.hypot(*motion.ratio(load.point, wrt=stroke)) for load in run.loads(motion)]
     way = np.abs(sum(parts))
     if np.any(way > KEPT * sum(sizes)):
-        most = float(np.nanmax(way))
+        most = float(np.max(np.nan_to_num(way)))
         what = f"{tie.name} locks the machine: its length is held, and a unit of {stroke} would change its path by up to {most:.4g} m"
         raise DefinitionError(
             f"{motion.plan.title}: {what}. Let a step follow it, such as Dyad(U, P, UW={tie.name}.last), or give its force, force=12 * kN."

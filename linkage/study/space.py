@@ -243,7 +243,7 @@ def ranged(machine: Mechanism, names: Sequence[str], given: Around | tuple[Any, 
 def check_unit_of_ranges(machine: Mechanism, variables: Sequence[Varied], about: Collection[str]) -> None:
     """Raise DefinitionError for a range of lengths that is far wider than the machine and the other ranges of its lengths.
 
-    What varies `about` a present value says nothing of a size, nor does a range of coordinates, which may be any about zero.
+    A range `about` a present value has no size to compare, nor has a range of coordinates, which may be any about zero.
     """
     plan, size = machine.plan, size_of_machine(machine)
     lengths = [each for each in variables if plan_measure(plan, each.owner) == "length"]

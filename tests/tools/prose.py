@@ -12,6 +12,9 @@ FENCES = re.compile(r"^(```|~~~|:::).*?^\1[ \t]*$", re.DOTALL | re.MULTILINE)
 FORMULAS = re.compile(r"\$\$.*?\$\$|\$[^$\n]*\$", re.DOTALL)
 OUTSIDE = ("|", "#", "<", "![", ">")
 EXAMPLE = re.compile(r"^[ \t]*>>>.*(?:\n(?![ \t]*$).*)*", re.MULTILINE)
+SECTION = re.compile(r"^(Parameters|Returns|Raises|Yields|Notes|Examples|Attributes)\n-+$", re.MULTILINE)
+ARGUMENT = re.compile(r"^[*\w, ]+ : .*$|^\w+\n(?= {4})", re.MULTILINE)
+"""Headings of the sections of a docstring in NumPy's form, and the lines of their arguments and errors."""
 ITEM = re.compile(r"^\s*(?:[-*]|\d+\.)\s+")
 END = re.compile(r"(?<=[.!?])[\"')*_]*\s+(?=[\"'(*_]*[A-Z0-9])")
 WORD = re.compile(r"[^\W_][\w'.,/-]*")
@@ -56,10 +59,10 @@ def sentences(text):
 
 
 def docstrings(source):
-    """Yield the docstrings of a source, but those of private names, without their examples."""
+    """Yield the docstrings of a source, but those of private names, without their examples; each section and argument a paragraph."""
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and not getattr(node, "name", "").startswith("_"):
-            yield EXAMPLE.sub("", ast.get_docstring(node) or "")
+            yield SECTION.sub("\n\n", ARGUMENT.sub("\n\n", EXAMPLE.sub("", ast.get_docstring(node) or "")))
 
 
 def riddles(text):

@@ -76,7 +76,8 @@ def catalogue(
     constant, factor = dead_length(dead)
     rows = []
     standard = chosen_series()
-    sizes = [series_values(bores, standard.bores, "Bore"), series_values(rods, standard.rods, "Rod"), series_values(strokes, standard_strokes(), "Stroke")]
+    asked = ((bores, standard.bores, "Bore"), (rods, standard.rods, "Rod"), (strokes, standard_strokes(), "Stroke"))
+    sizes = [series_values(*each) for each in asked]
     if len(sizes[0]) * len(sizes[1]) * len(sizes[2]) > MOST_ROWS:
         raise DefinitionError(f"The catalogue would have more than {MOST_ROWS} rows; give fewer bores, rods or strokes.")
     for bore, rod, stroke in product(*sizes):

@@ -8,14 +8,13 @@ from typing import Any, final
 
 import numpy as np
 
-from ..disk import check_place
 from ..errors import DefinitionError
 from ..files.criterion import quantity_said
 from ..mechanism import Mechanism
 from ..motion import Target
 from ..motion.kinds import measure_of
 from ..units import parse, parse_span
-from .command import PICTURES, Command, lined_up, machine_arguments, repeatable
+from .command import PICTURES, Command, lined_up, machine_arguments, picture, repeatable
 from .follow import strokes_said
 from .machines import find
 from .settings import design, pair, parsed_over, si_value
@@ -57,14 +56,15 @@ class ChartCommand(Command):
     def run(self, options: Namespace) -> int:
         from ..study import working_field
 
-        path = None if options.output is None else chart_path(options.output)
-        machine = design(find(options.machine), options.settings)
-        limits = {}
+        found = find(options.machine)
+        path = None if options.output is None else picture(options.output, found, options.machine, SUFFIXES)
+        machine = design(found, options.settings)
+        along, limits = tuple(si_value(part, "", "--along") for part in options.along.split(",")), {}
         for text in options.limits:
             name, value = pair(text, "--limit", '"rated load=20kN"')
             limits[name] = si_value(value, "force", f"--limit {name}")
         field = working_field(
-            machine, options.point, axis_said("--x", options.x), axis_said("--y", options.y), along=along_said(options.along),
+            machine, options.point, axis_said("--x", options.x), axis_said("--y", options.y), along=along,
             hold=strokes_said(machine, "--hold", options.hold), over=parsed_over(machine, options.over) if options.over else None,
             keep=[target_said(machine, text) for text in options.keep], lifts=options.lift or None, rule=options.rule, case=options.case,
             without=options.without, limits=limits,
@@ -75,15 +75,6 @@ class ChartCommand(Command):
         write_chart(field, path, options.language)
         print(path)
         return 0
-
-
-def chart_path(given: str) -> Path:
-    """Return where a chart is written; DefinitionError for another kind of file."""
-    path = Path(given)
-    if path.suffix.lower() not in SUFFIXES:
-        raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(SUFFIXES)}, which chooses the format.")
-    check_place(path)
-    return path
 
 
 def axis_said(option: str, text: str) -> Any:
@@ -103,11 +94,6 @@ def axis_said(option: str, text: str) -> Any:
     if count > 1e6:
         raise DefinitionError(f"{option} {text}: these are {count:.3g} places; give a longer step.")
     return first + step[0] * np.arange(int(count + 1e-9) + 1)
-
-
-def along_said(text: str) -> Any:
-    """Return the direction that `--along` says."""
-    return tuple(si_value(part, "", "--along") for part in text.split(","))
 
 
 def target_said(machine: Mechanism, text: str) -> Target:

@@ -72,7 +72,9 @@ class FollowCommand(Command):
         if options.columns:
             columns = columns_picked(machine, motion, options.columns, list(motion.strokes), plain_value(acting))
         else:
-            columns = [*columns_picked(machine, motion, list(motion.strokes), []), *path_columns(motion, targets)]
+            columns = columns_picked(machine, motion, list(motion.strokes), [])
+            asked = {name: each for name, each in targets.items() if name not in motion.strokes}
+            columns += [Column.of(motion, each.quantity, each.shown_in(motion.plan) or None, name) for name, each in asked.items()]
         write_table(columns, motion.reached.size, options.csv)
         if path is not None:
             draw_along(machine, motion, path, options.language)
@@ -134,14 +136,6 @@ def strokes_said(machine: Mechanism, option: str, texts: list[str]) -> Mapping[s
         kind = stroke_measure(machine.plan, name) if name in machine.strokes else ""  # an unknown one is told where it is looked up
         found[name] = si_value(value, kind, f"{option} {name}")
     return found or None
-
-
-def path_columns(motion: Motion, targets: Mapping[str, Target]) -> list[Column]:
-    """Return the columns of what the path asks for and the strokes are not."""
-    return [
-        Column.of(motion, each.quantity, each.shown_in(motion.plan) or None, name)
-        for name, each in targets.items() if name not in motion.strokes
-    ]  # fmt: skip
 
 
 def draw_along(machine: Mechanism, motion: Motion, path: Path, language: str) -> None:

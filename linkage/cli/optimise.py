@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, final
@@ -119,8 +119,12 @@ def tell_optimum(search: SearchFile, found: Optimum) -> None:
     rounded = None if search.rounding is None else found.rounded(**search.rounding)
     if rounded is not None:
         print(f"Rounded: {rounded}")
-    writers = optimum_writers(found, rounded)
-    for name, paths in search.outputs.items():
+    write_results(search.outputs, optimum_writers(found, rounded))
+
+
+def write_results(outputs: Mapping[str, Sequence[Path]], writers: Mapping[str, Callable[[Path], object]]) -> None:
+    """Write the files of a search, each by what it holds, and say their names."""
+    for name, paths in outputs.items():
         for path in paths:
             writers[name](path)
             print(path)

@@ -15,7 +15,7 @@ from ..errors import AssemblyError, DefinitionError, SingularError, known_name, 
 from ..language import said, said_of
 from ..loads import DIRECTIONS, PLAIN, PLAIN_CASE, Acting, LoadCase
 from ..mechanism import Mechanism
-from ..motion import Column, Motion, Over, Request, RequestLike, columns_of, out_of_reach, stroke_measure, stroke_unit
+from ..motion import Column, Motion, Over, Request, columns_of, out_of_reach, stroke_measure, stroke_unit
 from ..plan import Plan, plan_measure
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
@@ -342,14 +342,9 @@ def requested(machine: Mechanism, motion: Motion, text: str, acting: Acting, kno
     if isinstance(found, Request):
         found = found.under(acting, keep=True)
     over = motion.moved(motion.strokes) if is_of_forces else motion
-    return columns_asked(over, found, text)
-
-
-def columns_asked(motion: Motion, asked: RequestLike, name: str, unit: str | None = None) -> list[Column]:
-    """Return what is asked of a motion as one column, or as two of a point's."""
-    if motion[asked].shape == motion.shape:
-        return [Column.of(motion, asked, unit, name)]
-    return [Column(f"{name}_{axis}", part, unit or "") for axis, part in zip("xy", motion[asked], strict=True)]
+    if over[found].shape == over.shape:
+        return [Column.of(over, found, name=text)]
+    return [Column(f"{text}_{axis}", part) for axis, part in zip("xy", over[found], strict=True)]
 
 
 PER = {("angle", "m"): "rad/m"}

@@ -14,7 +14,7 @@ from ..files.synthesis_file import read_synthesis
 from ..synthesis import Synthesis
 from ..units import deg, mm
 from .command import Command, whole_number
-from .optimise import NOT_FEASIBLE, finder, settings_of, study_arguments, study_progress
+from .optimise import NOT_FEASIBLE, finder, settings_of, study_arguments, study_progress, write_results
 
 ANSWERS = 3
 """The answers of a picture."""
@@ -50,11 +50,7 @@ class SynthesiseCommand(Command):
         if rounded is not None:
             print(f"Rounded: {rounded}")
         best = found.machine if rounded is None else rounded.machine
-        writers = synthesis_writers(found, best, options.answers)
-        for name, paths in outputs.items():
-            for path in paths:
-                writers[name](path)
-                print(path)
+        write_results(outputs, synthesis_writers(found, best, options.answers))
         return 0
 
 

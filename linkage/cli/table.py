@@ -57,7 +57,8 @@ class TableCommand(Command):
         csv_argument(parser)
         motion_arguments(parser, 11)
         every_argument(parser)
-        ratio_arguments(parser)
+        repeatable(parser, "--ratio", "G", "the derivatives of a point or an output; repeatable")
+        parser.add_argument("--wrt", metavar="S", help="the stroke of these derivatives (default: each)")
         force_arguments(parser)
         over_argument(parser)
         parser.add_argument("--pins", action="store_true", help="the largest force of every pin too, its load case, direction and pose")
@@ -92,12 +93,6 @@ def column_names(text: str) -> list[str]:
     return names
 
 
-def ratio_arguments(parser: ArgumentParser) -> None:
-    """Declare the arguments that add derivatives."""
-    repeatable(parser, "--ratio", "G", "the derivatives of a point or an output; repeatable")
-    parser.add_argument("--wrt", metavar="S", help="the stroke of these derivatives (default: each)")
-
-
 def worst_pins(machine: Mechanism, over: Sequence[Over | Motion] | None, acting: Acting) -> str:
     """Return the table of the largest force of every joint over what is given, else over all that the machine runs.
 
@@ -124,7 +119,8 @@ def write_table(columns: Sequence[Column], rows: int, file: str | None) -> None:
     if file is None:
         print_table(columns, rows)
     elif file == "-":
-        keep_line_ends(sys.stdout)
+        if isinstance(sys.stdout, io.TextIOWrapper):
+            sys.stdout.reconfigure(newline="")  # CR LF stays CR LF where the system would turn LF into that itself
         write_with_progress(columns, sys.stdout)
     else:
         with replacing_text(file) as stream:
@@ -136,12 +132,6 @@ def write_with_progress(columns: Sequence[Column], stream: TextIO) -> None:
     """Write CSV, with a progress bar."""
     with progress_bar("writing CSV") as progress:
         write_csv(columns, stream, progress)
-
-
-def keep_line_ends(stream: TextIO) -> None:
-    """Let CR LF be CR LF where the system would turn LF into that itself."""
-    if isinstance(stream, io.TextIOWrapper):
-        stream.reconfigure(newline="")
 
 
 def print_table(columns: Sequence[Column], rows: int) -> None:

@@ -45,7 +45,7 @@ from ..steps import Point
 from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
 from .callables import request_function
-from .expression import BINARY, Grammar, Token
+from .expression import BINARY, Grammar, Token, finite
 
 CRITERION_GRAMMAR = (
     "a criterion is made of least(...), most(...), integral(...), at(..., S=...), names, numbers with units, + - * / **, and <= >= =="
@@ -171,7 +171,7 @@ class CriterionParser(Grammar):
             raise DefinitionError(f"{a!r} {sign} {b!r} has no finite value.") from None
         except TypeError:
             raise DefinitionError(f"{self.words(a)} {sign} {self.words(b)} cannot be calculated.") from None
-        return self.checked_number(found, f"{a!r} {sign} {b!r}") if is_number(a) and is_number(b) else found
+        return finite(found, f"{a!r} {sign} {b!r}") if is_number(a) and is_number(b) else found
 
     def check_sum(self, sign: str, a: object, b: object) -> None:
         """Raise DefinitionError where a number with a unit is added to a quantity of another kind."""
@@ -191,13 +191,6 @@ class CriterionParser(Grammar):
     def words(part: object) -> str:
         """Return a part in words."""
         return words_of(part) if isinstance(part, (Quantity, Request, Worst, str)) else str(part)
-
-    @staticmethod
-    def checked_number(value: object, text: str) -> float:
-        """Return a number; DefinitionError where a calculation has no finite one."""
-        if not isinstance(value, (int, float)) or not math.isfinite(value):
-            raise DefinitionError(f"{text} has no finite value.")
-        return value if isinstance(value, Amount) else float(value)
 
     def atom(self, token: Token) -> Any:
         if token.kind == "number":
@@ -260,10 +253,8 @@ class CriterionParser(Grammar):
         """Return a function by its name."""
         if name in NUMERIC:
             return self.numeric(NUMERIC[name])
-        if name in MEASURES:
-            return MEASURES[name]
-        if name in PLACED:
-            return PLACED[name]
+        if name in MEASURES or name in PLACED:
+            return {**MEASURES, **PLACED}[name]
         return request_function(name, (*MEASURES, *PLACED, *NUMERIC))
 
     def numeric(self, name: str) -> Callable[..., Any]:
@@ -277,7 +268,7 @@ class CriterionParser(Grammar):
                 raise DefinitionError(f"{name}(...) takes {getattr(np, name).nin} arguments, not {len(parts)}.")
             with np.errstate(all="ignore"):
                 found = getattr(np, name)(*parts)
-            return self.checked_number(float(found), f"{name}({', '.join(map(repr, parts))})") if all(map(is_number, parts)) else found
+            return finite(float(found), f"{name}({', '.join(map(repr, parts))})") if all(map(is_number, parts)) else found
 
         return made
 

@@ -108,16 +108,16 @@ def applied(function: str) -> Callable[..., Quantity]:
         if len(values) < len(arguments):
             return Function(function, *arguments)
         with np.errstate(all="ignore"):
-            return finite_number(float(FUNCTIONS[function](*values)), f"{function}({', '.join(map(repr, values))})")
+            return Number(finite(float(FUNCTIONS[function](*values)), f"{function}({', '.join(map(repr, values))})"))
 
     return make
 
 
-def finite_number(value: object, text: str) -> Number:
+def finite(value: object, text: str) -> float:
     """Return a number; DefinitionError where a calculation has no finite one."""
     if not isinstance(value, (int, float)) or not math.isfinite(value):
         raise DefinitionError(f"{text} has no finite value.")
-    return Number(float(value))
+    return value
 
 
 def length_or_size(argument: Arrow | str | Quantity) -> Quantity:
@@ -259,7 +259,7 @@ class Parser(Grammar):
             return made
         text = f"{a.number!r} {sign} {b.number!r}"
         try:
-            return finite_number(BINARY[sign](a.number, b.number), text)
+            return Number(finite(BINARY[sign](a.number, b.number), text))
         except ArithmeticError:
             raise DefinitionError(f"{text} has no finite value.") from None
 

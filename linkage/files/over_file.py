@@ -37,16 +37,11 @@ def over_read(given: object, names: Names) -> Over:
     if "only" in given:
         texts = given["only"] if isinstance(given["only"], list) else [given["only"]]
         options["only"] = [condition_of(text, names) for text in texts]
-    strokes = {key: stroke_of_over(value, names) for key, value in given.items() if key not in (*OPTIONS, *shapes)}
-    made: Over = make(**options, **strokes)
+    for key, value in given.items():  # of a stroke one value or several: numbers [SI], texts with a unit, quantities of the design
+        if key in known:
+            options[key] = tuple(amount_of(each, names, "") for each in value) if isinstance(value, list) else amount_of(value, names, "")
+    made: Over = make(**options)
     return made
-
-
-def stroke_of_over(given: object, names: Names) -> Any:
-    """Return what a stroke of it is given: one value, or several, numbers [SI], texts with a unit, quantities of the design."""
-    if isinstance(given, list):
-        return tuple(amount_of(each, names, "") for each in given)
-    return amount_of(given, names, "")
 
 
 def condition_of(text: object, names: Names) -> PoseCondition:

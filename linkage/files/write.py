@@ -99,7 +99,8 @@ def to_toml(machine: Machine) -> str:
 
 def to_json(machine: Machine) -> str:
     """Return a mechanism as JSON text; numbers are exact. DefinitionError for what a file cannot hold."""
-    return json_text(to_dict(machine))
+    sections = (f"  {json_inline(name)}: {json_section(value)}" for name, value in to_dict(machine).items())
+    return "{\n" + ",\n".join(sections) + "\n}\n"
 
 
 def save(machine: Machine, path: str | os.PathLike[str]) -> None:
@@ -119,11 +120,6 @@ def save(machine: Machine, path: str | os.PathLike[str]) -> None:
 
 
 # -- JSON: a line for each member --------------------------------------------------------------------------
-
-
-def json_text(data: Mapping[str, object]) -> str:
-    """Return the text of a file's tables."""
-    return "{\n" + ",\n".join(f"  {json_inline(name)}: {json_section(value)}" for name, value in data.items()) + "\n}\n"
 
 
 def json_section(value: object) -> str:

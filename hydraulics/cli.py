@@ -10,7 +10,7 @@ import numpy as np
 
 from linkage.cli.command import Command, every_argument, machine_arguments, motion_arguments
 from linkage.cli.machines import find
-from linkage.cli.settings import check_argument, design, judged_over, motion_at, over_argument, overs_of, print_verdicts, si_value
+from linkage.cli.settings import check_argument, design, judged_over, motion_at, over_argument, print_verdicts, si_value
 from linkage.cli.table import csv_argument, write_table
 from linkage.errors import DefinitionError, known_name
 from linkage.language import noted, said
@@ -60,7 +60,7 @@ class CapacityCommand(Command):
         along, share = along_of(options.along), options.share
         proper_share(share)
         case = None if options.case is None else known_name("Load case", options.case, machine.plan.of_kind(LoadCase), machine.plan.title)
-        over = motion_at(machine, options.strokes, options.count, options.every, overs_of(machine, options.over))
+        over = motion_at(machine, options)
 
         def capacity(motion: Motion) -> Array:
             """Return it along the stroke."""

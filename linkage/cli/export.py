@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from .. import plugins
 from ..disk import check_place
 from .command import Command, default_path, machine_arguments, repeatable, whole_number
 from .machines import find
-from .settings import design, stroke_values, tell_gaps
+from .settings import design, strokes_given, tell_gaps
 
 OWN_FORMATS = ("xlsx", "csv", "dxf", "svg")
 
@@ -46,7 +46,7 @@ class ExportCommand(Command):
         path = Path(options.output) if options.output is not None else default_path(found, options.machine, exporter.suffix)
         check_place(path)
         machine = design(found, options.settings)
-        at: dict[str, Any] = dict(stroke_values(machine.plan, text) for text in options.strokes)
+        at = strokes_given(machine, options)
         if options.poses is not None:
             first = next((name for name in machine.strokes if name not in at), None)
             if first is not None:

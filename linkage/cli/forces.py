@@ -52,8 +52,7 @@ class ForcesCommand(Command):
 
     def run(self, options: Namespace) -> int:
         machine = design(find(options.machine), options.settings)
-        acting, overs = acting_of(machine, options), overs_of(machine, options.over)
-        motion, over = motion_at(machine, options.strokes, options.count, options.every, overs), judged_over(machine, options)
+        acting, motion, over = acting_of(machine, options), motion_at(machine, options), judged_over(machine, options)
         if not is_loaded(motion):
             what = f"{machine.plan.title} declares no load, so that there is no force; declare one, load = Weight(G, mass=100)"
             raise DefinitionError(f'{what}, or in a file: load = {{ Weight = "G", mass = 100 }}.')
@@ -103,7 +102,7 @@ class LimitsCommand(Command):
         machine = design(find(options.machine), options.settings)
         if not machine.strokes:
             raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")
-        motion = machine.at(unreachable="nan", **poses_at(machine, options.strokes, POSES))
+        motion = machine.at(unreachable="nan", **poses_at(machine, options, POSES))
         over = judged_over(machine, options)
         print(limits_over(motion, overs_of(machine, options.over) or [Over()]))
         print(f"mobility {machine.mobility}; Gruebler count {machine.gruebler}")

@@ -9,7 +9,7 @@ from ..errors import DefinitionError
 from ..plan import Plan, plan_measure
 from .command import Command, machine_arguments, picture, repeatable, run_arguments
 from .machines import find
-from .settings import design, motion_along, over_argument, overs_of, si_value, stroke_values, with_overs
+from .settings import design, motion_along, over_argument, overs_of, si_value, strokes_given, with_overs
 
 SUFFIXES = (".html",)
 
@@ -36,7 +36,7 @@ class PageCommand(Command):
         path = picture(options.output, found, options.machine, SUFFIXES)
         machine = design(found, options.settings)
         machine = with_overs(machine, overs_of(machine, options.over))
-        at = dict(stroke_values(machine.plan, text) for text in options.strokes)
+        at = strokes_given(machine, options)
         motion_along(machine, options.count, at)
         vary = dict(slider_range(machine.plan, text) for text in options.vary) or None
         from ..pictures import page

@@ -33,7 +33,7 @@ from .settings import (
     motion_at,
     parse_limit,
     plain_value,
-    stroke_values,
+    strokes_given,
     traced_points,
     with_gaps,
 )
@@ -101,14 +101,14 @@ class PlotCommand(Command):
 
 def curves(machine: Mechanism, options: Namespace) -> Any:
     """Return the figure of the columns named, else of what the machine is about, along one stroke."""
-    given = dict(stroke_values(machine.plan, text) for text in options.strokes)
+    given = strokes_given(machine, options)
     if not options.columns:
         from ..pictures import plot
 
         motion_along(machine, options.count, given)
         return plot(machine, at=given, count=options.count)
     many = [name for name, values in given.items() if len(values) > 1]
-    over = motion_at(machine, options.strokes, options.count) if many else motion_along(machine, options.count, given)
+    over = motion_at(machine, options) if many else motion_along(machine, options.count, given)
     columns = columns_picked(machine, over, options.columns, [], plain_value(acting_of(machine, options)))
     names = [column.name for column in columns]
     limits: dict[str, Sequence[Any]] = {name: limit for name, limit in machine.featured().limits.items() if name in names}
@@ -120,7 +120,7 @@ def curves(machine: Mechanism, options: Namespace) -> Any:
 
 def poses(machine: Mechanism, options: Namespace) -> Any:
     """Return the figure of the machine at the strokes chosen, else at its ends."""
-    at = dict(stroke_values(machine.plan, text) for text in options.strokes)
+    at = strokes_given(machine, options)
     if at:
         with_gaps(machine, stroke_middles(machine) | at)
     else:
@@ -159,7 +159,7 @@ class AnimateCommand(Command):
         found = find(options.machine)
         path = picture(options.output, found, options.machine, SUFFIXES)
         machine = design(found, options.settings)
-        at, trace = dict(stroke_values(machine.plan, text) for text in options.strokes), traced_points(machine, options.path)
+        at, trace = strokes_given(machine, options), traced_points(machine, options.path)
         over = motion_along(machine, options.count, at)
         column, limit = curve_and_limit(results(machine, over), options)
         from ..pictures import animate

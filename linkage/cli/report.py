@@ -10,7 +10,7 @@ from ..disk import check_place
 from ..errors import DefinitionError
 from .command import Command, machine_arguments, motion_arguments, path_argument, repeatable, whole_number
 from .machines import find
-from .settings import design, over_argument, overs_of, pair, stroke_values
+from .settings import design, over_argument, overs_of, pair, strokes_given
 
 KINDS = (".html", ".pdf", ".md")
 TITLE = {
@@ -49,7 +49,7 @@ class ReportCommand(Command):
             raise DefinitionError(f"-o {path}: a report's name ends in one of {', '.join(KINDS)}, which chooses the format.")
         check_place(path)
         machine = design(cls, options.settings)
-        at = dict(stroke_values(machine.plan, text) for text in options.strokes)
+        at = strokes_given(machine, options)
         rows = dict(pair(text, "--row", '"Order=4711"') for text in options.rows)
         print(report(
             machine, path, case=options.case, over=overs_of(machine, options.over), at=at, count=options.count,

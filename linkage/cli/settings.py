@@ -103,7 +103,7 @@ def judged_over(machine: Mechanism, options: Namespace) -> list[Over | Motion] |
     chosen = overs_of(machine, options.over)
     if chosen or not options.strokes:
         return [*chosen] if chosen else None
-    return [machine.at(unreachable="nan", **poses_at(machine, options.strokes, getattr(options, "count", POSES)))]
+    return [machine.at(unreachable="nan", **poses_at(machine, options, getattr(options, "count", POSES)))]
 
 
 POSES = 21
@@ -179,17 +179,15 @@ def si_value(text: str, kind: str, what: str) -> float:
         raise DefinitionError(f"{what}: {error}") from None
 
 
-def motion_at(
-    machine: Mechanism, texts: Sequence[str], count: int, every: str | None = None, overs: Sequence[Over] | None = None
-) -> Motion:
-    """Return the motion that a table shows: at strokes such as `S=0.6,650mm`, else along the machine's run at `count` poses.
+def motion_at(machine: Mechanism, options: Namespace) -> Motion:
+    """Return the motion that a table shows: at strokes such as `--at S=0.6,650mm`, else along the machine's run at `--count` poses.
 
-    The run is the path of `overs` or of the machine's own `Over`, if that is a path. Else it is the first stroke that is not held, from its
-    start to its end, at steps of `every` if given. Strokes that are not given are at mid-stroke. Several that are given more than one value
-    make a grid. Places that cannot be assembled are gaps, and one remark says so.
+    The run is the path of `--over` or of the machine's own `Over`, if that is a path. Else it is the first stroke that is not held, from
+    its start to its end, at steps of `--every` if given. Strokes that are not given are at mid-stroke. Several that are given more than one
+    value make a grid. Places that cannot be assembled are gaps, and one remark says so.
     """
-    given = dict(stroke_values(machine.plan, text) for text in texts)
-    along = None if given else declared_path(machine, overs)
+    given, count, every = strokes_given(machine, options), options.count, getattr(options, "every", None)
+    along = None if given else declared_path(machine, overs_of(machine, getattr(options, "over", ())))
     if along is not None:
         if every is not None:
             raise DefinitionError(f"--every {every}: steps are of one stroke, and the rows run along a path; give --count.")
@@ -227,9 +225,9 @@ def stroke_steps(machine: Mechanism, name: str, count: int, every: str | None) -
     return values if abs(values[-1] - end) < 1e-6 * step else np.append(values, end)
 
 
-def poses_at(machine: Mechanism, texts: Sequence[str], count: int) -> dict[str, Any]:
-    """Return the strokes of all that some texts leave open, arrays of one shape: what is not given goes over its range."""
-    given = dict(stroke_values(machine.plan, text) for text in texts)
+def poses_at(machine: Mechanism, options: Namespace, count: int) -> dict[str, Any]:
+    """Return the strokes of all that `--at` leaves open, arrays of one shape: what is not given goes over its range."""
+    given = strokes_given(machine, options)
     return stroke_grid(machine, given | {
         name: np.linspace(stroke.start, stroke.end, count) for name, stroke in machine.strokes.items() if name not in given
     })  # fmt: skip
@@ -270,6 +268,11 @@ def tell_gaps(motion: Motion, error: AssemblyError | None = None) -> None:
 def motion_along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
     """Return the motion along one stroke or several together, the others held as `at` says, else in their middle; with gaps."""
     return with_gaps(machine, run_of(machine, at).over(np.linspace(0.0, 1.0, count)))
+
+
+def strokes_given(machine: Mechanism, options: Namespace) -> dict[str, Any]:
+    """Return the strokes that `--at` gives, each an array of values, shape (n,) [m or rad]."""
+    return dict(stroke_values(machine.plan, text) for text in options.strokes)
 
 
 def stroke_values(plan: Plan, text: str) -> tuple[str, Any]:

@@ -33,7 +33,6 @@ from .settings import (
     judged_over,
     motion_at,
     over_argument,
-    overs_of,
     plain_value,
     print_verdicts,
     ratio_columns,
@@ -69,8 +68,7 @@ class TableCommand(Command):
         if options.csv == "-" and (options.pins or options.limits):
             raise DefinitionError("--pins and --limits do not go into CSV; leave them out, or write it into a file, --csv table.csv.")
         machine = design(find(options.machine), options.settings)
-        acting, overs = acting_of(machine, options), overs_of(machine, options.over)
-        poses, over = motion_at(machine, options.strokes, options.count, options.every, overs), judged_over(machine, options)
+        acting, poses, over = acting_of(machine, options), motion_at(machine, options), judged_over(machine, options)
         strokes = list(poses.strokes)
         asked = [*options.columns, *(name for text in options.listed for name in column_names(text))]
         names = asked or (strokes if options.ratio else [])  # ratios alone stand beside their strokes

@@ -6,7 +6,9 @@ import os
 from collections.abc import Collection, Mapping
 from copy import copy
 from dataclasses import replace
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -56,8 +58,14 @@ DEEPEST = 8
 """Files of parts in files of parts, so deep."""
 
 
-def built(data: Any, faults: Faults, trust: Collection[str], folder: Path | None = None, depth: int = 0) -> type[Mechanism]:
-    """Return the class that the tables say; `folder` is that of the file, where other files of parts may stand."""
+def built(
+    data: Any, faults: Faults, trust: Collection[str], folder: Path | None = None, depth: int = 0,
+    machines: Mapping[str, type[Mechanism]] = MappingProxyType({}),
+) -> type[Mechanism]:  # fmt: skip
+    """Return the class that the tables say.
+
+    `folder` is that of the file, where other files of parts may stand; `machines` are those that the file around holds for parts.
+    """
     sections = sections_of(data, faults)
     title, doc = head_read(data, faults)
     featured = featured_read(data.get("featured", {}), faults)
@@ -69,7 +77,7 @@ def built(data: Any, faults: Faults, trust: Collection[str], folder: Path | None
         return built(found.data, Faults(source=found.name, line_of=found.line_of), trust, folder, depth + 1)
 
     names = names_of(sections, faults)
-    names = replace(names, machines=machines_read(data, faults, trust, folder, depth), load_beside=beside(folder, load_part))
+    names = replace(names, machines=machines_read(data, faults, trust, folder, depth, machines), load_beside=beside(folder, load_part))
     names = with_parts_named(names, sections, faults)
     order = ordered(data, names, faults)
     members = members_read(order, sections, names, title, faults, trust)
@@ -118,29 +126,24 @@ def featured_read(given: object, faults: Faults) -> Featured:
 
 
 def machines_read(
-    data: Mapping[str, Any], faults: Faults, trust: Collection[str], folder: Path | None, depth: int
+    data: Mapping[str, Any], faults: Faults, trust: Collection[str], folder: Path | None, depth: int, around: Mapping[str, type[Mechanism]]
 ) -> dict[str, type[Mechanism]]:
-    """Return the machines that a file holds for its parts, by name; one may have parts that are others of them."""
+    """Return the machines that a file holds for its parts, by name, beside those `around`; one may have parts that are others of them."""
     given = data.get("machines", {})
-    found: dict[str, type[Mechanism]] = {}
+    found = dict(around)
     if not isinstance(given, Mapping) or not all(isinstance(each, Mapping) for each in given.values()) or len(given) > MACHINES:
         faults.add(("machines",), f"a table of up to {MACHINES} machines is expected, each with its sections.")
         return found
-    left = dict(given)
-    while left:
-        ready = [name for name, tables in left.items() if not named_machines(tables) & (left.keys())]
-        if not ready:
-            faults.add(("machines", next(iter(left))), "holds itself as a part; a machine in a circle has no end.")
-            return found
-        for name in ready:
-            tables = left.pop(name)
-            inner = {"name": name, **{key: value for key, value in tables.items() if key != "machines"}}
-            needed = {title: given[title] for title in named_machines(tables) if title in given}
-            while more := {title for tables in needed.values() for title in named_machines(tables) if title in given} - needed.keys():
-                needed |= {title: given[title] for title in more}
-            own = Faults(source=f"{faults.source}, machines.{name}")
-            with faults.at("machines", name):
-                found[name] = built(inner | ({"machines": needed} if needed else {}), own, trust, folder, depth + 1)
+    try:
+        order = [*TopologicalSorter({name: named_machines(tables) & given.keys() for name, tables in given.items()}).static_order()]
+    except CycleError as error:
+        faults.add(("machines", error.args[1][0]), "holds itself as a part; a machine in a circle has no end.")
+        return found
+    for name in order:
+        inner = {"name": name, **{key: value for key, value in given[name].items() if key != "machines"}}
+        own = Faults(source=f"{faults.source}, machines.{name}")
+        with faults.at("machines", name):
+            found[name] = built(inner, own, trust, folder, depth + 1, found)
     return found
 
 

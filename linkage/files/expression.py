@@ -187,9 +187,19 @@ class Grammar(ABC):
         try:
             self.tree: ast.expr = ast.parse(" ".join(parts), mode="eval").body
         except SyntaxError as error:
-            word = self.tokens[bisect_right(self.starts, error.offset - 1) - 1].text if error.offset else ""
-            what = f"{word!r} does not fit where it stands" if word else "something is missing at its end"
-            raise DefinitionError(f"{text!r}: {what if error.msg == 'invalid syntax' else error.msg}; {self.grammar}.") from None
+            raise DefinitionError(f"{text!r}: {self.misfit(error)}; {self.grammar}.") from None
+
+    def misfit(self, error: SyntaxError) -> str:
+        """Return what is expected where a word does not fit, in words."""
+        place = bisect_right(self.starts, error.offset - 1) - 1 if error.offset else len(self.tokens) - 1
+        word, before = self.tokens[place].text, self.tokens[max(place - 1, 0)]
+        if error.msg.endswith("was never closed"):
+            return f"{repr(',') if before.kind == 'name' else repr(')')} is expected where its end stands"
+        if error.msg not in ("invalid syntax", "unmatched ')'"):
+            return error.msg
+        is_complete = place > 0 and (before.kind != "sign" or before.text == ")")
+        wanted = "an operator or the end" if is_complete else "a number, a name or a bracket"
+        return f"{wanted} is expected where {repr(word) if word else 'its end'} stands"
 
     @abstractmethod
     def atom(self, token: Token) -> Any:

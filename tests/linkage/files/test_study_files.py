@@ -186,8 +186,8 @@ def test_reachable_is_a_condition_and_a_request_a_quantity():
 WRONG = [
     ("least(lft)", "Quantity 'lft' is unknown in Boom. Did you mean lift?"),
     ("leest(lift)", "Function 'leest' is unknown. Did you mean least?"),
-    ("least(lift", "'least(lift': '(' was never closed; a criterion is made of"),
-    ("least(lift) deg", "'deg' does not fit where it stands; a criterion is made of"),
+    ("least(lift", "',' is expected where its end stands"),
+    ("least(lift) deg", "an operator or the end is expected where 'deg' stands"),
     ("lift", "lift has a value at every pose: say which is meant, least(...)"),
     ("least(T)", "no number; write x(T) or y(T)"),
     ("least(load)", "no number"),

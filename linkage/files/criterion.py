@@ -9,7 +9,6 @@ A name is an output, a dimension or a stroke of the machine. Nothing is run but 
 from __future__ import annotations
 
 import ast
-import math
 import operator
 from collections.abc import Callable, Mapping
 from inspect import signature
@@ -45,7 +44,7 @@ from ..steps import Point
 from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
 from .callables import request_function
-from .expression import BINARY, Grammar, Token, finite
+from .expression import BINARY, Grammar, Token, constant, finite
 
 CRITERION_GRAMMAR = (
     "a criterion is made of least(...), most(...), integral(...), at(..., S=...), names, numbers with units, + - * / **, and <= >= =="
@@ -212,10 +211,8 @@ class CriterionParser(Grammar):
             return name
         if (coordinate := self.coordinate(name)) is not None:
             return coordinate
-        if name in UNITS:
-            return UNITS[name][0]
-        if name == "pi":
-            return math.pi
+        if (value := constant(name)) is not None:
+            return value
         quantities = [each for each, one in plan.members.items() if isinstance(one, Quantity)]
         raise unknown("Quantity", name, list(dict.fromkeys([*quantities, *plan.table.names()])), where=plan.title)
 

@@ -59,7 +59,8 @@ class ChartCommand(Command):
         found = find(options.machine)
         path = None if options.output is None else picture(options.output, found, options.machine, SUFFIXES)
         machine = design(found, options.settings)
-        along, limits = tuple(si_value(part, "", "--along") for part in options.along.split(",")), {}
+        along: Any = tuple(si_value(part, "", "--along") for part in options.along.split(","))
+        limits = {}
         for text in options.limits:
             name, value = pair(text, "--limit", '"rated load=20kN"')
             limits[name] = si_value(value, "force", f"--limit {name}")

@@ -146,8 +146,8 @@ class CriterionParser(Grammar):
         """Return the condition that two sums make."""
         sign = COMPARING.get(type(node.ops[0]))
         if sign is None:
-            other = next(token.text for token in self.tokens if token.text in ("<", ">", "!="))
-            raise DefinitionError(f"a search meets its conditions exactly; write >=, <= or == for {other}.")
+            found = next(token.text for token in self.tokens if token.text in ("<", ">", "!="))
+            raise DefinitionError(f"a search meets its conditions exactly; write >=, <= or == for {found}.")
         if len(node.ops) > 1:
             raise DefinitionError("one comparison makes a condition; write two conditions for a value between two limits.")
         left, right = self.value(node.left), self.value(node.comparators[0])

@@ -86,6 +86,7 @@ def levelled(seed):
         K = Crank(O, OK=1.0, angle=lift)
         B, N = OnLink(O, K, OB=0.9), OnLink(O, K, ON=some(0.5, 0.7))
         J, C = OnLink(O, K, OJ=2.0 + tele), OnLink(O, K, OC=some(1.15, 1.25) + tele)
+        inner = Link(C, J)
         master, slave = Cylinder(M, N, bore=63 * mm, rod=36 * mm), Cylinder(C, "D", bore=63 * mm, rod=36 * mm)
         line = OilLine(master.rod_side, slave.rod_side, "valve", filled={"slave": some(0.72, 0.78), "master": 1.0}, make_up=2 * bar)
         valve = Relief(some(100, 200) * bar)
@@ -126,7 +127,8 @@ def test_cylinders_in_series_share_the_pumps_pressure():
     class Series(Mechanism):
         a = Stroke(-30 * deg, 30 * deg)
         O, A, C, E = Ground(0, 0), Ground(0.3, -0.9), Ground(2.4, 0.0), Ground(2.1, -0.9)
-        B, G = Crank(O, OB=0.8, angle=a), Crank(O, OG=1.1, angle=a)
+        B = Crank(O, OB=0.8, angle=a)
+        G = OnLink(O, B, OG=1.1)
         first, second = Cylinder(A, B, bore=80 * mm, rod=40 * mm), Cylinder(E, "F", bore=70 * mm, rod=36 * mm)
         series = OilLine(first.rod_side, second.piston_side, filled={"second": 0.95, "first": 0.95})
         F = Dyad(E, C, EF=second.length, CF=0.7, side=LEFT)
@@ -145,7 +147,8 @@ class Held(Mechanism):
 
     a, b = Stroke(0.0, 50 * deg), Stroke(-80 * deg, -20 * deg)
     O, A = Ground(0, 1.0), Ground(0.4, 0.2)
-    B, J = Crank(O, OB=0.9, angle=a), Crank(O, OJ=2.0, angle=a)
+    B = Crank(O, OB=0.9, angle=a)
+    J = OnLink(O, B, OJ=2.0)
     C = Crank(J, JC=0.4, angle=b)
     P = OnLink(J, C, JP=1.5)
     own = Weight(P, mass=60.0)

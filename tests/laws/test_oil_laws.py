@@ -150,7 +150,11 @@ def test_what_is_asked_has_its_derivatives(seed):
         for row, dimension in zip(rows, wrt, strict=True):
             value = float(draft.drawn.plan.defaults[dimension])
             step = 1e-4 * value
-            moved = [draft.drawn(**{dimension: value + k * step}).at(**strokes)[request] for k in (-2, -1, 1, 2)]
+            try:
+                moved = [draft.drawn(**{dimension: value + k * step}).at(**strokes)[request] for k in (-2, -1, 1, 2)]
+            except LinkageError as error:  # a size that would lock a closed double line has no neighbours
+                assert "locks the machine" in str(error), error
+                continue
             central = (moved[0] - 8.0 * moved[1] + 8.0 * moved[2] - moved[3]) / (12.0 * step)
             scale = np.max(np.abs(hand.motion[request])) / value + np.max(np.abs(central))
             assert_allclose(row, central, rtol=0, atol=1e-6 * (1.0 + scale), err_msg=f"{name}, {dimension}")

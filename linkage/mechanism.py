@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from abc import ABCMeta
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
@@ -15,7 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast, 
 import numpy as np
 import numpy.typing as npt
 
-from .assembly import Assembly, assembled, assemblies
+from .assembly import Assembly, assembled, assemblies, width_words
 from .checks import require_one_design
 from .errors import DefinitionError, cited, is_yes, known_name, told, unknown
 from .frozen import FrozenDict
@@ -459,7 +460,11 @@ class Mechanism(Shown, metaclass=MechanismType):
         or a comparison of measures. `over` is one `Over` or several, a dictionary short for one, default `overs`. `acting` says loads,
         a load case, a direction; without it all load cases count that occur, all directions, both sides of every cylinder.
         """
-        return ShownList(self.judge(over, acting).answers(questions))
+        judge = self.judge(over, acting)
+        wide = width_words(self.plan, judge.designs)
+        if wide:
+            warnings.warn(f"{self.plan.title}: {wide}", stacklevel=3)
+        return ShownList(judge.answers(questions))
 
     def judge(self, over: object = None, acting: Acting | None = None) -> Judge:
         """Return who answers questions of this design, over what is given or what it runs."""

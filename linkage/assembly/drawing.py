@@ -12,13 +12,16 @@ import numpy as np
 from ..errors import AssemblyError
 from ..language import said
 from ..plan import ArrayReading, Part, Plan, strokes_text
-from ..quantities import Quantity, joined_names
+from ..quantities import Quantity, joined_names, needs
+from ..steps import Guide, GuideCross
 from ..units import show
 from ..vectors import Numbers
 from .sketch import inputs_at, sketch_reading
 
 AGREES = 1e-3
 """A given length is that of the drawing to this part of it, an angle to so many rad: a drawing is read off to a millimetre in a metre."""
+WIDE = 200.0
+"""A machine of more metres across has millimetres that were taken for metres."""
 DIGITS = 3
 """Digits of the stroke that is named as a remedy."""
 
@@ -59,6 +62,28 @@ def sketch_words(plan: Plan, designs: Mapping[str, Numbers]) -> list[str]:
             )  # fmt: skip
             found.append(words)
     return found
+
+
+def width_words(plan: Plan, designs: Mapping[str, Numbers]) -> str:
+    """Return how wide a machine is at the pose of its sketch, and what to write, where no machine is; else nothing.
+
+    Points that only give a guide its direction, and those where guides cross, may be as far as they like.
+    """
+    used = {name for member in plan.members.values() if not isinstance(member, Guide) for name in needs(member)}
+    far = {name for guide in plan.of_kind(Guide).values() for name in needs(guide)} - used | plan.of_kind(GuideCross).keys()
+    try:
+        reading = plan.read({**inputs_at(plan, plan.sketch_strokes), **designs})
+    except AssemblyError:
+        return ""
+    places = [reading.at(name) for name in plan.points if name not in far]
+    parts = [np.array(np.broadcast_arrays(*rows)) for rows in ([each.x for each in places], [each.y for each in places]) if rows]
+    width = max((float(np.nanmax(np.max(each, axis=0) - np.min(each, axis=0), initial=0.0)) for each in parts), default=0.0)
+    if width <= WIDE:
+        return ""
+    return said(
+        "At the pose of its sketch it is {width} wide: a plain number is in metres. Write millimetres with their unit, such as 300 * mm.",
+        width=show(width, "m", 4),
+    )  # fmt: skip
 
 
 def reading_at(plan: Plan, inputs: Mapping[str, Numbers]) -> ArrayReading:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..assembly import sketch_words
+from ..assembly import sketch_words, width_words
 from ..errors import DefinitionError
 from ..language import said
 from ..loads import TwoPoint
@@ -67,7 +67,8 @@ def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
 
     Where there are no forces, for a `fault` of the machine, only what is said of places.
     """
-    return [*run_verdicts(judge, fault), *map(Remark, sketch_words(judge.plan, judge.designs))]
+    told = [*sketch_words(judge.plan, judge.designs), width_words(judge.plan, judge.designs)]
+    return [*run_verdicts(judge, fault), *map(Remark, filter(None, told))]
 
 
 def run_verdicts(judge: Judge, fault: str) -> list[Verdict]:

@@ -85,18 +85,21 @@ class StrokeLimits:
 
 @final
 class Limits(FrozenDict[str, StrokeLimits], Shown):
-    """The limits of every stroke by name, and of the `box` of all strokes, None where that is not looked at; printed as sentences."""
+    """The limits of every stroke by name, and of the `box` of all strokes, None where that is not looked at; printed as sentences.
 
-    def __init__(self, strokes: Mapping[str, StrokeLimits], box: BoxLimits | None = None) -> None:
+    `remark` says where the machine is wider than machines are; it is empty else.
+    """
+
+    def __init__(self, strokes: Mapping[str, StrokeLimits], box: BoxLimits | None = None, remark: str = "") -> None:
         super().__init__(strokes)
-        self.box = box
+        self.box, self.remark = box, remark
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (dict(self), self.box)
+        return type(self), (dict(self), self.box, self.remark)
 
     def __str__(self) -> str:
         box = [self.box] if self.box is not None and len(self) > 1 else []  # along a single stroke its own lines say it
-        return "\n".join(map(str, [*self.values(), *box]))
+        return "\n".join(map(str, [*self.values(), *box, *([self.remark] if self.remark else [])]))
 
 
 @final

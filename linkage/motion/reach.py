@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..assembly import width_words
 from ..errors import unwarned
 from ..plan import Plan, name_or_pins
 from . import stroke_search
@@ -21,7 +22,9 @@ from .over import Over
 def limits_over(motion: Motion, overs: Sequence[Over | Motion] = (Over(),)) -> Limits:
     """Return the limits along every stroke of one design, and what is lost over the box of all, or over what is given."""
     strokes = stroke_search.limits(motion)
-    return Limits(strokes, box_limits(Judge(motion.plan, motion.designs, overs))) if strokes else strokes
+    if not strokes:
+        return strokes
+    return Limits(strokes, box_limits(Judge(motion.plan, motion.designs, overs)), width_words(motion.plan, motion.designs))
 
 
 def box_limits(judge: Judge) -> BoxLimits:

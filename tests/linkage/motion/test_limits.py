@@ -1,5 +1,7 @@
 """How far a mechanism goes: reachable intervals, dead points, change points, assembly modes, closed turns."""
 
+import pickle
+import warnings
 from contextlib import nullcontext
 
 import numpy as np
@@ -28,6 +30,7 @@ from linkage import (
     angle,
     deg,
     distance,
+    reachable,
 )
 from tests.for_all import for_all
 
@@ -343,3 +346,31 @@ def test_where_nothing_is_reached_there_is_no_dead_point():
 
     limits = Far().at(S=5.0, phi=0.5, unreachable="nan").limits()
     assert limits["phi"].intervals == () and limits["phi"].cylinder_dead_points == ()
+
+
+def test_a_machine_of_hundreds_of_metres_is_told_wherever_it_is_asked():
+    """Millimetres that were typed as metres; not so a point far away that only gives a guide its direction."""
+
+    def boom(k, far=0.0):
+        class Boom(Mechanism):
+            S = Stroke(0.0, 0.2 * k)
+            O, A, F = Ground(0.0, 0.0), Ground(0.0, -0.4 * k), Ground(0.0, -(k + far))
+            rail = Guide(O, F)
+            B = Dyad(A, O, AB=0.5 * k + S, OB=0.4 * k, side=RIGHT)
+            C = SliderDyad(B, rail, BC=0.7 * k, side=RIGHT)
+
+        return Boom()
+
+    # by hand, B is at y = -87.5 and x = 390.3; C, 700 from it, on x = 0 at y = -87.5 - 581.1
+    words = "At the pose of its sketch it is {} m wide: a plain number is in metres. Write millimetres with their unit, such as 300 * mm."
+    for design, told in ((boom(1.0), ""), (boom(1.0, far=1e4), ""), (boom(1000.0), words.format("668.6"))):
+        said = [each.sentence for each in design.verdicts() if "wide:" in each.sentence]
+        assert said == ([told] if told else [])
+        limits = design.sweep(3).limits()
+        assert limits.remark == told
+        assert told in str(limits)
+        assert pickle.loads(pickle.dumps(limits)).remark == told
+        with warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always")
+            design.answers([reachable])
+        assert [str(each.message) for each in heard] == ([f"Boom: {told}"] if told else [])

@@ -473,7 +473,7 @@ def reached_grid(motion: Motion) -> Grid:
 
 def without_bound(plan: Plan, bound: Request, motion: Motion) -> Mask:
     """Return where the law of a request has no bound, by its program."""
-    kernel = plan.made(("gaps", bound.key), lambda twin: Kernel(nodes_without_bound(twin, bound)))
+    kernel = plan.made_beside(("gaps", bound.key), lambda twin: Kernel(nodes_without_bound(twin, bound)))
     if not kernel.plan.outputs:
         return np.zeros(motion.shape, bool)
     found = motion._grid.full(kernel(motion._grid.flat, size=motion._grid.size).values)

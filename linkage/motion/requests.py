@@ -891,7 +891,7 @@ def keeps_digits(plan: Plan, what: Request, inputs: Mapping[str, Any], near: Mas
     """
     if plan.solved or near.sum() < MANY * near.size:
         return np.zeros(near.shape, bool)
-    kernel, count = plan.made(("coarse", what.key), lambda twin: coarse_look(twin, what))
+    kernel, count = plan.made_beside(("coarse", what.key), lambda twin: coarse_look(twin, what))
     values = np.broadcast_to(kernel(inputs, size=near.shape).values, (len(kernel.plan.outputs), *near.shape)).reshape(-1, near.size)
     own, size, shaken, least = values[:count], values[count], values[count + 1 : -1], values[-1]
     with np.errstate(all="ignore"):
@@ -909,7 +909,7 @@ def coarse_look(plan: Plan, what: Request) -> tuple[Kernel, int]:
 def examined(plan: Plan, what: Request, inputs: Mapping[str, Any], reading: ArrayReading) -> Conditioning:
     """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
     what.read_own(reading)
-    rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.rounded(twin)))
+    rounding = plan.made_beside(("rounding", what.key), lambda twin: Rounding.of(twin, what.rounded(twin)))
     error = what.error(plan, rounding.at(inputs))
     found = conditioning(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
     return found.as_loops() if what.stands_for_others else found

@@ -17,7 +17,7 @@ from .members import (
 )
 from .missing import Mask, failures, missing_words, name_or_pins, negative, opening
 from .part import Part, check_circuits, has_no_axes, with_parts
-from .plan import Plan
+from .plan import TRACING, Plan
 from .reading import ArrayReading, Reading
 from .table import DesignVariable, Table
 from .trace import NEAR, REGULAR, Guard, Loop, Nearness, Trace

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import cached_property
+from threading import RLock
 from typing import TypeVar, cast, final
 from uuid import uuid4
 from weakref import WeakValueDictionary
@@ -24,6 +25,8 @@ from .tracked_angles import angles_that_count, followed_angles, has_angles, load
 
 Made = TypeVar("Made")
 
+TRACING = RLock()
+"""Held while something is traced on a program that is kept: threads in one graph would number its nodes twice."""
 MOST_KERNELS = 1024
 """The kernels of a plan that are kept: loads with numbers of their own make one for each number."""
 
@@ -132,6 +135,15 @@ class Plan(Members):
             for old in list(self._kernels)[:-MOST_KERNELS]:
                 self._kernels.pop(old, None)
         return found
+
+    def made_beside(self, key: Hashable, make: Callable[[Plan], Made]) -> Made:
+        """Return the same from a program that all share who ask so, in which what several read is traced once.
+
+        What is made must not hang on what else was read there, but to err on the careful side.
+        """
+        with TRACING:
+            twin = self.made(("beside",), lambda twin: twin)
+            return self.made(key, lambda _: make(twin))
 
     def _fork(self) -> Plan:
         """Return the same plan, not traced yet."""

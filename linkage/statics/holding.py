@@ -444,14 +444,14 @@ def with_levers(poses: FlatPoses, holders: Holders, what: str) -> tuple[FlatPose
             matrix[:, i, i] = line.steady
         return poses, (Levers(matrix, np.abs(matrix), tuple((one,) for _ in lines)),)
     ways = (1, -1) if any(line.changes_shares for line in lines) else (1,)
+    if not isinstance(poses.motion, Motion):
+        return poses, poses.motion._once(("levers", holders.all), lambda: traced_levers(poses, holders, ways))
     found = tuple(known_levers(poses, holders, way) for way in ways)
     if not lines:
         return poses, found
     names = [each.name or str(each) for line in lines for each in line.cylinders]
     whose = f"the length of {names[0]} stands" if len(names) == 1 else f"the lengths of {', '.join(names)} stand"
     cond = reduce(np.maximum, [each.condition for each in found])
-    if is_traced(cond):
-        return poses, tuple(each.where(cond <= REFUSE) for each in found)
     lost = np.isnan(refused_where(poses, np.zeros(poses.count), cond, what, f"{whose} still against the drive there"))
     if not lost.any():
         return poses, found
@@ -459,10 +459,15 @@ def with_levers(poses: FlatPoses, holders: Holders, what: str) -> tuple[FlatPose
     return left, tuple(levers_of(left, holders, way) for way in ways)
 
 
+def traced_levers(poses: FlatPoses, holders: Holders, ways: Sequence[int]) -> tuple[Levers, ...]:
+    """Return the levers of lines as numbers of a program, without a value where the cylinders do not hold."""
+    found = tuple(levers_of(poses, holders, way) for way in ways)
+    cond = reduce(np.maximum, [each.condition for each in found]) if holders.lines else np.zeros(())
+    return tuple(each.where(cond <= REFUSE) for each in found) if is_traced(cond) else found
+
+
 def known_levers(poses: FlatPoses, holders: Holders, way: int) -> Levers:
     """Return the levers of lines, worked out once for the same poses of a motion, for all loads and cylinders."""
-    if not isinstance(poses.motion, Motion):
-        return levers_of(poses, holders, way)
     return poses.motion._once(("levers", holders.all, way, poses.good.tobytes()), lambda: levers_of(poses, holders, way))
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Hashable, Mapping
 from copy import copy
-from typing import Protocol, final
+from typing import Protocol, TypeVar, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,6 +17,8 @@ from ..plan import Mask, Plan, Reading
 from ..program import FloatArray
 from ..quantities import Reference
 from ..vectors import Scalar
+
+Made = TypeVar("Made")
 
 
 @final
@@ -147,6 +149,9 @@ class AnyMotion(Poses, Protocol):
 
     def _array(self, values: ArrayLike) -> FloatArray:
         """Return numbers as the arrays it works with."""
+
+    def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
+        """Return what several ask of it, made once."""
 
 
 def plan_of(motion: Poses) -> Plan:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import fields, replace
 from functools import cached_property
-from threading import RLock
-from typing import TypeVar, cast, final
+from typing import TypeAlias, TypeVar, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,20 +15,19 @@ from ..loads import Acting, Rates
 from ..motion import Motion, OnePose, Request
 from ..motion.requests import stroke_of
 from ..motion.strokes import checked_name, order_of
-from ..plan import ArrayReading, Mask, Plan, Trace
+from ..plan import TRACING, ArrayReading, Mask, Plan, Trace
 from ..program import FloatArray, Level, Node, Notes, SparseSystem, Traced, interpret, is_zero, node_of
 from ..quantities import Angle, Distance, Member, Quantity, Reference
 from ..steps import Arrow, Point
 from ..vectors import Scalar
-from .applied import AppliedElement, AppliedLoads, Parts, applied_loads, element_parts
+from .applied import AppliedElement, AppliedLoad, AppliedLoads, AppliedThrust, Parts, applied_loads, element_parts
 from .equilibrium import System, UnitWrench
+from .holding import Levers
 from .joints import Structure
 from .poses import AnyMotion, FlatPoses
 from .solution import Equilibrium
 
-TRACING = RLock()
-"""Held while something is traced on a program that is kept: threads in one graph would number its nodes twice."""
-Read = TypeVar("Read")
+Read, Made = TypeVar("Read"), TypeVar("Made")
 
 
 def traced_apart(plan: Plan, read: Callable[[TracedMotion], Read]) -> Read:
@@ -67,6 +65,10 @@ def refuse_friction(motion: AnyMotion, applied: AppliedLoads) -> None:
         )
 
 
+Told: TypeAlias = tuple[set[str], set[str], dict[Node, str], dict[Node, str], dict[Node, str]]
+"""What a law has read, gone through, assumed, switched at and left open."""
+
+
 @final
 class TracedMotion(OnePose):
     """One pose that stands for all of them. A number of it is Traced, a vector an array (2,) of such; both pass as arrays of floats.
@@ -88,6 +90,47 @@ class TracedMotion(OnePose):
     def _refused(self, what: Request, words: str) -> Mask:
         """Return that no pose is refused: what is made of the program here is looked at where it is asked for."""
         return np.zeros((), bool)
+
+    # -- what several laws ask for ---------------------------------------------------------------------------
+
+    def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
+        """Return numbers that several laws of a program ask for, traced once; what they read and assume counts for each of the laws."""
+        kept, notes, key = self._reading.kept, self.notes, ("shared", self.plan, key)
+        if key not in kept:
+            before, owner = self._told, notes.owner
+            self._told, notes.owner = (set(), set(), {}, {}, {}), ""
+            try:
+                made = make()
+            finally:
+                told, last = self._told, notes.owner
+                self._told, notes.owner = before, owner
+            kept[key] = made, told, last
+        made, told, last = cast("tuple[Made, Told, str]", kept[key])
+        for mine, more in zip(self._told, told, strict=True):
+            mine.update(more if isinstance(more, set) else {node: name or notes.owner for node, name in more.items()})
+        notes.owner = last or notes.owner
+        return cast(Made, self._own(made))
+
+    @property
+    def _told(self) -> Told:
+        """What has been read and noted so far."""
+        return self.read, self.through, self.notes.assumed, self.notes.switches, self.notes.gaps
+
+    @_told.setter
+    def _told(self, told: Told) -> None:
+        self.read, self.through, self.notes.assumed, self.notes.switches, self.notes.gaps = told
+
+    def _own(self, made: object) -> object:
+        """Return numbers that were traced for another law as numbers of this one."""
+        if isinstance(made, Traced):
+            return self.number(cast(Scalar, made))
+        if isinstance(made, np.ndarray):
+            return self._array(made) if made.dtype == object else made
+        if isinstance(made, (tuple, list)):
+            return type(made)(map(self._own, made))
+        if isinstance(made, Levers | AppliedLoads | AppliedLoad | AppliedThrust):
+            return replace(made, **{each.name: self._own(getattr(made, each.name)) for each in fields(made)})
+        return made
 
     # -- numbers ---------------------------------------------------------------------------------------------
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar, Unpack
+from weakref import ref
 
 import numpy as np
 
@@ -34,7 +35,7 @@ from .applied import AppliedLoads, applied_elements, applied_loads, member_title
 from .force_program import forces_at
 from .held import held_in_case
 from .holding import Holders, Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
-from .law_requests import situation_identity
+from .law_requests import is_unchanging, situation_identity
 from .poses import AnyMotion, FlatPoses, plan_of
 from .solution import LEAST, PoseForces, locked_words
 from .traced_loads import TracedMotion, refuse_friction, traced_loads
@@ -165,6 +166,15 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
     held = motion._of_the_whole(member) if isinstance(motion, Motion) else None
     if held is not None:
         return member_thrust(*held, acting)
+    identity = situation_identity(acting)
+    if not isinstance(motion, TracedMotion) or identity is None or not is_unchanging(member):
+        return member_thrust_on(motion, member, acting)
+    key = "thrust", ref(member), identity, acting.movement, acting.direction, acting.drive
+    return motion._once(key, lambda: member_thrust_on(motion, member, acting))
+
+
+def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatArray:
+    """Return the same of a motion's own plan, worked out anew."""
     plan_of(motion)
     motion = held_in_case(motion, acting)
     plan = motion.plan
@@ -238,13 +248,13 @@ def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> Fl
 
 def shared_key(motion: AnyMotion, acting: Acting, rates: Rates) -> Hashable:
     """Return what tells loads at rest from others that act on a motion; None where they are worked out for each who asks."""
-    identity = situation_identity(acting) if rates is AT_REST and isinstance(motion, Motion) else None
+    identity = situation_identity(acting) if rates is AT_REST else None
     return None if identity is None else (identity, acting.movement, acting.drive)
 
 
 def made_once(motion: AnyMotion, shared: Hashable, what: Hashable, make: Callable[[], Made]) -> Made:
     """Return what all cylinders ask of the same loads on a motion, made once; each time where no key tells the loads."""
-    return make() if shared is None else require_motion(motion)._once(("held", what, shared), make)
+    return make() if shared is None else motion._once(("held", what, shared), make)
 
 
 def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
 from traceback import extract_tb
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
     import numpy.typing as npt
+
+Result = TypeVar("Result")
 
 
 class LinkageError(Exception):
@@ -91,6 +93,20 @@ def unwarned() -> Iterator[None]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SingularWarning)
         yield
+
+
+def warned_once(make: Callable[[], Result]) -> Result:
+    """Return what is made; of its warnings of poses near singular ones only that with the largest error to expect is given."""
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", SingularWarning)
+        made = make()
+    near = [each.message for each in heard if isinstance(each.message, SingularWarning)]
+    for each in heard:
+        if not isinstance(each.message, SingularWarning):
+            warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
+    if near:
+        warn(max(near, key=lambda each: (each.estimate == each.estimate, each.estimate)))  # NaN last
+    return made
 
 
 @contextmanager

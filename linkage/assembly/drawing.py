@@ -64,6 +64,7 @@ def sketch_words(plan: Plan, designs: Mapping[str, Numbers]) -> list[str]:
     return found
 
 
+@np.errstate(all="ignore")
 def width_words(plan: Plan, designs: Mapping[str, Numbers]) -> str:
     """Return how wide a machine is at the pose of its sketch, and what to write, where no machine is; else nothing.
 
@@ -76,8 +77,11 @@ def width_words(plan: Plan, designs: Mapping[str, Numbers]) -> str:
     except AssemblyError:
         return ""
     places = [reading.at(name) for name in plan.points if name not in far]
-    parts = [np.array(np.broadcast_arrays(*rows)) for rows in ([each.x for each in places], [each.y for each in places]) if rows]
-    width = max((float(np.nanmax(np.max(each, axis=0) - np.min(each, axis=0), initial=0.0)) for each in parts), default=0.0)
+    if not places:
+        return ""
+    parts = np.array(np.broadcast_arrays(*(part for each in places for part in (each.x, each.y))), float)
+    spans = [np.fmax.reduce(one) - np.fmin.reduce(one) for one in (parts[0::2], parts[1::2])]  # of the points that have a place
+    width = float(np.nan_to_num(spans).max())
     if width <= WIDE:
         return ""
     return said(

@@ -15,7 +15,7 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from ..checks import require_type
-from ..errors import DefinitionError, cited, known_name, told, unwarned
+from ..errors import DefinitionError, cited, known_name, told, unwarned, warned_once
 from ..language import said
 from ..loads import FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..plan import Mask, Plan
@@ -276,7 +276,7 @@ class Domain:
         if self.over.shape == "poses" or not self.motion.strokes:
             with np.errstate(all="ignore"):
                 return worst_at_poses(asked, self.motion), asked.seen
-        found = extremum(self.motion, asked, 1.0)
+        found = warned_once(lambda: extremum(self.motion, asked, 1.0))
         shape = (len(rows), *self.motion._design_shape)
         value, unbounded = (np.broadcast_to(np.asarray(each), shape) for each in (found.value, found.unbounded))
         strokes = {name: np.broadcast_to(np.asarray(each), shape) for name, each in found.strokes.items()}

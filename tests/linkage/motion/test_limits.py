@@ -374,3 +374,15 @@ def test_a_machine_of_hundreds_of_metres_is_told_wherever_it_is_asked():
             warnings.simplefilter("always")
             design.answers([reachable])
         assert [str(each.message) for each in heard] == ([f"Boom: {told}"] if told else [])
+
+
+def test_a_machine_whose_sketch_cannot_be_assembled_is_not_called_wide():
+    class Short(Mechanism):
+        S = Stroke(0.0, 0.4)
+        O, A = Ground(0.0, 0.0), Ground(0.0, -0.4)
+        B = Dyad(A, O, AB=0.05 + S, OB=0.3, side=RIGHT)
+
+    limits = Short().sweep(5, unreachable="nan").limits()
+    assert limits.remark == ""
+    assert "wide" not in str(limits)
+    assert not [each for each in Short().verdicts() if "wide" in each.sentence]

@@ -24,6 +24,10 @@ from linkage import (
     SingularWarning,
     Stroke,
     distance,
+    least,
+    most,
+    x,
+    y,
 )
 from linkage.motion import conditions
 from linkage.motion import differences as numeric
@@ -192,3 +196,25 @@ def test_a_derivative_of_nothing_is_nothing():
     motion = Lever().at(S=[0.9, 1.1])
     assert_allclose(motion.ratio(distance("A", "O") + 0 * Lever.S, method="central"), 0.0, atol=1e-9)
     assert_allclose(motion.ratio(distance("O", "B"), method="central"), 0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.0937, -0.2])
+def test_a_singular_place_in_a_box_of_three_strokes_is_told_once(shift):
+    """Two guides that turn are parallel along a whole surface of the box."""
+
+    class Cross(Mechanism):
+        a, b, c = Stroke(-0.5, 0.5), Stroke(-0.4, 0.5), Stroke(0.0, 0.3)
+        O, A = Ground(0, 0), Ground(1, 0)
+        P, Q = Crank(O, OP=0.5, angle=a + shift), Crank(A, AQ=0.5, angle=b)
+        r, s = Guide(O, P), Guide(A, Q)
+        X = GuideCross(r, s)
+        E = Crank(X, XE=0.5, angle=c)
+
+    for ask in (lambda m: m.verdicts(), lambda m: m.answers([most(y("E")), least(x("E"))])):
+        with warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always")
+            ask(Cross())
+        assert len(heard) <= 1
+        assert all("X is near a dead point" in str(each.message) for each in heard)
+    (told,) = [each for each in Cross().verdicts() if "among what runs: no drive passes or starts there" in each.sentence]
+    assert "X at a = " in told.sentence

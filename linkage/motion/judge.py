@@ -699,8 +699,9 @@ class Judge:
         found: dict[Any, Sought] = {}
         for situation in place.situations(request, self.acting):
             situated = request.under(situation.acting, keep=True) if isinstance(request, Request) else request
-            whole = isinstance(leaf, Integral) or not isinstance(situated, Request)  # the integral of the worst piece is not the worst one
-            pieces = (SmoothPiece(situated),) if whole else situated.pieces(self.plan)
+            pieces: Sequence[SmoothPiece] = (SmoothPiece(situated),)
+            if isinstance(situated, Request) and not isinstance(leaf, Integral):  # the worst integral of a piece is not that of the worst
+                pieces = situated.pieces(self.plan)
             for piece in pieces:
                 key = key_of(self.plan, piece.request)
                 row = Sought(leaf, piece, situation, sense)

@@ -168,7 +168,7 @@ def alternatives_to(problem: Problem, best: GivenWay, looked: FloatArray | None)
     many = len(problem.constraints)
     if not problem.space.variables or many < 2:
         return []
-    coarse = problem.with_counts(COARSE)
+    coarse = problem.changed(counts=COARSE)
     missing = None if looked is None or not len(looked) else coarse.missing_of_each(best.combination, looked)
     found: list[tuple[float, Relaxation]] = []
     for row, each in list(enumerate(problem.constraints))[:ALTERNATIVES]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from hashlib import blake2b
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar, final, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, final, overload
 
 import numpy as np
 
@@ -204,7 +204,7 @@ def optimise(
         goals = [mean_in_cases(each, shares) if shares else in_case(each, cases[0]) for each in objectives]
         problem = Problem(machine, goals, held, space, 1.0, over)
         problem.count.limit = limit or default_limit(problem, replace(plan, is_front=True))
-        check_moved(problem)
+        check_objectives_move(problem)
         with progress_told(progress, machine.plan.heading) as tell:
             return front(problem, plan.seed, tell)
     sought = [mean_in_cases(objectives[0], shares)] if shares else [in_case(objectives[0], each) for each in cases]
@@ -213,7 +213,7 @@ def optimise(
     problem = Problem(machine, sought, held, space, sense, over)
     if robust is not None:
         problem = with_spread(problem, robust, sigmas)
-    check_moved(problem)
+    check_objectives_move(problem)
     problem.count.limit = limit or default_limit(problem, plan)
     with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):  # the same to the last bit whatever ran before
         return DesignSearch(problem, plan, Journal.of(folder, problem, plan), tell).run()
@@ -300,19 +300,19 @@ def objective_of(machine: Mechanism, given: object) -> Measure:
     )
 
 
-def check_moved(problem: Problem) -> None:
-    """Raise StudyError where nothing that varies moves an objective: it is the same of designs spread over the box."""
-    alone, space = problem.anew(), problem.space
+def check_objectives_move(problem: Problem) -> None:
+    """Raise StudyError where nothing that varies moves what is sought: it is the same of designs spread over the box."""
+    alone, space = problem.changed(count=None), problem.space
     units = unit_points(MOVED, len(space.variables), "sobol", 0) if space.variables else np.zeros((1, 0))
     some = islice(space.combinations(), MOVED)
     seen = np.concatenate([alone.merits_of_each(each, units)[0] for each in some], axis=1)
-    for objective, row in zip(problem.objectives, seen, strict=True):
-        known = row[np.isfinite(row)]
-        if known.size > 1 and np.ptp(known) <= SAME_TO_DIGITS * np.abs(known).max():
-            names = ", ".join([each.name for each in space.variables] + [name for group in space.names for name in group])
-            value = show(float(known[0]), unit_of_measure(problem.plan, objective))
-            what = f"{problem.plan.title}: nothing that varies moves {objective}, which is {value} whatever {names}"
-            raise StudyError(f"{what}; vary what it depends on, or give another objective.")
+    seen = seen[:, np.isfinite(seen).all(axis=0)]
+    if seen.shape[1] > 1 and bool(np.all(np.ptp(seen, axis=1) <= SAME_TO_DIGITS * np.abs(seen).max(axis=1))):
+        names = ", ".join([each.name for each in space.variables] + [name for group in space.names for name in group])
+        fixed = zip(problem.objectives, seen[:, 0], strict=True)
+        said = " and ".join(f"{each}, which is {show(float(value), unit_of_measure(problem.plan, each))}" for each, value in fixed)
+        what = f"{problem.plan.title}: nothing that varies moves {said} whatever {names}"
+        raise StudyError(f"{what}; vary what it depends on, or give another objective.")
 
 
 # Load cases.
@@ -380,7 +380,7 @@ def with_spread(problem: Problem, robust: object, sigmas: object) -> Problem:
         if each.symbol != "==":  # its sides are spread against it
             sense = -1.0 if each.symbol == ">=" else 1.0
             constraints[place] = Constraint(spread(each.left, sense), each.symbol, spread(each.right, -sense))
-    return Problem(problem.machine, objectives, constraints, problem.space, problem.sense, problem.over)
+    return problem.changed(objectives=objectives, constraints=constraints, count=None)
 
 
 def with_leaf(measure: Measure, leaf: Leaf, other: Leaf) -> Measure:
@@ -478,6 +478,9 @@ def entry_of(line: str) -> dict[str, Any] | None:
 
 # The search.
 
+Ended: TypeAlias = tuple[tuple[int, ...], SearchEnd]
+"""A local search that is done: its combination and what it came to."""
+
 
 @final
 @dataclass(frozen=True)
@@ -522,21 +525,12 @@ class Screened:
 
 
 @final
-@dataclass(frozen=True, eq=False)
-class Ended:
-    """A local search that is done: its combination and what it came to."""
-
-    combination: tuple[int, ...]
-    found: SearchEnd
-
-
-@final
 class DesignSearch:
     """One search under way."""
 
     def __init__(self, problem: Problem, plan: SearchPlan, journal: Journal, tell: Progress) -> None:
         self.problem, self.plan, self.journal, self.tell = problem, plan, journal, tell
-        self.coarse = problem.with_counts(COARSE)
+        self.coarse = problem.changed(counts=COARSE)
         self.cut: list[str] = []
         self.spread_words = ""
         self.looked: list[Screened] = []
@@ -570,7 +564,7 @@ class DesignSearch:
         self.tell(0, len(tasks))
         for done, (combination, number, unit) in enumerate(tasks):
             try:
-                ended.append(Ended(combination, self.ended(combination, unit, number)))
+                ended.append((combination, self.ended(combination, unit, number)))
             except LimitReachedError:
                 break
             except KeyboardInterrupt as stopped:
@@ -583,17 +577,17 @@ class DesignSearch:
         """Return the most promising designs that no local search began with, where the limit is reached; else none."""
         if not self.problem.count.is_spent:
             return []
-        problem, found = self.problem.with_counts(SAMPLES), []
+        problem, found = self.problem.changed(counts=SAMPLES), []
         with problem.count.without_limit():
             for each in screened[:KEPT]:
                 for place in each.order[:KEPT]:
                     if each.begins[place]:
                         with suppress(LinkageError):
                             unit = each.unit[place]
-                            found.append(Ended(each.combination, Local(problem, each.combination, unit).judged(unit)))
+                            found.append((each.combination, Local(problem, each.combination, unit).judged(unit)))
         return found
 
-    def hopeless(self, screened: Sequence[Screened]) -> list[tuple[tuple[int, ...], SearchEnd]]:
+    def hopeless(self, screened: Sequence[Screened]) -> list[Ended]:
         """Return designs that miss conditions least, by few poses, where nothing nearby keeps all; none where there is hope.
 
         That is looked for where none of the designs spread over the box keeps all: from some of them, letting conditions give way. At few
@@ -607,7 +601,7 @@ class DesignSearch:
         for each in screened:
             for unit in self.starts(each, len(screened))[:HOPES]:
                 try:
-                    local = Local(problem.with_counts(SAMPLES), each.combination, unit, elastic=problem.constraints)
+                    local = Local(problem.changed(counts=SAMPLES), each.combination, unit, elastic=problem.constraints)
                     least = local.least()
                 except LimitReachedError:
                     return []
@@ -696,7 +690,7 @@ class DesignSearch:
 
     def locally(self, combination: tuple[int, ...], unit: FloatArray) -> SearchEnd:
         """Return what a local search comes to, with samples of its own: no search depends on those before it."""
-        problem = self.problem.with_counts(SAMPLES)
+        problem = self.problem.changed(counts=SAMPLES)
         try:
             local = Local(problem, combination, unit)
             return local_search(local, NEARLY) if problem.space.variables else local.judged(unit)
@@ -710,27 +704,24 @@ class DesignSearch:
     def chosen(self, ended: Sequence[Ended], searched: int) -> Optimum:
         """Return the best design that is assembled over the whole stroke and keeps everything; StudyError where there is none."""
         sense, lost = self.problem.sense, []
-        for each in sorted((one for one in ended if one.found.feasible), key=lambda one: sense * one.found.value):
+        for combination, found in sorted((one for one in ended if one[1].feasible), key=lambda one: sense * one[1].value):
             try:
-                everyone = [one.found for one in ended if one.combination == each.combination]
-                best = polished(self.problem, each.combination, each.found, everyone, searched, self.cut)
+                everyone = [end for other, end in ended if other == combination]
+                best = polished(self.problem, combination, found, everyone, searched, self.cut)
                 return replace(best, tried=self.tried(ended))
             except AssemblyError as error:
                 lost.append(str(error))
         if lost:
             raise StudyError(f"{self.problem.plan.title}: no design that was found can be kept. {lost[0]}")
         with self.problem.count.without_limit():
-            raise infeasible_error(self.problem, [(each.combination, each.found) for each in ended], self.spread())
+            raise infeasible_error(self.problem, ended, self.spread())
 
     def tried(self, ended: Sequence[Ended]) -> tuple[EvaluatedDesigns, ...]:
         """Return the designs that were looked at, then what the local searches came to."""
         sense = self.problem.sense
         looked = [EvaluatedDesigns("looked at", each.combination, each.unit, sense * each.value, each.missing) for each in self.looked]
-        ends = [(each.combination, each.found) for each in ended]
-        return (
-            *looked,
-            *(EvaluatedDesigns("searched", at, one.unit[None], np.array([one.value]), np.array([one.missing])) for at, one in ends),
-        )
+        ends = (EvaluatedDesigns("searched", at, end.unit[None], np.array([end.value]), np.array([end.missing])) for at, end in ended)
+        return (*looked, *ends)
 
     def without_value(self, screened: Sequence[Screened]) -> StudyError:
         """Return the error for a box in which the objective has no value."""

@@ -18,6 +18,7 @@ from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError
 from ..mechanism import Mechanism
 from ..motion.kinds import measure_of, measure_unit
+from ..motion.line import Index
 from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, Worst
 from ..plan import Plan
 from ..program import FloatArray
@@ -464,10 +465,7 @@ class StepSearch:
         """Return the most promising of all steps, by few poses."""
         every = np.array([*product(*map(range, self.counts))])
         units = every * np.array([each.step / each.span for each in self.stepped if each.step is not None])
-        value, missing, _ = self.problem.merits(self.combination, units)
-        short = np.where(np.isfinite(missing), np.maximum(missing, 0.0), np.inf)
-        worth = np.where(np.isfinite(value), self.problem.sense * value, np.inf)
-        order = np.lexsort((worth, np.where(short <= NEAR_KEPT, 0.0, short)))
+        _, order = best_first(self.problem, self.combination, units, NEAR_KEPT)
         return [tuple(map(int, every[place])) for place in order[:JUDGED]]
 
     def about(self) -> list[tuple[int, ...]]:
@@ -489,12 +487,10 @@ class StepSearch:
             column = variables.index(each)
             steps[:, place] = np.minimum((units[:, column] * count).astype(int), count - 1)
             units[:, column] = steps[:, place] * (each.step or 0.0) / each.span
-        value, missing, _ = self.problem.merits(self.combination, units)
-        short = np.where(np.isfinite(missing), np.maximum(missing, 0.0), np.inf)
-        worth = np.where(np.isfinite(value), self.problem.sense * value, np.inf)
+        value, order = best_first(self.problem, self.combination, units, NEAR_KEPT)
         free = [place for place, each in enumerate(variables) if each.step is None]
         found: dict[tuple[int, ...], FloatArray] = {}
-        for place in np.lexsort((worth, np.where(short <= NEAR_KEPT, 0.0, short))):
+        for place in order:
             if np.isfinite(value[place]):
                 found.setdefault(tuple(map(int, steps[place])), units[place, free])
             if len(found) == PROMISING:
@@ -532,7 +528,7 @@ class StepSearch:
         values = [each.low + (each.step or 0.0) * step for each, step in zip(self.stepped, steps, strict=True)]
         held = tuple((((each.owner, each.sign),), ((value,),)) for each, value in zip(self.stepped, values, strict=True))
         smaller = Space(self.rest, (*space.choices, *held), (*space.names, *((each.name,) for each in self.stepped)))
-        inner, whole = self.problem.with_space(smaller), (*self.combination, *(0 for _ in self.stepped))
+        inner, whole = self.problem.changed(space=smaller), (*self.combination, *(0 for _ in self.stepped))
         near = np.array([at for at, each in zip(self.found.unit, space.variables, strict=True) if each.step is None])
         found = [each for unit in (near, self._starts.get(steps)) if unit is not None and (each := self._from(inner, whole, unit))]
         return (inner, whole, min(found, key=lambda each: worth_in_order(inner, each))) if found else None
@@ -589,7 +585,7 @@ def rounded_design(optimum: Optimum, to: float, angle: float) -> Rounded:
     tried = list(islice(product(*near), MOST_ROUNDINGS))
     units = np.array([[(each - one.low) / (one.span or 1.0) for each, one in zip(row, space.variables, strict=True)] for row in tried])
     best: tuple[float, float, Mechanism] | None = None
-    for place in most_promising(optimum, units)[:8]:
+    for place in best_first(problem, optimum.combination, units, MET)[1][:8] if space.variables else [0]:
         machine = problem.machine_of(units[place], optimum.combination)
         worth = worth_of(problem, machine)
         if np.isfinite(worth[0]) and (best is None or order_of_worth(problem, *worth) < order_of_worth(problem, *best[:2])):
@@ -608,15 +604,12 @@ def rounded_design(optimum: Optimum, to: float, angle: float) -> Rounded:
     return Rounded(machine, now, cost, short, text)
 
 
-def most_promising(optimum: Optimum, units: FloatArray) -> list[int]:
-    """Return the numbers of designs (m, n) in the order of their worth at few poses."""
-    problem = optimum.problem
-    if not problem.space.variables:
-        return [0]
-    value, missing, _ = problem.merits(optimum.combination, units)
-    short = np.nan_to_num(missing, nan=1e9, posinf=1e9)
+def best_first(problem: Problem, combination: Sequence[int], units: FloatArray, near: float) -> tuple[FloatArray, Index]:
+    """Return the objectives (m,) of designs (m, n) at few poses, and their order, the best first; misses up to `near` are none."""
+    value, missing, _ = problem.merits(combination, units)
+    short = np.where(np.isfinite(missing), np.maximum(missing, 0.0), np.inf)
     worth = np.where(np.isfinite(value), problem.sense * value, np.inf)
-    return [int(place) for place in np.lexsort((worth, np.where(short <= MET, 0.0, short)))]
+    return value, np.lexsort((worth, np.where(short <= near, 0.0, short)))
 
 
 def steps_about(value: float, step: float, variable: Varied) -> list[float]:

@@ -71,7 +71,7 @@ class Front(Shown):
 def front(problem: Problem, seed: int, tell: Progress) -> Front:
     """Return the front of a problem's objectives, each to be least; those whose sign was changed are shown with their own."""
     from_pymoo()
-    coarse, found = problem.with_counts(COARSE), []
+    coarse, found = problem.changed(counts=COARSE), []
     combinations = [*problem.space.combinations()]
     tell(0, len(combinations))
     for done, combination in enumerate(combinations):
@@ -161,7 +161,7 @@ def on_front(
     objectives = problem.objectives
     limits = [] if held is None else [Constraint(each, "<=", Given(float(limit))) for each, limit in zip(objectives, held, strict=True)]
     own = [*problem.constraints, *(each for number, each in enumerate(limits) if number != place)]
-    one = Problem(problem.machine, [objectives[place]], own, problem.space, 1.0, problem.over, count=problem.count)
+    one = problem.changed(objectives=[objectives[place]], constraints=own)
     try:
         with problem.count.without_limit():
             local = Local(one, combination, unit)

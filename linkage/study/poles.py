@@ -29,7 +29,7 @@ def check_bounded(problem: Problem, now: LeafNumbers, combination: Sequence[int]
 
     `now` are the numbers of the best design, at unit coordinates (n,). A pole at which the objective is worse than there is none.
     """
-    problem = problem.anew()  # these looks are no part of the search
+    problem = problem.changed(count=None)  # these looks are no part of the search
     asked, named = divisors(problem.objectives), f"{problem.plan.title}: {', '.join(map(str, problem.objectives))}"
     n = len(problem.space.variables)
     looks = [problem.evaluated(problem.dimensions_at(np.full(n, part), combination)) for part in (0.1, 0.5, 0.9)] if asked else []

@@ -63,6 +63,8 @@ INNER = 65
 """Samples of the stroke over which the worst value is taken."""
 
 
+ARGUMENTS = ("machine", "objectives", "constraints", "space", "sense", "over", "counts", "count")
+"""What a problem is made of; its count is not sent to other processes."""
 NOWHERE = Space((), (), ())
 """A space without variables: that of one design."""
 
@@ -324,17 +326,9 @@ class Problem:
         """At how many poses a design is looked at."""
         return sum(prod(map(len, each.axes.values())) * max(len(each.singles), 1) for each in self.sets)
 
-    def with_counts(self, counts: Mapping[int, int]) -> Problem:
-        """Return the same problem at another number of samples."""
-        return Problem(self.machine, self.objectives, self.constraints, self.space, self.sense, self.over, counts, self.count)
-
-    def with_space(self, space: Space) -> Problem:
-        """Return the same problem with other variables and choices."""
-        return Problem(self.machine, self.objectives, self.constraints, space, self.sense, self.over, self.counts, self.count)
-
-    def anew(self) -> Problem:
-        """Return the same problem with samples and a count of its own."""
-        return Problem(self.machine, self.objectives, self.constraints, self.space, self.sense, self.over, self.counts)
+    def changed(self, **other: Any) -> Problem:
+        """Return the same problem with some of its arguments changed, with samples of its own; what counts designs goes along."""
+        return Problem(**{name: getattr(self, name) for name in ARGUMENTS} | other)
 
     def on_branch(self, combination: Sequence[int]) -> Problem:
         """Return the problem of the machine whose steps are on the sides of a combination: itself where none is chosen."""
@@ -344,13 +338,12 @@ class Problem:
             return self
         known = self._branches.get(machine.plan.key)
         if known is None:
-            given = self.objectives, self.constraints, self.space, self.sense, self.over, self.counts, self.count
-            known = self._branches[machine.plan.key] = Problem(machine, *given)
+            known = self._branches[machine.plan.key] = self.changed(machine=machine)
         return known
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return what pickle is to make the problem of: what follows from it does not go."""
-        return Problem, (self.machine, self.objectives, self.constraints, self.space, self.sense, self.over, self.counts)
+        return Problem, tuple(getattr(self, name) for name in ARGUMENTS[:-1])
 
     @property
     def facts(self) -> str:
@@ -914,7 +907,7 @@ def scale_among(constraint: Constraint, size: float) -> float:
     return (max(given, EXACT * size) if given > 0.0 else size) or 1.0
 
 
-def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray], size: float | None = None) -> FloatArray:
+def missed(constraint: Constraint, numbers: Mapping[Leaf, Any], size: float | None = None) -> FloatArray:
     """Return by how much of its size a condition is missed by designs, from the leaves' numbers (m,); nothing where one says nothing.
 
     Without a size it is the larger of the two sides, of each design.

@@ -18,7 +18,7 @@ from ..errors import DefinitionError, StudyError
 from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most
 from ..program import FloatArray
 from .constrained_step import constrained_step
-from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Truth, reduced, scale_among, size_of_rows, terms_size
+from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Truth, missed, reduced, scale_among, size_of_rows, terms_size
 from .sampling import no_value
 
 FAR = 10.0
@@ -745,15 +745,7 @@ def true_worth(problem: Problem, values: LeafNumbers) -> float:
 
 def missing_of(constraints: Sequence[Constraint], scales: Sequence[float], values: LeafNumbers) -> float:
     """Return by how much the worst of some constraints is missed, in parts of its size; infinite where one has no value."""
-    missing = 0.0
-    for each, scale in zip(constraints, scales, strict=True):
-        with np.errstate(all="ignore"):
-            margin = float(each.margin.of(lambda leaf: np.float64(values[leaf]))) / scale
-        if values.lost.intersection(each.margin.leaves):
-            return np.inf
-        if np.isnan(margin):
-            if all(np.isfinite(values[leaf]) for leaf in each.margin.leaves) or each.symbol == "==":
-                return np.inf
-            continue  # a quantity that says nothing anywhere: not limited
-        missing = max(missing, abs(margin) if each.symbol == "==" else -margin)
-    return missing
+    if any(values.lost.intersection(each.margin.leaves) for each in constraints):
+        return np.inf
+    with np.errstate(all="ignore"):
+        return max([0.0, *(float(missed(each, values, scale)) for each, scale in zip(constraints, scales, strict=True))])

@@ -23,6 +23,8 @@ RUN = 721
 """Poses of a stroke at which is looked where a machine that does not run can be assembled."""
 FAR_OFF, NEARER = 0.05, 0.1
 """Of a task's size: points that are missed by more are looked for on other branches; they lie there where that misses by this part."""
+TOLD = 3
+"""Answers that a sentence lists, and machines that do not run."""
 NEAR_CHANGE_POINT = 1.0 * deg
 NEAR_GRASHOF = 0.01
 """Of the longest link: a margin that is less is told."""

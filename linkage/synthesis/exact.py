@@ -30,9 +30,8 @@ from ..steps import Guide
 from ..study.sides import class_on_sides
 from ..units import show
 from ..vectors import LEFT, RIGHT, Side
-from .defects import point_ranges, points_on_circuits
+from .defects import TOLD, point_ranges, points_on_circuits
 from .fit import TURN, goes_one_way, one_way_round, within_turn
-from .synthesis import TOLD
 
 ComplexArray: TypeAlias = npt.NDArray[np.complex128]
 

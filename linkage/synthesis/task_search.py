@@ -31,7 +31,6 @@ from ..study.problem import Problem, end_words
 from ..study.space import FAR, Space, size_of_machine
 from ..study.survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
 from ..units import show
-from .classes import synthesised_classes
 from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
 from .defects import branch_words, circuit_words, in_order, is_near_change_point, order_words
 from .fit import Fit, Timing
@@ -49,6 +48,7 @@ from .synthesis import (
     machine_words,
     misses_of,
     poorest_transmission,
+    synthesised_classes,
     told_error,
 )
 from .task_error import moving_stroke

@@ -119,7 +119,7 @@ class FitWork(ABC):
 
     def fit(self, combination: Combination) -> Fit:
         """Return a fit with a problem of its own: its samples and its count are of nobody else."""
-        return Fit(self.problem.on_branch(combination).anew(), self.rows, self.timing, combination, self.known)
+        return Fit(self.problem.on_branch(combination).changed(count=None), self.rows, self.timing, combination, self.known)
 
     def done(self, rows: Rows, start: int, stop: int) -> list[dict[str, Array]]:
         """Return what is found of the designs from start to before stop, of each piece, with how many designs were `looked` at."""

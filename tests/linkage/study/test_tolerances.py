@@ -204,7 +204,7 @@ def test_a_million_samples_have_the_sigma_of_the_gradient(machine):
 
 
 def test_results_do_not_depend_on_threads_blocks_and_memory(monkeypatch):
-    conditions = [most("tilt") <= 25 * deg, least(drive_force()) >= 59.5 * kN, integral(drive_force()) <= 16149.0]
+    conditions = [most("tilt") <= 25 * deg, least(drive_force()) >= 59.5 * kN, integral(drive_force()) <= 16140.0]
     one = monte_carlo(ThreePointHitch(), ["tilt", drive_force()], HITCH, subject_to=conditions, count=3000, S=S)
     room = import_module("linkage.study.monte_carlo")
     assert 0.0 < one.yield_rate < 1.0
@@ -276,10 +276,13 @@ def test_measures_are_taken_over_the_strokes_looked_at():
     found = monte_carlo(ThreePointHitch(), quantities, HITCH, subject_to=conditions, count=300, S=S)
     motion = ThreePointHitch(**found.designs).at(S=S)
     forces = ThreePointHitch(**found.designs).evaluate([force], S=S)[0]
+    way = np.linspace(S[0], S[-1], 2001)  # an integral looks between the strokes, too
+    fine = ThreePointHitch(**found.designs).evaluate([force], S=way)[0]
     there = ThreePointHitch(**found.designs).at(S=0.13)["tilt"]
-    known = {"range": swing(motion), "work": np.trapezoid(forces, S, axis=-1), "there": there, "of one": motion["tilt"].max(axis=-1)}
+    known = {"range": swing(motion), "work": np.trapezoid(fine, way, axis=-1), "there": there, "of one": motion["tilt"].max(axis=-1)}
     for name, values in known.items():
-        assert_allclose([found[name].mean, found[name].sigma], [values.mean(), values.std(ddof=1)], rtol=1e-9)
+        digits = 1e-5 if name == "work" else 1e-9
+        assert_allclose([found[name].mean, found[name].sigma], [values.mean(), values.std(ddof=1)], rtol=digits)
     kept = [known["range"] <= 13.73 * deg, there >= 9.8 * deg, forces.max(axis=-1) / forces.min(axis=-1) <= 1.2]
     assert_array_equal(found.good, np.all(kept, axis=0))
     assert_allclose([*found.kept.values()], np.mean(kept, axis=1))

@@ -22,8 +22,15 @@ from linkage import (
     synthesise,
     transmission,
 )
-from linkage.synthesis.classes import default_box, designs_of_classes, laid_machine, search_of_class, shipped_machines, synthesised_classes
-from linkage.synthesis.synthesis import swept_size
+from linkage.synthesis.synthesis import (
+    default_box,
+    designs_of_classes,
+    laid_machine,
+    search_of_class,
+    shipped_machines,
+    swept_size,
+    synthesised_classes,
+)
 from linkage.synthesis.tasks import task_named_in
 from mechanisms.classics.four_bar import DragLink, FourBar
 from mechanisms.classics.slider_crank import SliderCrank

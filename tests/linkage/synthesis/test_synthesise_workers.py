@@ -118,7 +118,7 @@ def test_a_function_without_source_text_has_no_folder(tmp_path):
 def test_what_goes_to_workers_is_small_and_whole(alone):
     problem = pickle.loads(pickle.dumps(alone.problem))
     unit = np.full((3, len(problem.space.variables)), 0.4)
-    one, two = (each.anew().missing_of_each((1,), unit) for each in (problem, alone.problem))
+    one, two = (each.changed(count=None).missing_of_each((1,), unit) for each in (problem, alone.problem))
     assert np.array_equal(one, two)
     assert len(pickle.dumps(alone.problem)) < 100_000
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, final
 
 import numpy as np
 
+from ..errors import LinkageError
 from ..mechanism import Mechanism
-from ..motion.measures import Condition, Constraint, Leaf, Measure
+from ..motion.measures import Condition, Constraint, Integral, Leaf, Measure
 from ..program import FloatArray
 from ..study.optimum import unit_of_measure
 from ..study.problem import NOWHERE, Problem, missed, reduced
@@ -35,16 +37,23 @@ class TextMeasures:
     def __call__(self, machine: Mechanism) -> dict[str, Any]:
         """Return a number or a truth value for each design of a machine, shape (m,), by name."""
         said = self.said(machine)
-        look = self.problem(machine, said).evaluated(machine.dimensions)
+        problem = self.problem(machine, said)
+        drawn = {name: entry.default for name, entry in machine.plan.table.entries.items()}
+        for leaf in problem.leaves:  # panels are those of the machine as its class has it, whatever the batch
+            if isinstance(leaf, Integral):
+                with suppress(LinkageError):
+                    problem.refined_panels(leaf, drawn)
+        look = problem.evaluated(machine.dimensions)
         numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
         count = max(np.size(value) for value in machine.dimensions.values())
         found: dict[str, Any] = {}
         for name, each in said.items():
             if isinstance(each, Measure):
-                found[name] = np.where(look.whole, design_values(each, numbers, count), np.nan)
+                lost = np.any([np.zeros(count, bool), *(look.rows[leaf].lost for leaf in each.leaves)], axis=0)
+                found[name] = np.where(look.whole & ~lost, design_values(each, numbers, count), np.nan)
             else:
-                lost = [look.rows[leaf].lost for one in each for leaf in one.margin.leaves]
-                found[name] = look.whole & keeps(each, numbers, count) & ~np.any([np.zeros(count, bool), *lost], axis=0)
+                lost = np.any([np.zeros(count, bool), *(look.rows[leaf].lost for one in each for leaf in one.margin.leaves)], axis=0)
+                found[name] = look.whole & keeps(each, numbers, count) & ~lost
         return found
 
     def said(self, machine: Mechanism) -> dict[str, Measure | list[Constraint]]:

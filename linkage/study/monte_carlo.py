@@ -399,7 +399,8 @@ def worst_case(
     levels = np.unique(np.concatenate([np.sign(rise).T, -np.sign(rise).T, np.zeros((1, k))]), axis=0)
     values = at(levels)
     for _ in range(ROUNDS):
-        ends = extreme_rows(values)
+        known = ~np.isnan(values)
+        ends = {*np.argmin(np.where(known, values, np.inf), axis=0), *np.argmax(np.where(known, values, -np.inf), axis=0)}
         near = np.unique(np.concatenate([neighbours(levels[row]) for row in ends]), axis=0) if k else levels
         found = at(near)
         better = (least_by_column(found) < least_by_column(values)) | (-least_by_column(-found) > -least_by_column(-values))
@@ -413,13 +414,6 @@ def least_by_column(values: FloatArray) -> FloatArray:
     """Return the least value of each column that has one, else NaN."""
     least = np.min(np.where(np.isnan(values), np.inf, values), axis=0)
     return np.where(np.isinf(least), np.nan, least)
-
-
-def extreme_rows(values: FloatArray) -> list[int]:
-    """Return the rows that hold the least or the greatest value of a column."""
-    known = ~np.isnan(values)
-    rows = [*np.argmin(np.where(known, values, np.inf), axis=0), *np.argmax(np.where(known, values, -np.inf), axis=0)]
-    return sorted({int(row) for row in rows})
 
 
 def neighbours(level: FloatArray) -> FloatArray:

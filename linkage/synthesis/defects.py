@@ -72,7 +72,8 @@ def circuit_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
     lost = said("it cannot be assembled {where}", where=where)
     if len(groups) < 2:
         return lost
-    if is_of_circuits(fit):
+    closing = [each for each in fit.plan.of_kind(Step).values() if each.closes and each.modes()]
+    if len(closing) == 1 and not fit.plan.groups:  # both of its branches meet at the ends of each part of the stroke
         return f"{lost}; {points_on_circuits([*groups.values()])}"
     parts = [points_lie(each) for each in groups.values()]
     told = ", ".join(said("{points} on part {number} of its motion", points=each, number=k) for k, each in enumerate(parts, 1))
@@ -84,12 +85,6 @@ def points_on_circuits(groups: Sequence[Sequence[int]]) -> str:
     if len(groups) == 2:
         return said("{points} on the one circuit, {others} on the other", points=points_lie(groups[0]), others=point_ranges(groups[1]))
     return ", ".join(said("{points} on circuit {number}", points=points_lie(each), number=k) for k, each in enumerate(groups, 1))
-
-
-def is_of_circuits(fit: Fit) -> bool:
-    """Return whether one step alone closes a machine, so that both of its branches meet at the ends of each part of the stroke."""
-    closing = [each for each in fit.plan.of_kind(Step).values() if each.closes and each.modes()]
-    return len(closing) == 1 and not fit.plan.groups
 
 
 def connected_parts(mask: Mask, *, closed: bool) -> FloatArray:

@@ -300,12 +300,14 @@ def driven(crank: Pivoted, follower: Pivoted, asked: CouplerTask) -> ExactMachin
     most = max(dict.fromkeys(parts), key=parts.count)
     here = np.array([each == most for each in parts])
     piece = ways[most[0]] if ways else DrivenPiece(-pi, pi)
-    ordered = asked.given is not None or passes_in_order(strokes, fully=fully)
+    ordered = asked.given is not None or goes_one_way(one_way_round(strokes) if fully else strokes, TURN)
     why = why_not(parts, circuit, asked, ordered=ordered)
     strokes = np.where(here, strokes, np.nan)
     low, high = stroke_ends(piece, strokes, asked)
-    rods = np.concatenate([abs(follower.places - crank.places), [coupler]])
-    error = max(crank.error, follower.error, float(np.ptp(rods)), error_of_point(crank, follower, asked.points))
+    rod = follower.places - crank.places
+    share = (asked.points - crank.places) / rod  # of one place of the coupler it is the same at all points
+    off = float(abs(share - share[0]).max() * abs(rod[0]))
+    error = max(crank.error, follower.error, float(np.ptp([*abs(rod), coupler])), off)
     side = LEFT if most[1] else RIGHT
     members, dimensions = variant_of(crank, follower, coupler, (low, high), asked)
     kind = class_words(crank, follower, coupler)
@@ -350,11 +352,6 @@ def strokes_at_points(
     return asked.given, np.zeros_like(off) if fully else off
 
 
-def passes_in_order(strokes: FloatArray, *, fully: bool) -> bool:
-    """Return whether strokes go one way, of a crank that turns fully within one turn."""
-    return goes_one_way(one_way_round(strokes) if fully else strokes, TURN)
-
-
 def stroke_ends(piece: DrivenPiece, strokes: FloatArray, asked: CouplerTask) -> tuple[float, float]:
     """Return the ends of the machine's stroke [rad]: a whole turn, or from the least to the greatest of the points.
 
@@ -376,14 +373,9 @@ def why_not(parts: Sequence[tuple[int, bool, int]], circuit: npt.NDArray[np.int_
         return points_on_circuits([(np.flatnonzero(circuit == each) + 1).tolist() for each in circuits])
     branches = [*dict.fromkeys(parts)]
     if len(branches) > 1:
-        some, others = (point_numbers(np.array([each == branch for each in parts])) for branch in branches[:2])
+        some, others = (point_ranges([k for k, each in enumerate(parts, 1) if each == branch]) for branch in branches[:2])
         return said("a dead point stands between points {some} and {others}", some=some, others=others)
     return said("it comes to the points in another order") if asked.in_order and not ordered else ""
-
-
-def point_numbers(mask: Any) -> str:
-    """Return the numbers of points, counted from 1, as text."""
-    return point_ranges((np.flatnonzero(mask) + 1).tolist())
 
 
 def class_words(crank: Pivoted, follower: Pivoted, coupler: float) -> str:
@@ -415,13 +407,6 @@ def angles_between(ends: FloatArray, reference: float, piece: DrivenPiece) -> Fl
     low, high = ends
     tops = reference + pi * np.arange(np.ceil((low - reference) / pi), np.floor((high - reference) / pi) + 1)
     return np.array([*ends, *tops])
-
-
-def error_of_point(crank: Pivoted, follower: Pivoted, points: ComplexArray) -> float:
-    """Return how far points are off one place of the coupler, at the most [m]."""
-    rod = follower.places - crank.places
-    share = (points - crank.places) / rod
-    return float(abs(share - share[0]).max() * abs(rod[0]))
 
 
 def variant_of(

@@ -42,7 +42,10 @@ def freudenstein(pairs: object, *, free: str = "follower", ground: float = 1.0) 
     require_number("freudenstein(ground", ground, "a length above zero is expected, in m", above=0.0)
     for name, column in zip(("phi", "psi"), rows.T, strict=True):
         check_radians("freudenstein", name, column)
-        check_differing(name, column)
+        turned = np.exp(1j * column)
+        apart = abs(turned[:, None] - turned[None])[np.triu_indices(len(column), 1)]
+        if (apart.min() if name == "phi" else apart.max()) < 1e-9:  # two are one, modulo a turn; of the follower all of them
+            raise DefinitionError(f"freudenstein: two values of {name} are the same; give angles that differ.")
     freed = FREE if len(rows) == 5 else (free,) if len(rows) == 4 else ()
     p, s = np.exp(1j * rows.T)
     solved = [(u, v) for u, v in links(p, s, freed) if max(abs(u), abs(v)) < LARGEST]
@@ -59,14 +62,6 @@ def freudenstein(pairs: object, *, free: str = "follower", ground: float = 1.0) 
     return exact_synthesis(title, found, max(len(rows) - 2, len(found)))
 
 
-def check_differing(name: str, angles: FloatArray) -> None:
-    """Raise DefinitionError where two of some angles [rad] are one, modulo a turn: of the crank always, of the follower where all are."""
-    turned = np.exp(1j * angles)
-    apart = abs(turned[:, None] - turned[None])[np.triu_indices(len(angles), 1)]
-    if (apart.min() if name == "phi" else apart.max()) < 1e-9:
-        raise DefinitionError(f"freudenstein: two values of {name} are the same; give angles that differ.")
-
-
 # With the frame as 1, crank u p and follower v s, p = exp(i phi), s = exp(i psi), the coupler keeps its length where
 #     |1 + v s - u p|^2 = const, so that 2 Re[v (s - s0) - u (p - p0) - w (p s* - p0 s0*)] = 0 with w = u v*,
 # linear in the real parts of u, v and w. What is left free is a plane of solutions, or a line; w = u v* picks those in it.
@@ -74,7 +69,8 @@ def check_differing(name: str, angles: FloatArray) -> None:
 
 def links(p: ComplexArray, s: ComplexArray, freed: Sequence[str]) -> list[tuple[complex, complex]]:
     """Return crank and follower, in parts of the frame, as complex numbers: real where their zero angle is not free."""
-    rows = real_rows(p, s)
+    by = [-(p - p[0]), s - s[0], -(p * s.conj() - p[0] * s[0].conj())]
+    rows = np.stack([column for each in by for column in (each[1:].real, -each[1:].imag)], axis=1)  # of the parts of u, v, w
     u, v = "crank" in freed, "follower" in freed
     kept = [0, *([1] if u else []), 2, *([3] if v else []), 4, *([5] if u or v else [])]
     left = len(kept) - len(rows)
@@ -92,12 +88,6 @@ def links(p: ComplexArray, s: ComplexArray, freed: Sequence[str]) -> list[tuple[
         if exact is not None:
             found.append(exact)
     return found
-
-
-def real_rows(p: ComplexArray, s: ComplexArray) -> FloatArray:
-    """Return the rows (n - 1, 6) of the linear equations in the real and imaginary parts of u, v, w."""
-    by = [-(p - p[0]), s - s[0], -(p * s.conj() - p[0] * s[0].conj())]
-    return np.stack([column for each in by for column in (each[1:].real, -each[1:].imag)], axis=1)
 
 
 def lines_in(basis: FloatArray, free_u: bool, free_v: bool) -> list[FloatArray]:

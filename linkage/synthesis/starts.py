@@ -193,15 +193,10 @@ def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: Any, *, 
         picks, base_of, own_of = patterns(fit, timed, values.shape[2])
         best = Best.of(likeness, fit, unit, values, picks)
         base, own = base_of[best.pattern], own_of[best.pattern]
-    return laid_starts(likeness, fit, unit, best, own), np.array(base)
-
-
-def laid_starts(likeness: Likeness, fit: Fit, unit: FloatArray, best: Best, own: FloatArray) -> FloatArray:
-    """Return designs (m, n) laid as is best, in the box, with their points' own unknowns (m, w), together (m, n + w)."""
     laid = likeness.applied(fit, fit.space.values(unit), best.factor, best.by)
     if likeness.with_stroke:
         own = own + np.angle(best.factor)[:, None] / fit.timing.reach[1]
-    return np.concatenate([fit.space.within(laid), np.clip(fit.timing.centred(own), 0.0, 1.0)], axis=1)
+    return np.concatenate([fit.space.within(laid), np.clip(fit.timing.centred(own), 0.0, 1.0)], axis=1), np.array(base)
 
 
 def along_closed_curve(likeness: Likeness, fit: Fit, unit: FloatArray, values: FloatArray) -> tuple[Best, FloatArray]:

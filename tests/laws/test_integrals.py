@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 
 from hydraulics import pressure
 from linkage import LEFT, Crank, Dyad, Ground, Mechanism, Over, Stroke, Weight, drive_force, integral, optimise, ref, y
+from linkage.files.survey_measures import TextMeasures
 from linkage.study import monte_carlo, tornado
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.study.test_search_ends import Boom, Scissor
@@ -45,6 +46,7 @@ def at_every_door(machine, measure, name):
         way = {stroke.name: np.linspace(*ends, count)}
         yield float(monte_carlo(machine, {"it": measure}, tolerance, count=16, **way)["it"].nominal)
     yield float(tornado(machine, measure, tolerance, **way).nominal)
+    yield from TextMeasures({"it": str(measure)}, 21)(machine.replaced(**{name: np.full(3, machine[name])}))["it"]
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -75,3 +77,6 @@ def test_an_integral_over_a_pole_is_none():
         answer = Kinked().answers([integral(quantity)])[0]
         assert answer.status != "value"
         assert np.isnan(float(monte_carlo(Kinked(), {"it": integral(quantity)}, {"OA": 1e-6}, count=4, S=[0.1, 1.0])["it"].nominal))
+    for text in ("most(1 / (y(D) - GAP m))", "integral(1 / (y(D) - GAP m))"):
+        text = text.replace("GAP", repr(float(Kinked().at(S=0.4).y("D"))))
+        assert np.isnan(TextMeasures({"it": text}, 21)(Kinked(OA=np.array([0.3, 0.3])))["it"]).all()

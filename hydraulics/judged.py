@@ -155,9 +155,9 @@ class LiftingCylinder:
         """Its least and its greatest thrust, as questions."""
         return [least(thrust_request(self.ram, Acting())), most(thrust_request(self.ram, Acting()))]
 
-    def back(self, resistance: float = 0.0, tells: str = "push") -> LawRequest:
-        """Return what the other side must give while it goes back, or what the load alone makes."""
-        return going_back_request(*self.asked, self.way_back, resistance, tells)
+    def back(self, way: str, resistance: float = 0.0, tells: str = "push") -> LawRequest:
+        """Return what the other side must give while it goes back one way, or what the load alone makes."""
+        return going_back_request(*self.asked, way, resistance, tells)
 
     @property
     def asked(self) -> tuple[Ram, Acting, LiftLine]:
@@ -166,21 +166,27 @@ class LiftingCylinder:
 
     def questions(self) -> list[Question]:
         """Return what its verdicts ask at first."""
-        standing = [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in self.ram.own_sides]
-        going = [most(self.back()), least(self.back(tells="load"))]
-        return [*self.thrusts, least(reserve_request(*self.asked)), *standing, *going]
+        ways = ("retracting", "extending") if self.ram.side == "both" else self.ram.ways_back(0.0, 0.0)
+        going = [question for way in ways for question in (most(self.back(way)), least(self.back(way, tells="load")))]
+        return [*self.thrusts, least(reserve_request(*self.asked)), *self.standing, *going]
+
+    @property
+    def standing(self) -> list[Question]:
+        """The greatest pressures of its sides at rest, as questions."""
+        return [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in self.ram.own_sides]
 
     def conditions(self) -> dict[str, Condition]:
         """Return what it has to keep: it lifts, holds on both sides, and goes back."""
         asked, name = (self.ram.name, Acting(), self.circuit.name), self.circuit.name
         held, supply = (at(LawRequest(text=f"{name} {each.__name__}", formula=each)) for each in (self.circuit.held, self.circuit.supply))
-        back = most(going_back_request(*asked, self.way_back))
+        back = [most(going_back_request(*asked, way)) for way in self.ways_back]
+        sinks = AllOf(tuple(each <= supply if self.ram.side == "both" else each <= 0.0 for each in back))
         holding = most(pressure_request(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held
         pressed = self.ram.pressed(self.ram.name)
         return {
             "lifting": least(reserve_request(*asked)) >= 1.0,
             "holding": AllOf((holding, pressed)) if self.ram.is_single_acting else holding,
-            **({} if self.goes_back_by_another else {"lowering": back <= supply if self.ram.side == "both" else back <= 0.0}),
+            **({} if self.goes_back_by_another else {"lowering": sinks.each[0] if len(back) == 1 else sinks}),
         }
 
     @property
@@ -325,11 +331,14 @@ class LiftingCylinder:
     def going_back(self, resistance: float = 0.0) -> Verdict:
         """Return whether it goes back by itself against the resistance of the returning oil; where not, what the other side must give.
 
-        It goes back against its working direction; of one that works with both sides the way the load drives it at most poses. Where
-        the load then drives it on, as a lever past its top, the pump's pressure on the other side has to do it.
+        It goes back against its working direction; of one that works with both sides the way the load drives it, and both ways where
+        that changes its sense: the worse is told. Where the load then drives it on, as a lever past its top, the pump's pressure on the
+        other side has to do it.
         """
         judge, against = self.judge, said("against {pressure} in the return line", pressure=self.show(resistance))
-        push, alone = judge.answers([most(self.back(resistance)) <= 0.0, least(self.back(resistance, "load"))])
+        each_way = [(way, judge.answers([most(self.back(way, resistance)) <= 0.0])[0]) for way in self.ways_back]
+        way, push = max(each_way, key=lambda each: (each[1].unbounded, float(np.nan_to_num(each[1].value, nan=-np.inf))))
+        alone = judge.answer(least(self.back(way, resistance, "load")))
         if push.ok:
             if alone.value <= 1e-9 * float(self.circuit.supply(judge.motion)):
                 text = said(
@@ -342,7 +351,7 @@ class LiftingCylinder:
                 against=against, pressure=self.show(alone.value), where=alone.place,
             )  # fmt: skip
             return Verdict("lowering", True, text, answer=push)
-        where = self.stuck(replace(self.back(resistance), acting=judge.situation(push)))
+        where = self.stuck(replace(self.back(way, resistance), acting=judge.situation(push)))
         if push.unbounded:
             text = said(
                 "it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.",
@@ -355,12 +364,12 @@ class LiftingCylinder:
                 where=where, against=against, push=self.show(push.value), place=push.place,
             )  # fmt: skip
             return Verdict("lowering", False, text, answer=push)
-        needed = show_enough(float(judge.answer(most(self.back(resistance, "whole push"))).value), self.unit)
+        needed = show_enough(float(judge.answer(most(self.back(way, resistance, "whole push"))).value), self.unit)
         if self.ram.side == "both":
             enough = push.value <= float(self.circuit.supply(judge.motion)) * (1.0 + 1e-9)
             text = said(
                 "{direction}, the load does not drive it back {where} {against}: the other side must push with up to {push}, {place}.",
-                direction=said("extending") if self.way_back == "extending" else said("retracting"), where=where, against=against,
+                direction=said("extending") if way == "extending" else said("retracting"), where=where, against=against,
                 push=needed, place=push.place,
             )  # fmt: skip
             return Verdict("lowering", enough, text, answer=push)
@@ -371,9 +380,10 @@ class LiftingCylinder:
         return Verdict("lowering", False, text, answer=push)
 
     @property
-    def way_back(self) -> str:
-        """The direction in which it goes back, by the ends of the strokes."""
-        return self.ram.way_back(self.judge.motion, Acting(self.judge.acting.loads))
+    def ways_back(self) -> tuple[str, ...]:
+        """The directions in which it goes back: of one that works with both sides by the pressures that hold it over all that it runs."""
+        held = [each.value for each in self.judge.answers(self.standing)] if self.ram.side == "both" else [0.0, 0.0]
+        return self.ram.ways_back(-held[-1], held[0])
 
     def stuck(self, back: LawRequest) -> str:
         """Return where it does not go back, in words."""

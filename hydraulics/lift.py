@@ -72,7 +72,7 @@ from .inputs import (
     proper_share,
 )
 from .judged import line_conditions, line_questions, line_verdicts
-from .line import Choice, Holding, LiftLine, Lowering, WayBack, Work
+from .line import Choice, Holding, LiftLine, LineValve, Lowering, WayBack, Work
 from .member import PISTON, Circuit, Ram, Reading, by_other_lines, line_thrust, lines_of, the_cylinder, thrust_along
 from .standing import is_blocked, shut_verdicts, standing_pressure
 
@@ -124,10 +124,13 @@ class PumpLine(LiftLine):
                 self._written_of(ram, thrust, written)
 
     def _written_of(self, ram: Ram, thrust: Array, written: Formulas) -> None:
-        number = partial(self.written, written)
+        number, members = partial(self.written, written), written.plan.members
         k_m, k_h = (divisor(written, number(f"{kind}_efficiency")) for kind in ("mechanical", "hydraulic"))
         area, other = ram.sides_written(written, thrust)
-        against: Any = 0.0 if written.equals(number("back_pressure"), 0.0) else number("back_pressure") * other
+        pipes = [line for line, _ in lines_of(ram, members) if isinstance(line, PumpLine)]
+        drained = [line for line in pipes if line.kind_in(members) == "given" and line.is_drained]
+        back = drained[0].written(written, "back_pressure") if drained else number("back_pressure")
+        against: Any = 0.0 if written.equals(back, 0.0) else back * other
         supply = np.minimum(number("pressure"), number("relief")) if self.relieves(written.plan) else number("pressure")
         force = written.line(f"F_{ram.name}", thrust_along(ram, thrust) / k_m, "kN")
         written.line(f"p_{ram.name}", (force + against) / (area * k_h), "bar")
@@ -233,8 +236,13 @@ class PumpLine(LiftLine):
 
     def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
         motion, ram = held_in_case(motion, acting), self.one(motion, cylinder)
-        if is_blocked(ram, motion.plan.members):
+        members = motion.plan.members
+        if is_blocked(ram, members):
             return np.asarray(np.maximum(standing_pressure(self, motion, acting), 0.0))[()]
+        for valve in (each for each in members.values() if isinstance(each, LineValve)):
+            lowering = valve.pressure_lowering(self, ram, motion, acting)
+            if lowering is not None:
+                return lowering
         return self._pressure(motion, self.work_of(ram, motion, acting))
 
     def _pushes_out(self, cylinder: Ram, members: Mapping[str, Member]) -> bool:
@@ -481,12 +489,13 @@ class PumpLine(LiftLine):
     ) -> Lowering:  # fmt: skip
         """Return how it goes back against its working direction, the oil flowing out against a `resistance` [Pa].
 
-        Of a cylinder that works with both sides it is the way that the load drives it at most of the poses. Of a line of several cylinders
-        it is the one that goes back hardest, unless one is named.
+        Of a cylinder that works with both sides it is the way that the load drives it, and where the load changes its sense over the
+        motion the harder of both. Of a line of several cylinders it is the one that goes back hardest, unless one is named.
         """
         given = situation_of("lowering", acting, loads=loads, case=case)
         against, k_m = fitted(motion, not_negative(resistance, "Return resistance")), self.efficiency(motion, "mechanical")
-        found = [WayBack.of(ram, self, motion, given, ram.way_back(motion, given), against, k_m) for ram in self.meant(motion, cylinder)]
+        ways = [(ram, way) for ram in self.meant(motion, cylinder) for way in ram.ways_back_in(motion, given)]
+        found = [WayBack.of(ram, self, motion, given, way, against, k_m) for ram, way in ways]
         push = np.max([each.push for each in found], axis=0)
         needed = np.max([np.where(each.push > 0.0, each.push + each.tank, 0.0) for each in found], axis=0)
         return Lowering(np.min([each.working for each in found], axis=0), needed, np.asarray(push < 0.0))

@@ -152,6 +152,10 @@ class LineValve(ForceElement, HasVerdicts):
     def holds_line(self, line: Circuit) -> bool:
         """Return whether it holds a line."""
 
+    @abstractmethod
+    def pressure_lowering(self, line: Circuit, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
+        """Return the pressure of a line while a cylinder goes down over it [Pa gauge]; None where it does not go down over it."""
+
 
 class LiftLine(Circuit):
     """The base of what lifts by cylinders of one line: pressures [Pa gauge], forces [N] in the working direction, oil [m3], time [s]."""

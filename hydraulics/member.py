@@ -339,13 +339,25 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """The directions in which the side that works drives it."""
         return {"rod": ("retracting",), "both": ("extending", "retracting")}.get(self.side, ("extending",))
 
-    def way_back(self, motion: AnyMotion, acting: Acting) -> str:
-        """Return the direction in which it goes back: against its working one; of both the way the load drives it at most of the poses."""
+    def ways_back(self, low: ArrayLike, high: ArrayLike) -> tuple[str, ...]:
+        """Return the directions in which it goes back: against its working one; of both sides those in which the load drives it.
+
+        `low` and `high` are the ends of its thrust, or of pressures that have its sign: where they have both signs it goes both ways.
+        """
         if self.side != "both":
-            return "extending" if self.side == "rod" else "retracting"
+            return ("extending",) if self.side == "rod" else ("retracting",)
+        pulls, pushes = (max(float(np.max(np.nan_to_num(each))), 0.0) for each in (np.negative(low), high))
+        ways = ("retracting",) if pushes > TO_ROUNDING * pulls or not pulls else ()
+        return (*ways, "extending") if pulls > TO_ROUNDING * pushes else ways
+
+    def ways_back_in(self, motion: AnyMotion, acting: Acting) -> tuple[str, ...]:
+        """Return the same over all that a motion covers."""
+        if self.side != "both":
+            return self.ways_back(0.0, 0.0)
+        given = Acting(acting.loads, acting.case)
         with unwarned():
-            drives = np.sign(member_thrust(motion, self, Acting(acting.loads, acting.case)))
-        return "retracting" if float(np.nan_to_num(drives).sum()) >= 0.0 else "extending"
+            low, high = (found(motion, lambda each: member_thrust(each, self, given)).value for found in (lowest, greatest))
+        return self.ways_back(low, high)
 
     def pressure_on(
         self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None, *, below: bool = False
@@ -663,8 +675,8 @@ class Cylinder(BarrelAndRod, Ram):
 
     @property
     def side(self) -> Works:
-        """What it works with: as it says itself, else as lines say, else the piston."""
-        return self.works or self._on_lines or "piston"
+        """What it works with: as lines say, else as it says itself, else the piston."""
+        return self._on_lines or self.works or "piston"
 
     @property
     def own_sides(self) -> tuple[Side, ...]:
@@ -677,8 +689,9 @@ class Cylinder(BarrelAndRod, Ram):
 
     def among(self, members: Mapping[str, Member]) -> Cylinder:
         """Return it as the lines of its class say what it works with; DefinitionError where it says another side itself."""
-        found = works_by_lines(self, members)
-        if found is None:
+        found, others = works_by_lines(self, members), lines_of(self, members)
+        beside = self.works in SIDES and all(line.kind_in(members) == "given" and each.side != self.works for line, each in others)
+        if found is None or beside:  # a tank or gas on its other side leaves the side that it says to a pump
             return self
         if self.works is not None and self.works != found:
             what = f"{self.name} says works={self.works!r}, and its lines say that it works with {SIDE_WORDS[found]}"
@@ -1012,7 +1025,7 @@ def pressure_of(cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
     circuit = circuit_having(cylinder, motion.plan)
     if circuit is not None:
         return circuit.pressure_in(cylinder, motion, acting)
-    return np.maximum(cylinder.sized(motion, acting.direction).pressure_for(member_thrust(motion, cylinder, acting)), 0.0)
+    return np.maximum(cylinder.sized(motion, acting.direction).pressure_for(line_thrust(cylinder, None, motion, acting)), 0.0)
 
 
 def circuit_having(cylinder: Ram, plan: Declared, is_needed: bool = True) -> Circuit | None:
@@ -1343,6 +1356,8 @@ def _cylinder(found: object, where: str) -> Ram:
 
 
 TOLERANCE = 1e-9  # m: a length that is met to rounding is met
+TO_ROUNDING = 1e-9
+"""Of the greatest thrust: a load that turns by less than this part drives one way."""
 
 
 def _listed(values: Iterable[float]) -> str:

@@ -250,8 +250,8 @@ class OilLine(PumpLine, GasLine):
         for name, length in self.filled.items() if isinstance(self.filled, Mapping) else ():
             if not isinstance(length, (str, Quantity)):
                 one_number(length, f"OilLine: filled, {name}")
-        if self.filled is not None and self.at is not None:
-            raise DefinitionError("OilLine(at=..., filled=...): both say where it is filled; leave one out.")
+        if isinstance(self.filled, str) and self.at is not None:
+            raise DefinitionError(f"OilLine(at=..., filled={self.filled!r}): both say where all its cylinders are; leave one out.")
         for name in ("make_up", "charge_pressure", "seal_friction"):
             given = self.given(name)
             if given is not None and not follows(given):
@@ -271,6 +271,9 @@ class OilLine(PumpLine, GasLine):
         more = {name: text for name, text in zip(self.numbers, self.words(), strict=True) if not self._is_usual(name)}
         words = [f"{name}={option_text(value)}" for name, value in said.items()]
         return f"OilLine({', '.join([*map(on_line_text, self.on), *words, *more.values()])})"
+
+    def _is_said(self, name: str) -> bool:
+        return self.given(name) is not None and not self._is_usual(name)
 
     def _is_usual(self, name: str) -> bool:
         given = self.given(name)
@@ -377,6 +380,7 @@ class OilLine(PumpLine, GasLine):
         self._examine_supplies(members, opening)
         self._examine_others(members, filling, title)
         kind = self.kind_in(members)
+        self._examine_numbers(kind, opening)
         if kind == "given" and self.block is not None and self.charge_pressure is None:
             raise DefinitionError(f"{opening}: its accumulators are charged to no pressure; say charge_pressure=90 * bar.")
         if isinstance(self.filled, Mapping):
@@ -384,6 +388,14 @@ class OilLine(PumpLine, GasLine):
             lost = next((name for name in self.filled if name not in own), None)
             if lost is not None:
                 raise unknown("Cylinder", lost, own, where=f"{title}.{self.name}, filled")
+
+    def _examine_numbers(self, kind: str, opening: str) -> None:
+        """Raise DefinitionError for a number that does not count on a line of its kind."""
+        counting = NUMBERS["closed"] if kind == "closed" else NUMBERS["given"] if self.block is not None else ()
+        idle = next((name for name in self.parameters if name not in counting and self._is_said(name)), None)
+        if idle is not None:
+            says = {"held": "a pump holds its pressure", "closed": "it is closed", "given": "its pressure is given"}[kind]
+            raise DefinitionError(f"{opening}: {idle}= counts for nothing there, as {says}; leave it out.")
 
     def _examine_supplies(self, members: Mapping[str, Member], opening: str) -> None:
         pumps, tanks, valves = (self.supplies(members, kind) for kind in (Pump, Tank, Relief))
@@ -608,7 +620,8 @@ class OilLine(PumpLine, GasLine):
 
     def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
         strokes = self.strokes_filled(list(plan_of(motion).strokes))
-        unmoved = put_in_later(motion.plan.members) if self.kind_of_line == "closed" else ()
+        members = motion.plan.members
+        unmoved = put_in_later(members) if self.kind_in(members) == "closed" else ()
         return {name: np.asarray(value) for name, value in {**dict.fromkeys(unmoved, 0.0), **strokes}.items()}
 
     def withdrawn(self, motion: Poses) -> Array:
@@ -628,7 +641,8 @@ class OilLine(PumpLine, GasLine):
         return np.zeros(()) if found is None else found.set_to(motion, own)
 
     def written(self, written: Formulas, name: str) -> Array:
-        found, own = self._says(name, written.plan.members)
+        tanks = self.supplies(written.plan.members, Tank) if name == "back_pressure" else []
+        found, own = (tanks[0], "pressure") if tanks else self._says(name, written.plan.members)
         return np.zeros(()) if found is None else ForceElement.number(found, written, own)
 
     def _says(self, name: str, members: Mapping[str, Member]) -> tuple[Supply | None, str]:
@@ -808,6 +822,7 @@ def own_side(line: OilLine, ram: Ram, members: Mapping[str, Member]) -> Side:
 
 
 def is_fed_wholly(ram: Ram, members: Mapping[str, Member]) -> bool:
-    """Return whether all lines of a cylinder have a given pressure, so that its thrust is given, too."""
-    on = [line for line in circuits_among(members) if any(same(ram, each) for each, _ in line.filling(members))]
-    return all(line.kind_in(members) == "given" for line in on)
+    """Return whether all lines of a cylinder have a given pressure, one of them on the side that works: its thrust is given, too."""
+    on = [(line, each.side) for line in circuits_among(members) for own, each in line.filling(members) if same(ram, own)]
+    works = ram.side not in SIDES or ram.side in [side for _, side in on]
+    return works and all(line.kind_in(members) == "given" for line, _ in on)

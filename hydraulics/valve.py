@@ -174,6 +174,15 @@ class HoldingValve(LineValve):
         shown = pilot if below else np.maximum(pilot, 0.0)
         return np.asarray((thrust - other * np.maximum(pilot, 0.0)) / own)[()], np.asarray(shown)[()]
 
+    def pressure_lowering(self, line: Circuit, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
+        members = motion.plan.members
+        held, pilot = self.lines(members)
+        sides = [each.side for ram, each in held.filling(members) if same(ram, cylinder)]
+        if not sides or acting.direction != EMPTIES[sides[0]] or not (same(line, held) or same(line, pilot)):
+            return None
+        found = self.lowered(motion, replace(acting, direction=None))[0 if same(line, held) else 1]
+        return np.asarray(found + np.zeros(motion.shape))[()]
+
     def works(self, motion: AnyMotion, acting: Acting, is_lowered: bool) -> tuple[Array, Array, Array]:
         """Return the thrusts and the areas of line and pilot, of several cylinders each times how its length follows their stroke.
 

@@ -22,7 +22,7 @@ from ..motion import Motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..quantities import Angle, Distance, Quantity, Reference, joined_names, name_of
 from ..statics import applied_loads, axle_load, standing_supports
-from ..statics.holding import Holders, PressureLine, holders_of
+from ..statics.holding import Holders, PressureLine, holders_of, same
 from ..vectors import FloatArray, Numbers, Scalar
 from .listing import GivenNumber, Listing, ListingLine
 from .rates import LineDerivatives
@@ -353,7 +353,7 @@ class Chain:
         names = listing.names
         self.symbol = names.quantity(stroke)
         held = [each for line in holders.lines for each in line.cylinders]
-        self._acting = list(forces.acting)
+        self._acting = [(each, thrust) for each, thrust in forces.acting if not any(same(each, one) for one in holders.cylinders)]
         lengths = {member.ends: listing.value(Distance(*member.ends)).expr for member in [*held, *(each for each, _ in self._acting)]}
         points = {each.point: listing.at(each.point).expr for each in pulled}
         together = {names.vector(pin) for pin in listing.unknowns}

@@ -21,11 +21,12 @@ from .agreement import assumed_joints
 from .held import held_in_case
 from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
+from .holding import holders_of
 from .law_requests import LawInPlan, LawRequest, TracedLaw, case_words, law_in_plan, situation_identity
 from .poses import AnyMotion, FlatPoses
 from .solution import Solution
 from .traced_loads import TracedMotion, eliminated_forces, traced_loads
-from .work import by_work, stroke_force
+from .work import by_work, stroke_force, without_held
 
 
 def force_request(
@@ -77,7 +78,9 @@ def drive_force_by_work(drive: str | None, motion: AnyMotion, acting: Acting) ->
     """Return the generalised force of a stroke over a motion's poses; of a traced one as a number of the program, at rest."""
     if not isinstance(motion, TracedMotion):
         return stroke_force(require_motion(motion), acting, drive)
-    (force,) = by_work(FlatPoses(motion, ""), traced_loads(motion, acting, AT_REST), stroke_of(motion.plan, drive, "drive"))
+    applied = traced_loads(motion, acting, AT_REST)
+    applied = without_held(applied, holders_of(motion.plan, applied.elements))
+    (force,) = by_work(FlatPoses(motion, ""), applied, stroke_of(motion.plan, drive, "drive"))
     return cast(FloatArray, force)
 
 

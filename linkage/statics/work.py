@@ -68,7 +68,7 @@ def stroke_force(motion: Motion, acting: Acting, drive: str | None, efficiency: 
     applied = applied_loads(motion, acting, rates)
     names = {name for point in applied.points for name in motion.plan.reaches(point)}
     poses = FlatPoses(motion, f"The driving force of {stroke}", None if applied.frictions else names)
-    force = by_work(poses, applied, stroke)
+    force = by_work(poses, without_held(applied, holders_of(motion.plan, applied.elements)), stroke)
     if applied.frictions:
         found = forces_at(poses, applied)
         locked_words(found, rates.direction)

@@ -474,6 +474,13 @@ class OilLine(PumpLine, GasLine):
         length, giving = members.get(f"{ram.name}.length"), lines_giving(members).get(ram.name)
         return isinstance(length, LineLength) and giving is not None and same(giving, self)
 
+    def link_written(self, pin: str, members: Mapping[str, Member]) -> str:
+        for ram in [members.get(name_of(each)) for each in self.references] if self.kind_open(members) == "closed" else ():
+            if isinstance(ram, Ram) and pin in map(name_of, ram.ends):
+                A, B = map(name_of, ram.ends)
+                return f'Link("{A} {B}", {A}{B}=ref("{ram.name}.length"))'
+        return ""
+
     def fills(self, name: str) -> bool:
         return isinstance(self.filled, str) or (isinstance(self.filled, Mapping) and name in self.filled)
 

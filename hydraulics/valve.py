@@ -37,7 +37,7 @@ from linkage.verdict import Verdict
 
 from .inputs import Array, follows, in_pascals, number_set, positive
 from .line import LiftLine, LineValve
-from .member import PISTON, Circuit, carries_loads
+from .member import PISTON, Circuit, Ram, carries_loads
 from .standing import CommonStroke, moves_in, no_direction
 
 USUAL_SETTING = 1.3

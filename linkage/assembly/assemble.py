@@ -179,9 +179,10 @@ def matching(rows: list[PinEquation], parts: Parts, title: str) -> dict[tuple[st
     found = nx.bipartite.hopcroft_karp_matching(graph, range(first))
     free = list(dict.fromkeys(pin for place, (pin, _) in enumerate(coordinates) if place not in found))
     if free:
+        remedy = parts.one_place() or parts.lengths_given(free) or parts.driveless()
         raise DefinitionError(
             f"{title}: the parts leave {' '.join(free)} free: {len(rows)} conditions for {2 * len(loose)} coordinates of the pins "
-            f"{' '.join(loose)}.{parts.one_place() or parts.driveless() or ' Add a link, a slide or a length that follows a stroke.'}",
+            f"{' '.join(loose)}.{remedy or ' Add a link, a slide or a length that follows a stroke.'}",
             member=free[0],
         )
     return {each: found[place] - first for place, each in enumerate(coordinates)}
@@ -290,6 +291,7 @@ class Assembler:
             guides={name: member for name, member in members.items() if isinstance(member, Guide)},
             sketch=self.sketch,
             idle=idle_strokes(members),
+            elements=members,
         )
 
     def run(self) -> dict[str, Member]:

@@ -10,7 +10,8 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..quantities import Number, Quantity, joined_names, name_of, quantity
+from ..loads import ForceElement
+from ..quantities import Member, Number, Quantity, joined_names, name_of, quantity
 from ..steps import Dyad, Guide, GuideCross, Link, OnLink, Pin, PinSlotDyad, Slide, SliderDyad, Step, YokeDyad
 from .sketch import ONE_PLACE, Sketch
 
@@ -134,6 +135,8 @@ class Parts:
     sketch: Callable[[], Sketch]
     idle: tuple[str, ...] = ()
     """The strokes that nothing follows."""
+    elements: Mapping[str, Member] = field(default_factory=dict)
+    """All members, among which elements such as ropes give lengths."""
     shapes: dict[str, Shape] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -171,6 +174,12 @@ class Parts:
                 crank, ram = f"{X} = Crank({P}, at=(x, y), angle={stroke})", f'Link("{P} {X}", {P}{X}={stroke})'
                 return f"{text} For a crank write {crank}, for a cylinder {ram}."
         return f"{text} Let a length or an angle follow it."
+
+    def lengths_given(self, pins: Iterable[str]) -> str:
+        """Return by which link one of some pins follows a rope or a closed line, in words; "" where none of these has it."""
+        giving = [each for each in self.elements.values() if isinstance(each, ForceElement)]
+        found = next(filter(None, (each.link_written(pin, self.elements) for each in giving for pin in pins)), "")
+        return f" Let a link follow the length that is given to it: {found}." if found else ""
 
     def is_placed(self, guide: str) -> bool:
         """Return whether a guide lies on placed points."""

@@ -361,6 +361,10 @@ class ForceElement(Jointed):
         """Return how one force of this element acts on straight members, where `joined` does not tell; the class's members by name."""
         return None
 
+    def link_written(self, pin: str, members: Mapping[str, Member]) -> str:
+        """Return the link by which a pin of a parts list follows a length that this element gives, as it is written; "" for none."""
+        return ""
+
     def when_shut(self) -> ForceElement | None:
         """Return it as it is where a load case shuts it, `LoadCase(shut=[...])`: what is in it stays; None for what cannot be shut."""
         return None

@@ -19,9 +19,9 @@ from ..program import FloatArray
 from ..vectors import Scalar
 from .agreement import assumed_joints
 from .held import held_in_case
+from .holding import holders_of
 from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
-from .holding import holders_of
 from .law_requests import LawInPlan, LawRequest, TracedLaw, case_words, law_in_plan, situation_identity
 from .poses import AnyMotion, FlatPoses
 from .solution import Solution

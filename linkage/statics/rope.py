@@ -168,6 +168,13 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         """The distance of its last two points [m], as it gives it."""
         return InnerQuantity(self, "last")
 
+    def link_written(self, pin: str, members: Mapping[str, Member]) -> str:
+        names = list(map(name_of, self.run))
+        for end, (P, Q) in {"last": names[-2:], "first": names[:2]}.items() if self.force is None else ():
+            if pin in (P, Q) and not any(isinstance(members.get(one), Pulley) for one in (P, Q)):
+                return f'Link("{P} {Q}", {P}{Q}=ref("{self.name}.{end}"))'
+        return ""
+
     def gives(self, members: Mapping[str, Member]) -> str:
         """Return the name of the length that it gives; "" where nothing asks for one."""
         return next((f"{self.name}.{end}" for end in self.inside if f"{self.name}.{end}" in members), "")

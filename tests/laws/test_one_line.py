@@ -1,0 +1,248 @@
+"""One line of oil, however it is written: its pressure, the drive's force, where it was filled, how it goes down, what counts on it."""
+
+import math
+from random import Random
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from hydraulics import (
+    Accumulator,
+    AccumulatorBlock,
+    Cylinder,
+    HoldingValve,
+    LiftCircuit,
+    OilLine,
+    Pump,
+    Relief,
+    Tank,
+    lift_verdicts,
+    pressure,
+    reserve,
+)
+from linkage import (
+    LEFT,
+    DefinitionError,
+    Dyad,
+    Force,
+    Ground,
+    Guide,
+    Link,
+    LoadCase,
+    Mechanism,
+    OnGuide,
+    OnLink,
+    Pin,
+    PinFriction,
+    Rope,
+    Stroke,
+    Weight,
+    drawn,
+    drive_force,
+    driving_force,
+    mm,
+    pin_forces,
+    ref,
+)
+from linkage.formulas import equations
+from linkage.motion import least, most
+from linkage.units import bar, deg, kN, litre
+
+AREA = math.pi / 4 * 0.08**2
+ANNULUS = math.pi / 4 * (0.08**2 - 0.045**2)
+
+
+class Lever(Mechanism):
+    """A lever on a cylinder."""
+
+    S = Stroke(0.0, 0.2)
+    O, A = Ground(0.0, 0.0), Ground(0.45, -0.55)
+    B = Dyad(A, O, AB=0.62 + S, OB=0.75, side=LEFT)
+    G = OnLink(O, B, OG=1.3)
+    load = Force(G, (0.0, -20 * kN))
+    heavy = LoadCase("heavy", scale={"load": 1.2})
+    ram = Cylinder(A, B, bore=80 * mm, rod=45 * mm)
+
+
+def made(name="Made", base=Lever, **members):
+    return type(name, (base,), members)
+
+
+def spelled(seed):
+    """Return one lever twice: with the return line's pressure as a number of its circuit, and as a tank on a line of its own."""
+    draw = Random(seed)
+    side, other = draw.choice((("piston", "rod"), ("rod", "piston")))
+    given, back = draw.uniform(150, 250) * bar, draw.uniform(1, 9) * bar
+    losses = dict(mechanical_efficiency=draw.choice((1.0, 0.9)), hydraulic_efficiency=draw.choice((1.0, 0.95)))
+    common = dict(ram=Cylinder("A", "B", bore=80 * mm, rod=45 * mm, count=draw.choice((1, 2)), works=draw.choice((side, side))))
+    common |= dict(load=Force("G", (draw.uniform(-5, 5) * kN, (-20 if side == "piston" else 20) * kN)))
+    common |= dict(rub=PinFriction("O", radius=30 * mm, coefficient=0.15)) if seed % 3 == 2 else {}
+    first = made("Number", line=LiftCircuit("ram", pressure=given, relief=1.1 * given, back_pressure=back, **losses), **common)
+    lines = dict(line=OilLine(f"ram.{side}_side", "supply", "valve"), back=OilLine(f"ram.{other}_side", Tank(back)))
+    return first, made("Tank", supply=Pump(given, **losses), valve=Relief(1.1 * given), **lines, **common)
+
+
+def test_a_back_pressure_and_a_tank_give_the_same_forces():
+    for seed in range(6):
+        numbers = []
+        for structure in spelled(seed):
+            machine, ram, line = structure(), structure.ram, structure.line
+            motion, way = machine.at(S=np.array([0.02, 0.11, 0.19])), "extending" if ram.works == "piston" else "retracting"
+            asked = [most(drive_force()), least(drive_force()), least(reserve("ram")), most(pressure("ram", direction=way))]
+            found = [driving_force(motion), driving_force(motion, case="heavy"), driving_force(motion, direction="extending")]
+            found += [pin_forces(motion).drives["S"], np.ravel(machine.evaluate([drive_force()], S=0.1)[0])]
+            found += [ram.thrust(motion), ram.pressure(motion, direction=way)]
+            found += [line.rod_force(motion), line.reserve(motion), line.largest(motion), np.ravel(ram.bounds(motion, True))]
+            numbers.append(np.concatenate([*map(np.ravel, found), [each.value for each in machine.answers(asked)]]))
+        assert_allclose(*numbers, rtol=1e-11, err_msg=str(seed))
+
+
+def test_the_drive_of_a_cylinder_beside_a_tank_is_its_thrust_in_the_equations_too():
+    structure = spelled(1)[1]
+    machine, values = structure(), equations(structure(), forces=True).values(at=dict(S=0.1))
+    motion = machine.at(S=0.1)
+    assert_allclose(driving_force(motion), structure.ram.thrust(motion), rtol=1e-12)
+    assert_allclose(values["Q_S"], driving_force(motion), rtol=1e-9)
+    assert_allclose(values["T_ram"], structure.ram.thrust(motion), rtol=1e-9)
+    assert "T_ram" not in next(text for text in str(equations(structure, forces=True)).splitlines() if "Q_S =" in text)
+
+
+def test_each_of_two_lines_has_its_own_pressure_whoever_says_that_both_sides_work():
+    for works in (None, "both"):
+        for load, sign in ((-20 * kN, 1.0), (20 * kN, -1.0)):
+            members = dict(ram=Cylinder("A", "B", bore=80 * mm, rod=45 * mm, works=works), load=Force("G", (0.0, load)))
+            structure = made(out=OilLine("ram.piston_side", Pump(200 * bar)), back=OilLine("ram.rod_side", Pump(200 * bar)), **members)
+            motion = structure().at(S=np.array([0.05, 0.15]))
+            thrust = structure.ram.thrust(motion)
+            assert np.all(np.sign(thrust) == sign)
+            assert_allclose(structure.out.pressure(motion), np.maximum(thrust, 0.0) / AREA, rtol=1e-12)
+            assert_allclose(structure.back.pressure(motion), np.maximum(-thrust, 0.0) / ANNULUS, rtol=1e-12)
+
+
+def test_a_line_knows_the_valve_over_which_it_goes_down():
+    structure = made(
+        supply=Pump(250 * bar, mechanical_efficiency=0.9), line=OilLine("ram.piston_side", "supply"),
+        back=OilLine("ram.rod_side", Tank(4 * bar)), valve=HoldingValve("line", pilot="back", setting=230 * bar, ratio=4),
+    )  # fmt: skip
+    motion = structure().at(S=np.array([0.03, 0.17]))
+    down, pilot = structure.valve.line_pressure(motion), structure.valve.pilot_pressure(motion)
+    assert_allclose(down + 4 * pilot, 230 * bar, rtol=1e-12)
+    assert_allclose(down * AREA - pilot * ANNULUS, 0.9 * structure.ram.thrust(motion), rtol=1e-12)
+    for found in (structure.line.pressure(motion, direction="retracting"), structure.ram.pressure(motion, direction="retracting"),
+                  motion[pressure("line", direction="retracting")]):  # fmt: skip
+        assert_allclose(found, down, rtol=1e-12)
+    assert np.all(structure.line.pressure(motion, direction="extending") < down)
+    pumped = made(base=structure, back=OilLine("ram.rod_side", Pump(200 * bar)))
+    motion = pumped().at(S=np.array([0.03, 0.17]))
+    assert_allclose(pumped.back.pressure(motion, direction="retracting"), pilot, rtol=1e-12)
+
+
+def test_a_number_that_counts_for_nothing_on_a_line_is_refused_there():
+    block = AccumulatorBlock([Accumulator(volume=4 * litre, charge=40 * bar)])
+    for on in ((Pump(200 * bar),), (Tank(2 * bar),)):
+        for name, value in dict(make_up=3 * bar, oil=1e-3, charge_pressure=90 * bar, seal_friction=1 * bar, exponent=1.2).items():
+            with pytest.raises(DefinitionError, match=f"{name}= counts for nothing there"):
+                made(line=OilLine("ram.piston_side", *on, **{name: value}))
+    with pytest.raises(DefinitionError, match="make_up= counts for nothing there, as its pressure is given"):
+        made(line=OilLine("ram.piston_side", block, charge_pressure=90 * bar, make_up=3 * bar))
+    with pytest.raises(DefinitionError, match="exponent= counts for nothing there, as it is closed"):
+        made(line=OilLine("ram.piston_side", exponent=1.2))
+
+
+class Chain(Mechanism):
+    """Three platforms in series: a rod side fills the next piston side."""
+
+    S = Stroke(0.0, 0.2)
+    O, Q, R = Ground(0.0, 0.0), Ground(1.0, 0.0), Ground(2.0, 0.0)
+    a, b, c = (Guide(each, angle=90 * deg) for each in (O, Q, R))
+    P = OnGuide(a, at=0.8 + S)
+    first = Cylinder(O, P, bore=100 * mm, rod=60 * mm)
+    second = Cylinder(Q, "T", bore=80 * mm, rod=40 * mm)
+    third = Cylinder(R, "U", bore=80 * mm, rod=40 * mm)
+    one = OilLine(first.rod_side, second.piston_side, filled=dict(second=0.8), oil=1e-4)
+    two = OilLine(second.rod_side, third.piston_side, filled=dict(third=0.8), oil=-2e-5)
+    T, U = OnGuide(b, at=second.length), OnGuide(c, at=third.length)
+    w1, w2, w3 = Force(P, (0.0, -1e4)), Force(T, (0.0, -1e4)), Force(U, (0.0, -1e4))
+    lifts = OilLine(first.piston_side, Pump(200 * bar))
+
+
+def test_a_line_behind_another_one_starts_where_it_was_filled():
+    """Lengths by hand: what leaves a rod side and what was put in, over the next piston."""
+    annulus = [math.pi / 4 * (bore**2 - rod**2) for bore, rod in ((0.1, 0.06), (0.08, 0.04))]
+    for at in ({}, dict(at=dict(S=0.05))):
+        lines = dict(one=OilLine("first.rod_side", "second.piston_side", filled=dict(second=0.8), oil=1e-4, **at))
+        lines |= dict(two=OilLine("second.rod_side", "third.piston_side", filled=dict(third=0.8), oil=-2e-5, **at))
+        structure = made(base=Chain, **lines)
+        motion, start = structure().at(S=np.array([0.0, 0.05, 0.2])), at.get("at", {}).get("S", 0.0)
+        second = 0.8 + (1e-4 + annulus[0] * (motion.strokes["S"] - start)) / AREA
+        third = 0.8 + (-2e-5 + annulus[1] * (second - 0.8)) / AREA
+        assert_allclose(motion["second.length"], second, rtol=1e-12)
+        assert_allclose(motion["third.length"], third, rtol=1e-12)
+        for line, put_in in ((structure.one, 1e-4), (structure.two, -2e-5)):
+            assert_allclose(line.oil(motion), put_in, atol=1e-15)
+            assert_allclose(line.oil(structure().at(S=0.1)), put_in, atol=1e-15)
+    with pytest.raises(DefinitionError, match="both say where all its cylinders are"):
+        OilLine("a", "b", at=0.1, filled="closed")
+
+
+def test_a_side_that_is_written_works_against_a_tank_on_the_other_one():
+    for works, other, area, across in (("piston", "rod", AREA, ANNULUS), ("rod", "piston", ANNULUS, AREA)):
+        ram = Cylinder("A", "B", bore=80 * mm, rod=45 * mm, works=works)
+        load = Force("G", (0.0, (-20 if works == "piston" else 20) * kN))
+        back = OilLine(f"ram.{other}_side", Tank(4 * bar))
+        for more in ({}, dict(line=LiftCircuit("ram", pressure=200 * bar)), dict(line=OilLine(f"ram.{works}_side", Pump(200 * bar)))):
+            structure = made(ram=ram, load=load, back=back, **more)
+            motion = structure().at(S=np.array([0.05, 0.15]))
+            wanted = (np.abs(structure.ram.thrust(motion)) + 4 * bar * across) / area
+            assert_allclose(structure.ram.pressure(motion), wanted, rtol=1e-12)
+            alone = made(ram=ram, load=load)
+            assert_allclose(structure.ram.thrust(motion), alone.ram.thrust(alone().at(S=motion.strokes["S"])), rtol=1e-12)
+
+
+def test_lowering_looks_both_ways_whatever_the_number_of_poses():
+    class Over(Mechanism):
+        S = Stroke(0.0, 0.4)
+        O, A = Ground(0.0, 0.0), Ground(-1.0, -0.3)
+        B = Dyad(A, O, AB=1.05 + S, OB=0.5, side=LEFT)
+        G = OnLink(O, B, OG=1.0)
+        load = Weight(G, mass=1000)
+        ram = Cylinder(A, B, bore=80 * mm, rod=45 * mm, works="both")
+        line = LiftCircuit(ram, pressure=200 * bar)
+
+    thrust = Over.ram.thrust(Over().sweep(201))
+    assert thrust.min() < 0.0 < thrust.max()
+    wanted = max(thrust.max() / AREA, -thrust.min() / ANNULUS)
+    for poses in (2, 3, 10, 100):
+        motion = Over().sweep(poses)
+        (found,) = (str(each) for each in lift_verdicts("line", motion) if each.rule == "lowering")
+        assert f"{wanted / bar:.4g} bar" in found, (poses, found)
+        assert_allclose(Over.line.lowering(motion).push.max(), wanted, rtol=1e-6)
+    (told,) = (str(each) for each in Over().verdicts() if each.rule == "lowering")
+    assert f"{wanted / bar:.4g} bar" in told
+
+
+class Listed(Mechanism):
+    """A parts list in which a pin hangs on a boom and on what is given a length."""
+
+    S = Stroke(0.0, 0.15)
+    sketch = drawn(S=0.0)
+    O, A, C, M = Ground(0.0, 0.0), Ground(0.3, -0.4), Ground(0.0, 2.0), Ground(-0.3, -0.3)
+    B = Dyad(A, O, AB=math.hypot(0.5, 0.8) + S, OB=math.hypot(0.8, 0.4), side=LEFT)
+    T, K = OnLink(O, B, OT=2.0), OnLink(O, B, OK=0.3, BOK=90 * deg)
+
+
+def test_a_parts_list_names_the_link_that_a_rope_or_a_line_gives_its_length():
+    pin = dict(W=Pin(at=(1.6, 0.2)), lug=Link("T W"), load=Force("W", (0.0, -5 * kN)))
+    rams = dict(master=Cylinder("M", "K", bore=80 * mm, rod=40 * mm), slave=Cylinder("C", "W", bore=80 * mm, rod=40 * mm))
+    level = OilLine("master.piston_side", "slave.piston_side", filled=dict(slave=2.3))
+    given = {
+        'Link("C W", CW=ref("rope.last"))': pin | dict(rope=Rope("C", "W", length=2.3)),
+        'Link("C W", CW=ref("slave.length"))': pin | rams | dict(level=level),
+    }
+    for remedy, members in given.items():
+        with pytest.raises(DefinitionError) as refused:
+            made(base=Listed, **members)
+        assert remedy in str(refused.value)
+        motion = made(base=Listed, hung=eval(remedy, {"Link": Link, "ref": ref}), **members)().at(S=0.0)
+        assert_allclose(motion.distance("C", "W"), 2.3, rtol=1e-12)

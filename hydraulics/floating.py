@@ -8,7 +8,7 @@ Source: Rekhlitski, Chuprynin (2013), (36), (37), (39).
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from types import MappingProxyType
@@ -21,14 +21,14 @@ from linkage.checks import require_type
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import refuses_changes
 from linkage.language import said
-from linkage.loads import AT_REST, Acting, Declared, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, Tie, require_poses
+from linkage.loads import AT_REST, Acting, Declared, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Judge, Motion, MotionFunction, least, most
 from linkage.plan import ArrayReading
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, quantity
-from linkage.statics import AnyMotion, held_in_case, plan_of, stroke_followed
+from linkage.statics import AnyMotion, held_in_case, plan_of, same, stroke_followed
 from linkage.vectors import Scalar
 from linkage.verdict import Verdict
 
@@ -36,10 +36,9 @@ from .accumulator import AccumulatorBlock
 from .gas import Polytropic
 from .inputs import Array, all_finite, follows, in_pascals, number_set
 from .line import pressure_range
-from .member import Circuit, Ram, Side, the_cylinder
+from .member import Circuit, Feeds, Ram, chamber_area
 from .standing import shut_verdicts, standing_pressure
 
-Feeds: TypeAlias = "Reference | Sequence[Reference]"
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 
 
@@ -56,21 +55,19 @@ class GasLine(Circuit):
     def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
         """Return the strokes [SI] at which the block has its charge pressure, for one of its cylinders."""
 
-    @abstractmethod
+    def length_charged(self, motion: Poses, ram: Ram) -> Any:
+        """Return the length of one of its cylinders where it was charged [m]."""
+        return length_at(motion, ram, self.charged_at(motion, ram))
+
+    def volumes(self, motion: Poses) -> Iterator[Array]:
+        """Yield how much larger each of its chambers is than where it was charged [m3]."""
+        require_poses(motion)
+        for ram, chamber in self.filling(motion.plan.members):
+            yield ram.filled(chamber.side, motion, self.length_charged(motion, ram), motion.distance(ram.A, ram.B))
+
     def withdrawn(self, motion: Poses) -> Array:
-        """Return the fluid [m3] that has left the block since it was charged, shape (...); negative: pushed in."""
-
-    def ram(self, motion: Poses) -> Ram:
-        """Return its only cylinder, as the motion's class has it; DefinitionError where it has several."""
-        rams = self.rams(motion)
-        if len(rams) > 1:
-            names = ", ".join(each.name or str(each) for each in rams)
-            raise DefinitionError(f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
-        return rams[0]
-
-    def rams(self, motion: Poses) -> tuple[Ram, ...]:
-        """Return its cylinders, as the motion's class has them."""
-        return tuple(the_cylinder(motion, each) for each in self.references)
+        """Return the fluid [m3] that has left the block since it was charged, shape (...); negative: pushed in. (36)"""
+        return reduce(np.add, self.volumes(motion))
 
     def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
         return self.pressure_under(motion, acting)
@@ -135,12 +132,14 @@ class GasLine(Circuit):
         Frictionless at rest, or while strokes move at rates, with the seals' friction. (37), (39)
         """
         require_type("FloatCircuit: rates", rates, Mapping, "a speed for each stroke is expected, such as dict(S=0.05)")
-        ram = self.ram(motion) if cylinder is None else the_cylinder(motion, cylinder)
-        return self.thrust_of(ram, motion, rates)
+        return self.thrust_of(self.one(motion, cylinder), motion, rates)
 
-    @abstractmethod
     def thrust_of(self, ram: Ram, motion: Poses, rates: Mapping[str, Rate]) -> Array:
         """Return what the line puts on a cylinder [N], at rest or while strokes move at rates."""
+        areas = [chamber_area(chamber, ram, motion) for each, chamber in self.filling(motion.plan.members) if same(each, ram)]
+        area = reduce(np.add, areas)
+        free = self.line_pressure(motion) * area
+        return np.asarray(free - self.rubbing(ram, np.abs(area), motion, rates) if rates and not self.is_drained else free)
 
     def rubbing(self, ram: Ram, area: Array | float, motion: Poses, rates: Mapping[str, Rate]) -> Array:
         """Return the seals' friction in a cylinder, with the area of its chamber, against its movement at rates [N]."""
@@ -199,7 +198,7 @@ class GasLine(Circuit):
         return written.line(f"p_{ram.name}", pressure, "bar")
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
-        if self._is_shut:
+        if self.kind_in(motion.plan.members) != "given":
             return []
         given = rates if rates.has_friction else AT_REST
         return [Push(ram, self.thrust_of(ram, motion, given)) for ram in self.rams(motion)]
@@ -254,9 +253,6 @@ class FloatCircuit(GasLine):
     def kind_open(self, members: Mapping[str, Member]) -> str:
         return "given"
 
-    def tie(self, members: Mapping[str, Member]) -> Tie | None:
-        return Tie(self.name, self.shares(members), held=True) if self._is_shut else None
-
     def gas_block(self, plan: Declared) -> Block:
         return self.block
 
@@ -267,11 +263,6 @@ class FloatCircuit(GasLine):
         followed = self.block.following if isinstance(self.block, AccumulatorBlock) else ()
         return (*super().parts(), *followed)
 
-    @property
-    def references(self) -> tuple[Reference, ...]:
-        given = self.cylinder
-        return tuple(given) if isinstance(given, (list, tuple)) else (cast(Reference, given),)
-
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         super().examine(members, title)
         if any(found.side == "both" for found in self.members(members)):
@@ -281,8 +272,7 @@ class FloatCircuit(GasLine):
 
     def __str__(self) -> str:
         block = str(self.block) if isinstance(self.block, AccumulatorBlock) else getattr(self.block, "__name__", "block")
-        names = ", ".join(map(label, self.references))
-        return f"FloatCircuit({', '.join([f'[{names}]' if len(self.references) > 1 else names, block, *self.words()])})"
+        return f"FloatCircuit({', '.join([self.named, block, *self.words()])})"
 
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
         count = len(self.block.accumulators) if isinstance(self.block, AccumulatorBlock) else 1
@@ -301,21 +291,8 @@ class FloatCircuit(GasLine):
             found["gas line", ram.name or id(ram)] = f"{doubled}. Take one out, or put the vessels of both into one AccumulatorBlock."
         return found
 
-    def withdrawn(self, motion: Poses) -> Array:
-        """Return the fluid [m3] that has left the block since the charging stroke, shape (...); negative: pushed in. (36)"""
-        return reduce(np.add, (self._drawn(ram, motion) for ram in self.rams(motion)))
-
     def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
         return {stroke_followed(plan_of(motion), ram): self.number(motion, "at")}
-
-    def _drawn(self, ram: Ram, motion: Poses) -> Array:
-        charged: Any = length_at(motion, ram, self.charged_at(motion, ram))
-        return ram.filled(cast(Side, ram.side), motion, charged, motion.distance(ram.A, ram.B))
-
-    def thrust_of(self, ram: Ram, motion: Poses, rates: Mapping[str, Rate]) -> Array:
-        size = ram.sized(motion)
-        free = size.thrust(self.pressure(motion))
-        return np.asarray(free - self.rubbing(ram, size.area, motion, rates) if rates else free)
 
 
 def number_written(written: Formulas, value: Any) -> Array:

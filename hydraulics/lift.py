@@ -28,7 +28,6 @@ from linkage.loads import (
     Case,
     Declared,
     ForceElement,
-    Load,
     Loads,
     Parameter,
     Poses,
@@ -40,7 +39,7 @@ from linkage.loads import (
 from linkage.loads.element import Formulas
 from linkage.motion import Condition, Judge, Motion, Question
 from linkage.program import is_traced
-from linkage.quantities import Member, Reference, label, name_of
+from linkage.quantities import Member, Reference
 from linkage.statics import (
     PROBE,
     AnyMotion,
@@ -58,7 +57,6 @@ from linkage.statics import (
 )
 from linkage.verdict import Verdict
 
-from .floating import Feeds
 from .inputs import (
     Array,
     efficient,
@@ -73,7 +71,7 @@ from .inputs import (
 )
 from .judged import line_conditions, line_questions, line_verdicts
 from .line import Choice, Holding, LiftLine, LineValve, Lowering, WayBack, Work
-from .member import PISTON, Circuit, Ram, Reading, by_other_lines, line_thrust, lines_of, the_cylinder, thrust_along
+from .member import PISTON, Circuit, Feeds, Ram, Reading, by_other_lines, line_thrust, lines_of, thrust_along
 from .standing import is_blocked, shut_verdicts, standing_pressure
 
 
@@ -94,9 +92,6 @@ class PumpLine(LiftLine):
     @abstractmethod
     def pump_given(self, plan: Declared, name: str) -> Parameter:
         """Return a number of the pump, such as its pressure, as it is given."""
-
-    def loads(self, motion: Poses) -> list[Load]:
-        return []
 
     def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return () if self.tie(members) is not None else self.members(members)
@@ -138,25 +133,6 @@ class PumpLine(LiftLine):
         written.line(f"kz_{ram.name}", most / force)
 
     # -- what it is made of --------------------------------------------------------------------------------
-
-    def rams(self, motion: Poses) -> tuple[Ram, ...]:
-        """Return its cylinders, as the motion's class has them."""
-        return tuple(the_cylinder(motion, each) for each in self.references)
-
-    def ram(self, motion: Poses) -> Ram:
-        """Return its only cylinder; DefinitionError where it has several."""
-        return self.one(motion, None)
-
-    def one(self, motion: Poses, cylinder: Reference | None) -> Ram:
-        """Return the cylinder that is meant: its only one, or the one named; DefinitionError where that leaves a choice."""
-        rams = self.rams(motion)
-        if cylinder is None and len(rams) == 1:
-            return rams[0]
-        names = ", ".join(each.name or str(each) for each in rams)
-        named = [each for each in rams if cylinder is not None and (each is cylinder or (each.name and each.name == name_of(cylinder)))]
-        if not named:
-            raise DefinitionError(f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
-        return named[0]
 
     def meant(self, motion: Poses, cylinder: Reference | None) -> tuple[Ram, ...]:
         """Return all its cylinders, or the one named."""
@@ -544,11 +520,6 @@ class LiftCircuit(PumpLine):
         if not follows(self.flow):
             in_cubic_metres(cast(ArrayLike, self.flow), "Flow of the pump")
 
-    @property
-    def references(self) -> tuple[Reference, ...]:
-        given = self.cylinder
-        return tuple(given) if isinstance(given, (list, tuple)) else (cast(Reference, given),)
-
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         if not self.references:
             raise DefinitionError(f"{title}.{self.name}: the circuit has no cylinder; name one, LiftCircuit(lift, pressure=...).")
@@ -568,8 +539,7 @@ class LiftCircuit(PumpLine):
                 raise DefinitionError(f"{title}: {what}; {says}. Name all of them in one LiftCircuit, or none in both.")
 
     def __str__(self) -> str:
-        names = ", ".join(label(each) for each in self.references)
-        return f"LiftCircuit({', '.join([f'[{names}]' if len(self.references) > 1 else names, *self.words()])})"
+        return f"LiftCircuit({', '.join([self.named, *self.words()])})"
 
     def number(self, motion: Poses, name: str) -> Array:
         """Return a parameter as a motion's designs have it [SI], the same at all poses; DefinitionError for one that follows a stroke."""

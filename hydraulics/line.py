@@ -165,10 +165,6 @@ class LiftLine(Circuit):
         """Return whether a relief valve of its own is on it."""
 
     @abstractmethod
-    def rams(self, motion: Poses) -> tuple[Ram, ...]:
-        """Return its cylinders, as the motion's class has them."""
-
-    @abstractmethod
     def supply(self, motion: Poses) -> Array:
         """Return the highest pressure that lifts."""
 

@@ -33,12 +33,14 @@ from linkage.loads import (
     Declared,
     DrawnAs,
     ForceElement,
+    Load,
     Loads,
     Parameter,
     Poses,
     Push,
     Rates,
     Share,
+    Tie,
     TwoPoint,
     require_poses,
     situation_of,
@@ -1053,6 +1055,10 @@ def circuits_of(cylinder: Ram, plan: Declared) -> list[Circuit]:
     return [each for each in found if not any(same(each, line) for line in other)] if other else found
 
 
+Feeds: TypeAlias = "Reference | Sequence[Reference]"
+"""The cylinders of a circuit: one, or a list."""
+
+
 class Circuit(ForceElement, HasVerdicts):
     """The base of circuits: what feeds cylinders."""
 
@@ -1068,10 +1074,46 @@ class Circuit(ForceElement, HasVerdicts):
             if not is_named(each) and not isinstance(each, Ram):
                 raise DefinitionError(f"{type(self).__name__}: {cited(each)} is no Cylinder; name one.")
 
+    cylinder: Feeds
+
     @property
-    @abstractmethod
     def references(self) -> tuple[Reference, ...]:
         """Its cylinders, as they were given."""
+        given = self.cylinder
+        return tuple(given) if isinstance(given, (list, tuple)) else (cast(Reference, given),)
+
+    @property
+    def named(self) -> str:
+        """Its cylinders as they are written: a name, or a list of names."""
+        names = ", ".join(map(label, self.references))
+        return f"[{names}]" if len(self.references) > 1 else names
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return []
+
+    def tie(self, members: Mapping[str, Member]) -> Tie | None:
+        """Return how its pressure acts where it is given by itself, and a load case shuts it."""
+        is_kept = self._is_shut and self.kind_open(members) == "given"
+        return Tie(self.name, self.shares(members), held=True) if is_kept else None
+
+    def rams(self, motion: Poses) -> tuple[Ram, ...]:
+        """Return its cylinders, as the motion's class has them."""
+        return tuple(the_cylinder(motion, each) for each in self.references)
+
+    def ram(self, motion: Poses) -> Ram:
+        """Return its only cylinder; DefinitionError where it has several."""
+        return self.one(motion, None)
+
+    def one(self, motion: Poses, cylinder: Reference | None) -> Ram:
+        """Return the cylinder that is meant: its only one, or the one named; DefinitionError where that leaves a choice."""
+        rams = self.rams(motion)
+        if cylinder is None and len(rams) == 1:
+            return rams[0]
+        names = ", ".join(each.name or str(each) for each in rams)
+        named = [each for each in rams if cylinder is not None and (each is cylinder or (each.name and each.name == name_of(cylinder)))]
+        if not named:
+            raise DefinitionError(f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
+        return named[0]
 
     def parts(self) -> tuple[Reference, ...]:
         return (*(each for each in self.references if is_named(each)), *super().parts())

@@ -13,7 +13,7 @@
 from __future__ import annotations
 
 from abc import ABC
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from math import pi
@@ -27,7 +27,6 @@ from linkage.errors import DefinitionError, cited, unknown
 from linkage.frozen import FrozenDict, refuses_changes
 from linkage.language import said
 from linkage.loads import (
-    AT_REST,
     Acting,
     ActingKeywords,
     Declared,
@@ -36,15 +35,11 @@ from linkage.loads import (
     Load,
     Parameter,
     Poses,
-    Push,
-    Rate,
-    Rates,
     Tie,
     situation_of,
     takes_situation,
 )
 from linkage.loads.element import UNBOUNDED, Formulas
-from linkage.loads.two_point import end_forces
 from linkage.motion import Condition, Judge, Motion, Question, at, least, most
 from linkage.quantities import (
     AtPose,
@@ -68,7 +63,7 @@ from linkage.verdict import Verdict
 
 from .accumulator import AccumulatorBlock
 from .files import FilledKind, OnLineKind
-from .floating import Block, GasLine, length_at
+from .floating import Block, GasLine
 from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, number_set, one_number, positive
 from .lift import PumpLine
 from .line import pressure_range
@@ -445,13 +440,9 @@ class OilLine(PumpLine, GasLine):
 
     def tie(self, members: Mapping[str, Member]) -> Tie | None:
         """Return how its pressure acts on its cylinders, where it is closed, or held beside a closed line."""
-        kind = self.kind_in(members)
-        if self._is_shut and self.kind_open(members) == "given":
-            return Tie(self.name, self.shares(members), held=True)
-        if kind == "held":
-            return PumpLine.tie(self, members)
-        if kind == "given":
-            return None
+        kind = self.kind_open(members)
+        if kind != "closed":
+            return PumpLine.tie(self, members) if kind == "held" else Circuit.tie(self, members)
         gives = next((f"{ram.name}.length" for ram, _ in self.filling(members) if self._gives(ram, members)), "")
         added = None if self.oil_given.is_constant else self.oil_given
         return Tie(self.name, self.shares(members), held=False, cut=self.cut if gives else "", gives=gives, added=added)
@@ -483,25 +474,6 @@ class OilLine(PumpLine, GasLine):
 
     def fills(self, name: str) -> bool:
         return isinstance(self.filled, str) or (isinstance(self.filled, Mapping) and name in self.filled)
-
-    def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
-        members = motion.plan.members
-        if self.kind_in(members) != "given":
-            return []
-        given = rates if rates.has_friction else AT_REST
-        return [Push(ram, self.thrust_of(ram, motion, given)) for ram in self.rams(motion)]
-
-    def loads(self, motion: Poses) -> list[Load]:
-        return self.moving(motion, AT_REST)
-
-    def moving(self, motion: Poses, rates: Rates) -> list[Load]:
-        return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
-
-    def thrust_of(self, ram: Ram, motion: Poses, rates: Mapping[str, Rate]) -> Array:
-        areas = [chamber_area(chamber, ram, motion) for each, chamber in self.filling(motion.plan.members) if same(each, ram)]
-        area = reduce(np.add, areas)
-        free = self.line_pressure(motion) * area
-        return np.asarray(free - self.rubbing(ram, np.abs(area), motion, rates) if rates and self.block is not None else free)
 
     @property
     def scales(self) -> bool:
@@ -603,7 +575,7 @@ class OilLine(PumpLine, GasLine):
 
     def oil(self, motion: Motion) -> Array:
         """Return the oil that has come in since it was filled, per pose, shape (...) [m3]; accumulators beside a pump hold theirs, too."""
-        found = np.asarray(reduce(np.add, self._volumes(motion)))
+        found = np.asarray(reduce(np.add, self.volumes(motion)))
         if self.block is None or self.kind_in(motion.plan.members) != "held":
             return found
         filled = self._motion_filled(motion)
@@ -616,14 +588,9 @@ class OilLine(PumpLine, GasLine):
         at = {**plan.sketch_strokes, **self.strokes_filled(list(plan.strokes))}
         return Motion(plan, motion.designs, {name: np.asarray(at[name]) for name in plan.strokes}, "nan")
 
-    def _volumes(self, motion: Poses) -> Iterator[Array]:
-        """Yield how much larger each chamber is than where the line was filled [m3]."""
-        for ram, chamber in self.filling(motion.plan.members):
-            yield np.asarray(ram.filled(chamber.side, motion, self._filled_length(motion, ram), motion.distance(ram.A, ram.B)))
-
-    def _filled_length(self, motion: Poses, ram: Ram) -> Any:
+    def length_charged(self, motion: Poses, ram: Ram) -> Any:
         length = self.length_filled(ram, motion.plan.members)
-        return length_at(motion, ram, self.charged_at(motion, ram)) if isinstance(length, AtPose) else motion.value(length)
+        return super().length_charged(motion, ram) if isinstance(length, AtPose) else motion.value(length)
 
     def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
         strokes = self.strokes_filled(list(plan_of(motion).strokes))
@@ -632,7 +599,7 @@ class OilLine(PumpLine, GasLine):
         return {name: np.asarray(value) for name, value in {**dict.fromkeys(unmoved, 0.0), **strokes}.items()}
 
     def withdrawn(self, motion: Poses) -> Array:
-        return np.asarray(reduce(np.add, self._volumes(motion)) - self.number(motion, "oil"))
+        return np.asarray(super().withdrawn(motion) - self.number(motion, "oil"))
 
     def gas_block(self, plan: Declared) -> Block:
         assert self.block is not None

@@ -418,7 +418,7 @@ class ForceElement(Jointed):
         given = {name: quantity(self.given(name)) for name in self.numbers}
         kinds = {name: "not negative" if name in self.not_negative else "number" for name in given}
         return tuple(
-            (f"{self.name}.{name}", value.number, kinds[name], self.parameters[name])
+            (f"{self.name}.{name}", float(value.number) if name in self.stroke_values else value.number, kinds[name], self.parameters[name])
             for name, value in given.items()
             if isinstance(value, Number)
         )

@@ -340,44 +340,28 @@ class LiftingCylinder:
         way, push = max(each_way, key=lambda each: (each[1].unbounded, float(np.nan_to_num(each[1].value, nan=-np.inf))))
         alone = judge.answer(least(self.back(way, resistance, "load")))
         if push.ok:
+            by = {"against": against, "where": alone.place, "pressure": self.show(alone.value)}
+            text = said("it sinks by itself {against}: the load makes at least {pressure} in the working side, {where}.", **by)
             if alone.value <= 1e-9 * float(self.circuit.supply(judge.motion)):
-                text = said(
-                    "it goes back by itself {against}; {where} the load presses on neither side and nothing drives it.",
-                    against=against, where=alone.place,
-                )  # fmt: skip
-                return Verdict("lowering", True, text, answer=push)
-            text = said(
-                "it sinks by itself {against}: the load makes at least {pressure} in the working side, {where}.",
-                against=against, pressure=self.show(alone.value), where=alone.place,
-            )  # fmt: skip
+                text = said("it goes back by itself {against}; {where} the load presses on neither side and nothing drives it.", **by)
             return Verdict("lowering", True, text, answer=push)
-        where = self.stuck(replace(self.back(way, resistance), acting=judge.situation(push)))
+        where, enough = self.stuck(replace(self.back(way, resistance), acting=judge.situation(push))), False
+        by = {"where": where, "against": against, "place": push.place, "pose": push.place, "push": self.show(push.value)}
         if push.unbounded:
-            text = said(
-                "it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.",
-                where=where, against=against, pose=push.place,
-            )  # fmt: skip
-            return Verdict("lowering", False, text, answer=push)
-        if self.ram.is_single_acting:
-            text = said(
-                "it does not sink by itself {where} {against}: it lacks up to {push}, {place}, and no oil pushes it in.",
-                where=where, against=against, push=self.show(push.value), place=push.place,
-            )  # fmt: skip
-            return Verdict("lowering", False, text, answer=push)
-        needed = show_enough(float(judge.answer(most(self.back(way, resistance, "whole push"))).value), self.unit)
-        if self.ram.side == "both":
-            enough = push.value <= float(self.circuit.supply(judge.motion)) * (1.0 + 1e-9)
-            text = said(
-                "{direction}, the load does not drive it back {where} {against}: the other side must push with up to {push}, {place}.",
-                direction=said("extending") if way == "extending" else said("retracting"), where=where, against=against,
-                push=needed, place=push.place,
-            )  # fmt: skip
-            return Verdict("lowering", enough, text, answer=push)
-        text = said(
-            "it does not sink by itself {where} {against}: the other side must push with up to {push}, {place}.",
-            where=where, against=against, push=needed, place=push.place,
-        )  # fmt: skip
-        return Verdict("lowering", False, text, answer=push)
+            text = said("it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.", **by)
+        elif self.ram.is_single_acting:
+            text = said("it does not sink by itself {where} {against}: it lacks up to {push}, {place}, and no oil pushes it in.", **by)
+        else:
+            by["push"] = show_enough(float(judge.answer(most(self.back(way, resistance, "whole push"))).value), self.unit)
+            text = said("it does not sink by itself {where} {against}: the other side must push with up to {push}, {place}.", **by)
+            if self.ram.side == "both":
+                enough = push.value <= float(self.circuit.supply(judge.motion)) * (1.0 + 1e-9)
+                by["direction"] = said("extending") if way == "extending" else said("retracting")
+                text = said(
+                    "{direction}, the load does not drive it back {where} {against}: the other side must push with up to {push}, {place}.",
+                    **by,
+                )
+        return Verdict("lowering", enough, text, answer=push)
 
     @property
     def ways_back(self) -> tuple[str, ...]:

@@ -71,7 +71,7 @@ from .inputs import (
 )
 from .judged import line_conditions, line_questions, line_verdicts
 from .line import Choice, Holding, LiftLine, LineValve, Lowering, WayBack, Work
-from .member import PISTON, Circuit, Feeds, Ram, Reading, by_other_lines, line_thrust, lines_of, thrust_along
+from .member import PISTON, Feeds, Ram, Reading, by_other_lines, line_thrust, lines_of, thrust_along
 from .standing import is_blocked, shut_verdicts, standing_pressure
 
 
@@ -176,7 +176,8 @@ class PumpLine(LiftLine):
     def work_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Work:
         size, k_m = cylinder.sized(motion, acting.direction), self.efficiency(motion, "mechanical")
         if size.works == "both" and acting.direction is None:
-            out, back = both_ways(cylinder, self, motion, acting)
+            ways = (replace(acting, direction=way, rates=None) for way in ("extending", "retracting"))
+            out, back = (line_thrust(cylinder, self, motion, way) for way in ways)
             pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
             return Work(np.where(pushes, out, back), np.where(pushes, 1.0, -1.0), size, k_m)
         way = acting.direction or ("retracting" if size.works == "rod" else "extending")
@@ -578,13 +579,6 @@ def fitted(motion: Motion, value: Array) -> Array:
     except ValueError:
         raise DefinitionError(f"resistance of the shape {np.shape(value)} does not fit the poses {motion.shape}.") from None
     return value
-
-
-def both_ways(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting) -> tuple[Array, Array]:
-    """Return what a cylinder carries while it grows and while it shrinks [N]: all of it, or what one line puts on it."""
-    ways = [replace(acting, direction=way, rates=None) for way in ("extending", "retracting")]
-    out, back = (member_thrust(motion, ram, way) if line is None else line_thrust(ram, line, motion, way) for way in ways)
-    return out, back
 
 
 def working_area(ram: Ram, motion: Poses) -> Array:

@@ -10,12 +10,11 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Unpack, final
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from linkage.frozen import refuses_changes
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Case, Declared, ForceElement, Loads, Poses
-from linkage.motion import Answer, HasVerdicts, Motion
+from linkage.motion import Answer, HasVerdicts
 from linkage.plan import Mask
 from linkage.quantities import Reference
 from linkage.statics import AnyMotion, held_in_case
@@ -177,20 +176,8 @@ class LiftLine(Circuit):
         """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
 
     @abstractmethod
-    def work_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Work:
-        """Return the same of one of its cylinders in a situation."""
-
-    @abstractmethod
-    def rod_force(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
-        """Return the rod force that is needed, shape (...)."""
-
-    @abstractmethod
     def most(self, motion: AnyMotion, work: Work, share: float = 1.0) -> Array:
         """Return the greatest rod force with the areas of a work, at a share of the pressure."""
-
-    @abstractmethod
-    def pressure_for(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
-        """Return the pressure that is needed on the side that works, shape (...)."""
 
     @abstractmethod
     def efficiency(self, motion: Poses, kind: str) -> Array:
@@ -201,39 +188,11 @@ class LiftLine(Circuit):
         """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder."""
 
     @abstractmethod
-    def capacity(
-        self, motion: AnyMotion, point: str, loads: Loads = None, *, along: tuple[Any, Any] = (0.0, 1.0), share: float = 1.0,
-        cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None,
-    ) -> Array:  # fmt: skip
-        """Return the largest load [N] at a point that the pump lifts beside the machine's own, shape (...)."""
-
-    @abstractmethod
     def lifted(
         self, motion: AnyMotion, point: str, loads: Loads = None, *, along: tuple[Any, Any] = (0.0, 1.0), share: float = 1.0,
         cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None, limit: int | None = None,
     ) -> Array:  # fmt: skip
         """Return the same, NaN where nothing limits it; by one `limit` alone: the number of a member's condition, else the pump's."""
-
-    @abstractmethod
-    def holding(
-        self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None
-    ) -> Holding:
-        """Return the pressures that hold the thrust with the pump off."""
-
-    @abstractmethod
-    def lowering(
-        self, motion: Motion, loads: Loads = None, *, resistance: ArrayLike = 0.0, cylinder: Reference | None = None, case: Case = None,
-        acting: Acting | None = None,
-    ) -> Lowering:  # fmt: skip
-        """Return how it goes back against its working direction, the oil flowing out against a `resistance`."""
-
-    @abstractmethod
-    def oil(self, motion: Motion) -> Array:
-        """Return the oil that a motion takes, one value a design."""
-
-    @abstractmethod
-    def time(self, motion: Motion) -> Array:
-        """Return the time that the pump's flow takes for it, one value a design."""
 
 
 def pressure_range(low: Answer, high: Answer, unit: str) -> str:

@@ -7,6 +7,7 @@ expression of dimensions or its name may replace a number.
 
 from __future__ import annotations
 
+from collections.abc import Container
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -189,11 +190,26 @@ def setting_of_designs(motion: Poses, given: Any, what: str) -> Any:
     return ArrayReading(motion.plan.members, motion.plan.table.lengths, motion.inputs).value(quantity(given))
 
 
+def check_pressures(element: ForceElement, whose: str, above_zero: Container[str] = ("pressure", "relief")) -> None:
+    """Raise DefinitionError for pressures, efficiencies and a flow of a pump's circuit that are given as numbers and cannot be."""
+    for name in (each for each in element.numbers if not follows(element.given(each))):
+        given: Any = element.given(name)
+        if name.endswith("_efficiency"):
+            efficient(given, f"{type(element).__name__}: {name}")
+        elif name == "flow":
+            in_cubic_metres(given, "Flow of the pump")
+        else:
+            what = f"{name.replace('_', ' ').capitalize()} of the {whose}"
+            pressure = in_pascals(given, what)
+            if name in above_zero:
+                positive(pressure, what)
+
+
 def number_set(element: ForceElement, motion: Poses, name: str) -> Array:
     """Return a parameter of a force element as a motion's designs have it [SI], shaped to broadcast against the motion."""
     given = element.given(name)
     if not follows(given):
-        return element.number(motion, name)
+        return ForceElement.number(element, motion, name)
     return all_finite(setting_of_designs(motion, given, name.capitalize()), name.capitalize())
 
 

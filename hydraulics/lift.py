@@ -59,6 +59,7 @@ from linkage.verdict import Verdict
 
 from .inputs import (
     Array,
+    check_pressures,
     efficient,
     follows,
     in_cubic_metres,
@@ -79,19 +80,30 @@ class PumpLine(LiftLine):
     """The base of lines that a pump holds: what `LiftCircuit` and `OilLine` share. A subclass says where its numbers come from."""
 
     @abstractmethod
+    def says(self, name: str, members: Mapping[str, Member]) -> tuple[ForceElement, str] | None:
+        """Return what says a number of the pump, the relief valve or the tank, and by which name; None where nothing does."""
+
     def number(self, motion: Poses, name: str) -> Array:
-        """Return a number of the pump, the relief valve or the tank as a motion's designs have it [SI], the same at all poses.
+        """Return such a number as a motion's designs have it [SI], the same at all poses: 0 where nothing says it.
 
         DefinitionError for one that follows a stroke.
         """
+        require_poses(motion)
+        found = self.says(name, motion.plan.members)
+        return np.zeros(()) if found is None else number_set(found[0], motion, found[1])
 
-    @abstractmethod
     def written(self, written: Formulas, name: str) -> Array:
         """Return the same for the equations."""
+        found = self.says(name, written.plan.members)
+        return np.zeros(()) if found is None else ForceElement.number(found[0], written, found[1])
 
-    @abstractmethod
     def pump_given(self, plan: Declared, name: str) -> Parameter:
-        """Return a number of the pump, such as its pressure, as it is given."""
+        """Return a number of the pump, such as its pressure, as it is given; 0 where nothing says it."""
+        found = self.says(name, plan.members)
+        return 0.0 if found is None else cast(Parameter, found[0].given(found[1]))
+
+    def relieves(self, plan: Declared) -> bool:
+        return self.says("relief", plan.members) is not None
 
     def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return () if self.tie(members) is not None else self.members(members)
@@ -509,17 +521,7 @@ class LiftCircuit(PumpLine):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        for name in ("pressure", "relief", "back_pressure"):
-            if name in self.numbers and not follows(getattr(self, name)):
-                what = f"{name.replace('_', ' ').capitalize()} of the circuit"
-                given = in_pascals(getattr(self, name), what)
-                if name != "back_pressure":
-                    positive(given, what)
-        for kind in ("mechanical", "hydraulic"):
-            if not follows(getattr(self, f"{kind}_efficiency")):
-                efficient(getattr(self, f"{kind}_efficiency"), f"LiftCircuit: {kind}_efficiency")
-        if not follows(self.flow):
-            in_cubic_metres(cast(ArrayLike, self.flow), "Flow of the pump")
+        check_pressures(self, "circuit")
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         if not self.references:
@@ -542,21 +544,11 @@ class LiftCircuit(PumpLine):
     def __str__(self) -> str:
         return f"LiftCircuit({', '.join([self.named, *self.words()])})"
 
-    def number(self, motion: Poses, name: str) -> Array:
-        """Return a parameter as a motion's designs have it [SI], the same at all poses; DefinitionError for one that follows a stroke."""
-        return number_set(self, motion, name) if follows(getattr(self, name)) else ForceElement.number(self, motion, name)
-
-    def written(self, written: Formulas, name: str) -> Array:
-        return ForceElement.number(self, written, name)
+    def says(self, name: str, members: Mapping[str, Member]) -> tuple[ForceElement, str] | None:
+        return None if self.given(name) is None else (self, name)
 
     def oil(self, motion: Motion) -> Array:
         return self.taken(motion)
-
-    def pump_given(self, plan: Declared, name: str) -> Parameter:
-        return cast(Parameter, getattr(self, name))
-
-    def relieves(self, plan: Declared) -> bool:
-        return self.relief is not None
 
 
 IDLE = 1e-12

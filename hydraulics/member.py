@@ -352,7 +352,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         ways = ("retracting",) if pushes > TO_ROUNDING * pulls or not pulls else ()
         return (*ways, "extending") if pulls > TO_ROUNDING * pushes else ways
 
-    def ways_back_in(self, motion: AnyMotion, acting: Acting) -> tuple[str, ...]:
+    def ways_back_in(self, motion: Motion, acting: Acting) -> tuple[str, ...]:
         """Return the same over all that a motion covers."""
         if self.side != "both":
             return self.ways_back(0.0, 0.0)

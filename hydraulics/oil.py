@@ -64,7 +64,7 @@ from linkage.verdict import Verdict
 from .accumulator import AccumulatorBlock
 from .files import FilledKind, OnLineKind
 from .floating import Block, GasLine
-from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, number_set, one_number, positive
+from .inputs import Array, check_pressures, follows, in_pascals, number_set, one_number
 from .lift import PumpLine
 from .line import pressure_range
 from .member import (
@@ -94,6 +94,8 @@ class Supply(ForceElement, ABC):
 
     places: ClassVar[tuple[str, ...]] = ()
     file_section: ClassVar[str] = "hydraulics"
+    called: ClassVar[str]
+    """What it is called in words."""
 
     def loads(self, motion: Poses) -> list[Load]:
         return []
@@ -102,9 +104,9 @@ class Supply(ForceElement, ABC):
     def scales(self) -> bool:
         return False
 
-    def set_to(self, motion: Poses, name: str) -> Array:
-        """Return a number of it as a motion's designs have it [SI], the same at all poses."""
-        return number_set(self, motion, name) if follows(getattr(self, name)) else self.number(motion, name)
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_pressures(self, self.called, () if isinstance(self, Tank) else ("pressure",))
 
 
 @final
@@ -124,16 +126,7 @@ class Pump(Supply):
         {"pressure": "bar", "flow": "l/min", "mechanical_efficiency": "", "hydraulic_efficiency": ""}
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow"})
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not follows(self.pressure):
-            positive(in_pascals(cast(float, self.pressure), "Pressure of the pump"), "Pressure of the pump")
-        for name in ("mechanical_efficiency", "hydraulic_efficiency"):
-            if not follows(getattr(self, name)):
-                efficient(getattr(self, name), f"Pump: {name}")
-        if not follows(self.flow):
-            in_cubic_metres(cast(float, self.flow), "Flow of the pump")
+    called: ClassVar[str] = "pump"
 
 
 @final
@@ -145,11 +138,7 @@ class Relief(Supply):
     pressure: Parameter
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"pressure": "bar"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure"})
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not follows(self.pressure):
-            positive(in_pascals(cast(float, self.pressure), "Pressure of the relief valve"), "Pressure of the relief valve")
+    called: ClassVar[str] = "relief valve"
 
 
 @final
@@ -161,11 +150,7 @@ class Tank(Supply):
     pressure: Parameter = 0.0
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"pressure": "bar"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure"})
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not follows(self.pressure):
-            in_pascals(cast(float, self.pressure), "Pressure of the tank")
+    called: ClassVar[str] = "tank"
 
 
 @final
@@ -567,7 +552,7 @@ class OilLine(PumpLine, GasLine):
         if kind == "closed" or self.as_in(motion)._is_shut:
             return standing_pressure(self, motion, asked)
         tanks = self.supplies(members, Tank)
-        return in_pascals(tanks[0].set_to(motion, "pressure"), "Pressure of the tank") if tanks else GasLine.pressure(self, motion)
+        return in_pascals(number_set(tanks[0], motion, "pressure"), "Pressure of the tank") if tanks else GasLine.pressure(self, motion)
 
     def least(self, motion: Poses) -> Array | float:
         """Return the pressure below which it runs empty [Pa]."""
@@ -611,25 +596,11 @@ class OilLine(PumpLine, GasLine):
         if name in self.parameters:
             is_set = name != "oil" and follows(self.given(name))
             return number_set(self, motion, name) if is_set else ForceElement.number(self, motion, name)
-        found, own = self._says(name, motion.plan.members)
-        return np.zeros(()) if found is None else found.set_to(motion, own)
+        return PumpLine.number(self, motion, name)
 
-    def written(self, written: Formulas, name: str) -> Array:
-        tanks = self.supplies(written.plan.members, Tank) if name == "back_pressure" else []
-        found, own = (tanks[0], "pressure") if tanks else self._says(name, written.plan.members)
-        return np.zeros(()) if found is None else ForceElement.number(found, written, own)
-
-    def _says(self, name: str, members: Mapping[str, Member]) -> tuple[Supply | None, str]:
-        """Return what says a number of a pump, and by which name; None for a back pressure, which a tank on the other side says."""
-        kind: type[Supply] = Relief if name == "relief" else Pump
-        found = [] if name == "back_pressure" else self.supplies(members, kind)
-        return (found[0], "pressure" if name == "relief" else name) if found else (None, name)
-
-    def pump_given(self, plan: Declared, name: str) -> Parameter:
-        return cast(Parameter, getattr(self.supplies(plan.members, Pump)[0], name))
-
-    def relieves(self, plan: Declared) -> bool:
-        return bool(self.supplies(plan.members, Relief))
+    def says(self, name: str, members: Mapping[str, Member]) -> tuple[ForceElement, str] | None:
+        kind: type[Supply] = {"relief": Relief, "back_pressure": Tank}.get(name, Pump)
+        return next(((each, name if kind is Pump else "pressure") for each in self.supplies(members, kind)), None)
 
     # -- by its kind -----------------------------------------------------------------------------------------
 

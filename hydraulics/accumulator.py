@@ -11,10 +11,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
+from math import isfinite
 from types import MappingProxyType
 from typing import Any, ClassVar, final
 
@@ -322,17 +323,19 @@ class AccumulatorBlock:
         warmed = [one.recharged(np.where(one.volume > 0.0, charge, one.charge)[()]) for one, charge in pairs]
         return replace(self, accumulators=warmed, gas=self.gas.at(temperature))
 
-    def checks(self, p_min: float, p_max: float, allowed: float, unit: str = "") -> list[Verdict]:
+    def checks(
+        self, p_min: float, p_max: float, allowed: float, unit: str = "", recharged: Callable[[int, str], float] | None = None
+    ) -> list[Verdict]:  # fmt: skip
         """Return the accumulator rules for a line working from `p_min` to `p_max`, `allowed` the highest permitted, all gauge.
 
         An array charge is judged by its worst element, absent vessels not at all; `unit` is for the sentences, without it
-        the block's own.
+        the block's own. `recharged` tells the charge [Pa gauge] with which a line keeps a rule, where its pressures go with it.
         DefinitionError for `p_min` above `p_max`, an unknown unit.
         """
         unit_or_none(unit, "checks(unit=...)", units_of("pressure"))
         given = (one_number(pressure, "Pressure") for pressure in (p_min, p_max, allowed))
         low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in given)
-        line = WorkingRange(low, high, limit, self.atmosphere, unit or self._unit)
+        line = WorkingRange(low, high, limit, self.atmosphere, unit or self._unit, recharged)
         charges = {number: there(charge, vessel) for number, (charge, vessel) in enumerate(self._bank, 1) if np.any(vessel > 0.0)}
         return [
             *(line.charge(number, float(np.max(charge))) for number, charge in charges.items()),
@@ -429,6 +432,11 @@ CHARGE_SHARE = 0.9
 COMPRESSION = 4.0
 
 
+def keeps_rule(rule: str, charge: Any, pressure: Any) -> Any:
+    """Return whether a charge suits the lowest pressure, rule "charge", or the highest one, rule "compression" [Pa absolute]."""
+    return charge <= CHARGE_SHARE * pressure if rule == "charge" else pressure <= COMPRESSION * charge
+
+
 @final
 @dataclass(frozen=True)
 class WorkingRange:
@@ -442,6 +450,8 @@ class WorkingRange:
     allowed: float
     atmosphere: float
     unit: str
+    recharged: Callable[[int, str], float] | None = None
+    """The charge [Pa gauge] of an accumulator, by its number, with which a line keeps a rule; NaN for none."""
 
     def __post_init__(self) -> None:
         if self.p_min > self.p_max:
@@ -450,7 +460,7 @@ class WorkingRange:
     def charge(self, number: int, charge: float) -> Verdict:
         """Return whether a charge [Pa absolute] stays below the lowest pressure by the margin."""
         low = self.p_min + self.atmosphere
-        ok = charge <= CHARGE_SHARE * low
+        ok = keeps_rule("charge", charge, low)
         says = said(
             "{charge} against {most}, {share:g} of the lowest pressure (absolute)",
             charge=self._text(charge), most=self._text(CHARGE_SHARE * low), share=CHARGE_SHARE,
@@ -459,14 +469,16 @@ class WorkingRange:
         if ok:
             return Verdict(rule, True, f"{says}.", named)
         idle = said("; it is idle there, full of gas") if charge >= low else ""
-        wanted, possible = self._gauge(CHARGE_SHARE * low), self._gauge(charge / CHARGE_SHARE)
+        possible, wanted = self._gauge(charge / CHARGE_SHARE), self._charge(number, "charge", CHARGE_SHARE * low)
         remedy = said("; lower the charge to {wanted}, or raise the lowest pressure to {possible}", wanted=wanted, possible=possible)
+        if not wanted:
+            remedy = said("; raise the lowest pressure to {possible}", possible=possible)
         return Verdict(rule, False, f"{says}{idle}{remedy}.", named)
 
     def compression(self, number: int, charge: float) -> Verdict:
         """Return whether the gas of a charge [Pa absolute] is not compressed too far."""
         high = self.p_max + self.atmosphere
-        ok = high <= COMPRESSION * charge
+        ok = keeps_rule("compression", charge, high)
         says = said(
             "{high} at most is {ratio:.4g} times the charge, limit {limit:g} (absolute)",
             high=self._text(high), ratio=high / charge, limit=COMPRESSION,
@@ -474,8 +486,10 @@ class WorkingRange:
         rule, named = f"compression of accumulator {number}", said("compression of accumulator {n}", n=number)
         if ok:
             return Verdict(rule, True, f"{says}.", named)
-        wanted, possible = self._gauge(high / COMPRESSION), self._gauge(COMPRESSION * charge)
+        possible, wanted = self._gauge(COMPRESSION * charge), self._charge(number, "compression", high / COMPRESSION)
         remedy = said("; raise the charge to {wanted}, or lower the highest pressure to {possible}", wanted=wanted, possible=possible)
+        if not wanted:
+            remedy = said("; lower the highest pressure to {possible}", possible=possible)
         return Verdict(rule, False, f"{says}{remedy}.", named)
 
     def exhausted(self, held: float) -> Verdict:
@@ -494,6 +508,11 @@ class WorkingRange:
 
     def _text(self, pressure: float) -> str:
         return show(pressure, self.unit, 4)
+
+    def _charge(self, number: int, rule: str, absolute: float) -> str:
+        """Return the charge of an accumulator that keeps a rule, in words: in this range one [Pa absolute], else its line's; ""."""
+        found = absolute - self.atmosphere if self.recharged is None else self.recharged(number, rule)
+        return self._gauge(found + self.atmosphere) if isfinite(found) else ""
 
     def _gauge(self, absolute: float) -> str:
         return said("{pressure} gauge", pressure=self._text(absolute - self.atmosphere))

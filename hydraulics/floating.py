@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import reduce
+from dataclasses import dataclass, replace
+from functools import partial, reduce
+from math import nan
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeAlias, cast, final
+from typing import Any, ClassVar, Self, TypeAlias, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,7 +25,7 @@ from linkage.language import said
 from linkage.loads import AT_REST, Acting, Declared, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
-from linkage.motion import Judge, Motion, MotionFunction, least, most
+from linkage.motion import Answer, Judge, Motion, MotionFunction, least, most
 from linkage.plan import ArrayReading
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, quantity
@@ -32,7 +33,7 @@ from linkage.statics import AnyMotion, held_in_case, plan_of, same, stroke_follo
 from linkage.vectors import Scalar
 from linkage.verdict import Verdict
 
-from .accumulator import AccumulatorBlock
+from .accumulator import AccumulatorBlock, keeps_rule
 from .gas import Polytropic
 from .inputs import Array, all_finite, follows, in_pascals, number_set
 from .line import pressure_range
@@ -102,11 +103,40 @@ class GasLine(Circuit):
         if not low.value > 0.0:
             text = says + said(": the line is empty there. Charge it higher, or take larger accumulators.")
             return [Verdict("line", False, text, answer=low)]
-        faults = [each for each in block.checks(low.value, high.value, high.value) if not each.ok]
+        charges = partial(self.recharged, judge, block, {"charge": low, "compression": high})
+        faults = [each for each in block.checks(low.value, high.value, high.value, recharged=charges) if not each.ok]
         if not faults:
             return [Verdict("line", True, f"{says}.", answer=low)]
         found = "; ".join(f"{each.heading}: {each.sentence.rstrip('.')}" for each in faults)
         return [Verdict("line", False, f"{says}; {found}.", answer=high)]
+
+    def recharged(self, judge: Judge, block: AccumulatorBlock, worst: Mapping[str, Answer], number: int, rule: str) -> float:
+        """Return the charge of an accumulator next to its own, with which the line keeps a rule [Pa gauge]; NaN for none.
+
+        Whatever the charges, the `worst` pressure for a rule stands where most, or least, oil is drawn.
+        """
+        place, own = judge.there(worst[rule]), float(np.ravel(block.accumulators[number - 1].charge)[0])
+        limit = float(np.ravel(self.number(place, "charge_pressure"))[0]) if rule == "compression" else 0.05 * own
+
+        def keeps(charge: float) -> bool:
+            vessels = [each.recharged(charge) if k == number else each for k, each in enumerate(block.accumulators, 1)]
+            pressure = self.on_block(replace(block, accumulators=vessels)).pressure(place)
+            return bool(np.all(keeps_rule(rule, charge + block.atmosphere, pressure + block.atmosphere)))
+
+        try:
+            tried = np.geomspace(own, limit, 25)
+            first = next((k for k, charge in enumerate(tried) if keeps(charge)), 0)
+            fails, holds = (tried[first - 1], tried[first]) if first else (nan, nan)
+            for _ in range(40 if first else 0):
+                middle = 0.5 * (fails + holds)
+                fails, holds = (fails, middle) if keeps(middle) else (middle, holds)
+        except DefinitionError:
+            return nan
+        return float(holds * (1.0 - ROUNDED if rule == "charge" else 1.0 + ROUNDED))
+
+    @abstractmethod
+    def on_block(self, block: AccumulatorBlock) -> Self:
+        """Return the same line on other accumulators."""
 
     def accumulators(self, motion: Poses) -> AccumulatorBlock:
         """Return its block as the motion's designs have it, before a movement: settled at the charge pressure, by its own gas law."""
@@ -256,6 +286,9 @@ class FloatCircuit(GasLine):
     def gas_block(self, plan: Declared) -> Block:
         return self.block
 
+    def on_block(self, block: AccumulatorBlock) -> FloatCircuit:
+        return self.renewed(block=block)
+
     def line_pressure(self, motion: AnyMotion, acting: Acting | None = None) -> Array:
         return self.pressure_under(motion, acting)
 
@@ -293,6 +326,10 @@ class FloatCircuit(GasLine):
 
     def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
         return {stroke_followed(plan_of(motion), ram): self.number(motion, "at")}
+
+
+ROUNDED = 6e-4
+"""Of a charge: four digits of it are not further off, so that what is read keeps the rule."""
 
 
 def number_written(written: Formulas, value: Any) -> Array:

@@ -590,6 +590,9 @@ class OilLine(PumpLine, GasLine):
         assert self.block is not None
         return self.block
 
+    def on_block(self, block: AccumulatorBlock) -> OilLine:
+        return self.renewed(on=tuple(block if each is self.block else each for each in self.on))
+
     # -- the numbers of a pump -------------------------------------------------------------------------------
 
     def number(self, motion: Poses, name: str) -> Array:

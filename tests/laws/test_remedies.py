@@ -9,7 +9,10 @@ import numpy as np
 import pytest
 
 from hydraulics import (
+    Accumulator,
+    AccumulatorBlock,
     Cylinder,
+    FloatCircuit,
     HoldingValve,
     LiftCircuit,
     OilLine,
@@ -26,7 +29,7 @@ from hydraulics import (
 from hydraulics.cylinder import chosen_series
 from linkage import LEFT, Dimension, Dyad, Force, Ground, Guide, LoadCase, Mechanism, OnGuide, OnLink, PinFriction, Stroke
 from linkage.motion import least, most
-from linkage.units import bar, inch, kN, mm, psi, unit_system
+from linkage.units import bar, inch, kN, litre, mm, psi, unit_system
 
 SEEDS = range(4)
 MANY = range(4, 40)
@@ -321,3 +324,56 @@ def test_remedies_and_offers_are_of_the_units_that_are_chosen():
         bore = number(r"a bore of (\d+(?:\.\d+)?) mm,", by_rule(heavy())["lifting"].sentence, mm)
         assert round(bore / mm) in (80, 90, 100)
         assert heavy().answers([most(pressure("ram"))])[0].value > 2000 * psi
+
+
+def on_gas(spelling, charges, rule, exponent):
+    """Return a lever on gas, by either spelling of its line."""
+    block = AccumulatorBlock([Accumulator(volume=(10.0 if rule == "charge" else 2.0) * litre, charge=charge) for charge in charges])
+    given = dict(charge_pressure=60 * bar, at=0.0 if rule == "charge" else 0.05, exponent=exponent)
+    line = FloatCircuit("ram", block, **given) if spelling == "float" else OilLine("ram.piston_side", block, **given)
+    (verdict,) = (each.sentence for each in type("OnGas", (Bare,), {"line": line})().verdicts() if each.rule == "line")
+    return verdict
+
+
+def test_a_charge_that_is_named_keeps_its_rule_on_the_line_that_has_it():
+    promised = 0
+    for charges, rule, exponent in (((52 * bar,), "charge", 1.0), ((20 * bar, 56 * bar), "charge", 1.0), ((14 * bar,), "compression", 1.0),
+                                    ((52 * bar,), "charge", 1.3), ((15 * bar, 30 * bar), "compression", 1.0)):  # fmt: skip
+        told = {spelling: on_gas(spelling, charges, rule, exponent) for spelling in ("float", "line")}
+        assert told["float"] == told["line"]
+        for place in range(len(charges)):
+            said = re.search(rf"{rule} of accumulator {place + 1}: [^;]*(?:; it is idle[^;]*)?; \w+ the charge to (\S+) bar", told["line"])
+            if said is None:
+                continue
+            promised += 1
+            for share, keeps in ((1.0, True), (1.005 if rule == "charge" else 0.995, False)):
+                changed = [share * float(said[1]) * bar if k == place else each for k, each in enumerate(charges)]
+                now = on_gas("line" if place else "float", changed, rule, exponent)
+                assert (f"{rule} of accumulator {place + 1}:" not in now) == keeps, (share, told["line"], now)
+    assert promised >= 5
+
+
+def pairs_on_one_line():
+    """Yield weak levers on two cylinders of one line, with what sets its pump and its relief valve."""
+    low, high = push_of_a_newton()
+    force = 260 * bar * math.pi / 4 * (0.05**2 + 0.063**2) / max(abs(low), abs(high)) * (-1.0 if abs(high) >= abs(low) else 1.0)
+    rams = dict(ram=Cylinder("A", "B", bore=63 * mm, rod=36 * mm), aux=Cylinder("A", "B", bore=50 * mm, rod=28 * mm))
+    members = rams | dict(load=Force("G", (0.0, force)), heavy=LoadCase("heavy", scale={"load": 1.15}))
+    losses = dict(mechanical_efficiency=0.9, hydraulic_efficiency=0.95)
+    circuit = LiftCircuit(["ram", "aux"], pressure=180 * bar, relief=190 * bar, back_pressure=5 * bar, **losses)
+    yield type("Pair", (Base,), members | dict(line=circuit)), ("line.pressure", "line.relief")
+    lines = dict(supply=Pump(180 * bar, **losses), valve=Relief(190 * bar), back=OilLine("ram.rod_side", "aux.rod_side", Tank(5 * bar)))
+    line = OilLine("ram.piston_side", "aux.piston_side", "supply", "valve")
+    yield type("PairOfLines", (Base,), members | lines | dict(line=line)), ("supply.pressure", "valve.pressure")
+
+
+def test_what_two_cylinders_on_one_line_need_is_enough_for_both_and_no_more():
+    for made, names in pairs_on_one_line():
+        lifting = [each for each in made().verdicts() if each.rule.startswith("lifting ")]
+        needed = [number(r"It needs (\d+(?:\.\d+)?) bar, at its relief valve as well", each.sentence, bar) for each in lifting]
+        assert len(lifting) == 2 and all(each.ok is False and "larger bores on this line" in each.sentence for each in lifting)
+        machine = made(**dict.fromkeys(names, max(needed)))
+        assert all(each.ok for each in machine.verdicts() if each.rule.startswith("lifting "))
+        for name in ("ram", "aux"):
+            (gained,) = machine.answers([least(reserve(name))])
+            assert 1.0 <= gained.value < 1.002, (made, name, gained)

@@ -602,7 +602,8 @@ class OilLine(PumpLine, GasLine):
         return PumpLine.number(self, motion, name)
 
     def says(self, name: str, members: Mapping[str, Member]) -> tuple[ForceElement, str] | None:
-        kind: type[Supply] = {"relief": Relief, "back_pressure": Tank}.get(name, Pump)
+        kinds: Mapping[str, type[Supply]] = {"relief": Relief, "back_pressure": Tank}
+        kind = kinds.get(name, Pump)
         return next(((each, name if kind is Pump else "pressure") for each in self.supplies(members, kind)), None)
 
     # -- by its kind -----------------------------------------------------------------------------------------

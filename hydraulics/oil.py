@@ -192,7 +192,7 @@ class OilLine(PumpLine, GasLine):
     `slave.length`. A bare cylinder stands for the side that it works with. A `Relief` may lie on any line.
 
     A line is filled, or charged with `charge_pressure` [Pa gauge], where strokes are `at` their values [SI]: a number or a dict, the
-    sketch for strokes that are not named. `filled` tells lengths of cylinders there instead [m], or that all are "open" or "closed".
+    sketch for strokes that are not named. `filled` tells lengths of some cylinders there instead [m], or that all are "open" or "closed".
     `oil` is what was put in since [m3], a number, a dimension or a Stroke. `make_up` is the pressure below which a closed line runs empty
     [Pa gauge]. `seal_friction` [Pa] and `exponent` are those of a FloatCircuit.
     """

@@ -75,7 +75,7 @@ def measure_said(text: object, machine: Mechanism, over: Mapping[str, object] | 
 
     What depends on no stroke is one too: `mass`.
     """
-    found = parsed(text, machine)
+    found = criterion_of(text, machine)
     if isinstance(found, Condition):
         raise DefinitionError(f"{text!r} is a condition; a measure is expected, such as least(...), with no <=, >= or ==.")
     if is_number(found) or isinstance(found, Given):
@@ -93,7 +93,7 @@ def measure_or_constant(found: Any, machine: Mechanism) -> Measure:
 
 def condition_said(text: object, machine: Mechanism, over: Mapping[str, object] | None = None) -> Condition:
     """Return the condition on this machine that a text says; DefinitionError for anything else."""
-    found = parsed(text, machine)
+    found = criterion_of(text, machine)
     if not isinstance(found, Condition):
         what = words_of(found) if isinstance(found, (Request, Quantity, Worst)) else str(found)
         raise DefinitionError(f"{text!r}: {what} says no limit; write one such as most(...) <= 8 deg.")
@@ -103,7 +103,7 @@ def condition_said(text: object, machine: Mechanism, over: Mapping[str, object] 
 
 def quantity_said(text: object, machine: Mechanism) -> Any:
     """Return the quantity over poses that a text says: an output's name, a quantity or a request; DefinitionError for anything else."""
-    found = parsed(text, machine)
+    found = criterion_of(text, machine)
     if is_number(found) or isinstance(found, (Measure, Condition, Worst)):
         raise DefinitionError(f"{text!r} has no value at every pose; write an output such as tilt, or a request such as drive_force().")
     check_measures(machine, [most(found)], [], None)
@@ -111,7 +111,7 @@ def quantity_said(text: object, machine: Mechanism) -> Any:
     return found
 
 
-def parsed(text: object, machine: Mechanism) -> Any:
+def criterion_of(text: object, machine: Mechanism) -> Any:
     """Return the number, quantity, measure or condition of a machine that a text says; DefinitionError for anything else."""
     if not isinstance(text, str) or not text.strip():
         raise DefinitionError(f'{text!r:.60} is no text in quotes, such as "least(tilt)".')
@@ -137,7 +137,7 @@ class CriterionParser(Grammar):
     def whole(self) -> Any:
         """Return what the whole text says: a number, a quantity, a measure or a condition."""
         try:
-            return self.compared(self.tree) if isinstance(self.tree, ast.Compare) else self.value(self.tree)
+            return self.compared(self.tree) if isinstance(self.tree, ast.Compare) else self.meaning(self.tree)
         except DefinitionError as error:
             said = str(error)
             raise DefinitionError(said if said.startswith(repr(self.text)) else f"{self.text!r}: {said}") from None
@@ -146,11 +146,11 @@ class CriterionParser(Grammar):
         """Return the condition that two sums make."""
         sign = COMPARING.get(type(node.ops[0]))
         if sign is None:
-            found = next(token.text for token in self.tokens if token.text in ("<", ">", "!="))
-            raise DefinitionError(f"a search meets its conditions exactly; write >=, <= or == for {found}.")
+            wrong = next(token.text for token in self.tokens if token.text in ("<", ">", "!="))
+            raise DefinitionError(f"a search meets its conditions exactly; write >=, <= or == for {wrong}.")
         if len(node.ops) > 1:
             raise DefinitionError("one comparison makes a condition; write two conditions for a value between two limits.")
-        left, right = self.value(node.left), self.value(node.comparators[0])
+        left, right = self.meaning(node.left), self.meaning(node.comparators[0])
         if is_number(left) and is_number(right):
             raise DefinitionError("two numbers are compared; one side is a measure such as least(...).")
         one, other = (measure_or_constant(each, self.machine) for each in (left, right))
@@ -277,8 +277,8 @@ class CriterionParser(Grammar):
                 return coordinate
             return {"true": True, "false": False, "least": least, "most": most}.get(word, word)
         if not of_quantities and isinstance(node, ast.Tuple) and len(node.elts) == 2:
-            return tuple(self.value(each, depth) for each in node.elts)
-        return self.value(node, depth)
+            return tuple(self.meaning(each, depth) for each in node.elts)
+        return self.meaning(node, depth)
 
 
 def is_count(value: object, make: Callable[..., Any], key: str) -> bool:

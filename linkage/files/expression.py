@@ -235,15 +235,15 @@ class Grammar(ABC):
             f"{self.text[:40]!r}... is more than {NESTING} brackets deep or longer than {OPERATIONS} operations; give a part a name."
         )
 
-    def value(self, node: ast.expr, depth: int = 0) -> Any:
+    def meaning(self, node: ast.expr, depth: int = 0) -> Any:
         """Return what a part says; of numbers alone it is a number."""
         if depth > NESTING:
             raise self.too_deep()
         if isinstance(node, ast.BinOp):
-            left = self.value(node.left, depth)
-            return self.joined(SIGNS[type(node.op)], left, self.value(node.right, depth + 1))
+            left = self.meaning(node.left, depth)
+            return self.joined(SIGNS[type(node.op)], left, self.meaning(node.right, depth + 1))
         if isinstance(node, ast.UnaryOp):
-            found = self.value(node.operand, depth + 1)
+            found = self.meaning(node.operand, depth + 1)
             return self.negative(found) if isinstance(node.op, ast.USub) else found
         if isinstance(node, ast.Call) and self.is_word(node.func, "name"):
             return self.called(node, depth + 1)
@@ -296,7 +296,7 @@ class Parser(Grammar):
             key = self.word(each).text
             if key not in call.keywords or key in keywords:
                 raise self.fault(" or ".join(f"{one}=" for one in call.keywords) or "no argument by name", each)
-            keywords[key] = self.value(each.value, depth)
+            keywords[key] = self.meaning(each.value, depth)
         return call.make(*found, **keywords)
 
     def argument(self, node: ast.expr, kind: str, depth: int = 0) -> Any:
@@ -307,7 +307,7 @@ class Parser(Grammar):
             is_vector = (calls and name in CALLS and CALLS[name].makes_vector) or (is_name and self.names.kinds.get(name) == "vector")
             kind = "vector" if is_vector else "quantity"
         if kind == "quantity":
-            return self.value(node, depth)
+            return self.meaning(node, depth)
         if isinstance(node, ast.Call) and calls and kind == "vector":
             return self.called(node, depth + 1, kind)
         if not is_name:

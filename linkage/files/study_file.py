@@ -31,7 +31,7 @@ from ..study.sides import is_side
 from ..study.space import Space, around, known_dimension
 from ..study.tolerances import Tolerance, tolerances_of
 from ..units import parse, parse_span
-from .criterion import parsed
+from .criterion import criterion_of
 from .names import by_whole_names, shortened
 from .source import TEXT, Faults, Mistakes, each_of, source
 
@@ -361,7 +361,7 @@ def part_said(head: StudyHead, stroke: str, given: object) -> Any:
 def end_said(head: StudyHead, given: object, measures: str) -> Any:
     """Return an end of a stroke's part: a number [SI], or a quantity."""
     if isinstance(given, str) and re.match(r"\s*[^\W\d]", given):
-        return parsed(given, head.machine)
+        return criterion_of(given, head.machine)
     return amount_said(given, measures)
 
 

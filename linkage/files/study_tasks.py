@@ -42,7 +42,7 @@ from ..study.optimise import constraint_in_case
 from ..study.space import Around, coordinates
 from ..study.survey import Progress
 from ..units import display_unit, parse_span, show
-from .criterion import condition_said, measure_said, parsed, quantity_said
+from .criterion import condition_said, criterion_of, measure_said, quantity_said
 from .names import by_whole_names, shortened
 from .source import each_of
 from .study_file import (
@@ -113,7 +113,7 @@ def box_range(machine: Mechanism, name: str, said: object) -> dict[str, Any]:
     return {name: said}
 
 
-def strokes_said(head: StudyHead, given: object) -> dict[str, Any]:
+def swept_strokes(head: StudyHead, given: object) -> dict[str, Any]:
     """Return the strokes that are looked at [SI], arrays or single values; SeveralError with all mistakes, each under its stroke."""
     if not isinstance(given, Mapping):
         raise DefinitionError(f'{shortened(given)}: a table of strokes is expected, such as strokes = {{ S = "100 mm" }}.')
@@ -139,7 +139,7 @@ def stroke_values_said(given: object, measures: str, poses: int) -> Any:
 
 def pose_said(head: StudyHead, given: object) -> dict[str, Any]:
     """Return the value of every stroke at a pose [SI]."""
-    found = strokes_said(head, given)
+    found = swept_strokes(head, given)
     missing = [name for name in head.plan.strokes if name not in found]
     if missing:
         raise DefinitionError(f"say the pose, strokes = {{ {missing[0]} = ... }}.")
@@ -159,7 +159,7 @@ def measures_said(head: StudyHead, given: object) -> dict[str, tuple[str, str]]:
     return dict(each_of(named_measures(given).items(), measured))
 
 
-def quantity_of(head: StudyHead, given: object) -> Any:
+def pose_quantity(head: StudyHead, given: object) -> Any:
     """Return the quantity over poses that a text says."""
     return quantity_said(given, head.machine)
 
@@ -179,11 +179,11 @@ def with_case(quantity: Any, case: Any) -> Any:
 
 def quantity_or_measure(text: object, machine: Mechanism) -> Any:
     """Return the quantity over poses that a text says, or a measure; DefinitionError for what is neither."""
-    found = parsed(text, machine)
+    found = criterion_of(text, machine)
     return measure_said(text, machine) if isinstance(found, Measure) else quantity_said(text, machine)
 
 
-def limits_said(head: StudyHead, given: object) -> list[Constraint]:
+def condition_limits(head: StudyHead, given: object) -> list[Constraint]:
     """Return the limits of conditions, in the load case that is looked at; SeveralError with all mistakes, each under its number."""
 
     def limits(text: object) -> list[Constraint]:
@@ -267,10 +267,10 @@ def summary_of(name: str, values: Any, unit: str) -> str:
 
 def zone_task(
     machine: Mechanism, folder: Path | None, progress: bool | Progress, *,
-    quantity: Annotated[Any, quantity_of, 'quantity = "tilt"'],
+    quantity: Annotated[Any, pose_quantity, 'quantity = "tilt"'],
     vary: Annotated[dict[str, Any], box_said, 'vary = { OB = "270 to 330 mm" }'],
     poses: Annotated[int, whole_number(2)] = 51,
-    strokes: Annotated[dict[str, Any] | None, strokes_said] = None,
+    strokes: Annotated[dict[str, Any] | None, swept_strokes] = None,
 ) -> TaskResult:  # fmt: skip
     """Look for the extremes of a quantity at every stroke over a box."""
     found = zone(machine, quantity, vary, **strokes or whole_stroke(machine, poses))
@@ -308,13 +308,13 @@ def tolerance_task(
     case: Annotated[str | None, one_case] = None,
     of: Annotated[dict[str, Any], quantities_said, 'of = ["tilt"]'],
     tolerances: Annotated[dict[str, Any], tolerances_said("tolerances")],
-    subject_to: Annotated[Sequence[Constraint], limits_said] = (),
+    subject_to: Annotated[Sequence[Constraint], condition_limits] = (),
     count: Annotated[int, whole_number(1)] = 1 << 14,
     seed: Annotated[int, whole_number(0)] = 0,
     method: Annotated[str, one_of(SAMPLE_METHODS)] = "sobol",
     percentiles: Annotated[tuple[float, ...], percentages] = (5.0, 50.0, 95.0),
     poses: Annotated[int, whole_number(2)] = 21,
-    strokes: Annotated[dict[str, Any] | None, strokes_said] = None,
+    strokes: Annotated[dict[str, Any] | None, swept_strokes] = None,
 ) -> TaskResult:  # fmt: skip
     """Vary dimensions within their tolerances at random: bands, the worst case, and the share of good machines."""
     found = monte_carlo(
@@ -335,7 +335,7 @@ def tolerance_task(
 
 def tornado_task(
     machine: Mechanism, folder: Path | None, progress: bool | Progress, *,
-    quantity: Annotated[Any, quantity_of, 'quantity = "tilt"'],
+    quantity: Annotated[Any, pose_quantity, 'quantity = "tilt"'],
     tolerances: Annotated[dict[str, Any], tolerances_said("tolerances")],
     strokes: Annotated[dict[str, Any], pose_said],
 ) -> TaskResult:  # fmt: skip

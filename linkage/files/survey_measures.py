@@ -15,7 +15,7 @@ from ..motion.measures import Condition, Constraint, Integral, Leaf, Measure
 from ..program import FloatArray
 from ..study.optimum import unit_of_measure
 from ..study.problem import NOWHERE, Problem, missed, reduced
-from .criterion import measure_or_constant, parsed
+from .criterion import criterion_of, measure_or_constant
 from .names import shortened
 
 MET_TO_ROUNDING = 1e-12
@@ -76,7 +76,7 @@ class TextMeasures:
 
 def measure_or_constraints(text: str, machine: Mechanism) -> Measure | list[Constraint]:
     """Return the measure that a text says, or the constraints of the condition; DefinitionError for anything else."""
-    found = parsed(text, machine)
+    found = criterion_of(text, machine)
     return [*found.constraints(machine)] if isinstance(found, Condition) else measure_or_constant(found, machine)
 
 

@@ -71,7 +71,7 @@ def read_synthesis(
         given = given if head.machines else {"vary": {}, **given}
         arguments = keywords_read(head, synthesise, given, SYNTHESIS)
         arguments = {key: value for key, value in arguments.items() if not head.machines or value != {}}
-    named = [name for name in TASKS if isinstance(given, Mapping) and name in given]
+    named = [name for name in SYNTHESIS_TASKS if isinstance(given, Mapping) and name in given]
     if isinstance(given, Mapping) and len(named) != 1:
         words = f"{' and '.join(named)} are several tasks" if named else "there is no task"
         faults.add((SECTION,), f'{words}; write one, path = {{ of = "P", points = "points.csv" }}, function = ... or motion = ...')
@@ -207,7 +207,7 @@ def motion_task(
     return PoseTask(points["x"], points["y"], points["angle"], of, points.get("at"), length=length, in_order=in_order)
 
 
-TASKS: Mapping[str, Callable[..., Any]] = {"path": path_task, "function": function_task, "motion": motion_task}
+SYNTHESIS_TASKS: Mapping[str, Callable[..., Any]] = {"path": path_task, "function": function_task, "motion": motion_task}
 
 
 def task_said(name: str) -> Read:
@@ -218,7 +218,7 @@ def task_said(name: str) -> Read:
             raise DefinitionError(f'{shortened(given)}: a table is expected, {name} = {{ of = "P", points = "points.csv" }}.')
         if name == "path" and head.machines and given.get("of") is None:
             given = {**given, "of": {}}
-        return TASKS[name](**keywords_read(head, TASKS[name], given))
+        return SYNTHESIS_TASKS[name](**keywords_read(head, SYNTHESIS_TASKS[name], given))
 
     return read
 
@@ -236,6 +236,6 @@ SYNTHESIS: Mapping[str, Read] = {
     "limit": whole_number(1),
     "folder": file_path,
     "round": rounding_said,
-    **{name: task_said(name) for name in TASKS},
+    **{name: task_said(name) for name in SYNTHESIS_TASKS},
 }
 """The keywords of `synthesise` that a file may say, and the steps of `round`, each with what reads it."""

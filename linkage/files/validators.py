@@ -121,7 +121,7 @@ def several(what: str, one: Read) -> Read:
     return read
 
 
-def listed(one: Read, wrong: str, most: float = inf) -> Read:
+def list_reader(one: Read, wrong: str, most: float = inf) -> Read:
     """Return what reads a list, each item by itself; `wrong` says what anything else, {given}, is not."""
 
     def read(given: object, names: Names) -> tuple[Any, ...]:
@@ -314,10 +314,10 @@ stroke_ends = several("two numbers, such as [0.0, 0.25]", number_of)
 coordinates_of = several("two coordinates in m, such as [0.20, 0.55]", quantity_of)
 
 
-corners_of = listed(coordinates_of, f"{{given}} is no list of up to {CORNERS} places in m, such as [[0, 0], [0.4, 0]].", CORNERS)
-lengths_of = listed(amount("m").read, '{given} is no list of lengths, such as ["145 mm", "125 mm"].')
-loads_listed = listed(reference("load").read, "is not a list [...].")
-word_list_of = listed(word_of, "{given} is no list of words.")
+corners_of = list_reader(coordinates_of, f"{{given}} is no list of up to {CORNERS} places in m, such as [[0, 0], [0.4, 0]].", CORNERS)
+lengths_of = list_reader(amount("m").read, '{given} is no list of lengths, such as ["145 mm", "125 mm"].')
+loads_listed = list_reader(reference("load").read, "is not a list [...].")
+word_list_of = list_reader(word_of, "{given} is no list of words.")
 
 
 KINDS: Mapping[str, Kind] = MappingProxyType(

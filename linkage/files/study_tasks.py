@@ -227,7 +227,8 @@ def target_of(condition: object, plan: Plan) -> Target:
 
 
 def survey_task(
-    machine: Mechanism, folder: Path | None, progress: bool | Progress, *,
+    machine: Mechanism,
+    *,
     vary: Annotated[dict[str, Any], box_said, 'vary = { OB = "270 to 330 mm" }'],
     over: Annotated[dict[str, Any] | None, over_said] = None,
     measure: Annotated[dict[str, tuple[str, str]], measures_said, 'measure = { travel = "most(G_y) - least(G_y)" }'],
@@ -236,8 +237,10 @@ def survey_task(
     seed: Annotated[int, whole_number(0)] = 0,
     poses: Annotated[int, whole_number(2)] = 101,
     piece: Annotated[int, whole_number(0)] = 0,
-) -> TaskResult:  # fmt: skip
-    """Measure many designs spread over a box."""
+    folder: Path | None = None,
+    progress: bool | Progress = False,
+) -> TaskResult:
+    """Measure many designs spread over a box; with a folder the same survey goes on where another one stopped."""
     designs = Box.of(machine, vary).sample(count, method=method, seed=seed)
     measures = TextMeasures({name: text for name, (text, _) in measure.items()}, poses, over or {})
     found = survey(machine, designs, measures, folder=folder, progress=progress, piece=piece or None)
@@ -266,12 +269,13 @@ def summary_of(name: str, values: Any, unit: str) -> str:
 
 
 def zone_task(
-    machine: Mechanism, folder: Path | None, progress: bool | Progress, *,
+    machine: Mechanism,
+    *,
     quantity: Annotated[Any, pose_quantity, 'quantity = "tilt"'],
     vary: Annotated[dict[str, Any], box_said, 'vary = { OB = "270 to 330 mm" }'],
     poses: Annotated[int, whole_number(2)] = 51,
     strokes: Annotated[dict[str, Any] | None, swept_strokes] = None,
-) -> TaskResult:  # fmt: skip
+) -> TaskResult:
     """Look for the extremes of a quantity at every stroke over a box."""
     found = zone(machine, quantity, vary, **strokes or whole_stroke(machine, poses))
     plan, unit, title = machine.plan, unit_of_quantity(machine.plan, quantity), measured_title(machine.plan, quantity)
@@ -304,7 +308,8 @@ def unit_of_quantity(plan: Plan, quantity: object) -> str:
 
 
 def tolerance_task(
-    machine: Mechanism, folder: Path | None, progress: bool | Progress, *,
+    machine: Mechanism,
+    *,
     case: Annotated[str | None, one_case] = None,
     of: Annotated[dict[str, Any], quantities_said, 'of = ["tilt"]'],
     tolerances: Annotated[dict[str, Any], tolerances_said("tolerances")],
@@ -315,7 +320,7 @@ def tolerance_task(
     percentiles: Annotated[tuple[float, ...], percentages] = (5.0, 50.0, 95.0),
     poses: Annotated[int, whole_number(2)] = 21,
     strokes: Annotated[dict[str, Any] | None, swept_strokes] = None,
-) -> TaskResult:  # fmt: skip
+) -> TaskResult:
     """Vary dimensions within their tolerances at random: bands, the worst case, and the share of good machines."""
     found = monte_carlo(
         machine, of, tolerances, subject_to=subject_to, count=count, percentiles=percentiles, method=method, seed=seed,
@@ -334,11 +339,12 @@ def tolerance_task(
 
 
 def tornado_task(
-    machine: Mechanism, folder: Path | None, progress: bool | Progress, *,
+    machine: Mechanism,
+    *,
     quantity: Annotated[Any, pose_quantity, 'quantity = "tilt"'],
     tolerances: Annotated[dict[str, Any], tolerances_said("tolerances")],
     strokes: Annotated[dict[str, Any], pose_said],
-) -> TaskResult:  # fmt: skip
+) -> TaskResult:
     """Look for the tolerance that matters most for a quantity at one pose."""
     unit = unit_of_quantity(machine.plan, quantity)
     found = tornado(machine, quantity, tolerances, unit=unit, **strokes)
@@ -350,10 +356,11 @@ def tornado_task(
 
 
 def settings_task(
-    machine: Mechanism, folder: Path | None, progress: bool | Progress, *,
+    machine: Mechanism,
+    *,
     vary: Annotated[dict[str, Any], box_said, 'vary = { OB = "270 to 330 mm" }'],
     targets: Annotated[list[Target], targets_said, 'targets = ["at(tilt, S=100 mm) == 0 deg"]'],
-) -> TaskResult:  # fmt: skip
+) -> TaskResult:
     """Look for the settings of a box that give wanted values."""
     found = settings_for(machine, vary, targets)
     names = [each for name in (found.settings[0] if found.settings else ()) for each in coordinates(machine.plan, [name])]
@@ -388,7 +395,8 @@ class StudyFile:
 
     def run(self, section: str, folder: Path | None = None, progress: bool | Progress = False) -> TaskResult:
         """Return what the study of a section comes to; `folder` stands above the file's own."""
-        return TASKS[section](self.machine, folder or self.folder, progress, **self.tasks[section])
+        kept: dict[str, Any] = {"folder": folder or self.folder, "progress": progress} if section == "survey" else {}
+        return TASKS[section](self.machine, **self.tasks[section], **kept)
 
 
 def read_study(

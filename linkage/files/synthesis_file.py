@@ -16,7 +16,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeAlias
 
 from ..errors import DefinitionError, known_name
 from ..mechanism import Mechanism
@@ -173,10 +173,14 @@ def wanted_points(name: str) -> Read:
     return read
 
 
+Units: TypeAlias = Annotated[dict[str, float] | None, lambda head, given: units_said(given)]
+"""Factors of the units of points that have none, by what they measure."""
+
+
 def path_task(
     *,
     of: Annotated[Any, whose("path"), OF["path"]],
-    unit: Annotated[dict[str, float] | None, lambda head, given: units_said(given)] = None,
+    unit: Units = None,
     points: Annotated[dict[str, Any], wanted_points("path"), POINTS],
     in_order: Annotated[bool, switch_said("in_order")] = True,
     closed: Annotated[bool | None, switch_said("closed")] = None,
@@ -188,7 +192,7 @@ def path_task(
 def function_task(
     *,
     of: Annotated[Any, whose("function"), OF["function"]],
-    unit: Annotated[dict[str, float] | None, lambda head, given: units_said(given)] = None,
+    unit: Units = None,
     points: Annotated[dict[str, Any], wanted_points("function"), POINTS],
 ) -> FunctionTask:
     """Return the task of a function of the stroke."""
@@ -198,7 +202,7 @@ def function_task(
 def motion_task(
     *,
     of: Annotated[Any, whose("motion"), OF["motion"]],
-    unit: Annotated[dict[str, float] | None, lambda head, given: units_said(given)] = None,
+    unit: Units = None,
     points: Annotated[dict[str, Any], wanted_points("motion"), POINTS],
     in_order: Annotated[bool, switch_said("in_order")] = True,
     length: Annotated[float | None, lambda head, given: amount_said(given, "length")] = None,

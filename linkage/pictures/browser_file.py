@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from hashlib import sha256
 from html import escape
 from importlib.resources import files
@@ -13,14 +13,17 @@ from typing import Any
 from zlib import compress
 
 from ..errors import known_name
+from ..language import language as spoken_language
+from ..language import translated
 from . import style
-from .browser_words import words_in
 
 COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
 LANGUAGES = ("en", "ru")
 MACHINE = ("machine.html", "page.css", "mechanism.js", "page.js", "hands.js", "leave.js")
 """The parts of a page with a machine that moves and changes; what a kind of page adds comes after them, and START last."""
 START = "start.js"
+SAID = re.compile(r'\bsay\("((?:[^"\\]|\\.)*)"|\bdata-(?:say|tip|name)="([^"]+)"')
+"""Where the program and the text of a page have what is translated."""
 
 
 def page_text(title: str, data: dict[str, Any], parts: Sequence[str], *, language: str, most: int = 0, text: str = "") -> str:
@@ -29,8 +32,8 @@ def page_text(title: str, data: dict[str, Any], parts: Sequence[str], *, languag
     `text` is a program before them, `most` the highest place in the palette that is used, `language` the one it begins with.
     """
     known_name("Language", language, LANGUAGES, where="page(language=...)")
-    given = data | {"language": language, "words": {name: words_in(name) for name in LANGUAGES[1:]}}
     body, css, own = ("\n".join(page_part(each) for each in parts if each.endswith(end)) for end in (".html", ".css", ".js"))
+    data = data | {"language": language, "words": {name: translations(name, said_in(body + own)) for name in LANGUAGES[1:]}}
     program, loader = f'"use strict";{text}\n(async () => {{\n{bare(own)}}})();\n', page_part("loader.js")
     css, body = bare(css), "\n".join(line.strip() for line in body.splitlines())
     styles = f":root {{ {colours(most)} }}\n{css}"
@@ -44,9 +47,20 @@ def page_text(title: str, data: dict[str, Any], parts: Sequence[str], *, languag
         "LOADER_HASH": source_hash(loader),
         "PROGRAM": packed(program),
         "PROGRAM_HASH": source_hash(program),
-        "DATA": packed(json.dumps(given, ensure_ascii=False, separators=(",", ":"), allow_nan=False)),
+        "DATA": packed(json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)),
     }
     return filled(page_part("page.html"), filled_in)
+
+
+def said_in(text: str) -> list[str]:
+    """Return what the program or the text of a page says, in English, each sentence once. `{gap}` and the like are filled in there."""
+    return list(dict.fromkeys(sentence or label for sentence, label in SAID.findall(text)))
+
+
+def translations(name: str, sentences: Iterable[str]) -> dict[str, str]:
+    """Return sentences in a language, by the English."""
+    with spoken_language(name):
+        return {each: translated(each) for each in sentences}
 
 
 def colours(most: int = 0) -> str:

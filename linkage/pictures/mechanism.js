@@ -11,7 +11,7 @@ const rows = data.rows;
 /* ---- words and numbers ---- */
 
 let language = data.language;
-/* Return a sentence in the language chosen; all that are said here stand in browser_words.py. */
+/* Return a sentence in the language chosen; where it is called it has the sentence as a literal, which is translated. */
 function say(text, given) {
   const said = data.words[language]?.[text] ?? text;
   return given ? said.replace(/\{(\w+)\}/g, (_, name) => given[name]) : said;

@@ -515,7 +515,7 @@ function typed(text, each) {
   if (!unit || unit === each.unit || unit === signed(each.unit)) return number === undefined ? NaN : Number(number) * each.factor;
   return Number(number) * ((each.unit in LENGTHS && LENGTHS[unit]) || NaN);
 }
-const unexpected = (each) => (each.unit ? "{name} = {text}: a number in {unit} is expected" : "{name} = {text}: a number is expected");
+const unexpected = (each, given) => (each.unit ? say("{name} = {text}: a number in {unit} is expected", given) : say("{name} = {text}: a number is expected", given));
 function listSizes() {
   const parent = byId("dimensions");
   sizeRows.clear();
@@ -537,9 +537,10 @@ function listSizes() {
       put(i, abs(raw - each.value) < 0.006 * (each.high - each.low) ? each.value : min(max(value, each.low), each.high));
     });
     on(box, "change", () => {
-      const value = typed(box.value, each), wrong = !isNumber(value) ? unexpected(each) : each.positive && !(value > 0) ? "{name} = {text}: a number above zero is expected" : "";
+      const value = typed(box.value, each), given = { name: each.name, text: box.value, unit: signed(each.unit) };
+      const wrong = !isNumber(value) ? unexpected(each, given) : each.positive && !(value > 0) ? say("{name} = {text}: a number above zero is expected", given) : "";
       if (!wrong) return put(i, value, true);
-      warn(say(wrong, { name: each.name, text: box.value, unit: signed(each.unit) }));
+      warn(wrong);
       box.dataset.value = "";
       soon("size");
     });

@@ -18,6 +18,7 @@ from string import Formatter
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.documents.inputs import own_texts
+from linkage.pictures.browser_file import said_in
 
 ROOT = Path(__file__).parents[2]
 BELOW = {"linkage": (), "hydraulics": ("linkage",), "mechanisms": ("linkage", "hydraulics")}
@@ -74,6 +75,9 @@ def source_messages(package: str) -> dict[Message, str]:
         path = file.relative_to(ROOT).as_posix()
         for each in messages(path, file.read_text(encoding="utf-8")):
             found.setdefault(each, each.where)
+    for file in sorted(each for each in (ROOT / package).rglob("*") if each.suffix in (".js", ".html")):
+        for text in said_in(file.read_text(encoding="utf-8")):
+            found.setdefault(Message(text), file.name)
     if package == "mechanisms":
         found |= {each: each.where for each in own_messages((*OF_PAPERS, *AT_WORK)) if each not in found}
     return found

@@ -16,9 +16,10 @@ from ..mechanism import Mechanism
 from ..motion import Motion, stroke_display_unit
 from ..pictures.dimensioned import dimensioned
 from ..pictures.scene import Scene
-from ..plan import plan_measure, written_out
+from ..plan import written_out
 from ..quantities import Dimension, Stroke
-from ..units import display_unit, show, shown_in, shown_number, unit_sign
+from ..reports import dimension_unit
+from ..units import show, shown_number, unit_sign
 from .content import Block, Cell, Formula, Illustration, Paragraph, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit
 from .run import ReportSubject
@@ -50,7 +51,7 @@ def dimension_drawing(subject: ReportSubject) -> Illustration:
     pose = subject.machine.at(unreachable="nan", **{name: [value] for name, value in subject.pose.items()})
     caption = said(
         "Dimensions in {unit} at {pose}; the table of dimensions has those without room.",
-        unit=length_unit(), pose=subject.words(subject.pose),
+        unit=unit_sign("mm"), pose=subject.words(subject.pose),
     )  # fmt: skip
     return Illustration("dimensions", caption, (WIDE, height_of(Scene(pose), 0.16)), ROOM, partial(dimensions, motion=pose))
 
@@ -103,7 +104,7 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
     rows: list[tuple[Cell, ...]] = []
     for name, value in machine.dimensions.items():
         entry = machine.plan.table.entries[name]
-        unit = entry.unit or display_unit(plan_measure(machine.plan, name), "mm")
+        unit = dimension_unit(machine, name)
         where = entry.where.partition(" = ")[0] if entry.kind != "number" else ""
         said_of = notes.get(name) or notes.get(where) or notes.get(name.partition(".")[0], "")
         changed = said("was {value}", value=shown_number(entry.default, unit)) if float(value) != entry.default else ""
@@ -162,8 +163,3 @@ def definition_section(machine: Mechanism) -> Section:
 
 OF_PART = re.compile(r", \*\*\{.*\}")
 """What a part is given by names with a dot: it stands in the table of dimensions."""
-
-
-def length_unit() -> str:
-    """Return the unit that lengths are shown in, as it is written."""
-    return unit_sign("mm") if shown_in("mm") else "mm"

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import LinkageError, known_name, unwarned
-from ..language import heading_of, noted, said, translated
+from ..language import heading_of, said, translated
 from ..loads import PLAIN_CASE, Acting
 from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, most, speakers
 from ..motion.limits import StrokeLimits
@@ -36,9 +36,6 @@ CURVE_ROOM = (0.72, 0.12, 0.46, 0.32)
 """The room beside a curve's axes [inch: left, right, bottom, top]."""
 LETTERS = 100
 """Letters of a table's row, so that it fits across a page."""
-KINDS = (noted("pin"), noted("guide"), noted("slot"), noted("driven point"), noted("crank's drive"), noted("slider"), noted("telescope"))
-DIRECTIONS = (noted("frictionless"), noted("extending"), noted("retracting"), noted("own loads"))
-"""The words of joints, of directions and of the plain load case, as results have them."""
 
 
 # -- drawings ----------------------------------------------------------------------------------------------

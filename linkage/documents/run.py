@@ -123,12 +123,6 @@ class ReportSubject:
         named = [(place.over.title if len(places) > 1 else "", place.over.words(place.motion)) for place in places]
         return "; ".join(f"{name}: {words}" if name else words for name, words in named)
 
-    @property
-    def is_wider(self) -> bool:
-        """Whether the judge looks at more than the run that is shown: other strokes, or elsewhere."""
-        moving = {name for place in self.judge.places for name in place.running}
-        return moving != set(self.run.ways) or len(self.run.held) > 0 or len(self.judge.places) > 1
-
     @cached_property
     def columns(self) -> list[Column]:
         """The results at the poses of the curves."""

@@ -19,7 +19,6 @@ from ..formulas.printing import Text
 from ..formulas.words import Direction
 from ..mechanism import Mechanism
 from ..motion import Motion, out_of_reach
-from ..plan import plan_measure
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
 from ..reports import Run
@@ -78,7 +77,7 @@ class Calculation:
         self.columns: list[CalculatedColumn] = []
         self.headings: dict[int, str] = {}
         """What stands over the columns that begin a part of the machine, by their places; none without parts."""
-        self._known = self._inputs(self.equations, self.stroke_values)
+        self._known = self.equations._inputs(self.stroke_values, "nan")
         for symbol, number, what in self._numbers():
             self._add(CalculatedColumn("", number, what, "", symbol, None, self._spread(self._known[symbol])))
         for each in self.equations:
@@ -134,7 +133,7 @@ class Calculation:
         rhs = each.rhs
         for place, word in enumerate(sorted(rhs.atoms(Direction), key=str)):
             rhs = rhs.xreplace({word: self._direction(each, word, "abcdefgh"[place % 8])})
-        number, unit = f"({each.number})", si_text(each)
+        number, unit = f"({each.number})", "rad" if each.unit.si == "deg" else each.unit.si
         if not (each.lhs.is_Symbol or (each.lhs.is_Matrix and hasattr(each.lhs, "name"))):
             (left,), (right,) = explicit(each.lhs), explicit(rhs)
             self._column(number, f"{each.name} - ({right})" if right != 0 else each.name, f"{each}: zero where it holds", unit,
@@ -197,9 +196,6 @@ class Calculation:
 
     # -- other designs ---------------------------------------------------------------------------------
 
-    def _inputs(self, written: Equations, poses: Mapping[str, Any]) -> dict[sympy.Symbol, Any]:
-        return written._inputs(poses, "nan")
-
     def at_design(self, design: Mechanism, poses: Mapping[str, Any]) -> tuple[Motion, dict[sympy.Symbol, Any]]:
         """Return another design's motion at some poses, and what the formulas give there, by symbol; plain numbers are the engine's."""
         own = self.equations
@@ -207,7 +203,7 @@ class Calculation:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SingularWarning)
             motion = design.at(**poses)
-            known = self._inputs(other, poses)
+            known = other._inputs(poses, "nan")
         for column in self.columns:
             if column.expr is not None:
                 values = np.broadcast_to(np.asarray(worked_out(column.expr, known), float), motion.shape)
@@ -242,10 +238,6 @@ class Calculation:
         """Return the part that a dimension is of, "" for the machine itself."""
         return self.equations._listing.names.owned(name)[0]
 
-    def measure(self, name: str) -> str:
-        """Return what a dimension measures: "length", "angle", ..."""
-        return plan_measure(self.design.plan, name)
-
 
 def column_name(symbol: str) -> str:
     """Return a plain symbol's name as a heading: AB.x is AB_x, dAB/dS.x is dAB_x/dS."""
@@ -254,11 +246,6 @@ def column_name(symbol: str) -> str:
         return symbol
     over, slash, under = head.partition("/")
     return f"{over}_{axis}{slash}{under}"
-
-
-def si_text(each: Equation) -> str:
-    """Return the unit that an equation's numbers have in SI and radians."""
-    return "rad" if each.unit.si == "deg" else each.unit.si
 
 
 def worked_out(expr: sympy.Expr, known: Mapping[sympy.Symbol, Numbers]) -> Numbers:

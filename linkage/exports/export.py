@@ -17,7 +17,7 @@ from ..disk import Place, check_name, check_place, replacing
 from ..errors import DefinitionError, known_name
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, columns_of
-from ..pictures.strokes import stroke_words
+from ..pictures.strokes import pose_words
 from ..plugins import Plugins
 from ..quantities import as_mapping
 from ..reports import NOTHING, first_stroke, results, run_of, stroke_middles, write_csv
@@ -281,9 +281,3 @@ def drawn_strokes(machine: Mechanism, at: Mapping[str, Any]) -> dict[str, Any]:
     first = first_stroke(machine)
     values = stroke_middles(machine) | {first: machine.strokes[first].start} | dict(at)
     return {name: np.atleast_1d(value) for name, value in values.items()}
-
-
-def pose_words(motion: Motion, index: int) -> str:
-    """Return a pose's strokes in words."""
-    flat = {name: np.broadcast_to(values, motion.shape).ravel() for name, values in motion.strokes.items()}
-    return ", ".join(stroke_words(motion.plan, name, float(values[index])) for name, values in flat.items())

@@ -5,7 +5,7 @@ Centre lines run from pin to pin. A body's outline goes around its outermost pin
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from types import MappingProxyType
@@ -16,7 +16,7 @@ import numpy as np
 from ..errors import known_name
 from ..loads import PinFriction
 from ..motion import Motion
-from ..pictures.scene import DrawnCylinder, Places, Scene
+from ..pictures.scene import DrawnMark, Places, Scene
 from ..program import FloatArray
 from ..quantities import body_name, joined_names
 from ..units import mm
@@ -106,13 +106,14 @@ class PoseDrawing:
 def pose_parts(motion: Motion, pose: int) -> tuple[Part, ...]:
     """Return the parts of a mechanism at a pose of a motion, by its flat index. DefinitionError for a batch of designs."""
     scene = Scene(motion)
-    at = {name: place / mm for name, place in scene.at(pose).items()}
-    size = scene.size / mm
+    there = scene.at(pose)
+    at, size = {name: place / mm for name, place in there.items()}, scene.size / mm
     return (
         *frame_parts(scene, at, size),
+        *mark_parts("bodies", scene.blocks, there),
         *body_parts(scene, at, size),
-        *cylinder_parts(scene, at, size),
-        *spring_parts(scene, at),
+        *cylinder_parts(scene, there),
+        *mark_parts("elements", scene.straights, there),
         *pin_parts(scene, at, size),
         *(Lettering("text", name, at[name] + 0.9 * size, name, 1.6 * size) for name in motion.plan.points),
         *dimension_parts(scene, at, size),
@@ -139,12 +140,7 @@ def frame_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
         yield Polyline("frame", name, np.array([at[name], *foot]), closed=True)
     for track in scene.tracks:
         layer = "frame" if track.fixed else "bodies"
-        start, end = (at[name] for name in track.ends)
-        yield Polyline(layer, track.name, np.array([start, end]))
-        along = unit_vector(start, end)
-        for rider in track.riders:
-            ends = at[rider] - 2.1 * size * along, at[rider] + 2.1 * size * along
-            yield Polyline("bodies", rider, bar_corners(*ends, 1.25 * size), closed=True)
+        yield Polyline(layer, track.name, np.array([at[name] for name in track.ends]))
 
 
 # Bodies: an outline about the outermost pins, and centre lines from pin to pin.
@@ -177,41 +173,23 @@ def unit_vector(start: FloatArray, end: FloatArray) -> FloatArray:
     return np.asarray((end - start) / (np.hypot(*(end - start)) or 1.0))
 
 
-def bar_corners(start: FloatArray, end: FloatArray, half: float) -> FloatArray:
-    """Return the corners of a box along a line, shape (4, 2)."""
-    x, y = half * unit_vector(start, end)
-    across = np.array([-y, x])
-    return np.array([start - across, end - across, end + across, start + across])
+# What is drawn as marks: blocks, cylinders, springs, dampers and struts.
 
 
-# Cylinders, springs, dampers and struts.
+def mark_parts(layer: str, marks: Iterable[DrawnMark], at: Places) -> Iterator[Part]:
+    """Yield the lines of marks at the places of their points [m]."""
+    for mark in marks:
+        for line, drawn in zip(mark.lines, mark.drawn(at), strict=True):
+            yield Polyline(layer, mark.name, drawn / mm, closed=line.closed)
 
 
-def cylinder_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
-    """Yield the barrel, the piston and the rod of each cylinder, and its line from pin to pin."""
+def cylinder_parts(scene: Scene, at: Places) -> Iterator[Part]:
+    """Yield the lines of each cylinder at the places of its points [m], and its line from pin to pin."""
     for cylinder in scene.cylinders:
-        P, Q = at[cylinder.P], at[cylinder.Q]
-        along = unit_vector(P, Q)
-        P, Q = (place + cylinder.aside / mm * np.array([-along[1], along[0]]) for place in (P, Q))
-        name = joined_names(cylinder.P, cylinder.Q)
-        for start, end, half in cylinder_pieces(cylinder, float(np.hypot(*(Q - P))), size):
-            yield Polyline("cylinders", name, bar_corners(P + start * along, P + end * along, half), closed=True)
-        yield Polyline("centre_lines", name, np.array([P, Q]))
-
-
-def cylinder_pieces(cylinder: DrawnCylinder, length: float, size: float) -> Iterator[tuple[float, float, float]]:
-    """Yield start, end and half the width [mm] of barrel, piston and rod, along a cylinder of some length [mm]."""
-    bottom, mouth, piston = cylinder.bottom / mm, cylinder.mouth / mm, cylinder.piston(length * mm) / mm
-    yield bottom, mouth, 1.3 * size
-    yield piston - 0.45 * size, piston + 0.45 * size, 1.12 * size
-    yield piston + 0.45 * size, max(length, piston + 0.45 * size), 0.42 * size
-
-
-def spring_parts(scene: Scene, at: Places) -> Iterator[Part]:
-    """Yield the lines of springs, dampers and struts."""
-    for mark in scene.straights:
-        for line, drawn in zip(mark.lines, mark.drawn({name: place * mm for name, place in at.items()}), strict=True):
-            yield Polyline("elements", mark.name, drawn / mm, closed=line.closed)
+        mark = cylinder.mark(scene.size)
+        yield from mark_parts("cylinders", [mark], at)
+        ends = mark.placed(np.array([[0.0, cylinder.aside], [mark.axes(at)[2], cylinder.aside]]), at)
+        yield Polyline("centre_lines", mark.name, ends / mm)
 
 
 # Pins and lengths.

@@ -14,9 +14,10 @@ import sympy
 
 from ..checks import require_whole
 from ..formulas.numbered import CONVENTION, DEFINITIONS, uses
-from ..motion import Column, stroke_display_unit, stroke_unit
-from ..reports import Run
-from ..units import deg, display_unit, factor
+from ..motion import stroke_display_unit, stroke_unit
+from ..pictures.strokes import column_among
+from ..reports import Run, dimension_unit
+from ..units import deg, factor
 from .calculation import CalculatedColumn, Calculation
 from .extras import missing_extra
 from .formula_text import formula
@@ -138,7 +139,7 @@ class Sheets:
                 sheet.write_string(row, 0, titles[owner], self.part)
             row += 1
             entry = design.plan.table.entries[name]
-            unit = entry.unit or display_unit(self.calculation.measure(name), "mm")
+            unit = dimension_unit(design, name)
             sheet.write_string(row, 0, name, self.text)
             sheet.write_number(row, 1, tidy(value / factor(unit)), self.input)
             sheet.write_string(row, 2, unit, self.muted)
@@ -181,6 +182,7 @@ class Sheets:
         calculation, lines = self.calculation, self.calculation.equations
         dead = [column.name for column in calculation.columns if column.expr is None]
         lost = [result.column.name for result in self.results if result.expr is None]
+        friction = [] if lines._forces is None else lines._forces.friction
         return [
             "",
             *CONVENTION,
@@ -188,12 +190,8 @@ class Sheets:
             *([f"Numbers, not formulas, in the calculation: {', '.join(dead)}. Export the changed design again."] if dead else []),
             *([f"Numbers, not formulas, in the results: {', '.join(lost)}."] if lost else []),
             *(f"Left out: {text}" for text in calculation.left_out),
-            *([f"Left out of the forces: the friction of {', '.join(friction)}."] if (friction := self._friction()) else []),
+            *([f"Left out of the forces: the friction of {', '.join(friction)}."] if friction else []),
         ]
-
-    def _friction(self) -> list[str]:
-        forces = self.calculation.equations._forces
-        return [] if forces is None else forces.friction
 
     def _strokes(self, sheet: Worksheet) -> None:
         """Write the ends of the stroke that runs and the others' values, then all strokes at every pose."""
@@ -308,6 +306,10 @@ class Sheets:
     def _format(self, size: float, dead: bool) -> Format:
         """Return how numbers up to a size are shown."""
         text = "0.00000E+00" if size >= 1e7 or 0.0 < size < 1e-3 else "0.00" if size >= 1e4 else "0.0000" if size >= 100.0 else "0.000000"
+        return self._look(text, dead)
+
+    def _look(self, text: str, dead: bool) -> Format:
+        """Return a format of numbers, made once; those that follow nothing are slanted."""
         if (text, dead) not in self._formats:
             colour = {"italic": True, "font_color": "#8A5A00"} if dead else {"font_color": "#1F2933"}
             self._formats[text, dead] = self.book.add_format({"num_format": text, **colour})
@@ -324,7 +326,7 @@ class Sheets:
             for row, text in enumerate(texts):
                 sheet.write_string(row, column, text, (self.dead_wrapped if dead else self.wrapped) if row == 2 else self.head)
             shown = np.broadcast_to(result.column.shown, self.calculation.motion.shape)
-            look = self._result_format(result)
+            look = self._look(f"0.{'0' * result.column.digits}" if result.column.digits else "0", dead)
             template = self._result_text(result)
             for pose, value in enumerate(shown.tolist()):
                 formula_here = None if template is None else template.replace(ROW_MARK, str(self.above + pose + 1))
@@ -348,19 +350,12 @@ class Sheets:
         tests = ",".join(f"{self.defined_names[name]}={own[name]:g}" for name in result.kept)
         return f"=IF(AND({tests}),{shown},NA())"
 
-    def _result_format(self, result: LiveResult) -> Format:
-        digits = result.column.digits
-        key = (f"0.{'0' * digits}" if digits else "0", result.expr is None)
-        if key not in self._formats:
-            colour = {"italic": True, "font_color": "#8A5A00"} if key[1] else {"font_color": "#1F2933"}
-            self._formats[key] = self.book.add_format({"num_format": key[0], **colour})
-        return self._formats[key]
-
     def _chart(self, sheet: Worksheet) -> None:
         """Draw what the machine is about over its stroke."""
         columns = [result.column for result in self.results]
         over_stroke = next((place for place, each in enumerate(columns) if each.name == self.calculation.run.stroke), None)
-        shown = featured_place(columns, self.calculation.design.featured().column)
+        drawn = column_among(self.calculation.design, columns, None).name
+        shown = next(place for place, each in enumerate(columns) if each.name == drawn)
         chart = self.book.add_chart({"type": "scatter", "subtype": "straight"})
         x, y = columns[over_stroke] if over_stroke is not None else None, columns[shown]
         stroke = self._range("Calculation", 1 + list(self.calculation.design.strokes).index(self.calculation.run.stroke), self.above)
@@ -373,9 +368,10 @@ class Sheets:
         unit = stroke_unit(self.calculation.design.plan, self.calculation.run.stroke)
         axis = {"num_font": {"size": 10}, "major_gridlines": {"visible": True, "line": {"color": "#E1E5EA", "width": 0.75}}}
         chart.set_title({"name": f"{self.calculation.design.plan.heading}: {y.heading}", "name_font": {"size": 13}, "overlay": False})
-        low, high = axis_ends(x.shown if x is not None else self.calculation.stroke_values[self.calculation.run.stroke])
+        along = x.shown if x is not None else self.calculation.stroke_values[self.calculation.run.stroke]
         name = x.heading if x is not None else f"{self.calculation.run.stroke}, {unit}"
-        chart.set_x_axis({"name": name, "min": low, "max": high, "label_position": "low", "crossing": "min", **axis})
+        ends = {"min": tidy(float(np.min(along))), "max": tidy(float(np.max(along)))}
+        chart.set_x_axis({"name": name, **ends, "label_position": "low", "crossing": "min", **axis})
         chart.set_y_axis({"name": y.heading, "label_position": "low", "crossing": "min", **axis})
         chart.set_legend({"none": True})
         chart.set_size({"width": 860, "height": 480})
@@ -387,19 +383,6 @@ class Sheets:
 
         letter = xl_col_to_name(column)
         return f"{sheet}!${letter}${head + 1}:${letter}${head + self.count}"
-
-
-def featured_place(columns: Sequence[Column], wanted: str) -> int:
-    """Return the place of the column that is drawn: the one that is wanted, else the last that changes."""
-    names = [each.name for each in columns]
-    drawn = [each.drawn[np.isfinite(each.drawn)] for each in columns]
-    changing = [place for place, values in enumerate(drawn) if values.size and float(np.ptp(values)) > 0.0]
-    return names.index(wanted) if wanted in names else changing[-1] if changing else len(columns) - 1
-
-
-def axis_ends(values: Any) -> tuple[float, float]:
-    """Return the least and the greatest of some values, as an axis is labelled."""
-    return tidy(float(np.min(values))), tidy(float(np.max(values)))
 
 
 def stroke_ends_of(run: Run, name: str) -> Mapping[str, float]:

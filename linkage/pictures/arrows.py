@@ -6,12 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
-from typing import Any, final
+from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 from matplotlib.patheffects import withStroke
@@ -22,7 +20,7 @@ from ..program import FloatArray
 from ..units import current_system, factor, shown_in
 from . import style
 from .scene import Bounds
-from .sheet import points_a_metre
+from .sheet import figure_of, points_a_metre, renderer_of
 from .symbols import added
 
 SHARE = 0.17
@@ -128,14 +126,6 @@ def significant(value: float, digits: int = 3) -> str:
     rounded = float(f"{value:.{digits}g}")
     places = max(0, digits - 1 - int(np.floor(np.log10(abs(rounded)))))
     return f"{rounded:.{places}f}"
-
-
-def grown(box: Bounds, points: FloatArray, margin: float) -> Bounds:
-    """Return a box that has room for points, shape (n, 2) [m], with a margin around them."""
-    if not points.size:
-        return box
-    (x0, y0), (x1, y1) = points.min(axis=0) - margin, points.max(axis=0) + margin
-    return min(box[0], float(x0)), max(box[1], float(x1)), min(box[2], float(y0)), max(box[3], float(y1))
 
 
 def draw_arrows(ax: Axes, layer: ArrowLayer, scale: float, size: float, level: float = 16.0) -> FloatArray:
@@ -299,9 +289,7 @@ class PlacedWording:
 
 def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font: float = style.SMALL) -> list[Text]:
     """Write texts near their places so that they cover neither each other, nor what is written already, nor `covered` points [m]."""
-    figure = ax.figure.figure
-    assert figure is not None
-    renderer = renderer_of(figure)
+    renderer = renderer_of(figure_of(ax))
     ax.apply_aspect()
     inside = ax.get_window_extent(renderer)
     taken = [text.get_window_extent(renderer) for text in ax.texts if text.get_visible() and text.get_text()]
@@ -326,12 +314,6 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font
     for one in chosen:
         one.write(ax)
     return [one.text for one in chosen]
-
-
-def renderer_of(figure: Figure) -> Any:
-    """Return what knows how large a text is in a figure."""
-    canvas: Any = FigureCanvasAgg(figure)
-    return canvas.get_renderer()
 
 
 def crowding(points: FloatArray, at: FloatArray) -> float:
@@ -371,7 +353,7 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray) ->
     value = round_value(0.8 * layer.largest / layer.factor)
     length = value * layer.factor * scale
     (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
-    pad, high = 0.02 * (x1 - x0), text_height(ax, style.SMALL)
+    pad, high = 0.02 * (x1 - x0), style.SMALL * 1.25 / points_a_metre(ax)
     across = np.linspace(x1 - pad - length, x0 + pad, 7)
     up = np.linspace(y0 + pad, y1 - pad - 1.5 * high, 9)
     taken = np.concatenate([covered, *text_grids(ax)])
@@ -397,16 +379,9 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray) ->
     return np.array([x, y]) + np.linspace(-0.3 * pad, length + 0.3 * pad, 60)[:, None] * [1.0, 0.0]
 
 
-def text_height(ax: Axes, font: float) -> float:
-    """Return the height of a line of letters of a size [m], on a sheet whose place and limits stand."""
-    return font * 1.25 / points_a_metre(ax)
-
-
 def text_grids(ax: Axes) -> list[FloatArray]:
     """Return points that cover each text that is written on a sheet, shape (n, 2) [m]."""
-    figure = ax.figure.figure
-    assert figure is not None
-    renderer, back = renderer_of(figure), ax.transData.inverted()
+    renderer, back = renderer_of(figure_of(ax)), ax.transData.inverted()
     boxes = [text.get_window_extent(renderer) for text in ax.texts if text.get_visible() and text.get_text()]
     shares = np.array(list(product(np.linspace(0.0, 1.0, 9), np.linspace(0.0, 1.0, 4))))
     return [np.asarray(back.transform(box.min + shares * box.size)) for box in boxes]

@@ -58,25 +58,17 @@ def track_number(track: SlideTrack, part: str, axis: str) -> NodeRequest:
     return NodeRequest(text=f"the {part} of {track.name}", key=("track", track.name, part, axis), nodes_of=nodes, names_of=names)
 
 
-def load_part(place: int, axis: int) -> LawRequest:
-    """Return the request for a part of one of the machine's own loads [N], by its place among them."""
-    return LawRequest(formula=partial(load_part_of, place, axis), text=f"load {place}", known=("own load", place, axis))
+def force_part(kind: str, place: int, axis: int) -> LawRequest:
+    """Return the request for a part of one of the machine's own loads ("load") or of what the ground puts on it ("ground") [N]."""
+    return LawRequest(formula=partial(force_part_of, kind, place, axis), text=f"{kind} {place}", known=(kind, place, axis))
 
 
-def load_part_of(place: int, axis: int, motion: AnyMotion) -> FloatArray:
-    """Return a part of one of the machine's own loads on a traced motion [N]."""
+def force_part_of(kind: str, place: int, axis: int, motion: AnyMotion) -> FloatArray:
+    """Return a part of a load, by its place among all of its kind, over a motion [N]; of the machine's own loads over a traced one."""
+    if kind == "ground":
+        return cast(FloatArray, ground_loads(motion, PLAIN)[place].force[axis])
     assert isinstance(motion, TracedMotion)  # it is asked for by a page alone
     return cast(FloatArray, traced_loads(motion, PLAIN, AT_REST).loads[place].force[axis])
-
-
-def ground_part(place: int, axis: int) -> LawRequest:
-    """Return the request for a part of what the ground puts on a vehicle [N], by its place among all that it does."""
-    return LawRequest(formula=partial(ground_part_of, place, axis), text=f"ground {place}", known=("ground", place, axis))
-
-
-def ground_part_of(place: int, axis: int, motion: AnyMotion) -> FloatArray:
-    """Return a part of what the ground puts on a vehicle over a motion [N]."""
-    return cast(FloatArray, ground_loads(motion, PLAIN)[place].force[axis])
 
 
 @final
@@ -183,8 +175,8 @@ class PageRequests:
         told = [each for each in forces if alone_on(each, forces)]
         found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False) for each in told]
         ground = enumerate(ground_loads(poses, PLAIN))
-        found += [(each.load.point, ground_part(k, 0), ground_part(k, 1), False) for k, each in ground]
-        return found + [(point, load_part(k, 0), load_part(k, 1), True) for k, point in loads]
+        found += [(each.load.point, force_part("ground", k, 0), force_part("ground", k, 1), False) for k, each in ground]
+        return found + [(point, force_part("load", k, 0), force_part("load", k, 1), True) for k, point in loads]
 
 
 def alone_on(joint: JointForce, joints: Sequence[JointForce]) -> str:
@@ -287,8 +279,10 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "columns": columns,
         "column": list(requests.columns).index(requests.column),
         "limits": {typeset(name): limit_data(requests, name) for name in requests.limits},
-        "rows": {"points": [row_pair(live, f"point {name}") for name in plan.points]},
-        "scene": scene_data(requests.scene, track_rows(requests.scene, live)),
+        "rows": {"points": [[live.rows[f"point {name}"][0] + axis for axis in (0, 1)] for name in plan.points]},
+        "scene": scene_data(
+            requests.scene, {each.name: [live.rows[f"track {each.name} {k}"][0] for k in range(4)] for each in requests.scene.tracks}
+        ),
         "cylinders": cylinder_data(requests.scene, {name: rows[0] for name, rows in live.rows.items()}),
         "pressureUnit": unit_data("bar"),
         "length": unit_data("mm"),
@@ -304,7 +298,9 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "title": plan.heading, "titleRu": russian_heading(plan),
         "defaults": {name: plan.defaults[name] for name, value, *_ in dims if value != plan.defaults[name]},
         "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
-        **unit_tables(),
+        "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items()},
+        "systems": {name: {measure: typeset(unit) for measure, unit in units.items()} for name, units in SYSTEMS.items()},
+        "systemNames": SYSTEM_NAMES,
         "steps": {name: opening(plan, name) for name in plan.points},
         **verdicts_shown(requests),
         "judge": requests.questions.data(live),
@@ -322,12 +318,6 @@ def signs(units: set[str]) -> dict[str, str]:
     with language("ru"):
         found = {unit: typeset(translated(plain.get(unit, unit))) for unit in sorted(units)}
     return {unit: sign for unit, sign in found.items() if sign != unit}
-
-
-def row_pair(live: LiveText, name: str) -> list[int]:
-    """Return the two rows of a vector."""
-    first, _ = live.rows[name]
-    return [first, first + 1]
 
 
 def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
@@ -482,15 +472,6 @@ def angle_points(name: str, points: Sequence[str], lengths: Mapping[str, tuple[s
     return next((each for each in found if joined_names(*each) == name), ())
 
 
-def unit_tables() -> dict[str, Any]:
-    """Return the units with their factors and what they measure, and the systems: the unit of each measure."""
-    return {
-        "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items()},
-        "systems": {name: {measure: typeset(unit) for measure, unit in units.items()} for name, units in SYSTEMS.items()},
-        "systemNames": SYSTEM_NAMES,
-    }
-
-
 def arrow_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]]:
     """Return the arrows whose both parts the program has."""
     points, found = list(requests.plan.points), []
@@ -540,7 +521,9 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> dict[str, An
         "names": names,
         "box": [four_digits(side) for side in scene.box(0.0)],
         "bodies": [body_data(plate, points, index) | {"colour": colour} for plate, points, colour in forms],
-        "tracks": [track_data(track, index, lines[track.name]) for track in scene.tracks],
+        "tracks": [
+            {"riders": [index[name] for name in track.riders], "fixed": track.fixed, "line": [*lines[track.name]]} for track in scene.tracks
+        ],
         "contours": [mark_data(each, index) for each in (*scene.contours, *scene.sections)],
         "straights": [mark_data(each, index) for each in scene.straights],
         "around": [mark_data(each, index, 0.05 * scene.size) for each in scene.surroundings],
@@ -551,16 +534,6 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> dict[str, An
         "grounds": [{"point": index[name], "way": round(way, 4)} for name, way in props(scene).items()],
         "labels": label_offsets(scene),
     } | ({"letters": [letters.get(name, name) for name in names], "legend": scene.letter_legend} if letters else {})
-
-
-def track_rows(scene: Scene, live: LiveText) -> dict[str, list[int]]:
-    """Return the rows of each track's origin and direction."""
-    return {track.name: [live.rows[f"track {track.name} {k}"][0] for k in range(4)] for track in scene.tracks}
-
-
-def track_data(track: SlideTrack, index: Mapping[str, int], line: Sequence[int]) -> dict[str, Any]:
-    """Return a track: what slides on it, and the rows of its origin and its direction."""
-    return {"riders": [index[name] for name in track.riders], "fixed": track.fixed, "line": [*line]}
 
 
 def body_data(plate: Plate, points: Sequence[str], index: Mapping[str, int]) -> dict[str, Any]:

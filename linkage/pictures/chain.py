@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
@@ -17,7 +16,7 @@ from ..language import said
 from ..program import FloatArray
 from . import style
 from .paper import footnote, write_title
-from .sheet import Picture
+from .sheet import empty_figure
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -37,11 +36,10 @@ COLOURS = {"frame": style.RULE, "barrel": style.BARREL, "rod": style.ROD, "block
 
 def draw_chain(graph: nx.MultiGraph) -> Figure:
     """Return a figure of a machine's graph; DefinitionError for one that is none: without bodies, or without kinds of joints."""
-    if not len(graph) or not all("kind" in data for _, data in (*graph.nodes(data=True), *edges_of(graph))):
+    if not len(graph) or not all("kind" in each[-1] for each in (*graph.nodes(data=True), *graph.edges(data=True))):
         raise DefinitionError("draw(graph): this is no graph of a machine, whose bodies and joints have kinds; give machine.graph.")
     side = float(np.clip(ROOM * np.sqrt(len(graph)) + 1.5, LEAST, MOST))
-    figure = Picture(figsize=(1.25 * side, side), dpi=style.DPI, facecolor=style.PAPER)
-    FigureCanvasAgg(figure)
+    figure = empty_figure(1.25 * side, side)
     ax = figure.add_axes((0.08, 0.07, 0.84, 0.82))
     ax.set_axis_off()
     at = node_places(graph)
@@ -61,11 +59,6 @@ def draw_chain(graph: nx.MultiGraph) -> Figure:
     write_title(figure, str(graph.name), freedom.replace("-", "\N{MINUS SIGN}"))
     footnote(figure, said("round: pin; square: slide; orange: driven by the stroke that is named"))
     return figure
-
-
-def edges_of(graph: nx.MultiGraph) -> list[tuple[Any, dict[str, Any]]]:
-    """Return the edges with what they are."""
-    return [(pair, data) for *pair, data in graph.edges(data=True)]
 
 
 def node_places(graph: nx.MultiGraph) -> dict[Any, FloatArray]:

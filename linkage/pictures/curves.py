@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import ceil, sqrt
 from textwrap import wrap
 from typing import NamedTuple
@@ -17,6 +17,7 @@ from ..errors import DefinitionError, cited, known_name, unknown
 from ..language import said, translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
+from ..motion.measures import Constraint, Given, Leaf, Least, Most
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
 from ..reports import NOTHING, At, results, run_of
@@ -44,11 +45,7 @@ def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], *, limi
             raise unknown("Column", name, [column.name for column in columns], where="limits")
     if not shown:
         raise DefinitionError(f"{motion.plan.title}: there is no column to draw over {along.name}; name a result, not a stroke.")
-    figure, cells = panel_grid(len(shown))
-    held = along.held.replace(" ", TIED).replace("," + TIED, ", ")  # a line breaks between strokes, not in them
-    title = motion.plan.heading + (" " + said("at {place}", place=held) if held else "")
-    title = "\n".join(wrap(title, int(LETTERS_AN_INCH * float(figure.get_figwidth())))).replace(TIED, " ")
-    figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    figure, cells = panel_grid(len(shown), motion.plan.heading, along.held)
     for ax, column in zip(cells, shown, strict=True):
         panel(ax, motion, column, given.get(column.name))
     return figure
@@ -95,11 +92,28 @@ def check_poses(column: Column, motion: Motion) -> None:
         raise DefinitionError(f"{said}, and the motion poses of shape {motion.shape}; give one value for each pose.") from None
 
 
-def panel_grid(count: int) -> tuple[Figure, list[Axes]]:
-    """Return a figure and the axes of so many panels, as near to a square as they go."""
+def panel_grid(count: int, title: str, held: str = "") -> tuple[Figure, list[Axes]]:
+    """Return a figure and the axes of so many panels, as near to a square as they go, under a title that says what strokes are held."""
     across = min(ceil(sqrt(count)), 4)
     down = ceil(count / across)
-    return panels((max(PANEL[0] * across, 6.0), PANEL[1] * down + 0.6), across, down, count, w_pad=0.12, h_pad=0.12)
+    figure, cells = panels((max(PANEL[0] * across, 6.0), PANEL[1] * down + 0.6), across, down, count, w_pad=0.12, h_pad=0.12)
+    held = held.replace(" ", TIED).replace("," + TIED, ", ")  # a line breaks between strokes, not in them
+    title += " " + said("at {place}", place=held) if held else ""
+    title = "\n".join(wrap(title, int(LETTERS_AN_INCH * float(figure.get_figwidth())))).replace(TIED, " ")
+    figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    return figure, cells
+
+
+def stroke_panel(ax: Axes, along: StrokeAxis, heading: str, ends: tuple[float, float]) -> None:
+    """Set up axes for curves over a stroke: heading, stroke, ticks at round values, and where the values begin and end."""
+    quiet(ax)
+    ax.set_title(typeset(heading), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
+    ax.set_xlabel(along.heading, fontsize=style.TEXT, color=style.MUTED)
+    if np.ptp(along.values) > 0.0:
+        ax.set_xlim(float(along.values.min()), float(along.values.max()))
+    ax.xaxis.set_major_locator(locator(along.is_turning))
+    ax.yaxis.set_major_locator(locator())
+    ax.set_ylim(*ends)
 
 
 # Limit lines: a value that a result may not pass, and on which side it fails.
@@ -134,6 +148,22 @@ def limit_of(given: Sequence[object], unit: str = "") -> Limit:
     return found
 
 
+def limit_on(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> Limit | None:
+    """Return the limit that a condition sets a quantity at every pose; None where it sets none. `is_shown` tells the quantity's leaves."""
+    leaf, number, sign = side_of(constraint, is_shown) or (None, 0.0, "")
+    fails = {(Most, "<="): "above", (Least, ">="): "below"}.get((type(leaf), sign))
+    return None if fails is None else Limit(number, "", fails)
+
+
+def side_of(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> tuple[Leaf, float, str] | None:
+    """Return the leaf, the number [SI] and the sign of a condition that holds a quantity against a number; None for any other."""
+    left, right, turned = constraint.left, constraint.right, {"<=": ">=", ">=": "<=", "==": "=="}[constraint.symbol]
+    for one, other, sign in ((left, right, constraint.symbol), (right, left, turned)):
+        if isinstance(one, Leaf) and isinstance(other, Given) and is_shown(one):
+            return one, other.value, sign
+    return None
+
+
 def limit_crossings(along: FloatArray, values: FloatArray, at: float) -> list[float]:
     """Return where values cross a limit, by straight lines between the poses."""
     off = values - at
@@ -149,16 +179,9 @@ def panel(ax: Axes, motion: Motion, column: Column, bound: Sequence[object] | No
     """Draw a column over the stroke that a motion runs along, with its limit `(value [SI], text, fails)`."""
     along = StrokeAxis.of(motion)
     ax.plot(along.values, column.drawn, color=colour, linewidth=style.BOLD, zorder=5.0, marker="o" if len(along.values) == 1 else None)
-    quiet(ax)
-    ax.set_title(typeset(column.heading), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
-    ax.set_xlabel(along.heading, fontsize=style.TEXT, color=style.MUTED)
-    if np.ptp(along.values) > 0.0:
-        ax.set_xlim(float(along.values.min()), float(along.values.max()))
-    ax.xaxis.set_major_locator(locator(along.is_turning))
-    ax.yaxis.set_major_locator(locator())
-    limit = None if bound is None else limit_of(bound, column.unit)
-    ax.set_ylim(*axis_range(column, limit))
-    if limit is not None:
+    limits = [] if bound is None else [limit_of(bound, column.unit)]
+    stroke_panel(ax, along, column.heading, axis_range(column, limits))
+    for limit in limits:
         mark_limit(ax, along, column, limit)
 
 
@@ -167,19 +190,17 @@ def locator(is_turning: bool = False) -> MaxNLocator:
     return MaxNLocator(6, steps=[1, 3, 4.5, 6, 9, 10] if is_turning else [1, 2, 2.5, 5, 10])
 
 
-def axis_range(column: Column, limit: Limit | None = None) -> tuple[float, float]:
-    """Return the range of an axis for a column's values, in its unit, with air at both ends and room for its limit."""
+def axis_range(column: Column, limits: Sequence[Limit] = ()) -> tuple[float, float]:
+    """Return the range of an axis for a column's values, in its unit, with air at both ends and room for its limits."""
     finite = column.drawn[np.isfinite(column.drawn)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     air = 0.09 * (high - low)
     if air <= 1e-9 * max(abs(low), abs(high)):
         air = 0.1 * max(abs(low), abs(high)) or 1.0
     low, high = low - air, high + air
-    if limit is None:
-        return low, high
-    value = limit.drawn(column)
-    beyond = 0.1 * (max(high, value) - min(low, value))
-    return min(low, value - beyond), max(high, value + beyond)
+    values = [limit.drawn(column) for limit in limits]
+    beyond = 0.1 * (max([high, *values]) - min([low, *values]))
+    return min([low, *(value - beyond for value in values)]), max([high, *(value + beyond for value in values)])
 
 
 def mark_limit(ax: Axes, along: StrokeAxis, column: Column, limit: Limit) -> None:

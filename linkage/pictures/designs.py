@@ -16,9 +16,8 @@ from ..errors import DefinitionError
 from ..language import said
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
-from ..plan import plan_measure
-from ..reports import Run, first_stroke, stroke_middles
-from ..units import display_unit, show
+from ..reports import Run, dimension_unit, first_stroke, stroke_middles
+from ..units import show
 from . import style
 from .drawing import Drawing
 from .layout import cloud
@@ -27,6 +26,7 @@ from .paper import empty_page, legend_row, write_title
 from .pose_choice import telling_angles
 from .poses import motions, named_points, trace
 from .scene import Scene
+from .sheet import joined_box
 from .strokes import is_turn, stroke_words
 from .style import FAINT, STRONG, Look
 
@@ -53,11 +53,10 @@ def draw_designs(machines: Sequence[Mechanism], at: object, path: Sequence[str],
     moved = [motions(machine, values, count) for machine in designs]
     shown, swept = [each for _, each, _ in moved], [each for _, _, each in moved]
     scenes = [Scene(motion, over) for motion, over in zip(shown, swept, strict=True)]
-    boxes = np.array([(Scene(over) if path else scene).box() for over, scene in zip(swept, scenes, strict=True)])
-    low, high = boxes.min(axis=0), boxes.max(axis=0)
+    box = joined_box([(Scene(over) if path else scene).box() for over, scene in zip(swept, scenes, strict=True)])
     texts = what_differs(designs)
     columns = max(1, min(len(texts), int(TEXT_WIDTH / (0.56 + LETTER * max(map(len, texts))))))
-    figure, ax = empty_page((float(low[0]), float(high[1]), float(low[2]), float(high[3])), -(-len(texts) // columns))
+    figure, ax = empty_page(box, -(-len(texts) // columns))
     looks, covered = looks_of(len(designs)), [np.empty((0, 2))]
     for design, (scene, over, look) in enumerate(zip(scenes, swept, looks, strict=True)):
         for name in path:
@@ -147,16 +146,10 @@ def what_differs(designs: Sequence[Mechanism]) -> list[str]:
     found = []
     for machine, heading in zip(designs, titles, strict=True):
         words = [heading] if len(set(titles)) > 1 else []
-        words += [f"{name} = {shown_value(machine, name)}" for name in names[:MOST_NAMED]]
+        words += [f"{name} = {show(float(machine[name]), dimension_unit(machine, name), 5)}" for name in names[:MOST_NAMED]]
         words += [said("and {n} more", n=len(names) - MOST_NAMED)] if len(names) > MOST_NAMED else []
         found.append(", ".join(words) or said("the same design"))
     return found
-
-
-def shown_value(machine: Mechanism, name: str) -> str:
-    """Return a dimension with its unit."""
-    unit = machine.plan.table.entries[name].unit or display_unit(plan_measure(machine.plan, name), "mm")
-    return show(float(machine.dimensions[name]), unit, 5)
 
 
 def at_words(motion: Motion) -> str:

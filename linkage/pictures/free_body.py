@@ -6,7 +6,6 @@ from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ..language import said
@@ -21,7 +20,6 @@ from .arrows import (
     arrow_outline,
     colour_keys,
     draw_arrows,
-    grown,
     place_wordings,
     scale_bar,
     significant,
@@ -34,8 +32,8 @@ from .overlays import sheet_note
 from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, write_title
 from .scene import Bounds, Places, Plate, Scene
 from .shapes import hull, segment
-from .sheet import Picture, fitted_to, points_a_metre, sheet
-from .strokes import stroke_words
+from .sheet import empty_figure, fitted_to, grown, points_a_metre, sheet
+from .strokes import pose_words
 from .style import STRONG
 from .symbols import MovingPart, polygon
 
@@ -59,10 +57,9 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     free.draw(ax)
     draw_polygon(beside, layer)
     sheet_note(ax, [said("No forces here: {why}", why=forces.refusal)] if forces.refusal else forces.found.remarks)
-    where = [stroke_words(motion.plan, name, float(values.ravel()[pose])) for name, values in motion.strokes.items()]
     heading = motion.plan.heading
     on_body = said("{machine}: forces on {body}", machine=heading, body=short_name(forces, body))
-    write_title(figure, said("{machine}: forces on the frame", machine=heading) if body == FRAME else on_body, ", ".join(where))
+    write_title(figure, said("{machine}: forces on the frame", machine=heading) if body == FRAME else on_body, pose_words(motion, pose))
     legend_row(ax, *ax.get_legend_handles_labels())
     footnote(figure, closing_words(layer, "" if forces.found.axle_loads else body))
     return figure
@@ -92,8 +89,7 @@ def closing_words(layer: ArrowLayer, body: str) -> str:
 
 def free_page(box: Bounds) -> tuple[Figure, Axes, Axes]:
     """Return a figure with a sheet that fits a box [m], and beside it empty axes with equal scales."""
-    figure = Picture(figsize=(FREE_WIDTH, FREE_HEIGHT), dpi=style.DPI, facecolor=style.PAPER)
-    FigureCanvasAgg(figure)
+    figure = empty_figure(FREE_WIDTH, FREE_HEIGHT)
     wide, high = FREE_WIDTH - POLYGON - LEFT - 2.0 * RIGHT, FREE_HEIGHT - BOTTOM - TOP
     ax = figure.add_axes((LEFT / FREE_WIDTH, BOTTOM / FREE_HEIGHT, wide / FREE_WIDTH, high / FREE_HEIGHT))
     sheet(ax, box)

@@ -19,6 +19,7 @@ from ..program import FloatArray
 from ..units import show
 from . import style
 from .arrows import Wording
+from .symbols import arrow_between
 
 SHORT = 5.0
 """A gap that is shorter than so many sizes has its arrows outside."""
@@ -113,8 +114,5 @@ def draw_gap(ax: Axes, mark: GapMark, size: float) -> list[Wording]:
         ax.add_line(Line2D(*line.T, color=colour, linewidth=1.8, solid_capstyle="round", zorder=level, gid=mark.name))
     for tip, out in ((start, -way), (end, way)):
         tail = tip + (REACH * size * out if is_short else -min(REACH * size, 0.5 * float(np.hypot(*(end - start)))) * out)
-        ax.annotate(
-            "", (float(tip[0]), float(tip[1])), xytext=(float(tail[0]), float(tail[1])), zorder=level, annotation_clip=False,
-            arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.4, "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0},
-        )  # fmt: skip
+        arrow_between(ax, tail, tip, colour, 11, level, clip=False)
     return [Wording(mark.words, mark.middle, np.array([-way[1], way[0]]), colour, mark.name)]

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
@@ -19,8 +18,8 @@ from . import style
 from .drawing import Drawing
 from .paper import footnote, write_title
 from .scene import Scene
-from .sheet import Picture, fitted_to
-from .strokes import stroke_words
+from .sheet import empty_figure, fitted_to
+from .strokes import pose_words
 from .style import STRONG
 
 MOST_MODES = 24
@@ -43,8 +42,7 @@ def draw_modes(modes: Sequence[Assembly]) -> Figure:
     high = PANEL * float(np.clip(extent[1] / extent[0], 0.5, 1.3))
     code_room = LINE * max(map(len, texts)) + 0.12
     width, height = max(2, across) * (PANEL + GAP) + GAP, HEAD_ROOM + rows * (high + code_room + GAP) + 0.3
-    figure = Picture(figsize=(width, height), dpi=style.DPI, facecolor=style.PAPER)
-    FigureCanvasAgg(figure)
+    figure = empty_figure(width, height)
     for place, (mode, scene, text) in enumerate(zip(shown, scenes, texts, strict=True)):
         row, column = divmod(place, across)
         left, top = GAP + column * (PANEL + GAP), height - HEAD_ROOM - row * (high + code_room + GAP)
@@ -57,11 +55,10 @@ def draw_modes(modes: Sequence[Assembly]) -> Figure:
         )
         written.set_gid(f"code {place}")
     plan, motion = motions[0].plan, motions[0]
-    where = ", ".join(stroke_words(plan, name, float(np.ravel(value)[0])) for name, value in motion.strokes.items())
     count = said_of(len(modes), "{n} assembly mode", "{n} assembly modes")
     if len(modes) > len(shown):
         count = said("{modes}, the first {number} of them", modes=count, number=len(shown))
-    write_title(figure, f"{plan.heading}: {count}", where)
+    write_title(figure, f"{plan.heading}: {count}", pose_words(motion, 0))
     notes = [said("Each line replaces the one that is in the class.")]
     notes += [said("Modes of pins found together are looked for from places at random, one may be missing.")] if plan.groups else []
     footnote(figure, " ".join(notes))

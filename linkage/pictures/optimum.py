@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
@@ -16,20 +16,21 @@ from matplotlib.patheffects import withStroke
 from ..checks import require_whole
 from ..errors import DefinitionError, cited
 from ..motion import Column, Motion, stroke_display_unit
-from ..motion.measures import At, Constraint, Given, Leaf, Least, Measure, Most, words_of
+from ..motion.measures import At, Leaf, Measure, words_of
 from ..program import FloatArray
 from ..study import Optimum
 from ..study.optimum import unit_of_leaf
 from ..units import factor, mm, shown_in
 from . import style
-from .curves import Limit, axis_range, locator, mark_limit, panel_grid, typeset
+from .curves import Limit, axis_range, limit_on, mark_limit, panel_grid, side_of, stroke_panel, typeset
 from .drawing import Drawing
 from .labels import offsets
 from .layout import label_free
 from .scene import Bounds, Places, Scene
-from .sheet import Picture, points_a_metre, quiet, sheet
+from .sheet import empty_figure, joined_box, points_a_metre, sheet
 from .strokes import StrokeAxis, stroke_words
 from .style import FAINT, STRONG
+from .symbols import arrow_between
 
 WIDE = 12.0
 ROOM = (0.75, 0.2, 0.65, 0.55, 0.75)
@@ -55,8 +56,7 @@ def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
     require_whole("count", count, "a whole number of poses is expected, at least 2", least=2)
     name = next(iter(optimum.machine.strokes))
     before, after = (optimum.problem.along(each, name, count) for each in (optimum.start, optimum.machine))
-    box = joined_box([Scene(each).box(AIR) for each in (before, after)])
-    figure, axes = two_sheets(box)
+    figure, axes = two_sheets(joined_box([Scene(each).box(AIR) for each in (before, after)]))
     for ax, pose in zip(axes, (0, count - 1), strict=True):
         overlaid(ax, before, after, pose)
         ax.set_title(stroke_words(after.plan, name, float(after.strokes[name][pose])), fontsize=style.TEXT, color=style.MUTED, loc="right")
@@ -72,12 +72,6 @@ def require_optimum(optimum: object) -> None:
         raise DefinitionError(f"{cited(optimum)} is no result of a search; give what optimise(...) returns.")
 
 
-def joined_box(boxes: Sequence[Bounds]) -> Bounds:
-    """Return the box around several [m]."""
-    left, right, bottom, top = np.array(boxes).T
-    return float(left.min()), float(right.max()), float(bottom.min()), float(top.max())
-
-
 def two_sheets(box: Bounds) -> tuple[Figure, list[Axes]]:
     """Return a figure with two sheets of the same box [m] side by side."""
     left, right, between, below, above = ROOM
@@ -85,8 +79,7 @@ def two_sheets(box: Bounds) -> tuple[Figure, list[Axes]]:
     x0, x1, y0, y1 = box
     high = float(np.clip(wide * (y1 - y0) / (x1 - x0), HEIGHTS[0] - below - above, HEIGHTS[1] - below - above))
     height = high + below + above
-    figure = Picture(figsize=(WIDE, height), dpi=style.DPI, facecolor=style.PAPER)
-    FigureCanvasAgg(figure)
+    figure = empty_figure(WIDE, height)
     axes = []
     for place in range(2):
         ax = figure.add_axes(((left + place * (wide + between)) / WIDE, below / height, wide / WIDE, high / height))
@@ -109,16 +102,17 @@ def overlaid(ax: Axes, before: Motion, after: Motion, pose: int) -> None:
         return
     moves = {name: float(np.hypot(*(there[name] - here[name]))) for name in new.places}
     moves = {name: far for name, far in moves.items() if far > LEAST_MOVE}
-    ways = (path_between(here[name], there[name]) for name in moves if np.isfinite(here[name]).all())
+    ways = [np.linspace(here[name], there[name], 9) for name in moves if np.isfinite(here[name]).all()]
     clouds = [*label_free(new, [there]), *ways, edge(ax)]
     name_points(ax, new, there, moves, np.concatenate([each[np.isfinite(each).all(axis=1)] for each in clouds]))
     for name in moves:
-        moved_arrow(ax, here[name], there[name])
+        arrow_between(ax, here[name], there[name], style.ACCENT, 9, STRONG.level + 0.9)
 
 
 def name_points(ax: Axes, scene: Scene, at: Places, moves: Mapping[str, float], taken: FloatArray) -> None:
     """Name the points at a pose, those that moved with how far [mm], where they cover nothing of some points (n, 2) [m]."""
-    names = {name: f"{name} {millimetres_moved(moves[name])}" if name in moves else name for name in scene.places}
+    moved = {name: f"{name} {far / mm:.{0 if far >= 9.95 * mm else 1}f}" for name, far in moves.items()}
+    names = {name: moved.get(name, name) for name in scene.places}
     scale, font = points_a_metre(ax), style.LABEL
     places = {text: at[name] for name, text in names.items()}
     spots = offsets(list(places), [places], [taken], scale, 1.15 * scene.size * scale + 1.5)
@@ -130,11 +124,6 @@ def name_points(ax: Axes, scene: Scene, at: Places, moves: Mapping[str, float], 
         if name in moves:
             far = text.removeprefix(name).strip()
             write_beside(ax, at[name], far, (split + 0.25 * font, height), "left", fontsize=style.SMALL, color=style.ACCENT)
-
-
-def millimetres_moved(far: float) -> str:
-    """Return a distance [m] as text in mm, a short one with a decimal."""
-    return f"{far / mm:.{0 if far >= 9.95 * mm else 1}f}"
 
 
 CHARACTER = 0.6
@@ -155,19 +144,6 @@ def edge(ax: Axes) -> FloatArray:
     heights, wide = np.linspace(bottom, top, 60), 0.01 * (right - left)
     x = np.concatenate([left - wide * np.arange(1, 6), right + wide * np.arange(1, 6)])
     return np.stack(np.meshgrid(x, heights), axis=-1).reshape(-1, 2)
-
-
-def path_between(start: FloatArray, end: FloatArray) -> FloatArray:
-    """Return points from one place to another, shape (n, 2) [m]."""
-    return np.asarray(start + np.linspace(0.0, 1.0, 9)[:, None] * (end - start))
-
-
-def moved_arrow(ax: Axes, start: FloatArray, end: FloatArray) -> None:
-    """Draw how a pin moved."""
-    ax.annotate(
-        "", (float(end[0]), float(end[1])), xytext=(float(start[0]), float(start[1])), zorder=STRONG.level + 0.9,
-        arrowprops={"arrowstyle": "-|>", "color": style.ACCENT, "linewidth": 1.4, "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0},
-    )  # fmt: skip
 
 
 def before_and_after_key(ax: Axes) -> None:
@@ -207,8 +183,7 @@ def plot_optimum(optimum: Optimum, count: int = POSES) -> Figure:
     if not courses:
         title = optimum.problem.plan.title
         raise DefinitionError(f"{title}: neither the objective nor a condition is of something that changes over a stroke.")
-    figure, cells = panel_grid(len(courses))
-    figure.suptitle(optimum.problem.plan.heading, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    figure, cells = panel_grid(len(courses), optimum.problem.plan.heading)
     for ax, course in zip(cells, courses, strict=True):
         course_panel(ax, optimum, course)
     lines = [Line2D([], [], color=colour, linewidth=width) for colour, width in (BEFORE, AFTER)]
@@ -233,39 +208,19 @@ def courses_of(optimum: Optimum, count: int) -> Iterator[QuantityCourse]:
         if old is None or new is None:
             continue
         (stroke, *before), (_, *after) = old, new
-        limits = tuple(limit for each in problem.constraints for limit in limits_on(each, leaves, optimum))
-        marks = tuple(mark for each in problem.constraints for mark in marks_of(each, leaves, stroke))
+        is_shown = partial(is_one_of, leaves)
+        limits = tuple(limit for each in problem.constraints if (limit := limit_on(each, is_shown)) is not None)
+        sides = [side for each in problem.constraints if (side := side_of(each, is_shown)) is not None]
+        held = [(leaf.strokes, value, sign) for leaf, value, sign in sides if isinstance(leaf, At)]
+        marks = tuple((float(strokes[stroke]), value, sign) for strokes, value, sign in held if stroke in strokes)
         yield QuantityCourse(
             leaves[0], stroke, unit_of_leaf(problem.plan, leaves[0]), (before[0], before[1]), (after[0], after[1]), limits, marks
         )
 
 
-def sides_of(constraint: Constraint, leaves: Sequence[Leaf]) -> tuple[Leaf, Given, str] | None:
-    """Return the leaf, the number and the sign of a constraint that holds one of some leaves against a number; None for any other."""
-    left, right, turned = constraint.left, constraint.right, {"<=": ">=", ">=": "<=", "==": "=="}[constraint.symbol]
-    for one, other, sign in ((left, right, constraint.symbol), (right, left, turned)):
-        if isinstance(one, Leaf) and isinstance(other, Given) and any(one is each for each in leaves):
-            return one, other, sign
-    return None
-
-
-def limits_on(constraint: Constraint, leaves: Sequence[Leaf], optimum: Optimum) -> Iterator[Limit]:
-    """Yield the limit that a constraint is for a quantity at every pose."""
-    found = sides_of(constraint, leaves)
-    if found is None:
-        return
-    leaf, number, sign = found
-    if isinstance(leaf, Most) and sign == "<=":
-        yield Limit(number.value, "", "above")
-    if isinstance(leaf, Least) and sign == ">=":
-        yield Limit(number.value, "", "below")
-
-
-def marks_of(constraint: Constraint, leaves: Sequence[Leaf], stroke: str) -> Iterator[tuple[float, float, str]]:
-    """Yield the stroke and the value [SI] that a constraint prescribes at one pose, and its sign."""
-    found = sides_of(constraint, leaves)
-    if found is not None and isinstance(found[0], At) and stroke in found[0].strokes:
-        yield float(found[0].strokes[stroke]), found[1].value, found[2]
+def is_one_of(leaves: Sequence[Leaf], leaf: Leaf) -> bool:
+    """Return whether a leaf is one of some, itself: that two are equal would be a condition."""
+    return any(leaf is each for each in leaves)
 
 
 def course_panel(ax: Axes, optimum: Optimum, course: QuantityCourse) -> None:
@@ -275,26 +230,13 @@ def course_panel(ax: Axes, optimum: Optimum, course: QuantityCourse) -> None:
     both = Column(name, np.concatenate([course.before[1], course.after[1]]), course.unit)
     along = StrokeAxis(course.stroke, unit, course.after[0] / factor(unit), "")
     column = Column(name, course.after[1], course.unit)
-    quiet(ax)
     old = Column(name, course.before[1], course.unit)
     ax.plot(course.before[0] / factor(unit), old.drawn, color=BEFORE[0], linewidth=BEFORE[1], zorder=4.5)
     ax.plot(along.values, column.drawn, color=AFTER[0], linewidth=AFTER[1], zorder=5.0)
-    ax.set_title(column.heading, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
-    ax.set_xlabel(along.heading, fontsize=style.TEXT, color=style.MUTED)
-    ax.xaxis.set_major_locator(locator(along.is_turning))
-    ax.yaxis.set_major_locator(locator())
-    ends = [course.before[0] / factor(unit), along.values]
-    ax.set_xlim(float(min(map(np.min, ends))), float(max(map(np.max, ends))))
-    ax.set_ylim(*room_for(axis_range(both), [limit.drawn(both) for limit in course.limits]))
+    both_ways = replace(along, values=np.concatenate([course.before[0] / factor(unit), along.values]))
+    stroke_panel(ax, both_ways, column.heading, axis_range(both, course.limits))
     for limit in course.limits:
         mark_limit(ax, along, column, limit)
     for place, value, sign in course.marks:
         spot = [place / factor(unit)], [value / factor(column.shown_unit)]
         ax.plot(*spot, MARKS[sign], clip_on=False, color=style.ACCENT, markersize=6, markeredgewidth=1.5, zorder=6.0)
-
-
-def room_for(shown: tuple[float, float], limits: Sequence[float]) -> tuple[float, float]:
-    """Return the range of an axis with room for limits, and for some of the side that fails."""
-    low, high = min([shown[0], *limits]), max([shown[1], *limits])
-    beyond = 0.07 * (high - low)
-    return min([low, *(each - beyond for each in limits)]), max([high, *(each + beyond for each in limits)])

@@ -26,7 +26,6 @@ from .arrows import (
     arrow_points,
     colour_keys,
     draw_arrows,
-    grown,
     place_wordings,
     scale_bar,
     significant,
@@ -36,7 +35,8 @@ from .force_arrows import ForceQuestion, force_layer, forces_at_pose, refusal
 from .gap_marks import GapMark, draw_gap, gap_mark, worst_pose
 from .paper import footnote
 from .scene import Bounds
-from .strokes import stroke_words
+from .sheet import figure_of, grown
+from .strokes import pose_words
 
 VELOCITY, POLE = "#9a3a86", "#8a5a00"
 """The colours of velocities and of poles."""
@@ -96,7 +96,8 @@ class Overlays:
         marks = pole_marks(motion, pose, self.pole, self.rates) if self.pole not in (None, False) else []
         gaps = [gap_mark(one_pose(motion, pose), self.clearance)] if self.has_gap else []
         worst = self.worst(motion, pose)
-        gaps += [] if worst is None else [gap_mark(one_pose(motion, worst), self.clearance, place_words(motion, worst))]
+        moving = [name for name, values in motion.strokes.items() if np.ptp(values) > 0.0]
+        gaps += [] if worst is None else [gap_mark(one_pose(motion, worst), self.clearance, pose_words(motion, worst, moving))]
         return Overlay(tuple(layers), tuple(marks), tuple(notes), box, tuple(gaps))
 
     def centrodes(self, ax: Axes, swept: Motion) -> None:
@@ -176,9 +177,7 @@ class Overlay:
         for layer in self.layers:
             covered.append(np.repeat(scale_bar(ax, layer, layer.scale(self.sheet), np.concatenate(covered)), ARROW, axis=0))
         everything = np.concatenate(covered)
-        figure = ax.figure.figure
-        if figure is not None:
-            footnote(figure, " ".join(layer.sense for layer in self.layers if layer.sense))
+        footnote(figure_of(ax), " ".join(layer.sense for layer in self.layers if layer.sense))
         place_wordings(ax, texts, everything)
         for line in (key for layer in self.layers for key in colour_keys(layer)):
             ax.add_line(line)
@@ -187,21 +186,13 @@ class Overlay:
 def sheet_note(ax: Axes, sentences: Sequence[str]) -> None:
     """Write sentences in a warning colour into the sheet's upper left corner."""
     if sentences:
-        figure = ax.figure.figure
-        assert figure is not None
-        across = int(ax.get_position(original=True).width * figure.get_figwidth() * 72.0 / (0.5 * style.SMALL))
+        across = int(ax.get_position(original=True).width * figure_of(ax).get_figwidth() * 72.0 / (0.5 * style.SMALL))
         lines = [line for sentence in sentences for line in textwrap.wrap(sentence, across)]
         text = ax.text(
             0.012, 0.985, "\n".join(lines), transform=ax.transAxes, fontsize=style.SMALL, color=style.ACCENT, ha="left", va="top",
-            zorder=21.0,            bbox={"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 1.5},
+            zorder=21.0, bbox={"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 1.5},
         )  # fmt: skip
         text.set_gid("note")
-
-
-def place_words(motion: Motion, pose: int) -> str:
-    """Return the strokes of a pose that are not the same all over a motion, in words."""
-    moving = {name: np.ravel(values) for name, values in motion.strokes.items() if np.ptp(values) > 0.0}
-    return ", ".join(stroke_words(motion.plan, name, float(values[pose])) for name, values in moving.items())
 
 
 # What can still move while the drives are locked.

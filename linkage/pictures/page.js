@@ -515,7 +515,6 @@ function typed(text, each) {
   if (!unit || unit === each.unit || unit === signed(each.unit)) return number === undefined ? NaN : Number(number) * each.factor;
   return Number(number) * ((each.unit in LENGTHS && LENGTHS[unit]) || NaN);
 }
-const unexpected = (each, given) => (each.unit ? say("{name} = {text}: a number in {unit} is expected", given) : say("{name} = {text}: a number is expected", given));
 function listSizes() {
   const parent = byId("dimensions");
   sizeRows.clear();
@@ -538,9 +537,9 @@ function listSizes() {
     });
     on(box, "change", () => {
       const value = typed(box.value, each), given = { name: each.name, text: box.value, unit: signed(each.unit) };
-      const wrong = !isNumber(value) ? unexpected(each, given) : each.positive && !(value > 0) ? say("{name} = {text}: a number above zero is expected", given) : "";
-      if (!wrong) return put(i, value, true);
-      warn(wrong);
+      if (isNumber(value) && (value > 0 || !each.positive)) return put(i, value, true);
+      const plain = each.unit ? say("{name} = {text}: a number in {unit} is expected", given) : say("{name} = {text}: a number is expected", given);
+      warn(isNumber(value) ? say("{name} = {text}: a number above zero is expected", given) : plain);
       box.dataset.value = "";
       soon("size");
     });

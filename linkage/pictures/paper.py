@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from . import style
 from .scene import Bounds
-from .sheet import Picture, sheet
+from .sheet import empty_figure, figure_of, renderer_of, sheet
 
 WIDTH = 9.0
 LEAST, MOST = 3.0, 10.0
@@ -34,8 +33,7 @@ def empty_page(box: Bounds, rows: int = 1) -> tuple[Figure, Axes]:
     wide = WIDTH - LEFT - RIGHT
     high = float(np.clip(wide * (top - bottom) / (right - left), LEAST - BOTTOM - TOP, MOST - BOTTOM - TOP))
     height = high + BOTTOM + TOP + ROW * (rows - 1)
-    figure = Picture(figsize=(WIDTH, height), dpi=style.DPI, facecolor=style.PAPER)
-    FigureCanvasAgg(figure)
+    figure = empty_figure(WIDTH, height)
     ax = figure.add_axes((LEFT / WIDTH, BOTTOM / height, wide / WIDTH, high / height))
     sheet(ax, box)
     make_room(figure, ax)
@@ -44,8 +42,7 @@ def empty_page(box: Bounds, rows: int = 1) -> tuple[Figure, Axes]:
 
 def make_room(figure: Figure, ax: Axes) -> None:
     """Make a figure wider where the numbers at its axes are so long that they would hang over its edges; the sheet keeps its size."""
-    canvas: Any = FigureCanvasAgg(figure)  # matplotlib declares no types for its methods
-    renderer, whole = canvas.get_renderer(), figure.get_figwidth()
+    renderer, whole = renderer_of(figure), figure.get_figwidth()
     covered = [each for axis in (ax.xaxis, ax.yaxis) if (each := axis.get_tightbbox(renderer)) is not None]
     left = max(0.0, EDGE - min((each.x0 for each in covered), default=0.0) / figure.dpi)
     right = max(0.0, EDGE + max((each.x1 for each in covered), default=0.0) / figure.dpi - whole)
@@ -81,14 +78,12 @@ def footnote(figure: Figure, text: str) -> None:
 
 def legend_row(ax: Axes, keys: Sequence[Any], texts: Sequence[str], columns: int = 6) -> None:
     """Write what lines mean in a row above the sheet, in letters so small that it fits; further rows are for more than so many columns."""
-    figure = ax.figure.figure
-    assert figure is not None
-    canvas: Any = FigureCanvasAgg(figure)  # matplotlib declares no types for its methods
+    figure = figure_of(ax)
     for size in LETTERS:
         legend = ax.legend(
             keys, texts, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, frameon=False,
             borderaxespad=0.0, borderpad=0.25, fontsize=size, labelcolor=style.INK,
             handlelength=1.6, columnspacing=1.8, handletextpad=0.6,
         )  # fmt: skip
-        if legend.get_window_extent(canvas.get_renderer()).x1 <= figure.bbox.width:
+        if legend.get_window_extent(renderer_of(figure)).x1 <= figure.bbox.width:
             break

@@ -19,7 +19,6 @@ from ..program import FloatArray
 from ..quantities import is_whole, numbers_in
 from ..reports import Run, first_stroke, stroke_middles
 from . import style
-from .arrows import grown
 from .drawing import Drawing, mechanism
 from .free_body import draw_free_body
 from .gap_marks import worst_strokes
@@ -28,8 +27,10 @@ from .overlays import NO_OVERLAYS, Overlays
 from .paper import empty_page, legend_row, remark, write_title
 from .pose_choice import telling_angles
 from .scene import Bounds, Scene
-from .strokes import is_turn, stroke_words, unreached_words
+from .sheet import grown
+from .strokes import is_turn, pose_words, unreached_words
 from .style import FAINT, STRONG
+from .symbols import arrow_between
 
 MANY = 1_000_000
 """Poses of a path: more do not fit into a picture."""
@@ -80,8 +81,7 @@ def draw_pose(
     else:
         figure, own = empty_page(scene.box())
         mechanism(own, motion, pose, faint=faint)
-    where = [stroke_words(motion.plan, name, float(values.ravel()[index])) for name, values in motion.strokes.items()]
-    write_title(figure, motion.plan.heading, ", ".join(where))
+    write_title(figure, motion.plan.heading, pose_words(motion, index))
     return figure
 
 
@@ -221,14 +221,11 @@ def unreached_on_the_way(swept: Motion) -> str:
 def write_heading(figure: Figure, ax: Axes, shown: Motion, moving: Sequence[str]) -> None:
     """Write the title, and which pose is which."""
     scene = Scene(shown)
-    held = {name: float(np.ravel(value)[0]) for name, value in shown.strokes.items() if name not in moving}
-    where = ", ".join(stroke_words(shown.plan, name, value) for name, value in held.items())
-    write_title(figure, shown.plan.heading, said("at {place}", place=where) if held else "")
+    held = [name for name in shown.strokes if name not in moving]
+    write_title(figure, shown.plan.heading, said("at {place}", place=pose_words(shown, 0, held)) if held else "")
     looks = [FAINT] * (len(scene.reached) - 1) + [STRONG]
     keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in looks]
-    texts = [
-        ", ".join(stroke_words(shown.plan, name, float(shown.strokes[name].ravel()[pose])) for name in moving) for pose in scene.reached
-    ]
+    texts = [pose_words(shown, pose, moving) for pose in scene.reached]
     lines, names = ax.get_legend_handles_labels()
     legend_row(ax, [*keys, *lines], [*texts, *names])
 
@@ -244,11 +241,7 @@ def trace(ax: Axes, path: FloatArray, label: str = "", colour: str = style.ACCEN
     ax.plot(*path, color=colour, linewidth=1.6, linestyle=(0, (0.1, 1.9)), dash_capstyle="round", zorder=7.0, label=label or None)
     arrow = on_its_way(path)
     if arrow is not None:
-        tail, head = arrow
-        ax.annotate(
-            "", tuple(head), xytext=tuple(tail), zorder=7.2,
-            arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 0, "mutation_scale": 16, "shrinkA": 0, "shrinkB": 0},
-        )  # fmt: skip
+        arrow_between(ax, *arrow, colour, 16, 7.2, width=0)
 
 
 def on_its_way(path: FloatArray) -> tuple[FloatArray, FloatArray] | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import Any, final
@@ -17,6 +18,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator, ScalarFormatter
 from ..disk import check_place, replacing
 from ..errors import DefinitionError
 from ..language import translated
+from ..program import FloatArray
 from ..quantities import is_number
 from ..units import factor, shown_in
 from . import style
@@ -48,9 +50,8 @@ def panels(size: tuple[float, float], across: int, down: int = 1, count: int | N
 
     `room` is matplotlib's for its constrained layout: w_pad, h_pad, rect.
     """
-    figure = Picture(figsize=size, dpi=style.DPI, facecolor=style.PAPER)
+    figure = empty_figure(*size)
     figure.set_layout_engine("constrained", **room)
-    FigureCanvasAgg(figure)
     axes = [figure.add_subplot(down, across, place + 1) for place in range(across * down if count is None else count)]
     for ax in axes:
         quiet(ax)
@@ -85,14 +86,26 @@ def ticks_of_length(unit: float) -> FuncFormatter:
 
 def fitted_to(ax: Axes, box: Bounds) -> Bounds:
     """Return a box [m] made wider or higher until it has the shape of the axes."""
-    figure = ax.figure.figure  # of axes in a subfigure, too
-    assert figure is not None
-    place = ax.get_position(original=True)
+    place, figure = ax.get_position(original=True), figure_of(ax)
     shape = place.width * figure.get_figwidth() / (place.height * figure.get_figheight())
     left, right, bottom, top = box
     wide, high = max(right - left, shape * (top - bottom)), max(top - bottom, (right - left) / shape)
     x, y = 0.5 * (left + right), 0.5 * (bottom + top)
     return x - 0.5 * wide, x + 0.5 * wide, y - 0.5 * high, y + 0.5 * high
+
+
+def joined_box(boxes: Sequence[Bounds]) -> Bounds:
+    """Return the box around several [m]."""
+    left, right, bottom, top = np.array(boxes).T
+    return float(left.min()), float(right.max()), float(bottom.min()), float(top.max())
+
+
+def grown(box: Bounds, points: FloatArray, margin: float) -> Bounds:
+    """Return a box that has room for points, shape (n, 2) [m], with a margin around them."""
+    if not points.size:
+        return box
+    (x0, y0), (x1, y1) = points.min(axis=0) - margin, points.max(axis=0) + margin
+    return joined_box([box, (x0, x1, y0, y1)])
 
 
 def quiet(ax: Axes) -> None:
@@ -111,9 +124,20 @@ def points_a_metre(ax: Axes) -> float:
     """Return the drawing's scale, printer's points a metre, once its limits and place stand."""
     ax.apply_aspect()
     ends = ax.transData.transform([(0.0, 0.0), (1.0, 0.0)])
-    figure = ax.figure.figure  # of axes in a subfigure, too
+    return float(np.hypot(*(ends[1] - ends[0]))) * 72.0 / figure_of(ax).dpi
+
+
+def figure_of(ax: Axes) -> Figure:
+    """Return the figure that axes stand in, those of a subfigure too."""
+    figure = ax.figure.figure
     assert figure is not None
-    return float(np.hypot(*(ends[1] - ends[0]))) * 72.0 / figure.dpi
+    return figure
+
+
+def renderer_of(figure: Figure) -> Any:
+    """Return what knows how large a text is in a figure."""
+    canvas: Any = FigureCanvasAgg(figure)  # matplotlib declares no types for its methods
+    return canvas.get_renderer()
 
 
 # A figure that is saved as every file here is: whole, or what stood there is left as it was.
@@ -164,3 +188,10 @@ class Picture(Figure):
         super().savefig(drawn, format=kind, **options)
         with replacing(path) as stream:
             stream.write(drawn.getvalue())
+
+
+def empty_figure(width: float, height: float) -> Picture:
+    """Return a picture of a size [inch] with nothing on it."""
+    figure = Picture(figsize=(width, height), dpi=style.DPI, facecolor=style.PAPER)
+    FigureCanvasAgg(figure)
+    return figure

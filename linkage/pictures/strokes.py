@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -45,7 +45,8 @@ class StrokeAxis:
                 f"sweep one stroke and give every other a value: {', '.join(plan.strokes)}."
             )
         moving = {name: values for name, values in motion.strokes.items() if np.ptp(values) > 0.0}
-        shares = {name: travel_share(plan, name, values) for name, values in moving.items()}
+        travels = {name: abs(stroke.end - stroke.start) or 1.0 for name, stroke in plan.strokes.items()}
+        shares = {name: float(np.ptp(values)) / travels[name] for name, values in moving.items()}
         onward = [name for name, values in moving.items() if (np.diff(values) > 0.0).all() or (np.diff(values) < 0.0).all()]
         if len(moving) > 1 and not onward:
             steps = np.array([np.abs(np.diff(values)) * (shares[name] / np.ptp(values)) for name, values in moving.items()]).max(axis=0)
@@ -65,18 +66,19 @@ class StrokeAxis:
         return self.unit == "deg" and float(np.ptp(self.values)) >= 90.0
 
 
-def travel_share(plan: Plan, name: str, values: FloatArray) -> float:
-    """Return how much of a stroke's declared range values go through."""
-    stroke = plan.strokes[name]
-    return float(np.ptp(values)) / (abs(stroke.end - stroke.start) or 1.0)
-
-
 def stroke_words(plan: Plan, name: str, value: float, *, fixed: bool = False) -> str:
     """Return a stroke's value [SI] as text: `S = 550 mm`, `phi = 90°`; fixed, with whole units."""
     unit = shown_in(stroke_display_unit(plan, name, "mm"))
     shown = round(value / factor(unit), 9)  # 0 where a turn of the drawing ends near 0
     text = f"{name} = {shown:{'z.0f' if fixed else '.4g'}}".replace("-", "\N{MINUS SIGN}")
     return text + ("°" if unit == "deg" else f" {translated(unit)}")
+
+
+def pose_words(motion: Motion, pose: int, names: Iterable[str] | None = None) -> str:
+    """Return the strokes of a motion at a pose, a flat index, as text; some of them where they are named."""
+    shown = motion.strokes if names is None else names
+    values = {name: float(np.broadcast_to(motion.strokes[name], motion._stroke_shape).ravel()[pose]) for name in shown}
+    return ", ".join(stroke_words(motion.plan, name, value) for name, value in values.items())
 
 
 def others_in_words(motion: Motion, moving: str) -> str:

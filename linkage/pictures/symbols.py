@@ -51,6 +51,14 @@ def polygon(ax: Axes, level: float, **options: Any) -> Polygon:
     return added(ax, Polygon(np.zeros((1, 2)), zorder=level, **options))
 
 
+def arrow_between(
+    ax: Axes, start: FloatArray, end: FloatArray, colour: str, head: float, level: float, *, width: float = 1.4, clip: bool | None = None
+) -> None:
+    """Draw an arrow from a place to another [m], with a head of a size and a line of a width [points]."""
+    look = {"arrowstyle": "-|>", "color": colour, "linewidth": width, "mutation_scale": head, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", tuple(end.tolist()), xytext=tuple(start.tolist()), zorder=level, annotation_clip=clip, arrowprops=look)
+
+
 # Pins on the frame: a triangle on hatched ground.
 
 HEIGHT, BASE = 3.2, 1.9

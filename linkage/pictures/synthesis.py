@@ -6,11 +6,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import ceil
-from typing import Any, final
+from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
@@ -33,7 +32,7 @@ from .labels import offsets
 from .layout import cloud
 from .poses import trace
 from .scene import Bounds, Scene
-from .sheet import Picture, points_a_metre, quiet, sheet
+from .sheet import empty_figure, figure_of, grown, joined_box, points_a_metre, quiet, renderer_of, sheet
 from .strokes import stroke_words
 from .style import FAINT, STRONG
 
@@ -95,12 +94,7 @@ class ShownAnswer:
 
     def box(self) -> Bounds:
         """Return the box around the machine and its task [m]."""
-        left, right, bottom, top = Scene(self.swept).box()
-        if not len(self.wanted):
-            return left, right, bottom, top
-        pad = 2.0 * self.scene.size
-        (x0, y0), (x1, y1) = self.wanted.min(axis=0) - pad, self.wanted.max(axis=0) + pad
-        return min(left, float(x0)), max(right, float(x1)), min(bottom, float(y0)), max(top, float(y1))
+        return grown(Scene(self.swept).box(), self.wanted, 2.0 * self.scene.size)
 
     @property
     def task(self) -> Task:
@@ -163,8 +157,7 @@ def pages(boxes: Sequence[Bounds], *, has_curve: bool) -> tuple[Figure, list[Axe
     above = CURVE + FOOT + 0.08 if has_curve else 0.0
     row = HEAD + above + high + FOOT
     height = TOP + down * row
-    figure = Picture(figsize=(width, height), dpi=style.DPI, facecolor=style.PAPER)
-    FigureCanvasAgg(figure)
+    figure = empty_figure(width, height)
     sheets, curves = [], []
     for place, box in enumerate(boxes):
         x = LEFT + (place % across) * (wide + BETWEEN)
@@ -180,8 +173,7 @@ def pages(boxes: Sequence[Bounds], *, has_curve: bool) -> tuple[Figure, list[Axe
 def alike(boxes: Sequence[Bounds]) -> list[Bounds]:
     """Return boxes [m] as one around all of them, to one scale, unless their sizes differ too much for that."""
     sides = [max(right - left, top - bottom) for left, right, bottom, top in boxes]
-    left, right, bottom, top = np.array(boxes).T
-    joined = float(left.min()), float(right.max()), float(bottom.min()), float(top.max())
+    joined = joined_box(boxes)
     whole = max(joined[1] - joined[0], joined[3] - joined[2])
     return [joined] * len(boxes) if whole <= UNLIKE * min(sides) else list(boxes)
 
@@ -204,8 +196,7 @@ def write_head(figure: Figure, found: Synthesis, stretch: float) -> None:
     width, height = (float(each) for each in figure.get_size_inches())
     heading = said_of(len(found.classes), "{n} class", "{n} classes") if found.classes else found.start.plan.heading
     title = figure.text(LEFT / width, 1.0 - 0.22 / height, heading, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
-    canvas: Any = FigureCanvasAgg(figure)  # matplotlib declares no types for its methods
-    end = title.get_window_extent(canvas.get_renderer()).x1 / figure.bbox.width
+    end = title.get_window_extent(renderer_of(figure)).x1 / figure.bbox.width
     words = task_words(found)
     figure.text(end + 0.18 / width, 1.0 - 0.22 / height, words, fontsize=style.TEXT, color=style.MUTED, va="center")
     keys, texts = legend_of(found, stretch)
@@ -247,8 +238,7 @@ def legend_of(found: Synthesis, stretch: float) -> tuple[list[Line2D], list[str]
 def write_answer(ax: Axes, shown: ShownAnswer, *, alone: bool) -> None:
     """Write above an answer its place, what it misses, and its least transmission angle; its class unless all are of one."""
     answer, unit = shown.answer, miss_unit(shown.found.fit_of(shown.answer))
-    figure = ax.figure.figure
-    assert figure is not None
+    figure = figure_of(ax)
     place, height = ax.get_position(original=True), float(figure.get_figheight())
     rms, most = show(answer.rms, unit, 4), show(answer.most, unit, 4)
     misses = said("rms {rms}, at most {most} at point {worst}", rms=rms, most=most, worst=answer.worst)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from textwrap import fill
 from typing import Any, NamedTuple
 
@@ -12,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..errors import DefinitionError, cited, known_name
-from ..motion.measures import Given, Least, Most
+from ..motion.measures import Leaf
 from ..program import FloatArray
 from ..study.measured import number_bound
 from ..study.monte_carlo import Band, MonteCarlo, share_words
@@ -20,7 +21,7 @@ from ..study.sensitivity import Effect, Tornado
 from ..study.tolerances import tolerance_words
 from ..units import factor, show, shown_in, unit_or_none, unit_sign
 from . import style
-from .curves import locator, panel_grid, typeset
+from .curves import Limit, limit_on, panel_grid, stroke_panel, typeset
 from .sheet import panels
 from .strokes import StrokeAxis
 
@@ -47,13 +48,12 @@ def plot_bands(found: MonteCarlo, names: Sequence[str] = (), *, units: Mapping[s
     shown = [found.bands[name] for name in names or found.bands if found.bands[name].nominal.shape == along.values.shape]
     if not shown:
         raise DefinitionError(f"{found.machine.plan.title}: there is no curve to draw over {along.name}; give quantities of each pose.")
-    figure, cells = panel_grid(len(shown))
+    figure, cells = panel_grid(len(shown), found.machine.plan.heading, along.held)
     words = ", ".join(tolerance_words(found.machine.plan, name, each) for name, each in found.tolerances.items())
-    title = found.machine.plan.heading + (f" at {along.held}" if along.held else "")
-    figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
     for ax, band in zip(cells, shown, strict=True):
         unit = unit_or_none((units or {}).get(band.quantity, band.unit), where="units")
-        band_panel(ax, along, BandShown.of(band, unit), limits_of(found, band))
+        limits = [limit_on(each, partial(is_same, found, band)) for each in found.conditions]
+        band_panel(ax, along, BandShown.of(band, unit), [each for each in limits if each is not None])
     good = f"; {share_words(found.yield_rate)} are good" if found.conditions else ""
     text = fill(f"{found.count} machines with {words}{good}", int(LETTERS * figure.get_figwidth()))
     legend = figure.legend(
@@ -64,21 +64,10 @@ def plot_bands(found: MonteCarlo, names: Sequence[str] = (), *, units: Mapping[s
     return figure
 
 
-def limits_of(found: MonteCarlo, band: Band) -> list[tuple[float, str]]:
-    """Return the values [SI] that conditions set a quantity over the whole stroke, each with the side that fails."""
-    said = []
-    for each in found.conditions:
-        leaf, end = each.left, each.right
-        word = {">=": (Least, "below"), "<=": (Most, "above")}.get(each.symbol)
-        if word and isinstance(leaf, word[0]) and isinstance(end, Given) and is_same(found, leaf.quantity, band):
-            said.append((end.value, word[1]))
-    return said
-
-
-def is_same(found: MonteCarlo, quantity: object, band: Band) -> bool:
-    """Return whether a quantity is that of a band."""
-    one, other = (number_bound(found.machine.plan, each) for each in (quantity, found.of[band.quantity]))
-    return quantity is found.of[band.quantity] if one is None or other is None else one.key == other.key
+def is_same(found: MonteCarlo, band: Band, leaf: Leaf) -> bool:
+    """Return whether a leaf's quantity is that of a band."""
+    one, other = (number_bound(found.machine.plan, each) for each in (leaf.quantity, found.of[band.quantity]))
+    return leaf.quantity is found.of[band.quantity] if one is None or other is None else one.key == other.key
 
 
 class BandShown(NamedTuple):
@@ -104,7 +93,7 @@ class BandShown(NamedTuple):
         return fill(typeset(f"{text}, {unit_sign(self.unit)}" if self.unit else text), WIDEST)
 
 
-def band_panel(ax: Axes, along: StrokeAxis, drawn: BandShown, limits: Sequence[tuple[float, str]]) -> None:
+def band_panel(ax: Axes, along: StrokeAxis, drawn: BandShown, limits: Sequence[Limit]) -> None:
     """Draw a band over the stroke: its worst case, the percentiles in pairs from outside, the median, the nominal curve, its limits."""
     band, at = drawn.band, along.values
     low, high = drawn.values(band.low), drawn.values(band.high)
@@ -118,29 +107,22 @@ def band_panel(ax: Axes, along: StrokeAxis, drawn: BandShown, limits: Sequence[t
     middle, word = (band.percentiles[50.0], "median") if 50.0 in band.percentiles else (band.mean, "mean")
     ax.plot(at, drawn.values(middle), color=style.CURVE, linewidth=style.BOLD, zorder=5.0, label=word)
     ax.plot(at, drawn.values(band.nominal), color=style.INK, linewidth=1.0, linestyle=(0, (4, 3)), zorder=5.5, label="nominal")
-    ax.set_title(drawn.heading, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
-    ax.set_xlabel(along.heading, fontsize=style.TEXT, color=style.MUTED)
-    if np.ptp(at) > 0.0:
-        ax.set_xlim(float(at.min()), float(at.max()))
-    ax.xaxis.set_major_locator(locator(along.is_turning))
-    ax.yaxis.set_major_locator(locator())
     air = 0.12 * float(np.nanmax(high) - np.nanmin(low)) or 1.0
-    ax.set_ylim(float(np.nanmin(low)) - air, float(np.nanmax(high)) + air)
-    for end, fails in limits:
-        limit_line(ax, at, drawn, end, fails)
+    stroke_panel(ax, along, drawn.heading, (float(np.nanmin(low)) - air, float(np.nanmax(high)) + air))
+    for limit in limits:
+        limit_line(ax, at, drawn, limit)
 
 
-def limit_line(ax: Axes, at: FloatArray, drawn: BandShown, end: float, fails: str) -> None:
-    """Draw a limit [SI] over the stroke and shade the side that fails; the panel keeps its range, widened by as much again at most."""
-    line = np.broadcast_to(drawn.values(end), at.shape)
+def limit_line(ax: Axes, at: FloatArray, drawn: BandShown, limit: Limit) -> None:
+    """Draw a limit over the stroke and shade the side that fails; the panel keeps its range, widened by as much again at most."""
+    line = np.broadcast_to(drawn.values(limit.value), at.shape)
     bottom, top = ax.get_ylim()
     if not drawn.narrow:
         bottom, top = max(min(bottom, line.min()), 2.0 * bottom - top), min(max(top, line.max()), 2.0 * top - bottom)
         ax.set_ylim(bottom, top)
     if not np.any((line > bottom) & (line < top)):
         return
-    beyond = top if fails == "above" else bottom
-    where = line < top if fails == "above" else line > bottom
+    beyond, where = (top, line < top) if limit.fails == "above" else (bottom, line > bottom)
     ax.fill_between(at, line, beyond, where=where, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0, interpolate=True)
     ax.plot(at, line, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.0)
 

@@ -10,8 +10,7 @@ from ..mechanism import Mechanism
 from ..motion import Column
 from ..study import Zone
 from . import style
-from .curves import axis_range, locator, panel_grid, typeset
-from .sheet import quiet
+from .curves import axis_range, panel_grid, stroke_panel
 from .strokes import StrokeAxis
 
 
@@ -24,11 +23,8 @@ def plot_zone(machine: Mechanism, found: Zone, unit: str = "") -> Figure:
         raise DefinitionError(f"{cited(found)} is no zone; give the result of zone(...).")
     motion = machine.at(unreachable="nan", **found.strokes)
     along = StrokeAxis.of(motion)
-    figure, (ax,) = panel_grid(1)
-    title = machine.plan.heading + (f" at {along.held}" if along.held else "")
-    figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    figure, (ax,) = panel_grid(1, machine.plan.heading, along.held)
     low, high = (Column(found.quantity, each, unit) for each in (found.low, found.high))
-    quiet(ax)
     ax.fill_between(along.values, low.drawn, high.drawn, color=style.CURVE, alpha=0.22, linewidth=0, zorder=3.0)
     for each in (low, high):
         ax.plot(along.values, each.drawn, color=style.CURVE, linewidth=style.BOLD, zorder=5.0)
@@ -36,10 +32,5 @@ def plot_zone(machine: Mechanism, found: Zone, unit: str = "") -> Figure:
         now = Column(found.quantity, motion[found.quantity], unit)
         ax.plot(along.values, now.drawn, color=style.INK, linewidth=1.0, linestyle=(0, (4, 3)), zorder=5.5, label="as it is set")
         ax.legend(loc="best", frameon=False, fontsize=style.SMALL, labelcolor=style.INK)
-    ax.set_title(typeset(low.heading), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
-    ax.set_xlabel(along.heading, fontsize=style.TEXT, color=style.MUTED)
-    ax.set_xlim(float(along.values.min()), float(along.values.max()))
-    ax.set_ylim(*axis_range(Column(found.quantity, np.concatenate([found.low, found.high]), unit)))
-    ax.xaxis.set_major_locator(locator(along.is_turning))
-    ax.yaxis.set_major_locator(locator())
+    stroke_panel(ax, along, low.heading, axis_range(Column(found.quantity, np.concatenate([found.low, found.high]), unit)))
     return figure

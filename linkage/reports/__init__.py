@@ -17,6 +17,6 @@ from .ranges import (
 )
 from .results import force_columns, is_loaded, results
 from .table import rich_tables, text_table, write_csv
-from .values import design_rows, stroke_rows
+from .values import design_rows, dimension_unit, stroke_rows
 
 declare_public(globals())

@@ -15,12 +15,17 @@ from ..units import display_unit, show, shown_number
 STEPS = ("length", "angle")  # kinds of variables that a step's label makes
 
 
+def dimension_unit(machine: Mechanism, name: str) -> str:
+    """Return the unit that a design variable is given in, else the one that what it measures is shown in."""
+    return machine.plan.table.entries[name].unit or display_unit(plan_measure(machine.plan, name), "mm")
+
+
 def design_rows(machine: Mechanism) -> Iterator[tuple[str, str, str]]:
     """Yield, for each design variable, its name, its value with unit, and the step that has it; a batch shows its range."""
     require_mechanism(machine)
     for name, value in machine.dimensions.items():
         entry = machine.plan.table.entries[name]
-        unit = entry.unit or display_unit(plan_measure(machine.plan, name), "mm")
+        unit = dimension_unit(machine, name)
         low, high = show(float(np.min(value)), unit), show(float(np.max(value)), unit)
         yield name, low if low == high else said("{low} to {high}", low=low, high=high), entry.where if entry.kind in STEPS else ""
 

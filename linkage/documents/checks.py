@@ -43,7 +43,7 @@ def checks_section(subject: ReportSubject, values: Mapping[str, object]) -> Sect
     """Return the section of checks."""
     found = checks(subject, values)
     rows: list[tuple[Cell, ...]] = [
-        (each.name, each.what, figure_text(each.measured), figure_text(each.bound), kept_mark(each.ok)) for each in found
+        (each.name, each.what, figure_text(each.measured), figure_text(each.bound), Mark.kept(each.ok, said("not made"))) for each in found
     ]
     heads = (said("check"), said("what is compared"), said("measured"), said("bound"), said("result"))
     return Section(
@@ -55,11 +55,6 @@ def checks_section(subject: ReportSubject, values: Mapping[str, object]) -> Sect
 def figure_text(value: float) -> str:
     """Return a relative difference as text."""
     return "–" if np.isnan(value) else f"{value:.1e}" if value else "0"
-
-
-def kept_mark(ok: bool | None) -> Mark:
-    """Return the mark of a rule."""
-    return Mark(ok, said("not made") if ok is None else said("kept") if ok else said("not kept"))
 
 
 def checks(subject: ReportSubject, values: Mapping[str, object]) -> list[Check]:
@@ -101,20 +96,13 @@ def loops_closed(motion: Motion) -> Iterator[Check]:
     loops = nx.minimum_cycle_basis(graph) if graph.number_of_edges() < 40 else nx.cycle_basis(graph)
     worst, longest = 0.0, 0.0
     for loop in loops:
-        sides = loop_sides(graph.subgraph(loop), loop)
+        sides = [(P, Q) for P, Q, *_ in nx.find_cycle(graph.subgraph(loop), source=loop[0])]
         vectors = [link_vector(motion, given[frozenset(side)], *side) for side in sides]
         worst = max(worst, largest_finite(np.hypot(*np.sum(vectors, axis=0))))
         longest = max(longest, *(largest_finite(np.hypot(*each)) for each in vectors))
     if loops:
         what = said("given lengths in the directions of the links, summed round the closed loops: {n} of them", n=len(loops))
         yield Check(said("loops closed"), what, worst / (longest or 1.0), EXACT)
-
-
-def loop_sides(graph: object, loop: list[str]) -> list[tuple[str, str]]:
-    """Return the sides of a loop in order round it."""
-    import networkx as nx
-
-    return [(P, Q) for P, Q, *_ in nx.find_cycle(graph, source=loop[0])]
 
 
 def link_vector(motion: Motion, length: Quantity, P: str, Q: str) -> FloatArray:

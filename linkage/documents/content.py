@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias, final
 
+from ..language import said
 from .title import TitleBlock
 
 if TYPE_CHECKING:
@@ -27,6 +28,11 @@ class Mark:
 
     ok: bool | None
     word: str
+
+    @classmethod
+    def kept(cls, ok: bool | None, silent: str) -> Mark:
+        """Return the mark of a rule; `silent` is its word where it says nothing."""
+        return cls(ok, silent if ok is None else said("kept") if ok else said("not kept"))
 
 
 Cell: TypeAlias = str | Formula | Mark
@@ -111,16 +117,15 @@ class Document:
         return " · ".join(each for each in (self.block.short, self.title) if each)
 
 
-def numbered_captions(sections: Sequence[Section], table: Callable[[int, str], str], figure: Callable[[int, str], str]) -> dict[int, str]:
-    """Return the captions of tables and pictures with their numbers, by the identity of the block."""
+def captions_of(sections: Sequence[Section]) -> dict[int, str]:
+    """Return the captions of tables and pictures with their numbers, in the language that is spoken, by the identity of the block."""
     found: dict[int, str] = {}
     tables = figures = 0
-    for section in sections:
-        for block in section.blocks:
-            if isinstance(block, TableBlock) and block.caption:
-                tables += 1
-                found[id(block)] = table(tables, block.caption)
-            elif isinstance(block, Illustration):
-                figures += 1
-                found[id(block)] = figure(figures, block.caption)
+    for block in (block for section in sections for block in section.blocks):
+        if isinstance(block, TableBlock) and block.caption:
+            tables += 1
+            found[id(block)] = said("Table {n}. {text}", n=tables, text=block.caption)
+        elif isinstance(block, Illustration):
+            figures += 1
+            found[id(block)] = said("Figure {n}. {text}", n=figures, text=block.caption)
     return found

@@ -15,7 +15,6 @@ from ..errors import LinkageError, unwarned
 from ..language import noted, said, translated
 from ..loads import PLAIN, Acting, Force, TwoPoint
 from ..motion import Column, Motion, Request, least, most, places_text, stroke_display_unit
-from ..plan import Plan
 from ..program import FloatArray
 from ..statics import PinForces, PinLoad, drive_force, judged_table, pin_forces, thrust_from_forces
 from ..units import shown_number, unit_sign
@@ -86,7 +85,9 @@ def frame(name: str) -> str:
 def drive_rows(subject: ReportSubject) -> Iterator[tuple[str, ...]]:
     """Yield the least and the greatest force of every drive and thrust of every member, in which situation and where."""
     one, plan = subject.forces[0], subject.machine.plan
-    asked: list[tuple[str, Request, str]] = [(name, drive_force(name), drive_unit(plan, name)) for name in one.drives]
+    asked: list[tuple[str, Request, str]] = [
+        (name, drive_force(name), "kNm" if stroke_display_unit(plan, name) == "deg" else "kN") for name in one.drives
+    ]
     known = {name: column.request for name, column in subject.member_columns if column.name == "thrust"}  # these have a program
     for name in one.thrusts:
         own = known.get(name)
@@ -97,11 +98,6 @@ def drive_rows(subject: ReportSubject) -> Iterator[tuple[str, ...]]:
         column = Column(name, np.zeros(1), unit, 3)
         if not np.isnan(low.value):
             yield name, unit_sign(unit), amount_text(low, column), low.place, amount_text(high, column), high.place
-
-
-def drive_unit(plan: Plan, stroke: str) -> str:
-    """Return the unit of a drive's generalised force."""
-    return "kNm" if stroke_display_unit(plan, stroke) == "deg" else "kN"
 
 
 # The pins in each load case by itself, where there are several.

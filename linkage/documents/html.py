@@ -26,7 +26,7 @@ from .content import (
     Paragraph,
     Section,
     TableBlock,
-    numbered_captions,
+    captions_of,
 )
 from .pictures import picture_svg
 from .title import TitleBlock
@@ -68,13 +68,6 @@ def html_text(document: Document) -> str:
 def footer(document: Document) -> str:
     """Return the last line: what the document was made by."""
     return " · ".join(f"{name}: {value}" for name, value in document.facts[-2:])
-
-
-def captions_of(sections: Sequence[Section]) -> dict[int, str]:
-    """Return the numbered captions in the language that is spoken."""
-    return numbered_captions(
-        sections, lambda n, text: said("Table {n}. {text}", n=n, text=text), lambda n, text: said("Figure {n}. {text}", n=n, text=text)
-    )
 
 
 def head(document: Document) -> Iterator[str]:

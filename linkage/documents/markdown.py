@@ -12,8 +12,8 @@ from secrets import token_hex
 from ..disk import check_place, in_words, replacing_text
 from ..errors import FileError
 from ..language import said
-from .content import Block, Cell, Document, Equality, Formula, Illustration, ListBlock, Mark, Paragraph, Section, TableBlock
-from .html import captions_of, footer
+from .content import Block, Cell, Document, Equality, Formula, Illustration, ListBlock, Mark, Paragraph, Section, TableBlock, captions_of
+from .html import footer
 from .pictures import picture_svg
 from .title import TitleBlock
 

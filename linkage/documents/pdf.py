@@ -22,8 +22,7 @@ from ..disk import replacing
 from ..formulas.typeset import Box, BoxRow, boxes
 from ..language import said
 from .breaking import LONGEST, MATH, line_pieces
-from .content import Block, Cell, Document, Equality, Formula, Illustration, ListBlock, Mark, Paragraph, Section, TableBlock
-from .html import captions_of
+from .content import Block, Cell, Document, Equality, Formula, Illustration, ListBlock, Mark, Paragraph, Section, TableBlock, captions_of
 from .pictures import painted
 from .setting import GlyphRun, Ink, InkLine, SetFormula, face, filled_lines, set_formula, width
 from .title import TitleBlock
@@ -298,7 +297,8 @@ class Flow:
         if headed:
             self.table_head(head, widths, grid.columns, head_high)
         for row, cells in zip(grid.rows, body, strict=True):
-            high = max(row_height(cells), 1.32 * CELL) + 3.4
+            highs = [each.height + each.depth if isinstance(each, SetFormula) else 1.32 * CELL * len(each) for each in cells]
+            high = max(1.32 * CELL, *highs) + 3.4
             pages = len(self.pages)
             y = self.take(high)
             if len(self.pages) > pages and headed:
@@ -428,8 +428,3 @@ def row_lines(row: Sequence[Cell], widths: Sequence[float], columns: str) -> lis
             name = "bold" if isinstance(value, Mark) else "regular"
             found.append(filled_lines(value.word if isinstance(value, Mark) else value, wide - 4.9, CELL, name))
     return found
-
-
-def row_height(cells: Sequence[Any]) -> float:
-    """Return the height of a row's highest cell."""
-    return max(each.height + each.depth if isinstance(each, SetFormula) else 1.32 * CELL * len(each) for each in cells)

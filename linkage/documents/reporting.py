@@ -42,7 +42,7 @@ from ..verdict import Verdict
 from .assumptions import assumptions_section, standards_section
 from .calculation import calculated, calculation_section, has_loads
 from .checks import checks_section
-from .content import Block, Cell, Document, ListBlock, Mark, Paragraph, Section, TableBlock
+from .content import Block, Document, ListBlock, Mark, Paragraph, Section, TableBlock
 from .fingerprint import DIGITS, fingerprint, own_version
 from .forces import forces_section
 from .html import write_html
@@ -286,7 +286,8 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
     judged = [each for each in found if each.is_rule]
     domain = Paragraph(said("Judged over {domain}, in all load cases and directions of motion that occur there.", domain=subject.domain))
     heads = (said("rule"), said("result"), said("what was found"))
-    table = TableBlock(said("Rules, over all that the machine runs"), heads, tuple(map(verdict_row, found)), "llm")
+    rows = tuple((each.heading, verdict_mark(each.ok) if each.is_rule else Mark(None, "–"), each.sentence) for each in found)
+    table = TableBlock(said("Rules, over all that the machine runs"), heads, rows, "llm")
     places = [(each.heading, each.ok, each.answer, None) for each in judged if isinstance(each.answer, Answer)]
     worst = worst_places(subject, [*places, *limited])
     return Section(title, (domain, table, *([worst] if worst is not None else []))), rules_mark(judged), found
@@ -303,14 +304,9 @@ def rules_mark(judged: Sequence[Verdict]) -> Mark:
     return Mark(False if kept + silent < len(judged) else None if silent else True, word)
 
 
-def verdict_row(verdict: Verdict) -> tuple[Cell, ...]:
-    """Return a verdict as cells: its rule, whether it is kept, its sentence; of a remark only that."""
-    return verdict.heading, verdict_mark(verdict.ok) if verdict.is_rule else Mark(None, "–"), verdict.sentence
-
-
 def verdict_mark(ok: bool | None) -> Mark:
     """Return the mark of a verdict."""
-    return Mark(ok, said("says nothing") if ok is None else said("kept") if ok else said("not kept"))
+    return Mark.kept(ok, said("says nothing"))
 
 
 # The worst places of all rules.

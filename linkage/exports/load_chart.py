@@ -25,35 +25,28 @@ def chart_content(field: WorkingField, suffix: str, name: str) -> bytes:
     """Return the bytes of a field's file: .csv or .xlsx."""
     if suffix == ".csv":
         stream = io.StringIO(newline="")
-        csv.writer(stream).writerows([heading for heading, _ in cell_headings(field)] if k < 0 else row for k, row in cell_rows(field))
+        csv.writer(stream).writerows(cell_table(field))
         return stream.getvalue().encode("utf-8")
     if suffix == ".xlsx":
         return chart_workbook(field, name)
     raise DefinitionError(f"{name}: a working field is written as {' or '.join(SUFFIXES)}; a picture is plot(field).savefig(...).")
 
 
-def cell_headings(field: WorkingField) -> list[tuple[str, str]]:
-    """Return the columns of the cells, each with its unit."""
-    load = ChartText(field).unit
+def cell_table(field: WorkingField) -> list[list[Any]]:
+    """Return the headings of the cells and then a row for each, in the units of the headings; empty without a number."""
+    text = ChartText(field)
     strokes = [(name, shown_in(stroke_display_unit(field.machine.plan, name, "mm"))) for name in field.strokes]
-    named = [("x", shown_in("m")), ("y", shown_in("m")), ("load", shown_in(load)), ("limiter", ""), *strokes, ("why", "")]
-    return [(f"{name} [{unit}]" if unit else name, unit) for name, unit in named]
-
-
-def cell_rows(field: WorkingField) -> list[tuple[int, list[Any]]]:
-    """Return the rows of the cells in the units of their cell_headings, -1 for that of the cell_headings; empty without a number."""
-    columns = cell_headings(field)
-    weight = g0 if ChartText(field).is_weight else 1.0
-    found: list[tuple[int, list[Any]]] = [(-1, [])]
-    for k, cell in enumerate(field.cells()):
+    columns = [("x", shown_in("m")), ("y", shown_in("m")), ("load", shown_in(text.unit)), ("limiter", ""), *strokes, ("why", "")]
+    found: list[list[Any]] = [[f"{name} [{unit}]" if unit else name for name, unit in columns]]
+    for cell in field.cells():
         row: list[Any] = []
         for (_, unit), (name, value) in zip(columns, cell.items(), strict=True):
-            if not isinstance(value, float):
-                row.append(heading_of(value) if name == "limiter" else value)
-            else:
-                shown = value / (weight if name == "load" else 1.0) / factor(unit)
+            if isinstance(value, float):
+                shown = value / (g0 if name == "load" and text.is_weight else 1.0) / factor(unit)
                 row.append("" if np.isnan(value) else shown)
-        found.append((k, row))
+            else:
+                row.append(heading_of(value) if name == "limiter" else value)
+        found.append(row)
     return found
 
 
@@ -76,18 +69,17 @@ def chart_workbook(field: WorkingField, name: str) -> bytes:
                 sheet.write_number(1, 1 + column, float(field.x[n]) / factor(shown_in("m")), length)
             for row, k in enumerate(down.tolist()):
                 sheet.write_number(2 + row, 0, float(field.y[k]) / factor(shown_in("m")), length)
-        scale = (g0 if text.is_weight else 1.0) * factor(shown_in(text.unit))
         for row, k in enumerate(down.tolist()):
             for column, n in enumerate(across.tolist()):
                 load, limiter = float(field.load[k, n]), str(field.limiter[k, n])
                 if np.isfinite(load):
-                    chart.write_number(2 + row, 1 + column, load / scale, number)
+                    chart.write_number(2 + row, 1 + column, load / text.load_size, number)
                 if limiter != OUT_OF_REACH:
                     letters.write_string(2 + row, 1 + column, text.letters.get(limiter, ""))
         for row, line in enumerate(text.legend()):
             chart.write_string(3 + len(down) + row, 0, line)
-        for row, (k, values) in enumerate(cell_rows(field)):
-            for column, value in enumerate([heading for heading, _ in cell_headings(field)] if k < 0 else values):
-                cells.write(row, column, value, bold if k < 0 else None)
+        for row, values in enumerate(cell_table(field)):
+            for column, value in enumerate(values):
+                cells.write(row, column, value, None if row else bold)
         cells.freeze_panes(1, 0)
     return stream.getvalue()

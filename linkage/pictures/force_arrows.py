@@ -109,8 +109,8 @@ def refusal(motion: Motion, pose: int, question: ForceQuestion) -> str:
     return ""
 
 
-def force_layer(forces: ForcesAt) -> ArrowLayer:
-    """Return the pin forces and the loads of a machine as arrows.
+def force_layer(forces: ForcesAt, body: str = "") -> ArrowLayer:
+    """Return the pin forces and the loads of a machine as arrows, or all forces on one body, with what each comes from.
 
     A force between the frame and a moving body is shown as it acts on that body; between a body and a cylinder or a spring as it acts on
     the body; else on the body that the text names.
@@ -118,21 +118,27 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
     found, arrows, turning = forces.found, [], []
     for place, joint in enumerate(found.joints):
         on, by, sign = joint.on, joint.by, 1.0
-        if on == FRAME or (on in found.members and by not in found.members and by != FRAME):
+        is_frames = on == FRAME or (on in found.members and by not in found.members and by != FRAME)
+        if by == body if body else is_frames:
             on, by, sign = by, on, -1.0
-        members = [found.members[each] for each in (on, by) if each in found.members]
-        colour = MEMBER if members else PIN
-        text = " ".join([*members[:1], *([] if by == FRAME else [said("on {body}", body=short_name(forces, on))])])
-        name = f"force {joint.point} {place} on {on} from {by}"
+        if body not in ("", on):
+            continue
+        members = [found.members[each] for each in ((by,) if body else (on, by)) if each in found.members]
+        colour, ends = MEMBER if members else PIN, f"from {by}" if body else f"on {on} from {by}"
+        other = said("from the frame") if by == FRAME else said("from {body}", body=short_name(forces, by))
+        text = other if body else " ".join([*members[:1], *([] if by == FRAME else [said("on {body}", body=short_name(forces, on))])])
         force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
         if joint.has_force:
-            arrows.append(VectorArrow(name, forces.spot(joint), force, colour, text))
-        turning.append(TurningArrow(f"couple {joint.point} {place} on {on} from {by}", forces.spot(joint), couple, colour, text))
+            arrows.append(VectorArrow(f"force {joint.point} {place} {ends}", forces.spot(joint), force, colour, text))
+        turning.append(TurningArrow(f"couple {joint.point} {place} {ends}", forces.spot(joint), couple, colour, text))
     for element, bearer, at, force, moment, colour in load_groups(forces):
-        arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, colour, element))
-        turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, colour, element))
-    words = {LOAD: said("load"), PIN: said("pin force"), MEMBER: said("of a cylinder or spring"), GROUND: said("from the ground")}
-    return layer_of(arrows, turning, words, translated(SENSE))
+        if body in ("", bearer):
+            arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, colour, element))
+            turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, colour, element))
+    words = {LOAD: said("load"), PIN: said("pin force"), MEMBER: said("of a cylinder or spring")}
+    if body:
+        words |= {PIN: said("from a body or the frame"), MEMBER: said("from a cylinder or spring")}
+    return layer_of(arrows, turning, words | {GROUND: said("from the ground")}, "" if body else translated(SENSE))
 
 
 MOST_LETTERS = 6
@@ -151,33 +157,7 @@ def short_name(forces: ForcesAt, body: str) -> str:
     return f"{joined_names(*(own if len(own) > 1 else found.points)[:2])}\N{HORIZONTAL ELLIPSIS}"
 
 
-def from_words(forces: ForcesAt, body: str) -> str:
-    """Return where a force comes from, in words."""
-    return said("from the frame") if body == FRAME else said("from {body}", body=short_name(forces, body))
-
-
-def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
-    """Return all forces on one body as arrows, with what each comes from."""
-    found, arrows, turning = forces.found, [], []
-    for place, joint in enumerate(found.joints):
-        if body in (joint.on, joint.by):
-            other, sign = (joint.by, 1.0) if joint.on == body else (joint.on, -1.0)
-            colour, from_other = MEMBER if other in found.members else PIN, from_words(forces, other)
-            force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
-            if joint.has_force:
-                arrows.append(
-                    VectorArrow(f"force {joint.point} {place} from {other}", forces.spot(joint), force, colour, from_other)
-                )
-            turning.append(TurningArrow(f"couple {joint.point} {place}", forces.spot(joint), couple, colour, from_other))
-    for element, bearer, at, force, moment, colour in load_groups(forces):
-        if bearer == body:
-            arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, colour, element))
-            turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, colour, element))
-    words = {LOAD: said("load"), PIN: said("from a body or the frame"), MEMBER: said("from a cylinder or spring")}
-    return layer_of(arrows, turning, words | {GROUND: said("from the ground")})
-
-
-def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], words: Mapping[str, str], sense: str = "") -> ArrowLayer:
+def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], words: Mapping[str, str], sense: str) -> ArrowLayer:
     """Return forces and moments as a layer, with the words of the colours that are there; forces and moments of zero are left out.
 
     It is in kN, or in N where the largest is less than 1 kN, or in the unit of a chosen system.
@@ -203,7 +183,9 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
     its line of action, those of a rope each at its point; a couple as a moment amid its points.
     """
     groups: dict[tuple[str, str, str], list[tuple[FloatArray, FloatArray]]] = {}
-    ropes = rope_names(forces)
+    plan = forces.found.motion.plan
+    elements = plan.of_kind(ForceElement).items()
+    ropes = {name for name, each in elements if any(glyph.drawn_as == "rope" for glyph in each.glyphs(plan.members))}
     ground = {each.element for each in forces.found._ground}
     for body, acting in forces.found._loads:
         key = acting.element.partition("(")[0], body, acting.load.point if acting.element in ropes else ""
@@ -222,13 +204,6 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
             centre = mass_centre(forces, element)
             place = place if centre is None else place + force * float((centre - place) @ force) / square
             yield element, body, place, force, 0.0, colour
-
-
-def rope_names(forces: ForcesAt) -> set[str]:
-    """Return the elements that are drawn as ropes, by name."""
-    plan = forces.found.motion.plan
-    elements = plan.of_kind(ForceElement).items()
-    return {name for name, each in elements if any(glyph.drawn_as == "rope" for glyph in each.glyphs(plan.members))}
 
 
 def mass_centre(forces: ForcesAt, element: str) -> FloatArray | None:

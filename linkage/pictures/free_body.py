@@ -26,7 +26,7 @@ from .arrows import (
     wordings,
 )
 from .drawing import BodyPart, MarkPart, pin
-from .force_arrows import FRAME, ForceQuestion, ForcesAt, body_layer, drawn_body, forces_at_pose, imbalance, short_name
+from .force_arrows import FRAME, ForceQuestion, ForcesAt, drawn_body, force_layer, forces_at_pose, imbalance, short_name
 from .labels import LabelPart, offsets
 from .overlays import sheet_note
 from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, write_title
@@ -50,7 +50,7 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     scene = Scene(motion)
     forces = forces_at_pose(motion, pose, question)
     body = drawn_body(forces.found, question.body)
-    layer = body_layer(forces, body) if not forces.refusal else ArrowLayer((), "kN", ())
+    layer = force_layer(forces, body) if not forces.refusal else ArrowLayer((), "kN", ())
     at = scene.at(pose)
     free = FreeBodyPicture(body, points_on(forces, body), scene, at, layer)
     figure, ax, beside = free_page(free.box())

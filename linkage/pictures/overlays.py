@@ -214,13 +214,13 @@ def loose_layers(motion: Motion) -> list[ArrowLayer]:
 def velocity_layer(motion: Motion, pose: int, rates: Mapping[str, object]) -> ArrowLayer:
     """Return the velocities of the moving points at a pose as arrows, in m/s; in mm/s where all are slower than 0.1 m/s."""
     arrows = []
-    at = one_pose(motion, pose)
+    at, varied = one_pose(motion, pose), any(map(np.ndim, rates.values()))  # rates may be arrays over the poses
     notes: tuple[str, ...] = ()
     for name in motion.plan.moving:
         if name not in motion.plan.points:
             continue
         try:
-            v = velocity_at(motion, at, pose, name, rates)
+            v = motion.velocity(name, rates).reshape(2, -1)[:, pose] if varied else at.velocity(name, rates)
         except SingularError as error:
             if motion.unreachable != "nan":
                 raise
@@ -233,13 +233,6 @@ def velocity_layer(motion: Motion, pose: int, rates: Mapping[str, object]) -> Ar
     unit = shown_in("m/s" if most >= 0.1 else "mm/s")
     words = ", ".join(f"{name} {rate_words(motion, name, rate)}" for name, rate in rates.items())
     return ArrowLayer(shown, unit, ((VELOCITY, said("velocity at {rates}", rates=words)),), notes=notes)
-
-
-def velocity_at(motion: Motion, at: Motion, pose: int, name: str, rates: Mapping[str, Any]) -> FloatArray:
-    """Return a point's velocity at a pose, shape (2,) [m/s]; rates may be arrays over the poses."""
-    if any(np.ndim(rate) for rate in rates.values()):
-        return motion.velocity(name, rates).reshape(2, -1)[:, pose]
-    return at.velocity(name, rates)
 
 
 def rate_words(motion: Motion, stroke: str, rate: Any) -> str:

@@ -26,7 +26,7 @@ from .layout import cloud, surrounding_points
 from .overlays import NO_OVERLAYS, Overlays
 from .paper import empty_page, legend_row, remark, write_title
 from .pose_choice import telling_angles
-from .scene import Bounds, Scene
+from .scene import Scene
 from .sheet import grown
 from .strokes import is_turn, pose_words, unreached_words
 from .style import FAINT, STRONG
@@ -97,15 +97,14 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
         return draw_free_body(shown, last, overlays.forces)
     paths = np.concatenate([np.empty((0, 2)), *(whole.places[name].T for name in path)])
     drawn = grown(Scene(shown, swept).box(), paths[np.isfinite(paths).all(axis=1)], 3.0 * whole.size)
-    sheet = whole.box() if share_filled(drawn, whole.box()) >= FILLED else drawn
+    (left, right, bottom, top), (x0, x1, y0, y1) = drawn, whole.box()
+    is_filled = min((right - left) / (x1 - x0), (top - bottom) / (y1 - y0)) >= FILLED
+    sheet = whole.box() if is_filled else drawn
     laid = overlays.over(shown, last, sheet) if overlays else None
     figure, ax = empty_page(laid.box(whole.size) if laid else sheet)
+    words = said_of(len(path), "path of {points}", "paths of {points}", points=", ".join(path))
     for name in path:
-        trace(
-            ax,
-            whole.places[name],
-            said_of(len(path), "path of {points}", "paths of {points}", points=", ".join(path)) if name == path[0] else "",
-        )
+        trace(ax, whole.places[name], words if name == path[0] else "")
     clear = [whole.places[name].T for name in path] + ([laid.covered(whole.size)] if laid else [])
     draw_poses(ax, shown, swept, clear)
     if laid:
@@ -117,12 +116,6 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
     write_heading(figure, ax, shown, moving)
     remark(figure, ax, unreached_words(swept, moving[0]) if len(moving) == 1 else unreached_on_the_way(swept))
     return figure
-
-
-def share_filled(box: Bounds, sheet: Bounds) -> float:
-    """Return which share of a sheet's width or height a box fills, the smaller of the two."""
-    (left, right, bottom, top), (x0, x1, y0, y1) = box, sheet
-    return min((right - left) / (x1 - x0), (top - bottom) / (y1 - y0))
 
 
 def draw_laid_over(motion: Motion, swept: Motion, pose: int, overlays: Overlays) -> Figure:
@@ -178,11 +171,9 @@ def joint_motions(
     shown = machine.at(unreachable="nan", **values)
     if not shown.reached.any():
         machine.at(**values)
-    knots = np.arange(chosen[moving[0]].size)
-    share = np.union1d(np.linspace(0.0, knots[-1], count), knots)
-    along = {name: np.interp(share, knots, chosen[name]) for name in moving}
-    still: dict[str, Any] = {name: float(np.ravel(value)[0]) for name, value in values.items() if name not in moving}
-    return moving, shown, machine.at(unreachable="nan", **still, **along)
+    still = {name: float(np.ravel(value)[0]) for name, value in values.items() if name not in moving}
+    run = Run({name: tuple(chosen[name].tolist()) for name in moving}, still)
+    return moving, shown, machine.at(unreachable="nan", **run.divided(count))
 
 
 def chosen_values(machine: Mechanism, name: str, value: object) -> FloatArray:

@@ -17,7 +17,7 @@ from ..loads import ForceElement, Glyph, Halves, TwoPoint
 from ..motion import Motion, Over, require_motion
 from ..plan import member_sides
 from ..program import FloatArray
-from ..quantities import Joint, Quantity, Where, is_whole, joined_names, needs
+from ..quantities import Quantity, Where, is_whole, joined_names, needs
 from ..steps import Arrow, Guide, Point
 from ..surroundings import Outline
 from ..vectors import Line
@@ -94,7 +94,8 @@ def guides(motion: Motion) -> Iterator[SlideTrack]:
     """Yield the guides that points slide on."""
     plan = motion.plan
     for name, guide in plan.of_kind(Guide).items():
-        riders = tuple(dict.fromkeys(joint.point for joint in slide_joints(motion) if joint.track == (name,)))
+        joints = (joint for member in plan.holding.values() for joint in member.joints())
+        riders = tuple(dict.fromkeys(joint.point for joint in joints if joint.track == (name,)))
         if riders:
             fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
             line = motion._reading.line(guide)
@@ -116,11 +117,6 @@ def slots(motion: Motion) -> Iterator[SlideTrack]:
                 line = joint.line(motion._reading)
                 along = pose_rows(motion, line.direction.x, line.direction.y)
                 yield SlideTrack(f"{name}|slot", pose_rows(motion, line.origin.x, line.origin.y), along, (joint.point,), False, joint.line)
-
-
-def slide_joints(motion: Motion) -> Iterator[Joint]:
-    """Yield all joints that points slide in, driven or not."""
-    return (joint for member in motion.plan.holding.values() for joint in member.joints() if joint.track)
 
 
 def pose_rows(motion: Motion, x: object, y: object) -> FloatArray:

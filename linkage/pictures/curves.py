@@ -29,6 +29,8 @@ from .strokes import StrokeAxis, column_shown, frame_count
 PANEL = (4.6, 3.0)
 """The size of a panel with its share of the margins [inch]."""
 TIED = "\N{NO-BREAK SPACE}"
+WIDEST = 36
+"""Letters of a panel's heading on one line, where there are longer ones."""
 LETTERS_AN_INCH = 8.0
 """How many letters of a heading an inch has room for."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from textwrap import fill
 from typing import Any, final
 
 import numpy as np
@@ -22,20 +23,17 @@ from ..study import Optimum
 from ..study.optimum import unit_of_leaf
 from ..units import factor, mm, shown_in
 from . import style
-from .curves import Limit, axis_range, limit_on, mark_limit, panel_grid, side_of, stroke_panel, typeset
+from .curves import WIDEST, Limit, axis_range, limit_on, mark_limit, panel_grid, side_of, stroke_panel, typeset
 from .drawing import Drawing
 from .labels import offsets
 from .layout import label_free
-from .scene import Bounds, Places, Scene
-from .sheet import empty_figure, joined_box, points_a_metre, sheet
+from .paper import legend_row, sheets_beside, write_title
+from .scene import Places, Scene
+from .sheet import joined_box, points_a_metre
 from .strokes import StrokeAxis, stroke_words
 from .style import FAINT, STRONG
 from .symbols import arrow_between
 
-WIDE = 12.0
-ROOM = (0.75, 0.2, 0.65, 0.55, 0.75)
-"""Room around the two sheets [inch]: left, right, between, below, above."""
-HEIGHTS = (3.6, 9.0)
 AIR = 8.0
 """The margin around the machine, in sizes of its pins."""
 POSES = 101
@@ -56,13 +54,13 @@ def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
     require_whole("count", count, "a whole number of poses is expected, at least 2", least=2)
     name = next(iter(optimum.machine.strokes))
     before, after = (optimum.problem.along(each, name, count) for each in (optimum.start, optimum.machine))
-    figure, axes = two_sheets(joined_box([Scene(each).box(AIR) for each in (before, after)]))
+    figure, axes, _ = sheets_beside([joined_box([Scene(each).box(AIR) for each in (before, after)])] * 2, head=0.13)
     for ax, pose in zip(axes, (0, count - 1), strict=True):
         overlaid(ax, before, after, pose)
         ax.set_title(stroke_words(after.plan, name, float(after.strokes[name][pose])), fontsize=style.TEXT, color=style.MUTED, loc="right")
-    top = 1.0 - 0.24 / float(figure.get_figheight())
-    figure.text(ROOM[0] / WIDE, top, after.plan.heading, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
-    before_and_after_key(axes[0])
+    write_title(figure, after.plan.heading)
+    keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in (FAINT, STRONG)]
+    legend_row(axes[0], [*keys, Line2D([], [], color=style.ACCENT, linewidth=1.4)], ["before", "after", "moved, mm"])
     return figure
 
 
@@ -70,22 +68,6 @@ def require_optimum(optimum: object) -> None:
     """Raise DefinitionError for anything but an optimum."""
     if not isinstance(optimum, Optimum):
         raise DefinitionError(f"{cited(optimum)} is no result of a search; give what optimise(...) returns.")
-
-
-def two_sheets(box: Bounds) -> tuple[Figure, list[Axes]]:
-    """Return a figure with two sheets of the same box [m] side by side."""
-    left, right, between, below, above = ROOM
-    wide = 0.5 * (WIDE - left - right - between)
-    x0, x1, y0, y1 = box
-    high = float(np.clip(wide * (y1 - y0) / (x1 - x0), HEIGHTS[0] - below - above, HEIGHTS[1] - below - above))
-    height = high + below + above
-    figure = empty_figure(WIDE, height)
-    axes = []
-    for place in range(2):
-        ax = figure.add_axes(((left + place * (wide + between)) / WIDE, below / height, wide / WIDE, high / height))
-        sheet(ax, box)
-        axes.append(ax)
-    return figure, axes
 
 
 def overlaid(ax: Axes, before: Motion, after: Motion, pose: int) -> None:
@@ -144,16 +126,6 @@ def edge(ax: Axes) -> FloatArray:
     heights, wide = np.linspace(bottom, top, 60), 0.01 * (right - left)
     x = np.concatenate([left - wide * np.arange(1, 6), right + wide * np.arange(1, 6)])
     return np.stack(np.meshgrid(x, heights), axis=-1).reshape(-1, 2)
-
-
-def before_and_after_key(ax: Axes) -> None:
-    """Write above a sheet which machine is which."""
-    keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in (FAINT, STRONG)]
-    keys.append(Line2D([], [], color=style.ACCENT, linewidth=1.4))
-    ax.legend(
-        keys, ["before", "after", "moved, mm"], loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, frameon=False, borderaxespad=0.0,
-        borderpad=0.25, fontsize=style.TEXT, labelcolor=style.INK, handlelength=1.6, columnspacing=1.8, handletextpad=0.6,
-    )  # fmt: skip
 
 
 # What counted, before and after.
@@ -234,7 +206,7 @@ def course_panel(ax: Axes, optimum: Optimum, course: QuantityCourse) -> None:
     ax.plot(course.before[0] / factor(unit), old.drawn, color=BEFORE[0], linewidth=BEFORE[1], zorder=4.5)
     ax.plot(along.values, column.drawn, color=AFTER[0], linewidth=AFTER[1], zorder=5.0)
     both_ways = replace(along, values=np.concatenate([course.before[0] / factor(unit), along.values]))
-    stroke_panel(ax, both_ways, column.heading, axis_range(both, course.limits))
+    stroke_panel(ax, both_ways, fill(column.heading, WIDEST), axis_range(both, course.limits))
     for limit in course.limits:
         mark_limit(ax, along, column, limit)
     for place, value, sign in course.marks:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from . import style
 from .scene import Bounds
-from .sheet import empty_figure, figure_of, renderer_of, sheet
+from .sheet import empty_figure, figure_of, joined_box, renderer_of, sheet
 
 WIDTH = 9.0
 LEAST, MOST = 3.0, 10.0
@@ -87,3 +87,48 @@ def legend_row(ax: Axes, keys: Sequence[Any], texts: Sequence[str], columns: int
         )  # fmt: skip
         if legend.get_window_extent(renderer_of(figure)).x1 <= figure.bbox.width:
             break
+
+
+# Sheets side by side.
+
+ACROSS = 3
+"""The sheets in one row."""
+WIDE = {1: 8.6, 2: 12.0, 3: 15.0}
+"""The width of a picture with so many sheets in a row [inch]."""
+BETWEEN, ABOVE, HEAD, FOOT = 0.62, 0.62, 0.5, 0.55
+"""Room between two sheets, above all, above each and below each [inch]."""
+HEIGHTS, CURVE = (2.6, 6.2), 2.1
+"""The range of a sheet's height, and the height of a curve above it [inch]."""
+UNLIKE = 1.6
+"""Machines whose sizes differ by more are drawn to scales of their own."""
+
+
+def sheets_beside(boxes: Sequence[Bounds], *, has_curve: bool = False, head: float = HEAD) -> tuple[Figure, list[Axes], list[Axes]]:
+    """Return a figure with a sheet for each box [m], in rows, and a curve above each where there are curves; `head` is above each [inch].
+
+    All sheets show one box around all of these, to one scale, unless their sizes differ too much for that.
+    """
+    across = min(len(boxes), ACROSS)
+    width = WIDE[across]
+    wide = (width - LEFT - RIGHT - (across - 1) * BETWEEN) / across
+    joined = joined_box(boxes)
+    if box_side(joined) <= UNLIKE * min(map(box_side, boxes)):
+        boxes = [joined] * len(boxes)
+    shape = max((top - bottom) / (right - left) for left, right, bottom, top in boxes)
+    high = float(np.clip(wide * shape, *HEIGHTS))
+    above = CURVE + FOOT + 0.08 if has_curve else 0.0
+    row = head + above + high + FOOT
+    height = ABOVE + -(-len(boxes) // across) * row
+    figure, sheets, curves = empty_figure(width, height), list[Axes](), list[Axes]()
+    for place, box in enumerate(boxes):
+        x, y = LEFT + (place % across) * (wide + BETWEEN), height - ABOVE - (place // across) * row - head
+        if has_curve:
+            curves.append(figure.add_axes((x / width, (y - CURVE) / height, wide / width, CURVE / height)))
+        sheets.append(figure.add_axes((x / width, (y - above - high) / height, wide / width, high / height)))
+        sheet(sheets[-1], box)
+    return figure, sheets, curves
+
+
+def box_side(box: Bounds) -> float:
+    """Return a box's larger side."""
+    return max(box[1] - box[0], box[3] - box[2])

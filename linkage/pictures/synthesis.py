@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import ceil
 from typing import final
 
 import numpy as np
@@ -16,7 +15,7 @@ from matplotlib.patheffects import withStroke
 
 from ..checks import require_whole
 from ..errors import StudyError
-from ..language import said, said_of, translated
+from ..language import said, said_of
 from ..motion import Column, Motion, stroke_display_unit
 from ..motion.kinds import measure_of
 from ..motion.measures import words_of
@@ -26,27 +25,19 @@ from ..synthesis.synthesis import CLOSEST_CHANGE_POINT, EXACT, miss_unit
 from ..synthesis.tasks import Task
 from ..units import display_unit, factor, show, shown_in
 from . import style
-from .curves import axis_range, locator, typeset
+from .curves import axis_range, stroke_panel, typeset
 from .drawing import BodyPart, Drawing
 from .labels import offsets
 from .layout import cloud
+from .paper import LEFT, sheets_beside, write_title
 from .poses import trace
 from .scene import Bounds, Scene
-from .sheet import empty_figure, figure_of, grown, joined_box, points_a_metre, quiet, renderer_of, sheet
-from .strokes import stroke_words
+from .sheet import figure_of, grown, points_a_metre
+from .strokes import StrokeAxis, stroke_words
 from .style import FAINT, STRONG
 
 MOST_ANSWERS = 12
-ACROSS = 3
-"""The answers in one picture, and those in one row."""
-WIDE = {1: 8.6, 2: 12.0, 3: 15.0}
-"""The width of a picture with so many answers in a row [inch]."""
-LEFT, RIGHT, BETWEEN, TOP, HEAD, FOOT = 0.7, 0.15, 0.62, 0.62, 0.5, 0.55
-"""Room left and right, between two answers, above all, above each and below each [inch]."""
-SHEET, CURVE = (2.6, 6.2), 2.1
-"""The range of a sheet's height, and the height of a curve [inch]."""
-UNLIKE = 1.6
-"""Machines whose sizes differ by more are drawn to scales of their own."""
+"""The answers in one picture."""
 SEEN = 0.07
 """Of a sheet's larger side: the largest miss that is drawn is about so long."""
 STRETCHES = tuple(step * 10**power for power in range(7) for step in (1, 2, 5))
@@ -131,7 +122,7 @@ def draw_synthesis(found: Synthesis, answers: int = 3, count: int = 101) -> Figu
         raise StudyError(str(found))
     shown = [ShownAnswer(found, each, place, count) for place, each in enumerate(found.solutions[:answers], 1)]
     has_curve = isinstance(found.task, FunctionTask)
-    figure, sheets, curves = pages([each.box() for each in shown], has_curve=has_curve)
+    figure, sheets, curves = sheets_beside([each.box() for each in shown], has_curve=has_curve)
     stretch = stretched(shown, [float(np.ptp(ax.get_xlim())) for ax in sheets])
     for place, (each, ax) in enumerate(zip(shown, sheets, strict=True)):
         DRAWERS[type(found.task)](ax, each, stretch)
@@ -142,40 +133,7 @@ def draw_synthesis(found: Synthesis, answers: int = 3, count: int = 101) -> Figu
     return figure
 
 
-# The paper: sheets side by side, of a function a curve above each.
-
-
-def pages(boxes: Sequence[Bounds], *, has_curve: bool) -> tuple[Figure, list[Axes], list[Axes]]:
-    """Return a figure with a sheet for each box [m], in rows, and a curve above each where there are curves."""
-    across = min(len(boxes), ACROSS)
-    down = ceil(len(boxes) / across)
-    width = WIDE[across]
-    wide = (width - LEFT - RIGHT - (across - 1) * BETWEEN) / across
-    boxes = alike(boxes)
-    shape = max((top - bottom) / (right - left) for left, right, bottom, top in boxes)
-    high = float(np.clip(wide * shape, *SHEET))
-    above = CURVE + FOOT + 0.08 if has_curve else 0.0
-    row = HEAD + above + high + FOOT
-    height = TOP + down * row
-    figure = empty_figure(width, height)
-    sheets, curves = [], []
-    for place, box in enumerate(boxes):
-        x = LEFT + (place % across) * (wide + BETWEEN)
-        y = height - TOP - (place // across) * row - HEAD
-        if has_curve:
-            curves.append(figure.add_axes((x / width, (y - CURVE) / height, wide / width, CURVE / height)))
-        ax = figure.add_axes((x / width, (y - above - high) / height, wide / width, high / height))
-        sheet(ax, box)
-        sheets.append(ax)
-    return figure, sheets, curves
-
-
-def alike(boxes: Sequence[Bounds]) -> list[Bounds]:
-    """Return boxes [m] as one around all of them, to one scale, unless their sizes differ too much for that."""
-    sides = [max(right - left, top - bottom) for left, right, bottom, top in boxes]
-    joined = joined_box(boxes)
-    whole = max(joined[1] - joined[0], joined[3] - joined[2])
-    return [joined] * len(boxes) if whole <= UNLIKE * min(sides) else list(boxes)
+# The paper: what stands on it beside the sheets.
 
 
 def stretched(shown: Sequence[ShownAnswer], sides: Sequence[float]) -> float:
@@ -193,13 +151,10 @@ def stretched(shown: Sequence[ShownAnswer], sides: Sequence[float]) -> float:
 
 def write_head(figure: Figure, found: Synthesis, stretch: float) -> None:
     """Write the title, the task in words, and what lines mean."""
-    width, height = (float(each) for each in figure.get_size_inches())
     heading = said_of(len(found.classes), "{n} class", "{n} classes") if found.classes else found.start.plan.heading
-    title = figure.text(LEFT / width, 1.0 - 0.22 / height, heading, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
-    end = title.get_window_extent(renderer_of(figure)).x1 / figure.bbox.width
-    words = task_words(found)
-    figure.text(end + 0.18 / width, 1.0 - 0.22 / height, words, fontsize=style.TEXT, color=style.MUTED, va="center")
+    write_title(figure, heading, task_words(found))
     keys, texts = legend_of(found, stretch)
+    width, height = (float(each) for each in figure.get_size_inches())
     figure.legend(
         keys, texts, loc="upper left", bbox_to_anchor=(LEFT / width, 1.0 - 0.34 / height), ncols=len(texts), frameon=False,
         borderaxespad=0.0, borderpad=0.1, fontsize=style.TEXT, labelcolor=style.INK, handlelength=1.6, columnspacing=1.8,
@@ -356,7 +311,6 @@ def draw_wanted_curve(ax: Axes, shown: ShownAnswer) -> None:
         wanted, reached = (each + 2.0 * np.pi * np.round((near - each) / (2.0 * np.pi)) for each in (wanted, reached))
     column = Column(name, np.concatenate([values, wanted]), display_unit(measure, "mm"))
     drawn, scale = column.drawn, factor(column.shown_unit)
-    quiet(ax)
     ax.plot(along / by, drawn[: len(along)], color=style.CURVE, linewidth=style.BOLD, zorder=5.0)
     for at, one, other in zip(shown.answer.strokes / by, wanted / scale, reached / scale, strict=True):
         ax.plot([at, at], [one, other], color=style.INK, linewidth=1.4, zorder=5.5, solid_capstyle="butt")
@@ -364,12 +318,8 @@ def draw_wanted_curve(ax: Axes, shown: ShownAnswer) -> None:
         shown.answer.strokes / by, wanted / scale, "o", color=style.CURVE, markerfacecolor=style.PAPER, markersize=5, markeredgewidth=1.6,
         zorder=6.0, clip_on=False,
     )  # fmt: skip
-    ax.set_ylim(*axis_range(column))
-    ax.set_xlim(float((along / by).min()), float((along / by).max()))
-    ax.set_xlabel(f"{shown.stroke}, {translated(unit)}", fontsize=style.TEXT, color=style.MUTED)
+    stroke_panel(ax, StrokeAxis(shown.stroke, unit, along / by, ""), "", axis_range(column))
     ax.set_ylabel(column.heading, fontsize=style.TEXT, color=style.MUTED)
-    ax.xaxis.set_major_locator(locator(unit == "deg" and float(np.ptp(along / by)) >= 90.0))
-    ax.yaxis.set_major_locator(locator())
 
 
 DRAWERS: dict[type, Callable[[Axes, ShownAnswer, float], None]] = {

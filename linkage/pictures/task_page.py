@@ -18,6 +18,7 @@ from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis, Synthesised
 from ..synthesis.synthesis import miss_unit
 from .browser_data import PageRequests, page_data, unit_data
 from .browser_file import MACHINE, START, page_part, page_text
+from .sheet import grown
 from .strokes import frame_count
 
 PARTS = (*MACHINE, "task.js", START)
@@ -46,7 +47,7 @@ def task_page(found: Synthesis, *, count: int, language: str, at: Mapping[str, A
     data["task"] = task_data(found, data)
     data["strokes"][data["task"]["stroke"]]["at"] = float(best.strokes[0])
     if not is_function:
-        data["scene"]["box"] = box_around(data["scene"]["box"], data["task"]["points"])
+        data["scene"]["box"] = [*grown(data["scene"]["box"], np.array(data["task"]["points"]), 0.0)]
     most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
     return page_text(best.machine.plan.heading, data, PARTS, language=language, most=most, text=text)
 
@@ -94,9 +95,3 @@ def wanted_data(task: Any, plan: Plan, weight: float, data: Mapping[str, Any]) -
         places = np.stack([task.x, task.y], axis=1).tolist()
         return {"points": places, "angles": task.angle.tolist(), "point": first, "second": second, "long": float(weight)}
     return {"values": task.values.tolist(), "column": data["column"], "turns": measure_of(plan, task.of) == "angle"}
-
-
-def box_around(box: list[float], points: list[list[float]]) -> list[float]:
-    """Return a box [m] with some points in it: left, right, bottom, top."""
-    (x0, y0), (x1, y1) = np.min(points, axis=0), np.max(points, axis=0)
-    return [min(box[0], float(x0)), max(box[1], float(x1)), min(box[2], float(y0)), max(box[3], float(y1))]

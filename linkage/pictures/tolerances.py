@@ -21,14 +21,12 @@ from ..study.sensitivity import Effect, Tornado
 from ..study.tolerances import tolerance_words
 from ..units import factor, show, shown_in, unit_or_none, unit_sign
 from . import style
-from .curves import Limit, limit_on, panel_grid, stroke_panel, typeset
+from .curves import WIDEST, Limit, limit_on, panel_grid, stroke_panel, typeset
 from .sheet import panels
 from .strokes import StrokeAxis
 
 LETTERS = 13
 """Letters of a small line of words on an inch."""
-WIDEST = 36
-"""Letters of a panel's heading on one line."""
 NARROW = 0.12
 """Of the nominal curve's range: a worst case that is narrower is drawn as the deviation from the nominal curve."""
 

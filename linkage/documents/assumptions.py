@@ -20,14 +20,8 @@ from .run import ReportSubject
 
 def assumptions_section(subject: ReportSubject) -> Section:
     """Return the section of what holds for all numbers of a report, and of what none of them says."""
-    return Section(
-        said("Assumptions"),
-        (
-            ListBlock(tuple(assumed(subject))),
-            Paragraph(said("Not looked at, but for what a rule above judges:")),
-            ListBlock(tuple(left_open(subject))),
-        ),
-    )
+    beside = Paragraph(said("Not looked at, but for what a rule above judges:"))
+    return Section(said("Assumptions"), (ListBlock(tuple(assumed(subject))), beside, ListBlock(tuple(left_open(subject)))))
 
 
 def assumed(subject: ReportSubject) -> Iterator[str]:

@@ -61,8 +61,8 @@ def has_loads(machine: Mechanism) -> bool:
 
 def calculation_section(found: FilledEquations, pose_words: str) -> Section:
     """Return the section of the numbered equations with their numbers."""
-    listing, blocks = found.listing, []
-    blocks += [
+    listing = found.listing
+    body: list[Block] = [
         Paragraph(
             said(
                 "The equations of the vector method in the order in which they are solved; the numbers are those of {pose}. "
@@ -78,7 +78,7 @@ def calculation_section(found: FilledEquations, pose_words: str) -> Section:
             )
         ),
     ]
-    body: list[Block] = [*blocks, *(Equality(0, tuple(each.split(" = ", 1))) for each in listing.definitions)]
+    body += [Equality(0, tuple(each.split(" = ", 1))) for each in listing.definitions]
     if listing.together:
         pins = ", ".join(listing.together)
         body.append(

@@ -14,7 +14,7 @@ from ..language import said
 from ..motion import Motion
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke, distance
-from .content import Cell, Mark, Section, TableBlock
+from .content import Mark, Section, TableBlock
 from .run import ReportSubject
 
 EXACT = 1e-9
@@ -42,14 +42,11 @@ class Check:
 def checks_section(subject: ReportSubject, values: Mapping[str, object]) -> Section:
     """Return the section of checks."""
     found = checks(subject, values)
-    rows: list[tuple[Cell, ...]] = [
-        (each.name, each.what, figure_text(each.measured), figure_text(each.bound), Mark.kept(each.ok, said("not made"))) for each in found
-    ]
+    silent = said("not made")
+    rows = ((each.name, each.what, figure_text(each.measured), figure_text(each.bound), Mark.kept(each.ok, silent)) for each in found)
     heads = (said("check"), said("what is compared"), said("measured"), said("bound"), said("result"))
-    return Section(
-        said("Checks of the calculation"),
-        (TableBlock(said("Largest relative differences over the poses of the table"), heads, tuple(rows), "lmrrl"),),
-    )
+    table = TableBlock(said("Largest relative differences over the poses of the table"), heads, tuple(rows), "lmrrl")
+    return Section(said("Checks of the calculation"), (table,))
 
 
 def figure_text(value: float) -> str:

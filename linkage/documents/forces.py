@@ -48,14 +48,11 @@ def forces_section(subject: ReportSubject) -> Section | None:
         )
     )
     unit = unit_sign("kN")
-    heads = (
-        said("pin"), said("joint"), said("on body"), said("from body"), said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit),
-        said("F, {unit}", unit=unit), said("x axis"), said("situation and place"),
-    )  # fmt: skip
+    parts = said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit), said("F, {unit}", unit=unit)
+    heads = (*joint_heads(), *parts, said("x axis"), said("situation and place"))
     table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(map(pin_row, rows)), "llllrrrlm")
-    drives = (
-        said("drive or member"), said("unit"), said("least"), said("situation and place"), said("greatest"), said("situation and place")
-    )  # fmt: skip
+    ends = said("least"), said("situation and place"), said("greatest"), said("situation and place")
+    drives = (said("drive or member"), said("unit"), *ends)
     forces = TableBlock(said("Driving forces and thrusts, over all that the machine runs"), drives, ranges, "llrmrm")
     remarks = [Paragraph(each) for each in dict.fromkeys(remark for one in found for remark in one.remarks)]
     return Section(title, (forces, looks, table, *case_tables(subject), *blocked_blocks(subject), *remarks))
@@ -65,6 +62,11 @@ def pin_row(row: PinLoad) -> tuple[str, ...]:
     """Return a joint's largest force as cells."""
     parts = [shown_number(row.force * way(row.angle), "kN", "z.3f") if np.isfinite(row.force) else "∞" for way in (cos, sin)]
     return (*joint_cells(row), *parts, force_cell(row.force), row.axis, f"{translated(row.case)}, {row.movement}, {row.place}")
+
+
+def joint_heads() -> tuple[str, ...]:
+    """Return the headings of `joint_cells`."""
+    return said("pin"), said("joint"), said("on body"), said("from body")
 
 
 def joint_cells(row: PinLoad) -> tuple[str, ...]:
@@ -116,10 +118,7 @@ def case_tables(subject: ReportSubject) -> Iterator[Block]:
             yield Paragraph(said("Load case {case}: {why}", case=subject.case_words(case), why=str(error)))
             continue
         cells = tuple((*joint_cells(row), force_cell(row.force), row.place, row.movement) for row in rows)
-        heads = (
-            said("pin"), said("joint"), said("on body"), said("from body"), said("F, {unit}", unit=unit_sign("kN")), said("strokes"),
-            said("motion"),
-        )  # fmt: skip
+        heads = (*joint_heads(), said("F, {unit}", unit=unit_sign("kN")), said("strokes"), said("motion"))
         yield TableBlock(said("Largest pin forces, load case {case}", case=subject.case_words(case)), heads, cells, "llllrml")
 
 
@@ -174,16 +173,13 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     )  # fmt: skip
     units = {name: stroke_display_unit(subject.machine.plan, name, "m") for name in subject.machine.strokes}
     plain_units = {name: "rad" if unit == "deg" else unit for name, unit in units.items()}
-    cells = tuple(
-        (*row.cells, force_cell(row.force), said("{member} pushes", member=row.cylinder) if row.pushes
-         else said("{member} pulls", member=row.cylinder), row.opens, places_text(row.strokes, plain_units))
-        for row in rows
-    )  # fmt: skip
-    heads = (
-        said("pin"), said("joint"), said("on body"), said("from body"), said("F, {unit}", unit=unit_sign("kN")), said("member"),
-        said("at the limit"), said("strokes"),
-    )  # fmt: skip
-    yield TableBlock(said("Largest pin forces at the relief pressure, against a stop"), heads, cells, "llllrllm")
+    cells = []
+    for row in rows:
+        moves = said("{member} pushes", member=row.cylinder) if row.pushes else said("{member} pulls", member=row.cylinder)
+        cells.append((*row.cells, force_cell(row.force), moves, row.opens, places_text(row.strokes, plain_units)))
+    force = said("F, {unit}", unit=unit_sign("kN"))
+    heads = (*joint_heads(), force, said("member"), said("at the limit"), said("strokes"))
+    yield TableBlock(said("Largest pin forces at the relief pressure, against a stop"), heads, tuple(cells), "llllrllm")
 
 
 def judged_poses(subject: ReportSubject) -> list[Motion]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from functools import partial
 
 from matplotlib.axes import Axes
@@ -29,7 +29,8 @@ from .sources import comments_in
 def inputs_section(subject: ReportSubject, listing: Equations) -> Section:
     """Return the section of what is given, with the drawing of its dimensions."""
     machine, notes = subject.machine, subject.notes
-    blocks: list[Block] = [*own_words(machine), stroke_table(machine, listing, subject.run.held, notes)]
+    prose = [Paragraph(plain_words(translated(each))) for each in own_paragraphs(type(machine))[1:]]  # the first line is the subtitle
+    blocks: list[Block] = [*prose, stroke_table(machine, listing, subject.run.held, notes)]
     if machine.dimensions:
         blocks.append(dimension_table(machine, listing, notes))
     elements = machine.plan.of_kind(ForceElement)
@@ -60,11 +61,6 @@ def dimensions(ax: Axes, motion: Motion) -> None:
     """Draw a mechanism with its dimensions."""
     dimensioned(ax, motion)
     in_one_unit(ax)
-
-
-def own_words(machine: Mechanism) -> Iterator[Paragraph]:
-    """Yield the paragraphs of the machine's own words, after the first line, which is the subtitle."""
-    yield from (Paragraph(plain_words(translated(each))) for each in own_paragraphs(type(machine))[1:])
 
 
 MARKED = re.compile(r"`+|(?<![\w*])\*(?=[^\s*])|(?<=[^\s*])\*(?![\w*])")
@@ -141,24 +137,17 @@ def definition_section(machine: Mechanism) -> Section:
     names = tuple(name for name, member in machine.plan.members.items() if not isinstance(member, left_out))
     heads = (said("name"), said("declared as"))
     rows = tuple((name, OF_PART.sub("", text)) for name, text, _ in member_rows(machine, names, {}))
-    bodies = tuple((str(place), str(body)) for place, body in enumerate(machine.links))
-    bodies += tuple(
-        (str(len(bodies) + place), said("cylinder {P} {Q}", P=bar.P, Q=bar.Q)) for place, bar in enumerate(machine.plan.cylinders)
-    )
+    cylinders = [said("cylinder {P} {Q}", P=bar.P, Q=bar.Q) for bar in machine.plan.cylinders]
+    bodies = tuple((str(place), text) for place, text in enumerate([*map(str, machine.links), *cylinders]))
     count = said(
         "Mobility {rank} by the rank of the constraints, strokes {strokes}; count of Gruebler {count}, a cylinder being two bodies on a "
         "slide.",
         rank=machine.mobility, strokes=len(machine.strokes), count=machine.gruebler,
     )  # fmt: skip
-    return Section(
-        said("Definition of the mechanism"),
-        (
-            Paragraph(said("In the order in which the positions are worked out; lengths in m, angles in rad where no deg is marked.")),
-            TableBlock(said("Members"), heads, rows, "lm"),
-            TableBlock(said("Rigid bodies"), (said("No."), said("points")), bodies, "lm"),
-            Paragraph(count),
-        ),
-    )
+    order = Paragraph(said("In the order in which the positions are worked out; lengths in m, angles in rad where no deg is marked."))
+    members = TableBlock(said("Members"), heads, rows, "lm")
+    rigid = TableBlock(said("Rigid bodies"), (said("No."), said("points")), bodies, "lm")
+    return Section(said("Definition of the mechanism"), (order, members, rigid, Paragraph(count)))
 
 
 OF_PART = re.compile(r", \*\*\{.*\}")

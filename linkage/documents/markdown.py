@@ -25,17 +25,13 @@ MARKER = "hydrolinkage"
 def write_markdown(document: Document, path: Path) -> None:
     """Write a document as Markdown and its pictures into the folder beside it, both replaced whole."""
     folder = path.with_name(f"{path.stem}_files")
-    pictures = {f"{number:02d}_{each.name}.svg": each for number, each in enumerate(illustrations(document), 1)}
+    drawn = [block for section in document.sections for block in section.blocks if isinstance(block, Illustration)]
+    pictures = {f"{number:02d}_{each.name}.svg": each for number, each in enumerate(drawn, 1)}
     names = {id(each): f"{folder.name}/{name}" for name, each in pictures.items()}
     text = markdown(document, names)
     replace_folder(folder, {name: picture_svg(each) for name, each in pictures.items()})
     with replacing_text(path) as stream:
         stream.write(text)
-
-
-def illustrations(document: Document) -> list[Illustration]:
-    """Return the pictures of a document in order."""
-    return [block for section in document.sections for block in section.blocks if isinstance(block, Illustration)]
 
 
 def replace_folder(folder: Path, contents: dict[str, str]) -> None:

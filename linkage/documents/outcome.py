@@ -106,9 +106,8 @@ def results_section(subject: ReportSubject, names: Sequence[str] | None, first: 
     along, over = ", ".join(subject.run.ways), subject.words(dict(subject.run.held))
     for name in [first, *drawn]:
         bound, further = limits.get(name), beyond.get(name, [])
-        caption = said("{column} along {stroke}; {held} held.", column=whole[name].heading, stroke=along, held=over) if over else said(
-            "{column} along {stroke}.", column=whole[name].heading, stroke=along
-        )  # fmt: skip
+        caption = said("{column} along {stroke}.", column=whole[name].heading, stroke=along)
+        caption = said("{column} along {stroke}; {held} held.", column=whole[name].heading, stroke=along, held=over) if over else caption
         others = [each for each in same[name] if not any(each.startswith(f"{one} ") for one in (name, *same[name]))]
         caption += said(" The same curve: {names}.", names=", ".join(map(heading_of, others))) if others else ""
         caption += said(" Shaded: what its limit excludes.") if bound is not None else ""
@@ -344,10 +343,8 @@ def limits_section(subject: ReportSubject) -> Section:
     heads = (said("stroke"), said("limit"), said("at stroke"))
     rows = [row for each in found.values() for row in limit_rows(subject, each)]
     held = said("Each stroke by itself, the others held at {pose}.", pose=subject.words(subject.pose))
-    return Section(
-        title,
-        (*([Paragraph(held)] if len(found) > 1 else []), TableBlock(said("Reach, dead points, transmission"), heads, tuple(rows), "lmm")),
-    )
+    table = TableBlock(said("Reach, dead points, transmission"), heads, tuple(rows), "lmm")
+    return Section(title, (*([Paragraph(held)] if len(found) > 1 else []), table))
 
 
 def limit_rows(subject: ReportSubject, limits: StrokeLimits) -> Iterator[tuple[Cell, ...]]:
@@ -366,19 +363,11 @@ def limit_rows(subject: ReportSubject, limits: StrokeLimits) -> Iterator[tuple[C
     for value, cylinder in limits.cylinder_dead_points:
         yield name, said("dead point of the cylinder {cylinder}: its length stands still", cylinder=cylinder), place(value)
     for each in limits.transmission:
-        yield (
-            name,
-            said("least transmission angle at {joint}: {angle}", joint=each.joint, angle=show(each.angle, "deg", 4)),
-            place(each.stroke),
-        )
+        angle = said("least transmission angle at {joint}: {angle}", joint=each.joint, angle=show(each.angle, "deg", 4))
+        yield name, angle, place(each.stroke)
     if limits.open_turn is not None:
         pins, turns = " ".join(limits.open_turn.pins), limits.open_turn.turns
-        yield (
-            name,
-            said(
-                "after one turn {pins} do not stand where they began; turns until they do (0: not after six): {turns}",
-                pins=pins,
-                turns=turns,
-            ),
-            "",
+        text = said(
+            "after one turn {pins} do not stand where they began; turns until they do (0: not after six): {turns}", pins=pins, turns=turns
         )
+        yield name, text, ""

@@ -48,13 +48,8 @@ def pdf(document: Document) -> bytes:
     """Return a document as PDF."""
     pages = Flow(document).pages
     stream = BytesIO()
-    data = {
-        "Title": document.title,
-        "Subject": document.subtitle,
-        "Creator": "hydrolinkage",
-        "Producer": "hydrolinkage",
-        "CreationDate": None,
-    }
+    made_by = dict.fromkeys(("Creator", "Producer"), "hydrolinkage")
+    data = {"Title": document.title, "Subject": document.subtitle, **made_by, "CreationDate": None}
     with rc_context(SETTINGS), PdfPages(stream, metadata=data) as book:
         for number, page in enumerate(pages, 1):
             book.savefig(page.figure(document, number, len(pages)))

@@ -344,15 +344,13 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> TableB
     known = [each for each in answers if each[2].strokes and not np.isnan(each[2].value)]
     near = [each for each in known if each[1] is False or not isinstance(each[2].question, Constraint) or used(each[2]) > 0.0]
     ranked = sorted(near, key=lambda each: (each[1] is not False, -used(each[2])))
-    rows = tuple(
-        (
-            rule, verdict_mark(ok), value_cell(subject, each, column), share_cell(used(each)), each.situation or "–",
-            places_text(each.strokes, each.units),
-        )
-        for rule, ok, each, column in ranked[:MOST_PLACES]
-    )  # fmt: skip
+    rows = []
+    for rule, ok, each, column in ranked[:MOST_PLACES]:
+        share = f"{100.0 * used(each):.0f} %" if 0.0 < used(each) < np.inf else "–"
+        places = each.situation or "–", places_text(each.strokes, each.units)
+        rows.append((rule, verdict_mark(ok), value_cell(subject, each, column), share, *places))
     heads = (said("rule"), said("result"), said("value"), said("limit used"), said("situation"), said("strokes"))
-    return TableBlock(said("The worst places"), heads, rows, "llrrmm") if rows else None
+    return TableBlock(said("The worst places"), heads, tuple(rows), "llrrmm") if rows else None
 
 
 def value_cell(subject: ReportSubject, answer: Answer, column: Column | None) -> str:
@@ -366,11 +364,6 @@ def value_cell(subject: ReportSubject, answer: Answer, column: Column | None) ->
     if not kind and not (isinstance(quantity, Request) and not isinstance(quantity, MotionFunction)):
         return "–"
     return show(float(answer.value), display_unit(kind, "mm"), 4)
-
-
-def share_cell(share: float) -> str:
-    """Return how far a limit is used, as a percentage; a dash where that is no share."""
-    return f"{100.0 * share:.0f} %" if 0.0 < share < np.inf else "–"
 
 
 def used(answer: Answer) -> float:

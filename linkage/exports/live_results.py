@@ -167,12 +167,7 @@ class FormulaSearch:
         except LinkageError:
             return None
         known |= {symbol: motion.strokes[name] for name, symbol in self.calculation.stroke_symbols.items()}
-        return [at_all_poses(each.values, motion.shape) for each in table], known
-
-
-def at_all_poses(values: object, shape: tuple[int, ...]) -> FloatArray:
-    """Return values over all poses."""
-    return np.array(np.broadcast_to(np.asarray(values, float), shape))
+        return [np.array(np.broadcast_to(np.asarray(each.values, float), motion.shape)) for each in table], known
 
 
 def is_given(trial: Trial | None, place: int, expr: sympy.Expr) -> bool:

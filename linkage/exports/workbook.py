@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from datetime import datetime
 from functools import cached_property
 from inspect import cleandoc
-from typing import TYPE_CHECKING, Any, final
+from typing import TYPE_CHECKING, final
 
 import numpy as np
 import sympy
@@ -132,7 +132,9 @@ class Sheets:
         for column, text in enumerate(("Dimension", "Value", "Unit", "SI value", "Name in formulas", "Note")):
             sheet.write_string(row, column, text, self.head)
         owner, titles = None, self.calculation.equations.part_titles
-        for name, value in self._dimensions_by_parts():
+        owners = list(dict.fromkeys(["", *map(self.calculation.owner, design.dimensions)]))
+        for name in sorted(design.dimensions, key=lambda each: owners.index(self.calculation.owner(each))):
+            value = design.dimensions[name]
             if titles and self.calculation.owner(name) != owner:
                 owner = self.calculation.owner(name)
                 row += 1
@@ -151,12 +153,6 @@ class Sheets:
         self._agreement(sheet, row + 2)
         for place, text in enumerate(self._remarks()):
             sheet.write_string(row + 3 + place, 0, text, self.text)
-
-    def _dimensions_by_parts(self) -> list[tuple[str, Any]]:
-        """Return the dimensions with their values, those of a part behind each other, the machine's own first."""
-        found = self.calculation.design.dimensions
-        owners = list(dict.fromkeys(["", *map(self.calculation.owner, found)]))
-        return sorted(found.items(), key=lambda each: owners.index(self.calculation.owner(each[0])))
 
     def _note(self, name: str, where: str) -> str:
         read = {str(symbol) for result in self.results if result.expr is not None for symbol in result.expr.free_symbols}
@@ -322,7 +318,9 @@ class Sheets:
         sheet.set_column(0, max(len(self.results) - 1, 0), 14)
         for column, result in enumerate(self.results):
             dead = result.expr is None
-            texts = (result.column.name, result.column.unit, "a number, not a formula" if dead else self._condition(result))
+            kept = ", ".join(f"{name} = {self.calculation.design.dimensions[name]:g}" for name in result.kept)
+            says = "a number, not a formula" if dead else f"while {kept}" if kept else ""
+            texts = (result.column.name, result.column.unit, says)
             for row, text in enumerate(texts):
                 sheet.write_string(row, column, text, (self.dead_wrapped if dead else self.wrapped) if row == 2 else self.head)
             shown = np.broadcast_to(result.column.shown, self.calculation.motion.shape)
@@ -333,10 +331,6 @@ class Sheets:
                 self._number(sheet, RESULT_ROWS_ABOVE + pose, column, formula_here, value, look)
         sheet.set_row(2, 36)
         sheet.freeze_panes(RESULT_ROWS_ABOVE, 1)
-
-    def _condition(self, result: LiveResult) -> str:
-        own = self.calculation.design.dimensions
-        return f"while {', '.join(f'{name} = {own[name]:g}' for name in result.kept)}" if result.kept else ""
 
     def _result_text(self, result: LiveResult) -> str | None:
         text = None if result.expr is None else self._cell_formula(result.expr, "Calculation!")

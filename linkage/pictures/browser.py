@@ -14,8 +14,7 @@ from ..motion import Column, Motion, RequestLike, live_text
 from ..reports import NOTHING, At
 from ..study import WorkingField
 from ..synthesis import Synthesis
-from .browser_data import PageRequests, page_data
-from .browser_file import MACHINE, START, page_part, page_text
+from .browser_data import PageRequests, machine_text, page_data
 from .chart_page import chart_page
 from .strokes import frame_count
 from .task_page import task_page
@@ -103,5 +102,4 @@ def page_html(
     require_mechanism(machine)
     requests = PageRequests(machine, frame_count(count), at=at, **given)
     live = live_text(machine.plan, requests.by_name, name="engine")
-    most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
-    return page_text(machine.plan.heading, page_data(requests, live), (*MACHINE, START), language=language, most=most, text=text)
+    return machine_text(requests, live, page_data(requests, live), (), language)

@@ -23,6 +23,7 @@ from ..reports import NOTHING, At, column_requests, run_along, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, ground_loads, pin_force, pin_forces, traced_loads
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
 from ..verdict import Verdict
+from .browser_file import MACHINE, START, page_part, page_text
 from .browser_judge import LiveQuestions
 from .curves import check_poses, limit_of, typeset
 from .labels import offsets
@@ -307,6 +308,12 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
     }
 
 
+def machine_text(requests: PageRequests, live: LiveText, data: dict[str, Any], parts: Sequence[str], language: str) -> str:
+    """Return the HTML of a page of a machine, with the program that works it out and the parts that a kind of page adds."""
+    most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
+    return page_text(requests.plan.heading, data, (*MACHINE, *parts, START), language=language, most=most, text=text)
+
+
 def unit_data(unit: str) -> dict[str, Any]:
     """Return the unit that values of a unit are shown in, and its factor."""
     return {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))}
@@ -397,12 +404,8 @@ def column_data(name: str, found: tuple[Column, RequestLike, str], live: LiveTex
     if key in live.rows:
         return [*start, live.rows[key][0], *([russian] if russian != shown else [])]
     values = np.broadcast_to(np.asarray(column.values, float), motion.shape)
-    return [*start, -1, russian, seven_digits(values), why or live.left_out.get(key, "")]
-
-
-def seven_digits(values: FloatArray) -> list[float | None]:
-    """Return values to seven digits; None for one that is not finite."""
-    return [float(f"{value:.7g}") if np.isfinite(value) else None for value in values.tolist()]
+    shown_values = [float(f"{value:.7g}") if np.isfinite(value) else None for value in values.tolist()]
+    return [*start, -1, russian, shown_values, why or live.left_out.get(key, "")]
 
 
 def limit_data(requests: PageRequests, name: str) -> list[Any]:

@@ -166,7 +166,8 @@ def playback(machine: Mechanism, count: int, column: str | None = None, *, at: A
     """
     run = run_of(machine, at)
     turn = is_turn(machine, run)
-    values = run.over(eased_shares(frame_count(count), eased and not turn))
+    shares = np.linspace(0.0, 1.0, frame_count(count))
+    values = run.over(0.5 - 0.5 * np.cos(np.pi * shares) if eased and not turn else shares)
     motion = machine.at(unreachable="nan", **values)
     if not motion.reached.any():
         machine.at(**values)
@@ -187,12 +188,6 @@ def is_turn(machine: Mechanism, run: Run) -> bool:
 def frame_count(count: object) -> int:
     """Return a number of poses; DefinitionError unless it is a whole number of at least 2."""
     return require_whole("count", count, "an animation has at least 2 poses; give a whole number such as 60", least=2, most=MANY)
-
-
-def eased_shares(count: int, eased: bool) -> FloatArray:
-    """Return the shares of a way from end to end, 0 to 1."""
-    share = np.linspace(0.0, 1.0, count)
-    return 0.5 - 0.5 * np.cos(np.pi * share) if eased else share
 
 
 def ends_where_begun(motion: Motion) -> bool:

@@ -16,12 +16,9 @@ from ..quantities import Quantity
 from ..reports import results
 from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
 from ..synthesis.synthesis import miss_unit
-from .browser_data import PageRequests, page_data, unit_data
-from .browser_file import MACHINE, START, page_part, page_text
+from .browser_data import PageRequests, machine_text, page_data, unit_data
 from .sheet import grown
 from .strokes import frame_count
-
-PARTS = (*MACHINE, "task.js", START)
 
 
 def task_page(found: Synthesis, *, count: int, language: str, at: Mapping[str, Any], **given: Any) -> str:
@@ -48,8 +45,7 @@ def task_page(found: Synthesis, *, count: int, language: str, at: Mapping[str, A
     data["strokes"][data["task"]["stroke"]]["at"] = float(best.strokes[0])
     if not is_function:
         data["scene"]["box"] = [*grown(data["scene"]["box"], np.array(data["task"]["points"]), 0.0)]
-    most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
-    return page_text(best.machine.plan.heading, data, PARTS, language=language, most=most, text=text)
+    return machine_text(requests, live, data, ("task.js",), language)
 
 
 def ranges_searched(found: Synthesis, best: SynthesisedMachine) -> dict[str, tuple[float, float] | None]:

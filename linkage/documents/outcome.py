@@ -17,9 +17,9 @@ from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, mo
 from ..motion.limits import StrokeLimits
 from ..motion.measures import Least, Most
 from ..pictures import mechanism
-from ..pictures.curves import limit_of, panel
+from ..pictures.curves import limit_of, note, panel
 from ..pictures.scene import Scene
-from ..pictures.style import ACCENT, INK, SMALL, THIN, TITLE
+from ..pictures.style import ACCENT, INK, THIN, TITLE
 from ..program import FloatArray
 from ..reports import results
 from ..reports.table import column_blocks, flat
@@ -232,10 +232,7 @@ def mark_beyond(ax: Axes, value: float, text: str, is_least: bool) -> None:
     air = 0.2 * (max(high, value) - min(low, value))
     ax.set_ylim(min(low, value - air), max(high, value + air))
     ax.axhline(value, color=INK, linewidth=1.1, linestyle=(0, (1.5, 1.5)), zorder=4.0)
-    ax.annotate(
-        text, (1.0, value), xycoords=("axes fraction", "data"), xytext=(-4, -3 if is_least else 3), textcoords="offset points",
-        ha="right", va="top" if is_least else "bottom", fontsize=SMALL, color=INK, zorder=6.0,
-    )  # fmt: skip
+    note(ax, text, (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
 
 
 def safe(name: str) -> str:

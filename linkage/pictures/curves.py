@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from math import ceil, sqrt
 from textwrap import wrap
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -216,29 +216,21 @@ def mark_limit(ax: Axes, along: StrokeAxis, column: Column, limit: Limit) -> Non
     ax.plot(along.values, short, color=style.ACCENT, linewidth=style.BOLD + 0.6, zorder=5.1)
     for place in limit_crossings(along.values, column.drawn, value):
         ax.plot([place], [value], marker="o", markersize=6, color=style.ACCENT, markeredgecolor=style.PAPER, zorder=6.0)
-        _note(ax, f"{place:.4g} {translated(along.unit)}", place, value, along.values, limit)
-    _name(ax, limit, value, along.values, column.drawn)
+        right = place < 0.5 * (along.values.min() + along.values.max())  # on the failing side of the line
+        note(ax, f"{place:.4g} {translated(along.unit)}", (place, value), (7 if right else -7, -4 if limit.fails == "below" else 4))
+    gaps = np.abs(np.nan_to_num(column.drawn, nan=value) - value)
+    right = gaps[np.argmax(along.values)] >= gaps[np.argmin(along.values)]  # its words stand at the end that is further from the curve
+    spot = (-5 if right else 5, 3 if limit.fails == "above" else -3)
+    note(ax, typeset(limit.text), (1.0 if right else 0.0, value), spot, coords=("axes fraction", "data"))
 
 
-def _note(ax: Axes, text: str, place: float, value: float, along: FloatArray, limit: Limit) -> None:
-    """Write the stroke at a crossing, on the failing side of the line."""
-    right = place < 0.5 * (along.min() + along.max())
-    down = limit.fails == "below"
-    ax.annotate(
-        text, (place, value), xytext=(7 if right else -7, -4 if down else 4), textcoords="offset points", ha="left" if right else "right",
-        va="top" if down else "bottom", fontsize=style.SMALL, color=style.ACCENT, zorder=6.0,
-    )  # fmt: skip
-
-
-def _name(ax: Axes, limit: Limit, value: float, along: FloatArray, shown: FloatArray) -> None:
-    """Write what the limit is, at the end of the line that is further from the curve."""
-    gaps = np.abs(np.nan_to_num(shown, nan=value) - value)
-    right, up = gaps[np.argmax(along)] >= gaps[np.argmin(along)], limit.fails == "above"
-    ax.annotate(
-        typeset(limit.text), (1.0 if right else 0.0, value), xycoords=("axes fraction", "data"), textcoords="offset points",
-        xytext=(-5 if right else 5, 3 if up else -3), ha="right" if right else "left", va="bottom" if up else "top",
-        fontsize=style.SMALL, color=style.ACCENT, zorder=6.0,
-    )  # fmt: skip
+def note(
+    ax: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], colour: str = style.ACCENT, coords: Any = "data"
+) -> None:
+    """Write a small text at an offset [points] from a place, on the side to which that leads."""
+    across, up = ("left" if offset[0] > 0.0 else "right"), ("bottom" if offset[1] > 0.0 else "top" if offset[1] < 0.0 else "center")
+    look = {"fontsize": style.SMALL, "color": colour, "zorder": 6.0}
+    ax.annotate(text, at, xytext=offset, xycoords=coords, textcoords="offset points", ha=across, va=up, **look)
 
 
 def typeset(text: str) -> str:

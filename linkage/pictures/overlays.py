@@ -331,11 +331,8 @@ def far_words(mark: PoleMark, sheet: Bounds) -> list[str]:
     away = mark.at - np.array([0.5 * (left + right), 0.5 * (bottom + top)])
     far, x, y = (length_words(part) for part in (float(np.hypot(*away)), *mark.at.tolist()))
     degrees = f"{float(np.degrees(np.arctan2(away[1], away[0]))):.0f}".replace("-", "\N{MINUS SIGN}")
-    return [
-        said(
-            "{name}: off the sheet, {far} away towards {degrees}°, at x = {x}, y = {y}.", name=mark.name, far=far, degrees=degrees, x=x, y=y
-        )
-    ]
+    place = {"far": far, "degrees": degrees, "x": x, "y": y}
+    return [said("{name}: off the sheet, {far} away towards {degrees}°, at x = {x}, y = {y}.", name=mark.name, **place)]
 
 
 def length_words(value: float) -> str:

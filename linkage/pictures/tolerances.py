@@ -21,7 +21,7 @@ from ..study.sensitivity import Effect, Tornado
 from ..study.tolerances import tolerance_words
 from ..units import factor, show, shown_in, unit_or_none, unit_sign
 from . import style
-from .curves import WIDEST, Limit, limit_on, panel_grid, stroke_panel, typeset
+from .curves import WIDEST, Limit, limit_on, note, panel_grid, stroke_panel, typeset
 from .sheet import panels
 from .strokes import StrokeAxis
 
@@ -168,7 +168,4 @@ def draw_bar(ax: Axes, bar: Effect, place: int, scale: float) -> None:
         if np.isfinite(change):
             ax.barh(place, change / scale, height=0.62, color=colour, alpha=0.85, linewidth=0, zorder=4.0)
         ax.plot([linear / scale], [place], "|", color=style.INK, markersize=11, markeredgewidth=1.6, zorder=5.0)
-    ax.annotate(
-        f"{100.0 * bar.share:.0f} %", (1.0, place), (-4, 0), ("axes fraction", "data"), textcoords="offset points",
-        ha="right", va="center", fontsize=style.SMALL, color=style.MUTED, zorder=6.0,
-    )  # fmt: skip
+    note(ax, f"{100.0 * bar.share:.0f} %", (1.0, place), (-4, 0), style.MUTED, ("axes fraction", "data"))

@@ -153,8 +153,9 @@ def limit_of(given: Sequence[object], unit: str = "") -> Limit:
 def limit_on(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> Limit | None:
     """Return the limit that a condition sets a quantity at every pose; None where it sets none. `is_shown` tells the quantity's leaves."""
     leaf, number, sign = side_of(constraint, is_shown) or (None, 0.0, "")
-    fails = {(Most, "<="): "above", (Least, ">="): "below"}.get((type(leaf), sign))
-    return None if fails is None else Limit(number, "", fails)
+    if isinstance(leaf, Most) and sign == "<=":
+        return Limit(number, "", "above")
+    return Limit(number, "", "below") if isinstance(leaf, Least) and sign == ">=" else None
 
 
 def side_of(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> tuple[Leaf, float, str] | None:
@@ -229,7 +230,7 @@ def note(
 ) -> None:
     """Write a small text at an offset [points] from a place, on the side to which that leads."""
     across, up = ("left" if offset[0] > 0.0 else "right"), ("bottom" if offset[1] > 0.0 else "top" if offset[1] < 0.0 else "center")
-    look = {"fontsize": style.SMALL, "color": colour, "zorder": 6.0}
+    look: dict[str, Any] = {"fontsize": style.SMALL, "color": colour, "zorder": 6.0}
     ax.annotate(text, at, xytext=offset, xycoords=coords, textcoords="offset points", ha=across, va=up, **look)
 
 

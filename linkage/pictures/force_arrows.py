@@ -118,8 +118,8 @@ def force_layer(forces: ForcesAt, body: str = "") -> ArrowLayer:
     found, arrows, turning = forces.found, [], []
     for place, joint in enumerate(found.joints):
         on, by, sign = joint.on, joint.by, 1.0
-        is_frames = on == FRAME or (on in found.members and by not in found.members and by != FRAME)
-        if by == body if body else is_frames:
+        is_borne = on == FRAME or (on in found.members and by not in found.members and by != FRAME)
+        if by == body or (is_borne and not body):
             on, by, sign = by, on, -1.0
         if body not in ("", on):
             continue

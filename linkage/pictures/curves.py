@@ -152,13 +152,13 @@ def limit_of(given: Sequence[object], unit: str = "") -> Limit:
 
 def limit_on(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> Limit | None:
     """Return the limit that a condition sets a quantity at every pose; None where it sets none. `is_shown` tells the quantity's leaves."""
-    leaf, number, sign = side_of(constraint, is_shown) or (None, 0.0, "")
+    leaf, number, sign = leaf_bound(constraint, is_shown) or (None, 0.0, "")
     if isinstance(leaf, Most) and sign == "<=":
         return Limit(number, "", "above")
     return Limit(number, "", "below") if isinstance(leaf, Least) and sign == ">=" else None
 
 
-def side_of(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> tuple[Leaf, float, str] | None:
+def leaf_bound(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> tuple[Leaf, float, str] | None:
     """Return the leaf, the number [SI] and the sign of a condition that holds a quantity against a number; None for any other."""
     left, right, turned = constraint.left, constraint.right, {"<=": ">=", ">=": "<=", "==": "=="}[constraint.symbol]
     for one, other, sign in ((left, right, constraint.symbol), (right, left, turned)):

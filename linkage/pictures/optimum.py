@@ -23,7 +23,7 @@ from ..study import Optimum
 from ..study.optimum import unit_of_leaf
 from ..units import factor, mm, shown_in
 from . import style
-from .curves import WIDEST, Limit, axis_range, limit_on, mark_limit, panel_grid, side_of, stroke_panel, typeset
+from .curves import WIDEST, Limit, axis_range, leaf_bound, limit_on, mark_limit, panel_grid, stroke_panel, typeset
 from .drawing import Drawing
 from .labels import offsets
 from .layout import label_free
@@ -182,7 +182,7 @@ def courses_of(optimum: Optimum, count: int) -> Iterator[QuantityCourse]:
         (stroke, *before), (_, *after) = old, new
         is_shown = partial(is_one_of, leaves)
         limits = tuple(limit for each in problem.constraints if (limit := limit_on(each, is_shown)) is not None)
-        sides = [side for each in problem.constraints if (side := side_of(each, is_shown)) is not None]
+        sides = [side for each in problem.constraints if (side := leaf_bound(each, is_shown)) is not None]
         held = [(leaf.strokes, value, sign) for leaf, value, sign in sides if isinstance(leaf, At)]
         marks = tuple((float(strokes[stroke]), value, sign) for strokes, value, sign in held if stroke in strokes)
         yield QuantityCourse(

@@ -211,10 +211,10 @@ def loose_layers(motion: Motion) -> list[ArrowLayer]:
 # Velocities of the points, from rates of the strokes.
 
 
-def velocity_layer(motion: Motion, pose: int, rates: Mapping[str, object]) -> ArrowLayer:
+def velocity_layer(motion: Motion, pose: int, rates: Mapping[str, Any]) -> ArrowLayer:
     """Return the velocities of the moving points at a pose as arrows, in m/s; in mm/s where all are slower than 0.1 m/s."""
     arrows = []
-    at, varied = one_pose(motion, pose), any(map(np.ndim, rates.values()))  # rates may be arrays over the poses
+    at, varied = one_pose(motion, pose), any(np.ndim(rate) for rate in rates.values())  # rates may be arrays over the poses
     notes: tuple[str, ...] = ()
     for name in motion.plan.moving:
         if name not in motion.plan.points:

@@ -203,7 +203,7 @@ def optimise(
 
         goals = [mean_in_cases(each, shares) if shares else in_case(each, cases[0]) for each in objectives]
         problem = Problem(machine, goals, held, space, 1.0, over)
-        problem.count.limit = limit or default_limit(problem, replace(plan, is_front=True))
+        problem.count.limit = limit or default_limit(problem, FRONT_DESIGNS)
         check_objectives_move(problem)
         with progress_told(progress, machine.plan.heading) as tell:
             return front(problem, plan.seed, tell)
@@ -214,7 +214,7 @@ def optimise(
     if robust is not None:
         problem = with_spread(problem, robust, sigmas)
     check_objectives_move(problem)
-    problem.count.limit = limit or default_limit(problem, plan)
+    problem.count.limit = limit or default_limit(problem)
     with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):  # the same to the last bit whatever ran before
         return DesignSearch(problem, plan, Journal.of(folder, problem, plan), tell).run()
 
@@ -258,15 +258,13 @@ def cases_searched(machine: Mechanism, case: Any, occurring: Sequence[Any]) -> t
     return cases, shares
 
 
-def default_limit(problem: Problem, plan: SearchPlan) -> int:
+def default_limit(problem: Problem, evolved: int = 0) -> int:
     """Return how many designs a search looks at where nothing is said: those spread over the box, and about a minute of local searches.
 
-    A design with derivatives takes about 1.5 ms, and one more for some 70 poses of it.
+    Of each combination so many are `evolved`. A design with derivatives takes about 1.5 ms, and one more for some 70 poses of it.
     """
     count = problem.space.count
-    spread = max(min(SCREENED, SCREENED_IN_ALL // count), 16) * count
-    if plan.is_front:
-        spread += FRONT_DESIGNS * count
+    spread = (max(min(SCREENED, SCREENED_IN_ALL // count), 16) + evolved) * count
     return spread + int(LOCAL_DESIGNS / (1.0 + problem.poses / POSES_AS_ONE))
 
 
@@ -490,7 +488,6 @@ class SearchPlan:
     method: str
     starts: int
     seed: int
-    is_front: bool = False
 
 
 @final

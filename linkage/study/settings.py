@@ -197,9 +197,12 @@ class SettingWords:
                 "Look farther, or change the stroke.",
                 **names,
             )
-        endless = FAR * max(float(np.median(np.abs(value[known]))), TINY)
-        ends = (float(end) for end in (value[known].min(), value[known].max()))
-        least, most = (show(end if abs(end) < endless else np.copysign(np.inf, end), self.shown_in) for end in ends)
+        ends, size = [float(value[known].min()), float(value[known].max())], np.where(known, np.abs(value), 0.0)
+        top = int(np.argmax(size))
+        if size[top] >= FAR * max(float(np.median(size[known])), TINY):  # a pole, with the signs that it has on either side
+            beside = value[max(top - 1, 0) : top + 2]
+            ends = [end if not np.any(beside * sign > 0.0) else sign * np.inf for end, sign in zip(ends, (-1.0, 1.0), strict=True)]
+        least, most = (show(end, self.shown_in) for end in ends)
         first, last = (show(float(end), self.unit) for end in (at[known].min(), at[known].max()))
         return said(
             "No {name} between {low} and {high} gives {what} = {target}: it can be assembled from {first} to {last}, "

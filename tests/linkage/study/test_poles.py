@@ -62,7 +62,9 @@ def test_a_zone_and_settings_tell_no_pole_as_a_value():
         assert np.isfinite([band.low, band.high]).all()
     nearest = 1.0 / max(float(Rocker(OA=size).at(S=0.4).y("D") - Rocker().at(S=0.4).y("D")) for size in np.linspace(0.25, 0.35, 2001))
     for value in (0.0, 50.0, 0.99 * nearest):  # the divisor is never so large
-        assert settings_for(Rocker(), "OA", 1 / gap, value, between=(0.25, 0.35), S=0.4).values == ()
+        none = settings_for(Rocker(), "OA", 1 / gap, value, between=(0.25, 0.35), S=0.4)
+        assert none.values == ()
+        assert "goes from -inf to inf" in str(none)
     for value in (1.01 * nearest, 500.0, 1e5, -200.0, -1e4):
         found = settings_for(Rocker(), "OA", 1 / gap, value, between=(0.25, 0.35), S=0.4)
         assert found.values

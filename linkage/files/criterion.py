@@ -170,7 +170,12 @@ class CriterionParser(Grammar):
             raise DefinitionError(f"{a!r} {sign} {b!r} has no finite value.") from None
         except TypeError:
             raise DefinitionError(f"{self.words(a)} {sign} {self.words(b)} cannot be calculated.") from None
-        return finite(found, f"{a!r} {sign} {b!r}") if is_number(a) and is_number(b) else found
+        if not (is_number(a) and is_number(b)):
+            return found
+        number = finite(found, f"{a!r} {sign} {b!r}")
+        units = [each.measures for each in (a, b) if isinstance(each, Amount)]
+        is_multiple = len(units) == 1 and (sign == "*" or (sign == "/" and isinstance(a, Amount)))
+        return Amount(number, units[0]) if is_multiple else number
 
     def check_sum(self, sign: str, a: object, b: object) -> None:
         """Raise DefinitionError where a number with a unit is added to a quantity of another kind."""

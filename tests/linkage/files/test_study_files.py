@@ -229,6 +229,7 @@ def test_what_is_no_measure_is_told(text, words):
         ("most(lift) <= 8 mm", "an angle and a length neither add nor compare"),
         ("3 kN >= most(lift)", "a force and an angle neither add nor compare"),
         ("most(lift) <= 2 * mm", "an angle and a length neither add nor compare"),
+        ("most(lift) <= 2 * 3 mm / 4", "an angle and a length neither add nor compare"),
         ("most(pin_force(O)) - least(pin_force(O)) <= 8 bar", "a force and a pressure neither add nor compare"),
         ("most(lift) < 8 deg", "write >=, <= or == for <"),
         ("1 <= most(lift) <= 2", "write two conditions"),

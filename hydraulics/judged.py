@@ -16,6 +16,7 @@ from linkage.errors import DefinitionError, known_name, unknown
 from linkage.language import said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting, Case, Loads, situation_of
 from linkage.motion import Answer, Condition, Judge, Motion, Question, Span, at, below_zero, least, most, reached, require_motion
+from linkage.quantities import distance
 from linkage.statics import LawRequest, elements_of, same
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
@@ -60,11 +61,12 @@ def line_verdicts(circuit: LiftLine, judge: Judge, resistance: float = 0.0, unit
     if nothing is not None:
         return [nothing, oil_verdict(circuit, judge)]
     several = len(cylinders) > 1
+    going_back = [] if is_valved(circuit, judge) else [each for each in cylinders if not each.goes_back_by_another]
     return [
         *(with_name(each.lifting(), each.ram, several) for each in cylinders),
         oil_verdict(circuit, judge),
         *(with_name(each.holding(), each.ram, several) for each in cylinders),
-        *(with_name(each.going_back(resistance), each.ram, several) for each in cylinders if each.goes_back_here),
+        *(with_name(each.going_back(resistance), each.ram, several) for each in going_back),
     ]
 
 
@@ -188,11 +190,6 @@ class LiftingCylinder:
             "holding": AllOf((holding, pressed)) if self.ram.is_single_acting else holding,
             **({} if self.goes_back_by_another else {"lowering": sinks.each[0] if len(back) == 1 else sinks}),
         }
-
-    @property
-    def goes_back_here(self) -> bool:
-        """Whether its going back is judged with this line: no valve and no other pump drives it."""
-        return not (self.goes_back_by_another or is_valved(self.circuit, self.judge))
 
     @property
     def goes_back_by_another(self) -> bool:
@@ -382,7 +379,8 @@ class LiftingCylinder:
 def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     """Return how much oil the machine takes over all that it runs, and how long the pump's flow needs for it."""
     rams = circuit.rams(judge.motion)
-    ends = [ram.range_in(judge) for ram in rams]
+    lengths = [distance(ram.A, ram.B) for ram in rams]
+    ends = [[np.asarray(each.value) for each in judge.answers([least(length), most(length)])] for length in lengths]
     if np.isnan(ends).any():
         return Verdict("oil", None, said("nothing is left to judge: every place is unlimited, left out or lost"))
     oil = sum(float(np.ravel(ram.taken(judge.motion, *own))[0]) for ram, own in zip(rams, ends, strict=True))

@@ -492,11 +492,6 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """That its pins have no place, in words."""
         return said("{pins} has no length at any pose that is looked at: one of its pins has no place there.", pins=self._pins)
 
-    def range_in(self, judge: Judge) -> tuple[Array, Array]:
-        """Return its least and its greatest length over all that a judge looks at [m], of one design."""
-        low, high = judge.answers([least(distance(self.A, self.B)), most(distance(self.A, self.B))])
-        return np.asarray(low.value), np.asarray(high.value)
-
     def _reaches(self, judge: Judge, low: float, high: float, closed: float, opened: float) -> Verdict:
         faults, fitting = self._too_long(low, closed)
         missing = high - (fitting + opened - closed)

@@ -252,9 +252,6 @@ class OilLine(PumpLine, GasLine):
         words = [f"{name}={option_text(value)}" for name, value in said.items()]
         return f"OilLine({', '.join([*map(on_line_text, self.on), *words, *more.values()])})"
 
-    def _is_said(self, name: str) -> bool:
-        return self.given(name) is not None and not self._is_usual(name)
-
     def _is_usual(self, name: str) -> bool:
         given = self.given(name)
         return not isinstance(given, (str, Quantity)) and name in USUAL and bool(np.all(np.asarray(given) == USUAL[name]))
@@ -372,7 +369,8 @@ class OilLine(PumpLine, GasLine):
     def _examine_numbers(self, kind: str, opening: str) -> None:
         """Raise DefinitionError for a number that does not count on a line of its kind."""
         counting = NUMBERS["closed"] if kind == "closed" else NUMBERS["given"] if self.block is not None else ()
-        idle = next((name for name in self.parameters if name not in counting and self._is_said(name)), None)
+        said_here = [name for name in self.parameters if self.given(name) is not None and not self._is_usual(name)]
+        idle = next((name for name in said_here if name not in counting), None)
         if idle is not None:
             says = {"held": "a pump holds its pressure", "closed": "it is closed", "given": "its pressure is given"}[kind]
             raise DefinitionError(f"{opening}: {idle}= counts for nothing there, as {says}; leave it out.")
@@ -563,15 +561,10 @@ class OilLine(PumpLine, GasLine):
         found = np.asarray(reduce(np.add, self.volumes(motion)))
         if self.block is None or self.kind_in(motion.plan.members) != "held":
             return found
-        filled = self._motion_filled(motion)
+        at = {**motion.plan.sketch_strokes, **self.strokes_filled(list(motion.plan.strokes))}
+        filled = Motion(motion.plan, motion.designs, {name: np.asarray(at[name]) for name in motion.plan.strokes}, "nan")
         now, then = (self.accumulators(each).fluid(self.line_pressure(each)) for each in (motion, filled))
         return found + now - then.reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape)))
-
-    def _motion_filled(self, motion: Motion) -> Motion:
-        """Return the designs of a motion where the line is filled: with its strokes there, others at the sketch."""
-        plan = motion.plan
-        at = {**plan.sketch_strokes, **self.strokes_filled(list(plan.strokes))}
-        return Motion(plan, motion.designs, {name: np.asarray(at[name]) for name in plan.strokes}, "nan")
 
     def length_charged(self, motion: Poses, ram: Ram) -> Any:
         length = self.length_filled(ram, motion.plan.members)
@@ -685,9 +678,6 @@ class OilLine(PumpLine, GasLine):
         request = self.pressure_request(judge.plan)
         return [least(request), most(request)]
 
-    def _make_up(self, judge: Judge) -> float:
-        return float(np.ravel(number_set(self, judge.motion, "make_up"))[0])
-
     def kept_verdict(self, judge: Judge) -> Verdict:
         """Return whether a closed line keeps its oil wherever the machine runs: it neither runs empty nor opens its relief valve."""
         try:
@@ -695,7 +685,7 @@ class OilLine(PumpLine, GasLine):
         except DefinitionError as error:
             return Verdict("line", False, " ".join(str(error).split()))
         says = pressure_range(replace(low, value=0.0) if abs(low.value) < EMPTY * abs(high.value) else low, high, "bar")
-        make_up = self._make_up(judge)
+        make_up = float(np.ravel(self.least(judge.motion))[0])
         if low.value < make_up - EMPTY * max(abs(float(high.value)), 1.0):
             text = said(
                 "{says}: below {make_up} it runs empty there, and does not keep the length that it gives.",

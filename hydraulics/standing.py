@@ -209,13 +209,11 @@ def shut_verdicts(line: Circuit, judge: Judge, unit: str = "bar") -> list[Verdic
     if not isinstance(bears, LiftLine):
         return [Verdict("shut", True, f"{says}.", answer=worst)]
     limit = float(np.ravel(bears.held(judge.motion))[0])
-    if float(worst.value) <= limit * (1.0 + EMPTY):
-        return [Verdict("shut", True, said("{says}, below {limit}.", says=says, limit=show(limit, unit, 4)), answer=worst)]
-    if own:
-        text = said("{says}: its relief valve opens at {limit}, and it does not stay shut.", says=says, limit=show(limit, unit, 4))
-        return [Verdict("shut", False, text, answer=worst)]
-    text = said(
-        "{says}, above the {limit} on the pump's side: put a Relief on {line}, or switch the pump off while it is shut.",
-        says=says, limit=show(limit, unit, 4), line=line.name,
-    )  # fmt: skip
-    return [Verdict("shut", False, text, answer=worst)]
+    by, bears_it = {"says": says, "limit": show(limit, unit, 4), "line": line.name}, float(worst.value) <= limit * (1.0 + EMPTY)
+    if bears_it:
+        text = said("{says}, below {limit}.", **by)
+    elif own:
+        text = said("{says}: its relief valve opens at {limit}, and it does not stay shut.", **by)
+    else:
+        text = said("{says}, above the {limit} on the pump's side: put a Relief on {line}, or switch the pump off while it is shut.", **by)
+    return [Verdict("shut", bears_it, text, answer=worst)]

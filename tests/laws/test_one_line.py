@@ -83,8 +83,9 @@ def spelled(seed):
     return first, made("Tank", supply=Pump(given, **losses), valve=Relief(1.1 * given), **lines, **common)
 
 
-def test_a_back_pressure_and_a_tank_give_the_same_forces():
-    for seed in range(6):
+@pytest.mark.parametrize("seeds", [range(3), pytest.param(range(3, 15), marks=pytest.mark.slow)], ids=["daily", "many"])
+def test_a_back_pressure_and_a_tank_give_the_same_forces(seeds):
+    for seed in seeds:
         numbers = []
         for structure in spelled(seed):
             machine, ram, line = structure(), structure.ram, structure.line

@@ -235,24 +235,19 @@ class HoldingValve(LineValve):
         if not found.value > 0.0:
             text = said("the load presses nowhere on the side of {line}: the valve holds nothing.", line=line.name)
             return Verdict("setting", True, text, answer=found)
-        advised = show(USUAL_SETTING * float(found.value), "bar", 4)
-        pressure = show(found.value, "bar", 4)
-        says = said("the load makes up to {pressure} in {line}, {where}", pressure=pressure, line=line.name, where=found.place)
+        pressure, share = show(found.value, "bar", 4), setting / float(found.value)
+        by: dict[str, Any] = {"setting": show(setting, "bar", 4), "share": share}
+        by["says"] = said("the load makes up to {pressure} in {line}, {where}", pressure=pressure, line=line.name, where=found.place)
+        by["advised"] = show(USUAL_SETTING * float(found.value), "bar", 4)
+        text = said("{says}; the setting of {setting} is {share:.2f} times that.", **by)
         if found.value >= setting:
             text = said(
                 "{says}: the valve, set to {setting}, opens by itself there. Set it to {advised}, 1.3 times that, or take a larger bore.",
-                says=says, setting=show(setting, "bar", 4), advised=advised,
-            )  # fmt: skip
-            return Verdict("setting", False, text, answer=found)
-        share = setting / float(found.value)
-        if share < USUAL_SETTING * (1.0 - ROUNDED):
-            text = said(
-                "{says}; the setting of {setting} is {share:.2f} times that, where 1.3 times is usual: {advised}.",
-                says=says, setting=show(setting, "bar", 4), share=share, advised=advised,
-            )  # fmt: skip
-            return Verdict("setting", True, text, answer=found)
-        text = said("{says}; the setting of {setting} is {share:.2f} times that.", says=says, setting=show(setting, "bar", 4), share=share)
-        return Verdict("setting", True, text, answer=found)
+                **by,
+            )
+        elif share < USUAL_SETTING * (1.0 - ROUNDED):
+            text = said("{says}; the setting of {setting} is {share:.2f} times that, where 1.3 times is usual: {advised}.", **by)
+        return Verdict("setting", bool(found.value < setting), text, answer=found)
 
     def pilot_verdict(self, judge: Judge) -> Verdict:
         """Return whether the pump's pressure is enough to lower the load."""

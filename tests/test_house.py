@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[1]
 
 FLOORS = (
     ("errors", "checks", "units", "vectors", "disk", "frozen", "pickling", "language", "plugins", "shown", "star", "verdict"),
-    ("quantities",),
+    ("quantities", "numeric"),
     ("steps", "loads", "surroundings"),
     ("program",),
     ("plan",),

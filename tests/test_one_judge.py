@@ -6,7 +6,7 @@ from pathlib import Path
 from tests.for_all import for_all
 
 ROOT = Path(__file__).parent.parent
-JUDGE = {"linkage/motion/judge.py", "linkage/motion/search.py", "linkage/motion/line.py", "linkage/motion/box.py"}
+JUDGE = {"linkage/motion/judge.py", "linkage/motion/search.py", "linkage/numeric/line.py", "linkage/numeric/box.py"}
 """The judge, and the search that it rests on, with its doors `greatest` and `lowest`."""
 
 ALLOWED = {

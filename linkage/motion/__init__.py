@@ -1,5 +1,6 @@
 """Where everything is over the stroke: positions, ratios, angles, distances."""
 
+from ..numeric import highest, last_holding
 from ..star import declare_public
 from .answer import Answer, Lost, places_text
 from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
@@ -10,7 +11,6 @@ from .grid import Grid
 from .judge import Judge, Question, case_named
 from .judging import HasVerdicts, geometry_verdicts, judge_verdicts
 from .limits import stroke_display_unit, stroke_measure, stroke_unit
-from .line import highest, last_holding
 from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst
 from .motion import Motion, OnePose, each_at_its_stroke, out_of_reach, require_motion

@@ -24,11 +24,12 @@ import numpy.typing as npt
 from ..checks import require_number
 from ..errors import DefinitionError, unknown
 from ..loads import TwoPoint
+from ..numeric import Corners, convex_pieces, crosses_itself, signed_area
 from ..plan import Plan, Reading
 from ..program import Node
 from ..quantities import Member, Reference, joined_names, name_of
 from ..steps import Link
-from ..surroundings import CircleOutline, Corners, Outline, convex_pieces, crosses_itself, numbers_at, signed_area
+from ..surroundings import CircleOutline, Outline, numbers_at
 from ..units import require_measure
 from ..vectors import Scalar, Vec, pick
 from .cuts import FAR, Pick, how_sound, triangles

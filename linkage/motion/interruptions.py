@@ -15,12 +15,12 @@ from typing import Any, final
 
 import numpy as np
 
+from ..numeric.line import last_holding
 from ..plan import Loop, Mask, Plan
 from ..program import FloatArray, Kernel, Level, RunOptions
 from ..vectors import Numbers
 from .grid import Grid
 from .limits import stroke_number, stroke_text, stroke_unit
-from .line import last_holding
 
 GRID = 128
 """Intervals of the grid; an angle has so many for each turn of it."""

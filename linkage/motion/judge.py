@@ -18,17 +18,17 @@ from ..checks import require_type
 from ..errors import DefinitionError, cited, known_name, told, unwarned, warned_once
 from ..language import said
 from ..loads import FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
+from ..numeric.box import values_a_stroke
+from ..numeric.line import SAMPLES
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
 from ..quantities import PoseCondition, Quantity, Ref, is_whole, keywords
 from ..vectors import Numbers
 from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost
-from .box import values_a_stroke
 from .evaluation import Evaluation
 from .grid import Grid, recalled
 from .kinds import check_condition, check_kinds
 from .limits import stroke_unit
-from .line import SAMPLES
 from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
 from .measures import (
     At,

@@ -15,10 +15,10 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError
+from ..numeric.descent import descended
+from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray
-from .descent import descended
-from .line import Index
 from .places import MET, SCATTERED, Places, StrokeRanges, all_known, corners_all, extremes_of_cells, held_strokes, traced_target, way_of
 from .strokes import TURN
 from .target import Target

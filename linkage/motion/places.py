@@ -18,16 +18,16 @@ from ..checks import require, require_one_design, require_type
 from ..errors import DefinitionError, cited, unwarned
 from ..frozen import FrozenDict
 from ..language import said
+from ..numeric.descent import descended
+from ..numeric.line import Index, last_holding
 from ..plan import Mask, Plan, require_kind
 from ..program import QUICKEST, FloatArray, Kernel, RunOptions
 from ..program.elimination import is_zero
 from ..units import show
-from .descent import descended
 from .grid import Grid
 from .interruptions import ON_ARRAYS
 from .kinds import measure_of
 from .limits import stroke_display_unit
-from .line import Index, last_holding
 from .measures import traced, words_of
 from .motion import Motion
 from .requests import Request

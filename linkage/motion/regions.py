@@ -19,11 +19,12 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, cited
+from ..numeric import convex_pieces, crosses_itself
 from ..plan import Plan
 from ..program import FloatArray, Node
 from ..quantities import Reference, is_number, name_of
 from ..quantities.quantity import plain
-from ..surroundings import CircleOutline, Outline, convex_pieces, crosses_itself, numbers_at
+from ..surroundings import CircleOutline, Outline, numbers_at
 from ..vectors import Scalar, Vec, pick
 from .cuts import Pick
 from .gaps import SMALLEST, square_to_edge

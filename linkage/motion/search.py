@@ -16,13 +16,13 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, told, unwarned
 from ..language import said
+from ..numeric.box import highest_in, values_a_stroke, weights_of
+from ..numeric.line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, samples, zoomed
 from ..plan import Mask
 from ..program import FloatArray
 from .answer import places_text
-from .box import highest_in, values_a_stroke, weights_of
 from .grid import JoinedTo, joined_in_order, recalled
 from .limits import place_text, stroke_unit
-from .line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, samples, zoomed
 from .motion import Motion, require_motion
 from .requests import Request, identity_of
 from .strokes import check_any

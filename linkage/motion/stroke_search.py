@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, unwarned
 from ..loads import ForceElement, TwoPoint
+from ..numeric.line import CLOSE, SAMPLES, Curve, Index, highest, last_holding, samples, sign_changes
 from ..plan import Mask, Plan, failures, missing_words, name_or_pins, opening
 from ..program import FloatArray
 from ..quantities import Distance
@@ -26,7 +27,6 @@ from .limits import (
     stroke_unit,
     where_words,
 )
-from .line import CLOSE, SAMPLES, Curve, Index, highest, last_holding, samples, sign_changes
 from .pose_requests import transmission
 from .strokes import TURN, check_any
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import fields, replace
 from functools import cached_property
-from typing import TypeAlias, TypeVar, cast, final
+from typing import Any, TypeAlias, TypeVar, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,7 +27,8 @@ from .joints import Structure
 from .poses import AnyMotion, FlatPoses
 from .solution import Equilibrium
 
-Read, Made = TypeVar("Read"), TypeVar("Made")
+Read = TypeVar("Read")
+Made = TypeVar("Made")
 
 
 def traced_apart(plan: Plan, read: Callable[[TracedMotion], Read]) -> Read:
@@ -106,8 +107,10 @@ class TracedMotion(OnePose):
                 self._told, notes.owner = before, owner
             kept[key] = made, told, last
         made, told, last = cast("tuple[Made, Told, str]", kept[key])
-        for mine, more in zip(self._told, told, strict=True):
-            mine.update(more if isinstance(more, set) else {node: name or notes.owner for node, name in more.items()})
+        self.read |= told[0]
+        self.through |= told[1]
+        for mine, more in zip(self._told[2:], told[2:], strict=True):
+            mine.update({node: name or notes.owner for node, name in more.items()})
         notes.owner = last or notes.owner
         return cast(Made, self._own(made))
 
@@ -129,7 +132,8 @@ class TracedMotion(OnePose):
         if isinstance(made, (tuple, list)):
             return type(made)(map(self._own, made))
         if isinstance(made, Levers | AppliedLoads | AppliedLoad | AppliedThrust):
-            return replace(made, **{each.name: self._own(getattr(made, each.name)) for each in fields(made)})
+            own: dict[str, Any] = {each.name: self._own(getattr(made, each.name)) for each in fields(made)}
+            return replace(made, **own)
         return made
 
     # -- numbers ---------------------------------------------------------------------------------------------

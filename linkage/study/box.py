@@ -12,7 +12,7 @@ import numpy as np
 from ..checks import require, require_whole
 from ..errors import DefinitionError, cited, one_word, unknown
 from ..mechanism import Mechanism
-from ..motion.line import Index
+from ..numeric.line import Index
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number

@@ -13,8 +13,8 @@ from typing import final
 
 import numpy as np
 
-from ..motion.line import Index
 from ..motion.many_places import EDGE, PlacePoses
+from ..numeric.line import Index
 from ..plan import Mask
 from ..program import FloatArray
 

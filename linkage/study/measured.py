@@ -15,9 +15,9 @@ from ..errors import AssemblyError, DefinitionError, UntracedError, cited, told,
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, at_values, each_at_its_stroke, evaluate_grid, stroke_display_unit
 from ..motion.grid import JoinedTo
-from ..motion.line import Index
 from ..motion.measures import At, Integral, Leaf, Least, Measure, Worst, strokes_behind, traced, words_of
 from ..motion.quadrature import PANELS, gauss, quadrature
+from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import Quantity

@@ -14,8 +14,8 @@ from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import Request
 from ..motion.kinds import measure_of
-from ..motion.line import Index
 from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of
+from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import is_number

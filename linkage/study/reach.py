@@ -10,8 +10,8 @@ from typing import TypeAlias, final
 import numpy as np
 
 from ..frozen import frozen
-from ..motion.line import Index
 from ..motion.many_places import ManyPlaces, PlacePoses
+from ..numeric.line import Index
 from ..plan import Mask
 from ..program import FloatArray
 

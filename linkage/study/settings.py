@@ -14,10 +14,10 @@ from ..language import said
 from ..mechanism import Mechanism
 from ..motion import Target, last_holding
 from ..motion.grid import recalled
-from ..motion.line import Curve, highest_between, sign_changes
 from ..motion.measures import words_of
 from ..motion.requests import identity_of
 from ..motion.target import is_one
+from ..numeric.line import Curve, highest_between, sign_changes
 from ..plan import Mask
 from ..program import FloatArray
 from ..units import show, unit_or_none

@@ -13,9 +13,9 @@ from ..errors import DefinitionError, cited, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import Motion, Request, Target, stroke_display_unit
-from ..motion.descent import descended
-from ..motion.line import Index
 from ..motion.requests import dimensions_of, slopes_of
+from ..numeric.descent import descended
+from ..numeric.line import Index
 from ..plan import Mask
 from ..program import FloatArray, RunOptions
 from ..units import show

@@ -23,13 +23,13 @@ from ..language import heading_of, noted, said
 from ..loads import Case, ForceElement, Weight
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over, Target
-from ..motion.descent import descended
 from ..motion.judge import Domain
-from ..motion.line import Index
 from ..motion.many_places import EDGE, ManyPlaces, PlacePoses, solved_systems
 from ..motion.measures import words_of
 from ..motion.places import DECLARED, StrokeRanges
 from ..motion.planes import Planes, clearance, pairs_of
+from ..numeric.descent import descended
+from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray
 from ..quantities import PoseCondition, Quantity, Reference, is_number, name_of, quantity, real

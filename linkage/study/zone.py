@@ -14,9 +14,9 @@ from ..errors import DefinitionError, SingularWarning
 from ..frozen import refuses_changes
 from ..mechanism import Mechanism
 from ..motion import Motion, at_values, highest, out_of_reach
-from ..motion.box import highest_in
-from ..motion.line import Index
 from ..motion.measures import words_of
+from ..numeric.box import highest_in
+from ..numeric.line import Index
 from ..plan import Mask
 from ..program import FloatArray
 from .box import Box, setting_words

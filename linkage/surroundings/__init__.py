@@ -1,7 +1,6 @@
 """What stands around a mechanism and is only drawn: a wheel, the ground, a bucket, a photograph."""
 
 from ..star import declare_public
-from .convex import Corners, convex_pieces, crosses_itself, signed_area
 from .outline import CircleOutline as CircleOutline
 from .outline import Corner as Corner
 from .outline import DxfOutline as DxfOutline

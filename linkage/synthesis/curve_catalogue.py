@@ -15,8 +15,8 @@ from ..checks import require_whole
 from ..errors import DefinitionError, cited
 from ..language import said
 from ..mechanism import Mechanism
-from ..motion.line import Index
 from ..motion.measures import Given
+from ..numeric.line import Index
 from ..program import FloatArray
 from ..quantities import is_whole
 from ..shown import Shown

@@ -10,9 +10,9 @@ import numpy as np
 
 from ..errors import unwarned
 from ..motion import Grid, Request, stroke_display_unit
-from ..motion.descent import BEGIN, descended
-from ..motion.line import Index
 from ..motion.requests import slope
+from ..numeric.descent import BEGIN, descended
+from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, RunOptions
 from ..study.measured import traced_number

@@ -13,7 +13,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..motion.line import Index
+from ..numeric.line import Index
 from ..plan import plan_measure
 from ..program import FloatArray
 from .closed_curves import ClosedCurves, drawn_curve, laid_onto

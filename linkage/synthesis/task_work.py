@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import LinkageError
 from ..mechanism import Mechanism
-from ..motion.descent import BEGIN
+from ..numeric.descent import BEGIN
 from ..plan import Mask
 from ..program import FloatArray
 from ..study.checkpoint import Checkpoint

@@ -32,7 +32,7 @@ from linkage.files import load, to_toml
 from linkage.motion.cuts import triangles
 from linkage.motion.gaps import nearest_places
 from linkage.motion.planes import pairs_of
-from linkage.surroundings import convex_pieces, crosses_itself
+from linkage.numeric import convex_pieces, crosses_itself
 from linkage.vectors import Vec, pick
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkage.motion.box import SIDES
+from linkage.numeric.box import SIDES
 from linkage.program import FloatArray
 
 Of = Callable[[FloatArray], FloatArray]

@@ -21,8 +21,7 @@ from typing import TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
-from ..plan import Mask
-from ..program import FloatArray
+from ..vectors import FloatArray, Mask
 
 Index: TypeAlias = npt.NDArray[np.intp]
 Look: TypeAlias = Callable[[Index, FloatArray], tuple[FloatArray, Mask]]

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from linkage.motion import highest
-from linkage.motion.box import highest_in
+from linkage.numeric.box import highest_in
 from tests.for_all import for_all
-from tests.linkage.motion.box_cases import InUnitBox, case, waves
+from tests.linkage.numeric.box_cases import InUnitBox, case, waves
 
 LOTS = [range(first, first + 20) for first in range(0, 60, 20)]  # a test each: none takes long
 ALL = range(60, 10_200)

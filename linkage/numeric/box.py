@@ -19,8 +19,7 @@ from typing import Protocol, Self, final
 
 import numpy as np
 
-from ..plan import Mask
-from ..program import FloatArray
+from ..vectors import FloatArray, Mask
 from .line import CLOSE, LOWEST, Index, is_pole, last_holding, missing_lowest
 
 SIDES = {2: 129, 3: 33, 4: 13, 5: 8, 6: 6}  # values a stroke, by the number of strokes

@@ -8,8 +8,7 @@ from typing import TypeAlias, final
 
 import numpy as np
 
-from ..plan import Mask
-from ..program import FloatArray
+from ..vectors import FloatArray, Mask
 from .line import Index
 
 BEGIN = 1e-3

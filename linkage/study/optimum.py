@@ -18,8 +18,8 @@ from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError
 from ..mechanism import Mechanism
 from ..motion.kinds import measure_of, measure_unit
-from ..motion.line import Index
 from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, Worst
+from ..numeric.line import Index
 from ..plan import Plan
 from ..program import FloatArray
 from ..shown import Shown

@@ -102,10 +102,8 @@ def held_in_case(motion: Anywhere, acting: Acting | None) -> Anywhere:
     """Return a motion as it is in a load case, for forces; DefinitionError where bodies are loose there or closed lines lock it."""
     found = motion_in_case(motion, acting)
     refuse_loose(found.plan)
-    if not isinstance(found, Motion):
-        check_kept(found)
-    elif any(not tie.gives for tie in closed_ties(found.plan)):
-        found._once(("kept",), lambda: check_kept(sampled(found.plan, found.designs)))
+    if any(not tie.gives for tie in closed_ties(found.plan)):
+        found._once(("kept",), lambda: check_kept(sampled(found.plan, found.designs) if isinstance(found, Motion) else found))
     return found
 
 

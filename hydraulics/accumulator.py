@@ -22,6 +22,7 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkage.checks import require_type
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import keep_own, refuses_changes
 from linkage.language import said
@@ -201,15 +202,13 @@ class AccumulatorBlock:
     argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"accumulators": (Accumulator,), "gas": GasLaw()})
 
     def __post_init__(self) -> None:
-        if not isinstance(self.accumulators, (list, tuple)):
-            raise DefinitionError(f"{cited(self.accumulators)} is no list of accumulators; write AccumulatorBlock([Accumulator(...)]).")
+        require_type("", self.accumulators, (list, tuple), "is no list of accumulators; write AccumulatorBlock([Accumulator(...)])")
         object.__setattr__(self, "accumulators", tuple(self.accumulators))
         keep_own(self)
         if not self.accumulators:
             raise DefinitionError("The accumulator block is empty; give it at least one Accumulator(volume, charge).")
         for one in self.accumulators:
-            if not isinstance(one, Accumulator):
-                raise DefinitionError(f"{cited(one)} is no Accumulator; write Accumulator(volume, charge).")
+            require_type("", one, Accumulator, "is no Accumulator; write Accumulator(volume, charge)")
         if not isinstance(self.gas, Gas):
             raise DefinitionError(f"gas = {cited(self.gas)} is no gas law; take isothermal, adiabatic, polytropic(1.2) or real_nitrogen().")
         unit_or_none(self.unit, "The accumulator block", units_of("pressure"))

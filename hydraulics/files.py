@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import singledispatch
 from typing import Any, final
 
+from linkage.checks import require
 from linkage.errors import DefinitionError, cited, known_name, unknown
 from linkage.quantities import Number, is_number
 from linkage.quantities.quantity import plain
@@ -27,8 +28,7 @@ EXAMPLE = '"isothermal" or { law = "polytropic", n = 1.2 }'
 def gas_of(given: Any, number: Callable[[Any], float]) -> Gas:
     """Return the gas law that a word or a table says; `number` reads a number of it."""
     table = {"law": given} if isinstance(given, str) else given
-    if not isinstance(table, Mapping) or not isinstance(table.get("law"), str):
-        raise DefinitionError(f"{cited(given)} is no gas law; write {EXAMPLE}.")
+    require(isinstance(table, Mapping) and isinstance(table.get("law"), str), "", given, f"is no gas law; write {EXAMPLE}")
     name = table["law"]
     known_name("Gas law", name, LAWS)
     make, keys = LAWS[name]

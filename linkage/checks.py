@@ -29,8 +29,9 @@ def is_whole(value: object) -> TypeGuard[int]:
 
 
 def refused(what: str, value: object, expected: str) -> DefinitionError:
-    """Return the error for a value: `count=0: a number above zero is expected.`; `gap(width` is closed behind the value."""
-    return DefinitionError(f"{what}={cited(value)}{')' * (what.count('(') - what.count(')'))}: {expected}.")
+    """Return the error for a value: `count=0: a number is expected.`, `scale=0 is no size.`; `gap(width` is closed behind the value."""
+    given = f"{what}={cited(value)}{')' * (what.count('(') - what.count(')'))}" if what else cited(value)
+    return DefinitionError(f"{given}{' ' if expected.startswith('is ') else ': '}{expected}.")
 
 
 def require(holds: object, what: str, value: object, expected: str) -> None:

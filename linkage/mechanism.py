@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies, width_words
-from .checks import require_one_design
+from .checks import require, require_one_design, require_type
 from .errors import DefinitionError, cited, is_yes, known_name, told, unknown
 from .frozen import FrozenDict
 from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
@@ -606,8 +606,7 @@ def idle_stroke(plan: Plan, stroke: str) -> DefinitionError:
 
 def check_bindable(name: str, what: str) -> None:
     """Raise DefinitionError for the name of a class or a member that no line of Python could give it, as type(...) takes any text."""
-    if not is_name(name):
-        raise DefinitionError(f"{cited(name)} is no name for a {what}: letters, digits and _, no digit first, no word of Python.")
+    require(is_name(name), "", name, f"is no name for a {what}: letters, digits and _, no digit first, no word of Python")
 
 
 def check_no_member(title: str, name: str, value: object) -> None:
@@ -636,5 +635,4 @@ def require_mechanism(given: object) -> None:
     """Raise DefinitionError for anything but a design of a mechanism."""
     if isinstance(given, type) and issubclass(given, Mechanism):
         raise DefinitionError(f"{given.__name__} is a class, the structure; give a design of it, {given.__name__}().")
-    if not isinstance(given, Mechanism):
-        raise DefinitionError(f"{cited(given)} is no mechanism; give a design such as FourBar().")
+    require_type("", given, Mechanism, "is no mechanism; give a design such as FourBar()")

@@ -8,6 +8,7 @@ from math import pi
 from types import MappingProxyType
 from typing import ClassVar, final
 
+from ..checks import require_number, require_type
 from ..errors import DefinitionError, cited, known_name, unknown
 from ..frozen import keep_own, refuses_changes
 from ..quantities import Member, Reference, in_degrees, is_number, name_of
@@ -48,8 +49,7 @@ class LoadCase(Member):
         check_words(self.title, self.scale, self.only, self.shut)
         keep_own(self)
         for name, value in {**self.scale, "slope": self.slope}.items():
-            if not is_number(value):
-                raise DefinitionError(f"LoadCase({self.title!r}): {name}={cited(value)} is not a finite number.")
+            require_number(f"LoadCase({self.title!r}): {name}", value, "is not a finite number")
             require_measure(value, "deg" if name == "slope" else "", f"LoadCase({self.title!r}): {name}")
         if abs(self.slope) > STEEPEST:
             said = f"slope={plain(self.slope)!r} rad is {self.slope / deg:.4g} deg, steeper than a wall"
@@ -145,8 +145,7 @@ def check_words(title: object, scale: object, only: object, shut: object) -> Non
         raise DefinitionError(f"{opening}: only={only!r} is not a list of loads; write [{only!r}].")
     if only is not None and not isinstance(only, (list, tuple)):
         raise DefinitionError(f'{opening}: only={cited(only)} is not a list of loads; write their names, only=["load"].')
-    if not isinstance(shut, (list, tuple)):
-        raise DefinitionError(f'{opening}: shut={cited(shut)} is not a list of lines; write their names, shut=["line"].')
+    require_type(f"{opening}: shut", shut, (list, tuple), 'is not a list of lines; write their names, shut=["line"]')
     for each in (*scale, *(only or ()), *shut):
         if not isinstance(each, (str, Member)):
             raise DefinitionError(f"{opening}: {cited(each)} is neither a load nor the name of one.")

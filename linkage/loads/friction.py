@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import ClassVar, final
 
-from ..errors import DefinitionError, cited
+from ..checks import require_type
+from ..errors import DefinitionError
 from ..frozen import refuses_changes
 from ..quantities import Member, Reference, is_number, label, name_of
 from .element import ForceElement, Friction, Load, Parameter, Poses
@@ -66,8 +67,7 @@ class GuideFriction(ForceElement):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not isinstance(self.guide, (str, Member)):
-            raise DefinitionError(f"GuideFriction: guide={cited(self.guide)} is neither a guide nor the name of one.")
+        require_type("GuideFriction: guide", self.guide, (str, Member), "is neither a guide nor the name of one")
 
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), *([self.guide] if self.guide != "" else []))

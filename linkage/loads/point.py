@@ -10,6 +10,7 @@ from typing import ClassVar, TypeAlias, final
 
 import numpy as np
 
+from ..checks import require
 from ..errors import DefinitionError, cited, unknown
 from ..frozen import refuses_changes, unmasked
 from ..quantities import Axes, Member, Reference, is_number, label, name_of, real
@@ -56,8 +57,7 @@ def gravity_vector(given: object, what: str) -> tuple[float, float]:
     if is_number(given):
         raise DefinitionError(f"{what}: gravity={given!r} has no direction; write the vector gravity=(0, {-abs(plain(given))!r}).")
     x, y = (plain(part) for part in two_parts(given, f"{what}(gravity=...)"))
-    if not (is_number(x) and is_number(y)):
-        raise DefinitionError(f"{what}: gravity={cited(given)} is not two finite numbers; write (x, y) in m/s2, such as (0, -9.81).")
+    require(is_number(x) and is_number(y), f"{what}: gravity", given, "is not two finite numbers; write (x, y) in m/s2, such as (0, -9.81)")
     return x, y
 
 

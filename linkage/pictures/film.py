@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 from PIL import Image
 
+from ..checks import require_type
 from ..disk import check_place, replacing, spoken
 from ..errors import DefinitionError, FileError, LinkageError, cited
 from ..language import said
@@ -66,8 +67,7 @@ def animate(
     if isinstance(machine, Motion):
         machine, at = played_along(machine, at)
     require_mechanism(machine)
-    if not isinstance(path, (str, os.PathLike)):
-        raise DefinitionError(f"{cited(path)} is no path of a file; give one that ends in .gif, .mp4 or .html.")
+    require_type("", path, (str, os.PathLike), "is no path of a file; give one that ends in .gif, .mp4 or .html")
     if progress is not None and (not callable(progress) or isinstance(progress, type)):
         raise DefinitionError(f"progress={cited(progress)} is no function; give one of (done, total).")
     target, poses = Path(path), frame_count(count)

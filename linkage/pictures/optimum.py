@@ -14,8 +14,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-from ..checks import require_whole
-from ..errors import DefinitionError, cited
+from ..checks import require_type, require_whole
+from ..errors import DefinitionError
 from ..motion import Column, Motion, stroke_display_unit
 from ..motion.measures import At, Leaf, Measure, words_of
 from ..program import FloatArray
@@ -66,8 +66,7 @@ def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
 
 def require_optimum(optimum: object) -> None:
     """Raise DefinitionError for anything but an optimum."""
-    if not isinstance(optimum, Optimum):
-        raise DefinitionError(f"{cited(optimum)} is no result of a search; give what optimise(...) returns.")
+    require_type("", optimum, Optimum, "is no result of a search; give what optimise(...) returns")
 
 
 def overlaid(ax: Axes, before: Motion, after: Motion, pose: int) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..errors import DefinitionError, cited
+from ..checks import require_type
 from ..mechanism import Mechanism
 from ..motion import Column
 from ..study import Zone
@@ -19,8 +19,7 @@ def plot_zone(machine: Mechanism, found: Zone, unit: str = "") -> Figure:
 
     `unit` is the one that the quantity is shown in. Raises DefinitionError for strokes that are no row.
     """
-    if not isinstance(found, Zone):
-        raise DefinitionError(f"{cited(found)} is no zone; give the result of zone(...).")
+    require_type("", found, Zone, "is no zone; give the result of zone(...)")
     motion = machine.at(unreachable="nan", **found.strokes)
     along = StrokeAxis.of(motion)
     figure, (ax,) = panel_grid(1, machine.plan.heading, along.held)

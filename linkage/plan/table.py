@@ -165,8 +165,7 @@ def value_in_range(entry: DesignVariable, value: Numbers) -> Numbers:
     if low <= value <= high if type(value) is float else np.all((np.asarray(value) >= low) & (np.asarray(value) <= high)):
         return value
     values = np.ravel(value)
-    if not np.all(np.isfinite(values)):
-        raise DefinitionError(f"{entry.where}: {entry.name}={value!r} is not a finite number; give a value in SI.")
+    require(np.all(np.isfinite(values)), f"{entry.where}: {entry.name}", value, "is not a finite number; give a value in SI")
     least, far = float(values.min()), float(values[np.argmax(np.abs(values))])
     if entry.kind == "not negative":
         raise DefinitionError(f"{entry.where}: {entry.name}={least:.6g} is negative; give zero or more.")

@@ -8,6 +8,7 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..checks import require
 from ..errors import DefinitionError, known_name
 from ..loads import Acting, ActingKeywords, Loads, Support, situation_of, takes_situation
 from ..motion import Motion, require_motion
@@ -106,8 +107,7 @@ def known_force(motion: Motion, drive_force: ArrayLike) -> FloatArray:
     except ValueError:
         what = f"a number or an array that fits the poses {motion.shape} is expected"
         raise DefinitionError(f"drive_force={drive_force!r}: {what}.") from None
-    if not np.all(np.isfinite(known[motion.reached])):
-        raise DefinitionError(f"drive_force={drive_force!r} is not finite at every pose; give numbers in N or Nm.")
+    require(np.all(np.isfinite(known[motion.reached])), "drive_force", drive_force, "is not finite at every pose; give numbers in N or Nm")
     return known
 
 

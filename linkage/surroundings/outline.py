@@ -16,6 +16,7 @@ from typing import Any, ClassVar, Self, TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
+from ..checks import require_number, require_type
 from ..errors import DefinitionError, FileError, cited, is_yes
 from ..quantities import (
     Axes,
@@ -288,10 +289,8 @@ class DxfOutline(PlacedFile):
         scale: float = 1e-3, layers: Sequence[str] = (), filled: bool = False,
     ) -> None:  # fmt: skip
         self._place(path, on, at, angle)
-        if not is_number(scale) or not scale > 0.0:
-            raise DefinitionError(f"Outline.dxf: scale={cited(scale)} is no size; give metres per unit of the drawing, 1e-3 for mm.")
-        if not isinstance(layers, (list, tuple)) or not all(isinstance(each, str) for each in layers):
-            raise DefinitionError(f'Outline.dxf: layers={cited(layers)} is no list of layers; write layers=["0"].')
+        require_number("Outline.dxf: scale", scale, "is no size; give metres per unit of the drawing, 1e-3 for mm", above=0.0)
+        require_type("Outline.dxf: layers", layers, (list, tuple), 'is no list of layers; write layers=["0"]', of=str)
         self.scale, self.layers = float(scale), tuple(layers)
         self.closed, self.filled, self.hatched = False, is_yes("Outline.dxf: filled", filled), False
 
@@ -319,8 +318,7 @@ class ImageOutline(PlacedFile):
     ) -> None:  # fmt: skip
         self._place(path, on, at, angle)
         self.width = length_above_zero(width, "Outline.image(width=...)")
-        if not is_number(opacity) or not 0.0 < opacity <= 1.0:
-            raise DefinitionError(f"Outline.image: opacity={cited(opacity)} is not above 0 and at most 1.")
+        require_number("Outline.image: opacity", opacity, "is not above 0 and at most 1", above=0.0, most=1.0)
         self.opacity = float(opacity)
         self.closed, self.filled, self.hatched = True, False, False
 

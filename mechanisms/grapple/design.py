@@ -14,7 +14,8 @@ from typing import Any, final
 import numpy as np
 
 from hydraulics import reserve
-from linkage import DefinitionError, StudyError, at, least, most, optimise, ratio, ref, x, y
+from linkage import StudyError, at, least, most, optimise, ratio, ref, x, y
+from linkage.checks import require_type
 from linkage.errors import one_word
 from linkage.frozen import refuses_changes
 from linkage.motion import Request
@@ -137,8 +138,7 @@ def design(duty: Duty, objective: str = "even", combinations: Sequence[Combinati
 
 def searched(duty: Duty, machine: Grapple, objective: str, start: Combination) -> Optimum:
     """Return the optimum of one combination, from its best design on the grid."""
-    if not isinstance(start, Combination):
-        raise DefinitionError(f"{start!r} is no combination; give some of feasible(duty).")
+    require_type("", start, Combination, "is no combination; give some of feasible(duty)")
     begun = machine.replaced(bore=start.bore, rod=start.rod, S=start.S, side_E=start.side_E, rho=start.rho)
     greatest, arm = most(share_of()), at(abs(ratio("EC")), theta=0.0)
     least_rho = max(start.low - ROOM, shortest(machine, start.S) + PLACES[0])

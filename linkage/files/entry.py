@@ -18,7 +18,7 @@ from ..quantities import Member
 from ..quantities.member import KEPT_AS, annotated_kind, kinds_said
 from ..steps import Point, Step
 from .design import Design
-from .names import NAME_LENGTH, Names, shortened
+from .names import NAME_LENGTH, Names, entry_as, shortened
 from .source import Mistakes, each_of
 from .validators import KINDS, Kind, amount, kind_named, number_of, quantity_of
 
@@ -278,8 +278,7 @@ class FileEntry:
 
     def read(self, given: object, names: Names) -> Member:
         """Return the member that an entry says; DefinitionError, with all mistakes by their keys, for what cannot be."""
-        if not isinstance(given, Mapping):
-            raise DefinitionError(f"{shortened(given)} is not a table {{ key = value }} with the keys {', '.join(self.keys)}.")
+        given = entry_as(given, Mapping, f"is not a table {{ key = value }} with the keys {', '.join(self.keys)}")
         mistakes = Mistakes()
         labels = self._labels(given)
         parents: Iterable[Any] = ()

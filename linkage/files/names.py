@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NoReturn, final
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, cast, final
 from unicodedata import normalize
 
 from ..errors import DefinitionError, unknown
@@ -12,6 +12,8 @@ from ..quantities import Member, Quantity, Ref, is_name
 
 if TYPE_CHECKING:
     from ..mechanism import Mechanism
+
+Kind = TypeVar("Kind")
 
 NAME_LENGTH = 60
 DEEPEST_NAME = 12
@@ -88,6 +90,18 @@ def member_name(name: object) -> str:
     if name.startswith("__") or len(name) > NAME_LENGTH:
         raise DefinitionError(f"{shortened(name)} cannot be a name here: up to {NAME_LENGTH} characters, no double _ at the start.")
     return name
+
+
+def entry_as(given: object, kind: type[Kind] | tuple[type[Kind], ...], expected: str) -> Kind:
+    """Return what a file says where it is of a kind; DefinitionError for anything else, in the words of `require_entry`."""
+    require_entry(isinstance(given, kind), given, expected)
+    return cast(Kind, given)
+
+
+def require_entry(holds: object, given: object, expected: str) -> None:
+    """Refuse what a file says where something does not hold of it: `"S": a list is expected.`, `"S" is no list.`"""
+    if not holds:
+        raise DefinitionError(f"{shortened(given)}{' ' if expected.startswith('is ') else ': '}{expected}.")
 
 
 def shortened(value: object, quote: bool = True) -> str:

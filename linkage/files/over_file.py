@@ -11,7 +11,7 @@ from ..motion import OPTIONS, Over, stroke_unit
 from ..quantities import Number, PoseCondition, Quantity, is_number, quantity
 from .design import Design, degrees_text
 from .expression import expression
-from .names import Names, by_whole_names, shortened
+from .names import Names, by_whole_names, entry_as, shortened
 from .validators import amount_of
 
 SHAPES = ("path", "poses")
@@ -21,8 +21,7 @@ _COMPARED = re.compile(r"([^<>=!]+)(<=|>=)([^<>=!]+)")
 
 def over_read(given: object, names: Names) -> Over:
     """Return where is looked, as a table says it; DefinitionError, with the key, for what it is not."""
-    if not isinstance(given, Mapping):
-        raise DefinitionError(f'{shortened(given)} is not a table of strokes, such as {{ phi = ["15 deg", "80 deg"], t = 0.0 }}.')
+    given = entry_as(given, Mapping, 'is not a table of strokes, such as { phi = ["15 deg", "80 deg"], t = 0.0 }')
     given, known = dict(by_whole_names(given)), names.strokes
     shapes = [word for word in SHAPES if isinstance(given.get(word), bool)]
     for key in given:

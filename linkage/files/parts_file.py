@@ -17,7 +17,7 @@ from ..plan import Part
 from ..quantities import Member, Number, label, name_of, quantity
 from ..steps import Point
 from .design import Design, degrees_text
-from .names import Names, by_whole_names, shortened
+from .names import Names, by_whole_names, entry_as, shortened
 from .validators import coordinates_of, points_of, quantity_of, switch_of
 
 OWN_KEYS = {"on": points_of, "at": coordinates_of, "angle": quantity_of, "mirrored": switch_of}
@@ -27,8 +27,7 @@ FILES = (".toml", ".json")
 
 def machine_named(given: object, names: Names) -> type[Mechanism]:
     """Return the class that a part's `machine` names: one of the file, one that is installed, or that of a file beside this one."""
-    if not isinstance(given, str):
-        raise DefinitionError(f'{shortened(given)} is no machine; write machine = "Arm", of [machines.Arm...] or an installed one.')
+    given = entry_as(given, str, 'is no machine; write machine = "Arm", of [machines.Arm...] or an installed one')
     if given in names.machines:
         return names.machines[given]
     if given.endswith(FILES):

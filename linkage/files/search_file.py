@@ -30,7 +30,7 @@ from ..study.space import size_of_machine
 from ..study.survey import Progress
 from ..surroundings import Outline
 from .criterion import condition_said, measure_said
-from .names import shortened
+from .names import entry_as, require_entry, shortened
 from .source import each_of
 from .study_file import (
     PICTURE_SUFFIXES,
@@ -123,15 +123,13 @@ def objectives_said(head: StudyHead, given: object) -> list[Any]:
 
 def conditions_said(head: StudyHead, given: object) -> list[Any]:
     """Return the conditions of a list of texts; SeveralError with all mistakes, each under its number."""
-    if not isinstance(given, (str, list)):
-        raise DefinitionError(f'{shortened(given)}: a list of conditions is expected, such as ["most(tilt) <= 8 deg"].')
+    given = entry_as(given, (str, list), 'a list of conditions is expected, such as ["most(tilt) <= 8 deg"]')
     return texts_said(given, lambda text: condition_said(text, head.machine, head.found["over"]))
 
 
 def regions_said(head: StudyHead, given: object) -> dict[str, Any]:
     """Return the regions of points as `optimise` takes them; SeveralError with all mistakes, each under its point."""
-    if not isinstance(given, Mapping):
-        raise DefinitionError(f'{shortened(given)}: a region for each point is expected, such as regions = {{ C = "plate" }}.')
+    given = entry_as(given, Mapping, 'a region for each point is expected, such as regions = { C = "plate" }')
 
     def region_said(point: str, shapes: object) -> tuple[str, Any]:
         region = shape_said(shapes)
@@ -172,8 +170,7 @@ def rounding_said(head: StudyHead, given: object) -> dict[str, float] | None:
         if step not in ROUND_KEYS:
             raise DefinitionError(f'{step} is no step; write round = {{ to = "1 mm", angle = "0.1 deg" }}.')
         found[step] = amount_said(value, ROUND_KEYS[step])
-        if found[step] <= 0.0:
-            raise DefinitionError(f"{shortened(value)}: a step above zero is expected.")
+        require_entry(found[step] > 0.0, value, "a step above zero is expected")
         if step == "to" and found[step] > COARSEST * size_of_machine(head.machine):
             raise DefinitionError(f'{shortened(value)} is as coarse as the machine; write it with its unit, "1 mm".')
     return found

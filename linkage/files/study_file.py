@@ -32,7 +32,7 @@ from ..study.space import Space, around, known_dimension
 from ..study.tolerances import Tolerance, tolerances_of
 from ..units import parse, parse_span
 from .criterion import criterion_of
-from .names import by_whole_names, shortened
+from .names import by_whole_names, entry_as, require_entry, shortened
 from .source import TEXT, Faults, Mistakes, each_of, source
 
 FindMachine: TypeAlias = Callable[[str, Path], type[Mechanism]]
@@ -136,9 +136,9 @@ def annotated_readers(function: Callable[..., Any]) -> dict[str, tuple[Any, ...]
 
 def file_path(head: StudyHead, given: object) -> Path:
     """Return a path as it is meant: relative to the file's own folder. DefinitionError for anything else."""
-    if not isinstance(given, str) or not given.strip():
-        raise DefinitionError(f"{shortened(given)} is no path in quotes.")
-    return head.base / given
+    text = entry_as(given, str, "is no path in quotes")
+    require_entry(text.strip(), given, "is no path in quotes")
+    return head.base / text
 
 
 def machine_said(given: object, faults: Faults, find: FindMachine, base: Path) -> type[Mechanism] | None:
@@ -193,8 +193,7 @@ def value_said(given: object, plan: Plan, name: str) -> Any:
         if name in plan.table.spellings or len(given) != 2:
             raise DefinitionError(f"{shortened(given)}: {'one value' if name in plan.table.spellings else 'two coordinates'} expected.")
         return tuple(amount_said(each, measures) for each in given)
-    if f"{name}.x" in plan.table.spellings:
-        raise DefinitionError(f'{shortened(given)}: {name} is a point; write its two coordinates, ["220 mm", "950 mm"].')
+    require_entry(f"{name}.x" not in plan.table.spellings, given, f'{name} is a point; write its two coordinates, ["220 mm", "950 mm"]')
     return amount_said(given, measures)
 
 
@@ -235,8 +234,7 @@ def range_said(given: object, plan: Plan, name: str) -> Any:
         step = near.group("step")
         return around(parse(near.group("by"), measures), None if step is None else parse(step, measures))
     ends = parse_span(text, measures)
-    if ends is None:
-        raise DefinitionError(f"{shortened(given)} is no range; write {RANGE_WORDS}.")
+    require_entry(ends is not None, given, f"is no range; write {RANGE_WORDS}")
     return ends
 
 
@@ -257,12 +255,11 @@ def range_of_table(given: Mapping[str, object], plan: Plan, name: str, measures:
 
 def rows_said(given: object, plan: Plan, names: Sequence[str]) -> list[Any]:
     """Return the rows of a catalogue, each with a value for each of some names."""
-    if not isinstance(given, list):
-        raise DefinitionError(f"{shortened(given)}: rows are expected, a list [...] with {len(names)} values each.")
+    given = entry_as(given, list, f"rows are expected, a list [...] with {len(names)} values each")
     rows = []
     for row in given:
-        if not isinstance(row, list) or len(row) != len(names):
-            raise DefinitionError(f"{shortened(row)} is no row of {', '.join(names)}; it has a value for each of them.")
+        no_row = f"is no row of {', '.join(names)}; it has a value for each of them"
+        require_entry(len(entry_as(row, list, no_row)) == len(names), row, no_row)
         pairs = zip(names, row, strict=True)
         rows.append([value if is_side(name) else amount_said(value, measure_of_name(plan, name)) for name, value in pairs])
     return rows
@@ -304,8 +301,7 @@ def tolerance_said(given: object, measures: str) -> Tolerance:
 def limits_said(given: object, measures: str) -> float | tuple[float, float]:
     """Return how far a dimension may lie from its value [SI]: to either side, or its two limits."""
     if isinstance(given, list):
-        if len(given) != 2:
-            raise DefinitionError(f'{shortened(given)}: two limits are expected, such as ["-0.1 mm", "0.2 mm"].')
+        require_entry(len(given) == 2, given, 'two limits are expected, such as ["-0.1 mm", "0.2 mm"]')
         return amount_said(given[0], measures), amount_said(given[1], measures)
     return amount_said(given.strip().removeprefix("+-").removeprefix("±") if isinstance(given, str) else given, measures)
 
@@ -349,12 +345,10 @@ def part_said(head: StudyHead, stroke: str, given: object) -> Any:
             raise DefinitionError(f'{shortened(dict(given))}: write {{ from = "0 mm", to = "200 mm" }}.')
         given = [given["from"], given["to"]]
     if isinstance(given, (list, tuple)):
-        if len(given) != 2:
-            raise DefinitionError(f"{shortened(given)}: two ends are expected.")
+        require_entry(len(given) == 2, given, "two ends are expected")
         return tuple(end_said(head, each, measures) for each in given)
     span = parse_span(given, measures) if isinstance(given, str) else None
-    if span is not None and len(span) == 3:
-        raise DefinitionError(f"{shortened(given)}: a search looks at the whole of a stroke, not at steps of it.")
+    require_entry(span is None or len(span) != 3, given, "a search looks at the whole of a stroke, not at steps of it")
     return amount_said(given, measures) if span is None else span
 
 
@@ -379,8 +373,7 @@ def whole_number(least: int) -> Read:
     """Return what reads a whole number of at least so much."""
 
     def read(head: StudyHead, given: Any) -> int:
-        if not is_whole(given) or given < least:
-            raise DefinitionError(f"{shortened(given)}: a whole number is expected, at least {least}.")
+        require_entry(is_whole(given) and given >= least, given, f"a whole number is expected, at least {least}")
         return int(given)
 
     return read
@@ -407,8 +400,7 @@ def outputs_said(head: StudyHead, kinds: Mapping[str, Sequence[str]]) -> dict[st
     found: dict[str, tuple[Path, ...]] = {}
     with head.faults.at("outputs"):
         given = head.data.get("outputs", {})
-        if not isinstance(given, Mapping):
-            raise DefinitionError(f"{shortened(given)}: a table is expected, such as [outputs] {next(iter(kinds))} = ...")
+        given = entry_as(given, Mapping, f"a table is expected, such as [outputs] {next(iter(kinds))} = ..")
         paths = each_of(given.items(), lambda name, value: output_paths(head, value, kinds[known_name("Output", name, kinds)]))
         found = dict(zip(given, paths, strict=True))
     return found

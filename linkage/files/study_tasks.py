@@ -43,7 +43,7 @@ from ..study.space import Around, coordinates
 from ..study.survey import Progress
 from ..units import display_unit, parse_span, show
 from .criterion import condition_said, criterion_of, measure_said, quantity_said
-from .names import by_whole_names, shortened
+from .names import by_whole_names, entry_as, shortened
 from .source import each_of
 from .study_file import (
     PICTURE_SUFFIXES,
@@ -115,8 +115,7 @@ def box_range(machine: Mechanism, name: str, said: object) -> dict[str, Any]:
 
 def swept_strokes(head: StudyHead, given: object) -> dict[str, Any]:
     """Return the strokes that are looked at [SI], arrays or single values; SeveralError with all mistakes, each under its stroke."""
-    if not isinstance(given, Mapping):
-        raise DefinitionError(f'{shortened(given)}: a table of strokes is expected, such as strokes = {{ S = "100 mm" }}.')
+    given = entry_as(given, Mapping, 'a table of strokes is expected, such as strokes = { S = "100 mm" }')
 
     def values(name: str, value: object) -> tuple[str, Any]:
         known_name("Stroke", name, head.plan.strokes, where=head.plan.title)
@@ -152,8 +151,7 @@ def measures_said(head: StudyHead, given: object) -> dict[str, tuple[str, str]]:
         raise DefinitionError(f"{shortened(given)}: a table of measures by names of your own is expected, or a list of them.")
 
     def measured(name: str, text: object) -> tuple[str, tuple[str, str]]:
-        if not isinstance(text, str):
-            raise DefinitionError(f'{shortened(text)} is no text in quotes, such as "least(tilt)".')
+        text = entry_as(text, str, 'is no text in quotes, such as "least(tilt)"')
         return name, (text, TextMeasures({name: text}, 3, head.found["over"] or {}).units(head.machine)[name])
 
     return dict(each_of(named_measures(given).items(), measured))
@@ -409,8 +407,7 @@ def read_study(
     for section in asked:
         given = head.data[section]
         with head.faults.at(section):
-            if not isinstance(given, Mapping):
-                raise DefinitionError(f"{shortened(given)}: a table is expected, [{section}].")
+            given = entry_as(given, Mapping, f"a table is expected, [{section}]")
             tasks[section] = keywords_read(head, TASKS[section], given)
     if not asked:
         head.faults.add((), f"there is no study; begin one with {' or '.join(f'[{each}]' for each in TASKS)}.")

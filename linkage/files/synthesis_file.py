@@ -27,7 +27,7 @@ from ..study.problem import is_still, ranges_of
 from ..synthesis import FunctionTask, PathTask, PoseTask
 from ..synthesis.task_search import synthesise
 from .criterion import measure_said, quantity_said
-from .names import shortened
+from .names import entry_as, require_entry, shortened
 from .points import PointColumn, points_said, units_said
 from .search_file import SearchFile, conditions_said, regions_said, rounding_said
 from .source import Mistakes
@@ -110,8 +110,7 @@ def by_class(read: Read, *, is_of_points: bool = False) -> Read:
 
 def timed_said(head: StudyHead, given: object) -> Any:
     """Return how the points are timed: true, false or "steps"."""
-    if given is not True and given is not False and given != "steps":
-        raise DefinitionError(f'{shortened(given)}: true, false or "steps" is expected.')
+    require_entry(given is True or given is False or given == "steps", given, 'true, false or "steps" is expected')
     return given
 
 
@@ -218,8 +217,7 @@ def task_said(name: str) -> Read:
     """Return what reads the table of a task. The path of several machines may be left to their couplers' points."""
 
     def read(head: StudyHead, given: object) -> Any:
-        if not isinstance(given, Mapping):
-            raise DefinitionError(f'{shortened(given)}: a table is expected, {name} = {{ of = "P", points = "points.csv" }}.')
+        given = entry_as(given, Mapping, f'a table is expected, {name} = {{ of = "P", points = "points.csv" }}')
         if name == "path" and head.machines and given.get("of") is None:
             given = {**given, "of": {}}
         return SYNTHESIS_TASKS[name](**keywords_read(head, SYNTHESIS_TASKS[name], given))

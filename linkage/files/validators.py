@@ -17,7 +17,7 @@ from ..units import SI, UNITS, parse
 from ..vectors import Side
 from .design import Design, degrees_text, option
 from .expression import arrow_in, expression, one_unit
-from .names import Names, by_whole_names, shortened
+from .names import Names, by_whole_names, entry_as, require_entry, shortened
 from .source import each_of
 
 Read: TypeAlias = Callable[[Any, Names], Any]
@@ -141,8 +141,7 @@ def lists_of(given: object, names: Names, depth: int = 0) -> Any:
     """Return a number or a word, or a list of them, or lists of lists as tuples."""
     if not isinstance(given, (list, tuple)):
         return word_of(given) if isinstance(given, str) else number_of(given, names)
-    if depth == DEEPEST:
-        raise DefinitionError(f"{shortened(given)}: lists stand in each other more than {DEEPEST} deep.")
+    require_entry(depth != DEEPEST, given, f"lists stand in each other more than {DEEPEST} deep")
     return tuple(lists_of(each, names, depth + 1) for each in given)
 
 
@@ -151,8 +150,7 @@ def lists_of(given: object, names: Names, depth: int = 0) -> Any:
 
 def arrow_of(given: object, names: Names) -> Arrow | str:
     """Return a vector, or the name of one."""
-    if not isinstance(given, str):
-        raise DefinitionError(f'{shortened(given)} is not a vector, such as "Vector(A, O)".')
+    given = entry_as(given, str, 'is not a vector, such as "Vector(A, O)"')
     return arrow_in(given, names)
 
 
@@ -173,8 +171,7 @@ def body_of(given: object, names: Names) -> str:
     """Return the name of a link, or the names of points of a body, in one text."""
     what = 'a body; name a link, or two of its points such as "O B"'
     words = words_in(given, what)
-    if len(set(map(str, words))) < len(words):
-        raise DefinitionError(f"{shortened(given)} is not {what}.")
+    require_entry(len(set(map(str, words))) >= len(words), given, f"is not {what}")
     kind = "point" if len(words) > 1 else "link"
     return " ".join(names.checked(word, kind) for word in words)
 
@@ -196,8 +193,7 @@ def factors_of(given: object, names: Names) -> dict[str, float]:
 def strokes_of(given: object, names: Names) -> dict[str, float]:
     """Return values of strokes by name [SI]."""
     strokes = names.strokes
-    if not isinstance(given, Mapping):
-        raise DefinitionError(f"{shortened(given)} is not a table of strokes, such as {{ S = 0.0 }}.")
+    given = entry_as(given, Mapping, "is not a table of strokes, such as { S = 0.0 }")
     said = dict(by_whole_names(given))
     for name in said:
         if name not in strokes:
@@ -234,8 +230,7 @@ def word_of(given: object, names: Names | None = None) -> str:
 
 def switch_of(given: object, names: Names) -> bool:
     """Return true or false."""
-    if not isinstance(given, (bool, np.bool_)):
-        raise DefinitionError(f"{shortened(given)} is neither true nor false.")
+    given = entry_as(given, (bool, np.bool_), "is neither true nor false")
     return bool(given)
 
 

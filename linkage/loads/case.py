@@ -145,7 +145,7 @@ def check_words(title: object, scale: object, only: object, shut: object) -> Non
         raise DefinitionError(f"{opening}: only={only!r} is not a list of loads; write [{only!r}].")
     if only is not None and not isinstance(only, (list, tuple)):
         raise DefinitionError(f'{opening}: only={cited(only)} is not a list of loads; write their names, only=["load"].')
-    require_type(f"{opening}: shut", shut, (list, tuple), 'is not a list of lines; write their names, shut=["line"]')
-    for each in (*scale, *(only or ()), *shut):
+    lines = require_type(f"{opening}: shut", shut, (list, tuple), 'is not a list of lines; write their names, shut=["line"]')
+    for each in (*scale, *(only or ()), *lines):
         if not isinstance(each, (str, Member)):
             raise DefinitionError(f"{opening}: {cited(each)} is neither a load nor the name of one.")

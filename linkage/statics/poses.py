@@ -9,8 +9,7 @@ from typing import Protocol, TypeVar, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import require
-from ..errors import unwarned
+from ..errors import DefinitionError, cited, unwarned
 from ..loads import Poses, require_poses
 from ..motion import Request
 from ..motion.requests import point_ratios
@@ -158,7 +157,8 @@ class AnyMotion(Poses, Protocol):
 def plan_of(motion: Poses) -> Plan:
     """Return the plan of the motion that a law of force is asked for; DefinitionError for anything but a motion of a mechanism."""
     require_poses(motion)
-    require(isinstance(motion.plan, Plan), "", motion, "is no motion of a mechanism; give machine.sweep(...) or machine.at(...)")
+    if not isinstance(motion.plan, Plan):
+        raise DefinitionError(f"{cited(motion)} is no motion of a mechanism; give machine.sweep(...) or machine.at(...).")
     return motion.plan
 
 

@@ -41,6 +41,7 @@ from linkage.loads import (
 )
 from linkage.loads.element import UNBOUNDED, Formulas
 from linkage.motion import Condition, Judge, Motion, Question, at, least, most
+from linkage.plan import require_kinds
 from linkage.quantities import (
     AtPose,
     Distance,
@@ -57,7 +58,7 @@ from linkage.quantities import (
 )
 from linkage.quantities.quantity import plain
 from linkage.statics import AnyMotion, LawRequest, each_once, held_in_case, plan_of, same
-from linkage.units import show
+from linkage.units import require_measure, show
 from linkage.vectors import Scalar
 from linkage.verdict import Verdict
 
@@ -230,6 +231,7 @@ class OilLine(PumpLine, GasLine):
         for name, length in self.filled.items() if isinstance(self.filled, Mapping) else ():
             if not isinstance(length, (str, Quantity)):
                 one_number(length, f"OilLine: filled, {name}")
+            require_measure(length, "length", f"OilLine: filled, {name}")
         if isinstance(self.filled, str) and self.at is not None:
             raise DefinitionError(f"OilLine(at=..., filled={self.filled!r}): both say where all its cylinders are; leave one out.")
         for name in ("make_up", "charge_pressure", "seal_friction"):
@@ -571,7 +573,9 @@ class OilLine(PumpLine, GasLine):
         return super().length_charged(motion, ram) if isinstance(length, AtPose) else motion.value(length)
 
     def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
-        strokes = self.strokes_filled(list(plan_of(motion).strokes))
+        plan = plan_of(motion)
+        strokes = self.strokes_filled(list(plan.strokes))
+        require_kinds(plan, self.at if isinstance(self.at, Mapping) else dict.fromkeys(strokes, self.at))
         members = motion.plan.members
         unmoved = put_in_later(members) if self.kind_in(members) == "closed" else ()
         return {name: np.asarray(value) for name, value in {**dict.fromkeys(unmoved, 0.0), **strokes}.items()}

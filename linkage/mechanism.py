@@ -46,13 +46,12 @@ from .motion import (
     source_of,
     sweep_values,
 )
-from .plan import Body, Part, Plan, check_circuits, require_kind, with_parts
+from .plan import Body, Part, Plan, check_circuits, require_kinds, with_parts
 from .program import BackendName, FloatArray, Language, RunOptions
 from .quantities import Member, Stroke, is_name, keywords, needs
 from .shown import Shown, ShownList
 from .statics import drive_remarks, held_verdict, looseness
 from .steps import Drawn
-from .units import Amount
 from .vectors import Numbers
 from .verdict import Remark, Verdict
 
@@ -253,13 +252,12 @@ class Mechanism(Shown, metaclass=MechanismType):
 
     def _settings(self, dimensions: Mapping[str, npt.ArrayLike]) -> dict[str, Numbers]:
         """Return the values of all dimensions, some of them set; DefinitionError for a wrong name or value."""
-        for name, value in dimensions.items():
+        for name in dimensions:
             if name in self.plan.strokes:
                 error = unknown("Dimension", name, self.plan.table.names(), where=self.plan.title)
                 said = keywords({name: "..."})
                 raise DefinitionError(f"{error} {name} is a stroke; give it to sweep({said}) or at({said}).")
-            if isinstance(value, (Amount, list, tuple)):
-                require_kind(self.plan, name, value, f"{self.plan.title}: {name}")
+        require_kinds(self.plan, dimensions)
         return self.plan.table.settings(dimensions)
 
     def __getattr__(self, name: str) -> Any:

@@ -16,7 +16,7 @@ from ..frozen import refuses_changes, unmasked
 from ..quantities import Axes, Member, Reference, is_number, label, name_of, real
 from ..quantities.quantity import plain
 from ..steps import Link, Point
-from ..units import g0
+from ..units import g0, require_measure
 from .element import Array, Declared, ForceElement, Glyph, Load, Parameter, Poses, couple, value_text
 
 DOWN = (0.0, -g0)  # gravity, m/s2
@@ -324,6 +324,7 @@ class LinkMass(OnBody):
         super().__post_init__()
         if self.at is not None and not all(map(is_number, two_parts(self.at, "LinkMass(at=...)"))):
             raise DefinitionError(f"LinkMass: at={cited(self.at)} is not a place; write (along, across) in m.")
+        require_measure(self.at, "length", "LinkMass: at")
         object.__setattr__(self, "gravity", gravity_vector(self.gravity, "LinkMass"))
 
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:

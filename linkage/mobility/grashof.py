@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ..errors import DefinitionError, cited
 from ..plan import Plan, Reading
 from ..quantities import is_number
+from ..units import require_measure
 from ..vectors import Numbers
 
 EQUAL = 1e-9
@@ -52,6 +53,7 @@ def grashof(ground: float, crank: float, coupler: float, follower: float) -> str
     for name, length in lengths.items():
         if not (is_number(length) and length > 0.0):
             raise DefinitionError(f"grashof: the length of the {name} is {cited(length)}; a positive number of metres is expected.")
+        require_measure(length, "length", f"grashof: {name}")
     shortest, longest = min(lengths.values()), max(lengths.values())
     if 2.0 * longest >= sum(lengths.values()):
         return "cannot be assembled: the longest link is as long as the other three"

@@ -14,9 +14,10 @@ import numpy as np
 
 from ..checks import require
 from ..errors import DefinitionError, SingularError, UntracedError, one_word
-from ..plan import ArrayReading, Mask, Plan, failures, negative
+from ..plan import ArrayReading, Mask, Plan, failures, negative, require_kinds
 from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions
 from ..quantities import numbers_in
+from ..units import Amount
 from . import conditions
 from .conditions import Conditioning
 from .grid import Angles, Grid, angles_of, to_rounding, varies
@@ -51,6 +52,7 @@ def evaluate(
     per_design: bool = False,
 ) -> list[FloatArray]:
     """Return the values of requests of designs at strokes; see Mechanism.evaluate."""
+    require_kinds(plan, strokes)
     if out is None and unreachable in ("raise", "nan"):
         with suppress(UntracedError):
             found = at_one_pose(plan, designs, strokes, requests) if way == QUICKEST else None
@@ -487,7 +489,7 @@ class PoseFunction:
         at = strokes
         if named:
             at = (*strokes, *(named.get(name, nan) for name in self._names[len(strokes) :]))
-        found = self._pose(at)
+        found = None if Amount in map(type, at) else self._pose(at)
         return self._closely(strokes, named) if found is None else found
 
     def _closely(self, strokes: Sequence[float], named: Mapping[str, float]) -> tuple[float, ...]:
@@ -497,6 +499,7 @@ class PoseFunction:
         values = [*strokes, *(named[name] for name in names[len(strokes) :])]
         if len(values) != len(names):
             raise DefinitionError(f"{plan.title}: one value for each stroke is expected: {', '.join(names)}.")
+        require_kinds(plan, dict(zip(names, values, strict=True)))
         grid = Grid(plan, self._designs, {name: one_value(value, name, plan.title) for name, value in zip(names, values, strict=True)})
         return tuple(float(part) for found in evaluate_grid(grid, self._requests, None, QUICKEST, "raise") for part in np.ravel(found))
 

@@ -17,7 +17,7 @@ import numpy as np
 from ..checks import require
 from ..errors import AssemblyError, DefinitionError, SingularError, cited, one_word, unwarned
 from ..language import said
-from ..plan import Mask, Plan, opening
+from ..plan import Mask, Plan, opening, require_kind
 from ..program import NO_VALUE, FloatArray
 from ..units import show
 from .interruptions import ON_ARRAYS, Clearances
@@ -95,6 +95,7 @@ def start_of(places: Places, start: Any) -> FloatArray | None:
         raise DefinitionError(f"{title}: start={cited(start)}: the strokes it begins near are expected, start={{{example}}}.")
     for name, value in start.items():
         checked_name("Stroke", name, places.plan.strokes, places.plan.title)
+        require_kind(places.plan, name, value, f"{title}: start: {name}")
         require(is_one(value), f"{title}: start: {name}", value, "one number is expected, in SI")
     missing = [name for name in places.free if name not in start]
     if missing:

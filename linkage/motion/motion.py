@@ -10,7 +10,7 @@ import numpy as np
 
 from ..assembly import ambiguous_angle
 from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned, warn
-from ..plan import ArrayReading, Mask, Plan, failures, negative
+from ..plan import ArrayReading, Mask, Plan, failures, negative, require_kinds
 from ..program import FloatArray, Kernel
 from ..quantities import Angle, Distance, Member, Quantity, Reference, as_mapping, needs
 from ..shown import Shown
@@ -430,6 +430,7 @@ class Motion(Shown):
         if given.keys() != self.strokes.keys():
             known = as_mapping(dict.fromkeys(self.strokes, "..."))
             raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): a value for each stroke is expected, {known}.")
+        require_kinds(self.plan, given)
         try:
             arrays = np.broadcast_arrays(*(np.array(given[name], float) for name in self.strokes))
         except (TypeError, ValueError, OverflowError):

@@ -25,6 +25,7 @@ from ..program import FloatArray, Node
 from ..quantities import Reference, is_number, name_of
 from ..quantities.quantity import plain
 from ..surroundings import CircleOutline, Outline, numbers_at
+from ..units import require_measure
 from ..vectors import Scalar, Vec, pick
 from .cuts import Pick
 from .gaps import SMALLEST, square_to_edge
@@ -231,6 +232,7 @@ def region_shape(given: Any, where: str, outlines: Any, value: Any) -> Shape:
         return outline_shape(given, where, value)
     if not is_shape(given):
         raise DefinitionError(f"{where}: {cited(given)} is no shape; corners are expected, [(0, 0), (1, 0), (1, 0.5)] in m.")
+    require_measure(given, "length", where)
     return polygon_of(np.array(given, float), where)
 
 

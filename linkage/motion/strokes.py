@@ -10,10 +10,9 @@ import numpy as np
 
 from ..checks import require_whole
 from ..errors import DefinitionError, cited, known_name, one_word, unknown
-from ..plan import Plan, require_kind
+from ..plan import Plan, require_kinds
 from ..program import FloatArray
 from ..quantities import Member, Stroke, as_mapping, is_number, keywords, real
-from ..units import Amount
 from .limits import stroke_unit
 
 TURN = 2.0 * pi
@@ -37,9 +36,7 @@ def at_values(given: Mapping[str, object], plan: Plan, take: Callable[[Any], Flo
     """Return chosen stroke values, broadcast against each other; `take` makes arrays of them."""
     strokes, title = plan.strokes, plan.title
     known_strokes(given, strokes, title)
-    for name, value in given.items():
-        if isinstance(value, (Amount, list, tuple)):
-            require_kind(plan, name, value, f"{title}: {name}")
+    require_kinds(plan, given)
     try:
         arrays = {name: take(given[name]) for name in strokes}
     except ValueError:
@@ -129,8 +126,7 @@ def _axis(name: str, given: object, plan: Plan) -> FloatArray:
         except (MemoryError, OverflowError, ValueError):
             raise DefinitionError(f"{title}: sweep({name}={given}): so many poses do not fit into memory; ask for fewer.") from None
     if isinstance(given, (float, np.floating)) and np.isfinite(given):
-        if isinstance(given, Amount):
-            require_kind(plan, name, given, f"{title}: {name}")
+        require_kinds(plan, {name: given})
         check_magnitude(name, (float(given),), plan)
         return np.asarray(given, float)
     remedy = f"for chosen values use at({keywords({name: '...'})})"

@@ -15,6 +15,7 @@ from ..errors import DefinitionError, cited, known_name
 from ..language import said, said_of
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
+from ..plan import require_kinds
 from ..program import FloatArray
 from ..quantities import is_whole, numbers_in
 from ..reports import Run, first_stroke, stroke_middles
@@ -178,6 +179,7 @@ def joint_motions(
 
 def chosen_values(machine: Mechanism, name: str, value: object) -> FloatArray:
     """Return a stroke's values; DefinitionError for anything but finite numbers, one at least."""
+    require_kinds(machine.plan, {name: value})
     values = numbers_in(value)
     if not values.size or not np.isfinite(values).all():
         raise DefinitionError(f"{machine.plan.title}: at={cited(value)}: values of {name} are expected, such as at=[0.0, 0.1].")

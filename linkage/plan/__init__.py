@@ -3,7 +3,7 @@
 from ..star import declare_public
 from .bodies import Body, merged
 from .chain import ChainBody, KinematicChain, Pair, arm_joint, arm_points, gruebler, holds_an_arm, strokes_alone
-from .measure import plan_measure, require_kind
+from .measure import plan_measure, require_kind, require_kinds
 from .members import (
     as_written,
     carrying_pairs,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from ..units import require_measure
+from collections.abc import Mapping
+
+from ..units import Amount, require_measure
 from .plan import Plan
 
 
@@ -17,6 +19,13 @@ def plan_measure(plan: Plan, variable: str) -> str:
     if any(variable in plan.terms(length) for length in plan.table.lengths.values()):
         return "length"
     return "angle" if variable in plan.turning else ""
+
+
+def require_kinds(plan: Plan, given: Mapping[str, object]) -> None:
+    """Refuse amounts of another kind than the strokes and dimensions measure that they are given for, by name; see `require_kind`."""
+    for name, value in given.items():
+        if isinstance(value, (Amount, list, tuple)):
+            require_kind(plan, name, value, f"{plan.title}: {name}")
 
 
 def require_kind(plan: Plan, name: str, value: object, what: str) -> None:

@@ -18,7 +18,7 @@ from ..motion.measures import words_of
 from ..motion.requests import identity_of
 from ..motion.target import is_one
 from ..numeric.line import Curve, highest_between, sign_changes
-from ..plan import Mask
+from ..plan import Mask, require_kind
 from ..program import FloatArray
 from ..units import show, unit_or_none
 from .box import range_of
@@ -101,6 +101,8 @@ def settings_for(
     if not is_one(target) or not all(map(is_one, strokes.values())):
         given = ", ".join(f"{each}={cited(value)}" for each, value in {"target": target, **strokes}.items())
         raise DefinitionError(f"{machine.plan.title}: {given}: one number is expected for each, in SI.")
+    require_kind(machine.plan, name, between, f"{machine.plan.title}: between")
+    Target(quantity, target).check(machine.plan)
 
     pose = StudyPoses(machine.at(unreachable="nan", **{each: [value] for each, value in strokes.items()}))
 

@@ -18,6 +18,7 @@ from ..checks import require
 from ..errors import DefinitionError, StudyError
 from ..language import said
 from ..program import FloatArray
+from ..units import require_measure
 from .exact import ComplexArray, CouplerTask, ExactMachine, ExactSynthesis, Pivoted, exact_synthesis, is_without_links, judged_machine
 from .tasks import table_of
 
@@ -67,6 +68,7 @@ def five_point(pivots: object, points: object, *, in_order: bool = True) -> Exac
 
 def complex_rows(name: str, given: object, count: int) -> ComplexArray:
     """Return places (n, 2) as complex numbers (n,); DefinitionError for another number of them, or for two at one place."""
+    require_measure(given, "length", f"five_point: {name}")
     rows = table_of("five_point", name, given, 2)
     require(len(rows) == count, f"five_point: {name}", given, f"{count} places (x, y) are expected, there are {len(rows)}")
     found = rows @ np.array([1.0, 1.0j])

@@ -19,6 +19,7 @@ from ..motion.strokes import TURN, is_in_degrees
 from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import angle, numbers_in, x, y
+from ..units import require_measure
 
 SAME_PLACE = 1e-9
 """Of a task's size: the last point is the first one again where it is so near to it."""
@@ -92,6 +93,7 @@ class PathTask:
 
     def __init__(self, points: Any, of: Any = None, at: Any = None, *, in_order: bool = True, closed: bool | None = None) -> None:
         what = f"PathTask(of={cited(of)})"
+        require_measure(points, "length", f"{what}: points")
         found = table_of(what, "points", points, 2)
         different = len(np.unique(found, axis=0))
         if closed is None:
@@ -171,6 +173,8 @@ class PoseTask:
 
     def __init__(self, x: Any, y: Any, angle: Any, of: Any, at: Any = None, *, length: float | None = None, in_order: bool = True) -> None:
         what = f"PoseTask(of={cited(of)})"
+        for name, each, measures in (("x", x, "length"), ("y", y, "length"), ("angle", angle, "angle"), ("length", length, "length")):
+            require_measure(each, measures, f"{what}: {name}")
         parts = {name: table_of(what, name, each, 0) for name, each in (("x", x), ("y", y), ("angle", angle))}
         if len({len(each) for each in parts.values()}) > 1:
             sizes = ", ".join(f"{name} {len(each)}" for name, each in parts.items())

@@ -58,7 +58,9 @@ from linkage import (
 from linkage import angle as angle_of
 from linkage.cli import main
 from linkage.files.criterion import measure_said
+from linkage.mobility import grashof
 from linkage.study import Tolerance, monte_carlo, settings_for, sobol, tornado
+from linkage.synthesis import PathTask, PoseTask
 
 
 class Arm(Mechanism):
@@ -179,6 +181,19 @@ def amounts(folder):
         "plot, limits": (lambda: plot(ARM, ["T_y"], limits={"T_y": (20 * deg, "most")}), length),
         "report, limits": (lambda: report(ARM, folder / "a.md", limits={"T_y": (20 * deg, "most")}, count=3), length),
         "report, at": (lambda: report(ARM, folder / "a.md", at={"S": (0, 5 * deg)}, count=3), length),
+        "evaluate": (lambda: ARM.evaluate(["T"], S=5 * deg), length), "function": (lambda: ARM.function(["T"])(5 * deg), length),
+        "function, named": (lambda: ARM.function(["T"])(S=5 * deg), length),
+        "moved": (lambda: ARM.at(S=0.1).moved(dict(S=3 * deg)), length),
+        "draw": (lambda: draw(ARM, at={"S": 3 * deg}), length),
+        "follow, start": (lambda: Boom().follow([Target(y("P"), [0.7])], hold={"phi": 0.5, "turn": 0.0}, start={"z": 3 * deg}), length),
+        "settings_for": (lambda: settings_for(ARM, "OB", y("T"), 20 * deg, between=(0.5, 0.7), S=0.1), length),
+        "settings_for, between": (lambda: settings_for(ARM, "OB", y("T"), 0.2, between=(0.5, 40 * deg), S=0.1), length),
+        "LinkMass, at": (lambda: LinkMass("O B", mass=3, at=(0.1, 3 * deg)), length),
+        "grashof": (lambda: grashof(0.1, 0.2, 0.3, 3 * deg), length),
+        "PathTask": (lambda: PathTask([(0, 0), (1, 3 * deg)], of="T"), length),
+        "PoseTask": (lambda: PoseTask([0, 1], [0, 1], [0.1, 3 * mm], of="O B"), angle),
+        "regions": (lambda: optimise(ARM, vary={"O": around(3 * mm)}, regions={"O": [(0, 0), (1, 0), (1, 3 * deg)]}, **one), length),
+        "OilLine, filled": (lambda: OilLine("ram.piston_side", filled=dict(ram=3 * deg)), length),
         "measure": (lambda: ARM.answers([at(y("T"), S=3 * deg)]), length),
     }  # fmt: skip
 

@@ -180,16 +180,21 @@ def require_measure(value: object, unit: str, what: str) -> None:
         The amount measures something else. Moments, stiffnesses and numbers of an open kind take forces, since `5 * kN` may stand for
         5 kN m; they take no lengths, angles and pressures.
     """
-    for each in value if isinstance(value, (list, tuple)) else ():
-        require_measure(each, unit, what)
-    if not isinstance(value, Amount):
-        return
     wanted = unit if unit in SI else UNITS[unit][1] if unit in UNITS else ""
-    if value.measures == wanted or (wanted not in EXAMPLES and value.measures == "force"):
-        return
-    article = "an" if value.measures[0] in "aeiou" else "a"
-    expected = f"value of {wanted}, such as {EXAMPLES[wanted]}" if wanted in EXAMPLES else "number in SI, without a unit"
-    raise DefinitionError(f"{what}={float(value):.6g} was given as {article} {value.measures}; expected is a {expected}.")
+    for each in amounts_in(value):
+        if each.measures != wanted and (wanted in EXAMPLES or each.measures != "force"):
+            article = "an" if each.measures[0] in "aeiou" else "a"
+            expected = f"value of {wanted}, such as {EXAMPLES[wanted]}" if wanted in EXAMPLES else "number in SI, without a unit"
+            raise DefinitionError(f"{what}={float(each):.6g} was given as {article} {each.measures}; expected is a {expected}.")
+
+
+def amounts_in(value: object) -> Iterator[Amount]:
+    """Yield the amounts that a value is, or that stand in it where it is a list or a tuple."""
+    if isinstance(value, Amount):
+        yield value
+    elif isinstance(value, (list, tuple)) and not {*map(type, value)} <= {float, int}:
+        for each in value:
+            yield from amounts_in(each)
 
 
 def amount_or_float(value: float) -> float:

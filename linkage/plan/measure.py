@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..units import Amount, require_measure
+from ..units import Amount, amounts_in, require_measure
 from .plan import Plan
 
 
@@ -24,7 +24,7 @@ def plan_measure(plan: Plan, variable: str) -> str:
 def require_kinds(plan: Plan, given: Mapping[str, object]) -> None:
     """Refuse amounts of another kind than the strokes and dimensions measure that they are given for, by name; see `require_kind`."""
     for name, value in given.items():
-        if isinstance(value, (Amount, list, tuple)):
+        if isinstance(value, (Amount, list, tuple)):  # arrays and plain numbers know nothing
             require_kind(plan, name, value, f"{plan.title}: {name}")
 
 
@@ -47,8 +47,10 @@ def require_kind(plan: Plan, name: str, value: object, what: str) -> None:
     DefinitionError
         An amount measures something else. A plain number is SI, whatever was meant.
     """
+    if next(amounts_in(value), None) is None:
+        return
     if name in plan.strokes:
-        kind = plan.stroke_measure(name)
+        kind = plan.known_stroke_kind(name)
     else:
         spelling = name if name in plan.table.spellings else f"{name}.x"
         kind = plan_measure(plan, plan.table.spellings[spelling][0]) if spelling in plan.table.spellings else ""

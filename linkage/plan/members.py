@@ -171,10 +171,10 @@ class Members:
     def _check_amounts(self, name: str, member: Member) -> None:
         """Raise DefinitionError for an amount that stands for a length or an angle and measures something else, `20 * mm + phi`."""
         if isinstance(member, Stroke) and (isinstance(member.start, Amount) or isinstance(member.end, Amount)):
-            require_measure((member.start, member.end), self.stroke_measure(name), f"{self.title}: {name}")
+            require_measure((member.start, member.end), self.known_stroke_kind(name), f"{self.title}: {name}")
         for each, value in member.strokes.items() if isinstance(member, Drawn) else ():
             if each in self.strokes and isinstance(value, Amount):
-                require_measure(value, self.stroke_measure(each), f"{self.title}: {name} = drawn(...): {each}")
+                require_measure(value, self.known_stroke_kind(each), f"{self.title}: {name} = drawn(...): {each}")
         for _, value in member.coordinates() if isinstance(member, Point) else ():
             self._check_terms(value, "length", f"{self.title}: {name} = {member}")
         for part in self.with_parts(name):
@@ -320,7 +320,7 @@ class Members:
         parts = [part for name in self.members for part in self.with_parts(name)]
         return frozenset().union(*(self.terms(angle) for part in parts for angle in part.in_radians()))
 
-    def stroke_measure(self, name: str) -> str:
+    def known_stroke_kind(self, name: str) -> str:
         """Return whether a stroke is an "angle" or a "length": by what it is added to, else as it was given; "" where nothing says so."""
         if name in self.turning:
             return "angle"

@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
-from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, OilLine, Pump, Tank, capacity, reserve
+from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, OilLine, Pump, Tank, capacity, reserve, thrust
 from linkage import LEFT, RIGHT, DefinitionError, Dyad, Force, Ground, Guide, Link, Mechanism, OnGuide, OnLink, Stroke, Weight, pin_forces
+from linkage.statics import work
 from linkage.units import bar, deg, kN, litre, minute, mm
 
 
@@ -280,3 +282,29 @@ def test_halves_on_one_line_and_joined_lines_of_one_pressure_change_nothing(seed
     thrusts = [pin_forces(motion).thrusts for motion in motions]
     assert thrusts[1]["ram"] + thrusts[1]["more"] == pytest.approx(thrusts[0]["ram"], rel=1e-9)
     assert thrusts[2]["ram"] == pytest.approx(0.5 * thrusts[0]["ram"], rel=1e-9)
+
+
+def test_what_several_laws_read_of_a_closed_line_is_traced_once_and_counts_for_each(monkeypatch):
+    """In either order, alone or together the values are the same, and each law keeps what it rests on."""
+    counted = []
+    known = work.needed_of
+    monkeypatch.setattr(work, "needed_of", lambda poses, *rest: counted.append(type(poses.motion).__name__) or known(poses, *rest))
+
+    def asked(*names):
+        class Fresh(Levelled):
+            pass
+
+        requests = [thrust(name) for name in names]
+        found = Fresh().evaluate(requests, S=np.linspace(1.25, 1.85, 7))
+        bound = [each.bound(Fresh.plan) for each in requests]
+        rests = [(each.names(Fresh.plan), each.differentiated(Fresh.plan), list(each.notes(Fresh.plan).assumed.values())) for each in bound]
+        return dict(zip(names, zip(found, rests, strict=True), strict=True))
+
+    alone = {name: asked(name)[name] for name in ("lift", "master", "slave")}
+    counted.clear()
+    for names in (("lift", "master", "slave"), ("slave", "master", "lift")):
+        together = asked(*names)
+        for name, (values, rests) in alone.items():
+            assert_allclose(together[name][0], values, rtol=1e-14)
+            assert together[name][1] == rests
+    assert counted.count("TracedMotion") <= 2 * 3  # the twin that knows laws apart, the program, and the same read here; not by cylinder

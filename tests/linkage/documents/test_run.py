@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, RIGHT, Column, Crank, DefinitionError, Dyad, Ground, Guide, Mechanism, OnGuide, OnLink, Stroke, Weight
-from linkage.pictures import animate, plot
+from linkage.pictures import plot
 from linkage.pictures.curves import axis_range
 from linkage.pictures.film import Stage
 from linkage.pictures.strokes import StrokeAxis, playback, unreached_words

@@ -26,7 +26,6 @@ from linkage.loads import AT_REST, Acting, Declared, ForceElement, Glyph, Load, 
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Answer, Judge, Motion, MotionFunction, least, most
-from linkage.plan import ArrayReading
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, quantity
 from linkage.statics import AnyMotion, held_in_case, plan_of, same, stroke_followed
@@ -345,7 +344,7 @@ def gas_written(charges: Sequence[Array], vessels: Sequence[Array], pressure: Ar
 def length_at(motion: Poses, ram: Ram, at: Mapping[str, Array]) -> Scalar:
     """Return a cylinder's length [m] where the line is charged: with some strokes there, others at the sketch; broadcasts."""
     plan = plan_of(motion)
-    reading = ArrayReading(plan.members, plan.table.lengths, {**motion.inputs, **plan.sketch_strokes, **at})
+    reading = plan.reading({**motion.inputs, **plan.sketch_strokes, **at})
     length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
     if length is not None:
         return reading.value(length)

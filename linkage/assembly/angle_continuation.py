@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import pi
 from types import MappingProxyType
-from typing import Any, Self, final
+from typing import Self, final
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -208,7 +208,7 @@ class Points:
     value: FloatArray
     rate: FloatArray
 
-    def taken(self, which: Any) -> Points:
+    def taken(self, which: Index | Mask) -> Points:
         """Return some of them."""
         return Points(self.line[which], self.place[which], self.value[:, which], self.rate[:, which])
 

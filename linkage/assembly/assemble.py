@@ -61,21 +61,6 @@ class PinEquation:
     """The link that it comes from, if one."""
 
 
-def pin_equations(parts: Parts, title: str) -> list[PinEquation]:
-    """Return the equations of all links and slides that hold loose pins."""
-    rows: list[PinEquation] = []
-    for name, link in parts.links.items():
-        if parts.loose(link):
-            with about(name):
-                rows += link_equations(parts, name, title)
-    for slide in parts.slides.values():
-        held = (name_of(slide.point), *parts.guides[name_of(slide.guide)].points)
-        loose = tuple(point for point in held if point in parts.pins and point not in parts.placed)
-        if loose:
-            rows.append(PinEquation(loose, slide=slide))
-    return rows
-
-
 def link_equations(parts: Parts, name: str, title: str) -> list[PinEquation]:
     """Return a link's equations: one length, and two for every further point that is rigid with two points before it."""
     link, shape = parts.links[name], parts.shapes[name]
@@ -147,7 +132,16 @@ def next_group(parts: Parts, title: str) -> Group:
     """
     import networkx as nx
 
-    rows = pin_equations(parts, title)
+    rows: list[PinEquation] = []
+    for name, link in parts.links.items():
+        if parts.loose(link):
+            with about(name):
+                rows += link_equations(parts, name, title)
+    for slide in parts.slides.values():
+        held = (name_of(slide.point), *parts.guides[name_of(slide.guide)].points)
+        loose = tuple(point for point in held if point in parts.pins and point not in parts.placed)
+        if loose:
+            rows.append(PinEquation(loose, slide=slide))
     matched = matching(rows, parts, title)
     graph = nx.DiGraph()
     graph.add_nodes_from(dict.fromkeys(pin for pin, _ in matched))  # a set would be in another order in every run
@@ -220,19 +214,14 @@ def assembled(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     members = with_begun_pins(members, title)
     if not any(is_loose(member) or sketched(member) for member in members.values()):
         return dict(members)
-    inner = held_inside(members, title)
-    check_names({**members, **inner}, title)
-    held = frozenset(name for name, each in inner.items() if not isinstance(each, Quantity))
-    return {name: member for name, member in Assembler({**members, **inner}, title, held).run().items() if name not in inner}
-
-
-def held_inside(members: Mapping[str, Member], title: str) -> dict[str, Member]:
-    """Return what members hold by names of their own where others need it, as `lift.length`, as they are in the design that is drawn."""
     among = {name: member.among(members) for name, member in members.items()}
     wanted = {name: needed_names(name, member, title) for name, member in among.items()}
     with_inner(among, wanted, title)
     defaults = {variable: default for member in among.values() for variable, default, *_ in member.variables()}
-    return {name: drawn_in(member, defaults) for name, member in among.items() if name not in members}
+    inner = {name: drawn_in(member, defaults) for name, member in among.items() if name not in members}
+    check_names({**members, **inner}, title)
+    held = frozenset(name for name, each in inner.items() if not isinstance(each, Quantity))
+    return {name: member for name, member in Assembler({**members, **inner}, title, held).run().items() if name not in inner}
 
 
 def drawn_in(value: object, defaults: Mapping[str, float]) -> Any:
@@ -248,13 +237,6 @@ def drawn_in(value: object, defaults: Mapping[str, float]) -> Any:
 def is_unnamed(value: object) -> bool:
     """Return whether a part of a quantity belongs to it alone: another quantity without a name, or several."""
     return isinstance(value, tuple) or (isinstance(value, Quantity) and not value.name)
-
-
-def idle_strokes(members: Mapping[str, Member]) -> tuple[str, ...]:
-    """Return the strokes that no point, link or guide follows."""
-    holding = [name for name, member in members.items() if isinstance(member, (Point, Link, Guide))]
-    used = all_behind(members, holding)
-    return tuple(name for name, member in members.items() if isinstance(member, Stroke) and name not in used)
 
 
 def is_loose(member: Member) -> bool:
@@ -283,6 +265,7 @@ class Assembler:
         self.settled: dict[str, Member] = {}
         self.drawing = Sketch({}, title)
         self.pending = {name: member for name, member in members.items() if not (is_loose(member) or is_open(member))}
+        used = all_behind(members, [name for name, member in members.items() if isinstance(member, (Point, Link, Guide))])
         self.parts = Parts(
             placed=set(),
             pins={name: member for name, member in members.items() if isinstance(member, Pin) and is_loose(member)},
@@ -290,7 +273,7 @@ class Assembler:
             slides={name: member for name, member in members.items() if isinstance(member, Slide)},
             guides={name: member for name, member in members.items() if isinstance(member, Guide)},
             sketch=self.sketch,
-            idle=idle_strokes(members),
+            idle=tuple(name for name, member in members.items() if isinstance(member, Stroke) and name not in used),
             elements=members,
         )
 
@@ -298,7 +281,12 @@ class Assembler:
         """Return all members, settled."""
         check_held(self.parts, self.title)
         while True:
-            self.settle_ready()
+            progress = True
+            while progress:
+                ready = [name for name, member in self.pending.items() if set(needs(member)) <= self.known and not self.waits(member)]
+                for name in ready:
+                    self.settle(name, self.pending.pop(name))
+                progress = bool(ready)
             loose = [pin for pin in self.parts.pins if pin not in self.settled]
             if not loose:
                 return self.settled | self.pending
@@ -313,15 +301,6 @@ class Assembler:
     def waits(self, member: Member) -> bool:
         """Return whether a load case that something runs in is not settled yet, for the loads of the case are not."""
         return any(each in self.pending for each in getattr(member, "cases", None) or ())
-
-    def settle_ready(self) -> None:
-        """Settle every member all of whose parts are settled."""
-        progress = True
-        while progress:
-            ready = [name for name, member in self.pending.items() if set(needs(member)) <= self.known and not self.waits(member)]
-            for name in ready:
-                self.settle(name, self.pending.pop(name))
-            progress = bool(ready)
 
     def settle(self, name: str, member: Member) -> None:
         """Settle a member: measure what it lacks, choose its side."""

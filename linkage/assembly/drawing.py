@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import AssemblyError
 from ..language import said
-from ..plan import ArrayReading, Part, Plan, strokes_text
+from ..plan import Part, Plan, strokes_text
 from ..quantities import Quantity, joined_names, needs
 from ..steps import Guide, GuideCross
 from ..units import show
@@ -51,7 +51,7 @@ def sketch_words(plan: Plan, designs: Mapping[str, Numbers]) -> list[str]:
         return found
     known = list(sketch_differences(plan, inputs))
     remedy = fitting_strokes(plan, inputs, known) or said("Correct it, or move the point in the drawing.")
-    set_otherwise = reading_at(plan, {**inputs, **designs})
+    set_otherwise = plan.reading({**inputs, **designs})
     for each in known:
         if np.all(set_otherwise.value(each.quantity) == each.given):
             unit = "mm" if each.unit == "m" else each.unit
@@ -88,11 +88,6 @@ def width_words(plan: Plan, designs: Mapping[str, Numbers]) -> str:
         "At the pose of its sketch it is {width} wide: a plain number is in metres. Write millimetres with their unit, such as 300 * mm.",
         width=show(width, "m", 4),
     )  # fmt: skip
-
-
-def reading_at(plan: Plan, inputs: Mapping[str, Numbers]) -> ArrayReading:
-    """Return the eager reading of some inputs, nothing worked out yet."""
-    return ArrayReading(plan.members, plan.table.lengths, inputs)
 
 
 @np.errstate(all="ignore")
@@ -132,11 +127,11 @@ def fitting_strokes(plan: Plan, inputs: Mapping[str, Numbers], known: list[Diffe
             return ""
         (name,) = own
         span = plan.strokes[name].end - plan.strokes[name].start
-        ends = [float(reading_at(plan, {**inputs, **strokes, name: strokes[name] + step}).value(each.quantity)) for step in (0.0, span)]
+        ends = [float(plan.reading({**inputs, **strokes, name: strokes[name] + step}).value(each.quantity)) for step in (0.0, span)]
         if ends[0] == ends[1]:
             return ""
         strokes[name] = float(f"{strokes[name] + span * (each.drawn - ends[0]) / (ends[1] - ends[0]):.{DIGITS}g}")
-    there = reading_at(plan, {**inputs, **strokes})
+    there = plan.reading({**inputs, **strokes})
     inside = all(min(each.start, each.end) <= strokes[name] <= max(each.start, each.end) for name, each in plan.strokes.items())
     if not known or not inside or any(abs(float(there.value(each.quantity)) - each.drawn) > AGREES * each.drawn for each in known):
         return ""

@@ -38,18 +38,6 @@ def place_between(*given: Any, choose: Any) -> tuple[Any, ...]:
     return found, bound
 
 
-def rules_text() -> str:
-    """Return the rules of `rules` by which ways go on, as JavaScript."""
-    rules: dict[str, tuple[int, Rule]] = {
-        "ended": (3, newton_ended),
-        "predicted": (8, place_ahead),
-        "judged": (7, step_judged),
-        "goes": (4, goes_on),
-        "between": (11, place_between),
-    }
-    return "".join(f"const {name}={traced_rule(count, rule)};" for name, (count, rule) in rules.items())
-
-
 def group_text(plan: Plan, group: Group, inputs: Inputs) -> str:
     """Return the equations of a group: functions of its pins that give a step, the clearance, and the equations with their slopes."""
     programs = Programs.of(plan, group)
@@ -81,7 +69,14 @@ def groups_text(plan: Plan, inputs: Inputs, dimensions: Sequence[str]) -> str:
         "TOUCH": json_of(TOUCH),
         "LINE": json_of(LINE),
     }
-    return rules_text() + constants_text(constants)
+    rules: dict[str, tuple[int, Rule]] = {
+        "ended": (3, newton_ended),
+        "predicted": (8, place_ahead),
+        "judged": (7, step_judged),
+        "goes": (4, goes_on),
+        "between": (11, place_between),
+    }
+    return "".join(f"const {name}={traced_rule(count, rule)};" for name, (count, rule) in rules.items()) + constants_text(constants)
 
 
 def angles_text(plan: Plan, clipped: Callable[[Plan, Sequence[Node]], Sequence[Node]], inputs: Inputs) -> str:

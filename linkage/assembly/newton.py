@@ -253,7 +253,15 @@ class Programs:
         clearance = elimination.clearance()
         constraints = [*equations.residuals, *(entry for row in equations.rows for entry in row)]
         nodes = expanded([*steps, clearance, group_size(equations, len(group.rods)), *constraints])
-        known = held_inputs(nodes, [root.origin for root in equations.roots])
+        hangs = {root.origin for root in equations.roots}
+        found: dict[Node, None] = {}
+        for node in ancestors(nodes):
+            args = [each.origin for each in node.args]
+            if any(arg in hangs for arg in args):
+                hangs.add(node)
+                found |= dict.fromkeys(arg for arg in args if arg not in hangs and arg.op != "constant")
+        found |= dict.fromkeys(each.origin for each in nodes if each.origin not in hangs and each.origin.op != "constant")
+        known = list(found)
         graph = plan.trace.graph
         nodes = replaced(nodes, {node: graph.input(f"@k{k}", Level.POSE) for k, node in enumerate(known)})
         rules, raw = nodes[: len(steps) + 2], nodes[len(steps) + 2 :]
@@ -270,19 +278,6 @@ class Programs:
             clearance=Kernel([*rules[len(steps) :], rules[len(steps) - 1]]),
             sine=Kernel([clearance, elimination.worth(SURE_PIVOT)]),
         )
-
-
-def held_inputs(outputs: Sequence[Node], moving: Sequence[Node]) -> list[Node]:
-    """Return what outputs are computed from that does not hang on some moving inputs: as little as tells all of them."""
-    hangs = set(moving)
-    found: dict[Node, None] = {}
-    for node in ancestors(outputs):
-        args = [each.origin for each in node.args]
-        if any(arg in hangs for arg in args):
-            hangs.add(node)
-            found |= dict.fromkeys(arg for arg in args if arg not in hangs and arg.op != "constant")
-    found |= dict.fromkeys(each.origin for each in outputs if each.origin not in hangs and each.origin.op != "constant")
-    return list(found)
 
 
 def largest_of(nodes: Sequence[Node]) -> Node:

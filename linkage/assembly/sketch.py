@@ -108,7 +108,7 @@ class Sketch:
 @np.errstate(all="ignore")
 def sketch_reading(plan: Plan, inputs: Mapping[str, Numbers]) -> ArrayReading:
     """Return the reading of a plan's sketch, with the points that are drawn where the drawing has them."""
-    reading = ArrayReading(plan.members, plan.table.lengths, inputs)
+    reading = plan.reading(inputs)
     reading.positions = {name: Vec(*point.drawn_at) for name, point in plan.points.items() if point.drawn_at is not None}
     plan.work_out(reading)
     return reading

@@ -143,7 +143,7 @@ class ForceLines:
             yield Pulled(point, symbol, 0)
 
     def _somewhere(self) -> Motion:
-        strokes: Mapping[str, Any] = {name: stroke.start for name, stroke in self.plan.strokes.items()}
+        strokes: dict[str, float] = {name: stroke.start for name, stroke in self.plan.strokes.items()}
         return self.design.at(unreachable="nan", **strokes)
 
     # -- what holds ------------------------------------------------------------------------------------

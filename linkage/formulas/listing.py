@@ -197,7 +197,10 @@ class Listing:
     def assign(self, each: Assignment) -> None:
         """Write one primitive of a step's expansion."""
         if isinstance(each.value, Quantity):
-            self._label(each)
+            assert isinstance(each.value, Quantity)
+            if not each.value.name and not isinstance(each.value, Variable):
+                self._labels.setdefault(id(each.value), each)
+                self.value(each.value)
         elif isinstance(each.value, Vector):
             self.between(name_of(each.value.P), name_of(each.value.Q), each.name)
         else:
@@ -280,13 +283,6 @@ class Listing:
             return self.names.quantity(key)
         name = self._labels[key].name
         return self.names.angle(name) if unit == ANGLE else self.names.length(name)
-
-    def _label(self, each: Assignment) -> None:
-        """Write the line of a labelled length or angle: L_AB = L0 + S; nothing for a plain variable."""
-        assert isinstance(each.value, Quantity)
-        if not each.value.name and not isinstance(each.value, Variable):
-            self._labels.setdefault(id(each.value), each)
-            self.value(each.value)
 
     def scaled(self, arrow: Member, length: Quantity) -> Term:
         """Return the length a vector is scaled to; an expression gets the vector's name: L_AB = L0 + S."""

@@ -98,7 +98,11 @@ KINDS = {"length": LENGTH, "coordinate": LENGTH, "angle": ANGLE}
 
 def input_units(plan: Plan) -> dict[str, Unit]:
     """Return what each stroke and design variable measures; a `Dimension` by the place where it is used."""
-    lengths = set().union(*map(plan.terms, used_as_lengths(plan)))
+    found = list(plan.table.lengths.values())
+    for member in plan.members.values():
+        for part in (member, *unnamed(member)):
+            found += [each for each in part.lengths() if isinstance(each, Quantity)]
+    lengths = set().union(*map(plan.terms, found))
     units = {name: ANGLE if stroke_unit(plan, name) == "rad" else LENGTH for name in plan.strokes}
     for name, entry in plan.table.entries.items():
         used = ANGLE if name in plan.turning else LENGTH if name in lengths else NUMBER
@@ -106,15 +110,6 @@ def input_units(plan: Plan) -> dict[str, Unit]:
         own = entry.unit and kind != "angle" and (factor != 1.0 or kind != "length")
         units[name] = Unit(named=entry.unit) if own else ANGLE if kind == "angle" else KINDS.get(entry.kind, used)
     return units
-
-
-def used_as_lengths(plan: Plan) -> list[Quantity]:
-    """Return the quantities that stand where a length is expected."""
-    found = list(plan.table.lengths.values())
-    for member in plan.members.values():
-        for part in (member, *unnamed(member)):
-            found += [each for each in part.lengths() if isinstance(each, Quantity)]
-    return found
 
 
 DIGITS = 40

@@ -88,7 +88,7 @@ class Share:
     """What one unit of a tie's force is in a straight member: its thrust, positive where it pushes; it broadcasts against the poses."""
 
     member: Any
-    of: Callable[[Any], Array]
+    of: Callable[[Poses], Array]
 
 
 @final
@@ -101,12 +101,12 @@ class Reeving:
     the pull of the other one.
     """
 
-    loads: Callable[[Any], list[Load]]
+    loads: Callable[[Poses], list[Load]]
     strokes: tuple[str, ...] = ()
-    rate: Callable[[Any, str], Array] = lambda motion, stroke: np.ones(())
+    rate: Callable[[Poses, str], Array] = lambda motion, stroke: np.ones(())
     back: str = ""
-    back_loads: Callable[[Any], list[Load]] = lambda motion: []
-    back_share: Callable[[Any], Array] = lambda motion: np.zeros(())
+    back_loads: Callable[[Poses], list[Load]] = lambda motion: []
+    back_share: Callable[[Poses], Array] = lambda motion: np.zeros(())
 
 
 @final
@@ -241,7 +241,7 @@ class Formulas(Poses, Protocol):
     def line(self, name: str, value: Array, unit: str = "") -> Array:
         """Write the equation `name = value` and return its symbol, which stands for the value in what follows; `unit` is shown."""
 
-    def given(self, name: str, value: Callable[[Any], Array], unit: str = "") -> Array:
+    def given(self, name: str, value: Callable[[Poses], Array], unit: str = "") -> Array:
         """Return the symbol of a number that no formula gives, such as one found by iteration; `value(motion)` tells it [SI]."""
 
     def equals(self, value: Array, number: float) -> bool:

@@ -62,8 +62,11 @@ def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Numbers]) -> Cons
             residuals[name] = member.constraints(trace)
             trace.placing.pop()
     nodes = [(owner, trace.graph.node(each)) for owner, found in residuals.items() for each in found]
-    held = held_points(plan, {owner for owner, _ in nodes if owner in plan.points})
-    seeds: dict[str, Node] = {f"{name}.{axis}": getattr(trace.positions[name], axis) for name in held for axis in "xy"}
+    held = {owner for owner, _ in nodes if owner in plan.points} | {point for body in plan.links for point in body.points}
+    held |= {pin for group in plan.groups.values() for pin in group.pins}  # others are free constructions
+    seeds: dict[str, Node] = {
+        f"{name}.{axis}": getattr(trace.positions[name], axis) for name in plan.moving if name in held for axis in "xy"
+    }
     seeds |= {name: trace.inputs[name] for name in plan.strokes}
     columns = {seed: column for column, seed in enumerate(seeds.values())}
     tangents = [Tangent(trace.graph, {seed: 1.0}) for seed in columns]
@@ -73,30 +76,6 @@ def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Numbers]) -> Cons
     for (row, column, _), value in zip(behind, interpret([tangents[column].of(node) for _, column, node in behind], at), strict=True):
         matrix[row, column] = float(value)
     return ConstraintRows(unit_rows(matrix), tuple(owner for owner, _ in nodes), tuple(seeds))
-
-
-def held_points(plan: Plan, constrained: set[str]) -> tuple[str, ...]:
-    """Return the moving points that a body or a constraint holds; others are free constructions."""
-    held = constrained | {point for body in plan.links for point in body.points}
-    held |= {pin for group in plan.groups.values() for pin in group.pins}
-    return tuple(name for name in plan.moving if name in held)
-
-
-def link_rows(plan: Plan, places: Places, unknowns: tuple[str, ...]) -> ConstraintRows:
-    """Return the rows of declared links at a pose: one length, and two for every further point, rigid with the first two.
-
-    A link of more points whose length between two of them is driven is a cylinder with points on it: each goes with its own side.
-    """
-    found: list[FloatArray] = []
-    owners: list[str] = []
-    for name, link in plan.of_kind(Link).items():
-        if len(link.point_names) == 2 and plan.is_cylinder(link):
-            continue
-        sides = cylinder_sides(plan, link)
-        rows = sided_rows(sides, places, unknowns) if sides else rigid_rows(link.point_names, places, unknowns)
-        found += rows
-        owners += [name] * len(rows)
-    return ConstraintRows(unit_rows(np.array(found).reshape(len(found), len(unknowns))), tuple(owners), unknowns)
 
 
 def rigid_rows(points: tuple[str, ...], places: Places, unknowns: tuple[str, ...]) -> list[FloatArray]:
@@ -216,7 +195,17 @@ def mobility(plan: Plan) -> Mobility:
 def mobility_at(plan: Plan, places: Places, inputs: Mapping[str, Numbers]) -> Mobility:
     """Return the mobility at a pose."""
     steps = step_rows(plan, places, inputs)
-    links = link_rows(plan, places, steps.unknowns)
+    # A link of more points whose length between two of them is driven is a cylinder with points on it: each goes with its own side.
+    found: list[FloatArray] = []
+    owners: list[str] = []
+    for name, link in plan.of_kind(Link).items():
+        if len(link.point_names) == 2 and plan.is_cylinder(link):
+            continue
+        sides = cylinder_sides(plan, link)
+        rows = sided_rows(sides, places, steps.unknowns) if sides else rigid_rows(link.point_names, places, steps.unknowns)
+        found += rows
+        owners += [name] * len(rows)
+    links = ConstraintRows(unit_rows(np.array(found).reshape(len(found), len(steps.unknowns))), tuple(owners), steps.unknowns)
     both = ConstraintRows(np.vstack([steps.matrix, links.matrix]), (*steps.owners, *links.owners), steps.unknowns)
     active = np.abs(both.matrix).sum(axis=0) > 0.0
     free = int((active | np.array([name not in plan.strokes for name in both.unknowns], bool)).sum())
@@ -258,8 +247,11 @@ def check(plan: Plan) -> None:
     if not any((plan.of_kind(Link), plan.sliding)) or not plan.moving:
         return
     settled = implied(plan) if plan.of_kind(Part) else set[str]()  # what parts have is checked with their own classes
-    if {*plan.of_kind(Link), *plan.sliding} <= settled:
-        check_stated(plan)
+    if {*plan.of_kind(Link), *plan.sliding} <= settled:  # steps hold all links together
+        stated = {name: link for name, link in plan.of_kind(Link).items() if link.labels}
+        drawn = sample(plan, 0.0) if stated else None
+        for name, link in stated.items() if drawn is not None else ():
+            check_labels(plan, name, link, *drawn)  # type: ignore[misc]
         return
     try:
         found = mobility(plan)
@@ -306,14 +298,6 @@ def check_lengths(plan: Plan) -> None:
                 )
         if known and link.labels:
             check_labels(plan, name, link, *known[0])
-
-
-def check_stated(plan: Plan) -> None:
-    """Raise DefinitionError where a link is not as long as it is said to be; steps hold all links together."""
-    stated = {name: link for name, link in plan.of_kind(Link).items() if link.labels}
-    found = sample(plan, 0.0) if stated else None
-    for name, link in stated.items() if found is not None else ():
-        check_labels(plan, name, link, *found)  # type: ignore[misc]
 
 
 def check_labels(plan: Plan, name: str, link: Link, places: Mapping[str, tuple[float, float]], inputs: Mapping[str, Numbers]) -> None:

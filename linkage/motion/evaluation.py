@@ -14,7 +14,7 @@ import numpy as np
 
 from ..checks import require
 from ..errors import DefinitionError, SingularError, UntracedError, one_word
-from ..plan import ArrayReading, Mask, Plan, failures, negative, require_kinds
+from ..plan import Mask, Plan, failures, negative, require_kinds
 from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions
 from ..quantities import numbers_in
 from ..units import Amount
@@ -295,7 +295,7 @@ class Evaluation:
         """
         plan, shape = self.grid.plan, (int(bad.sum()),)
         with np.errstate(all="ignore"):
-            lengths = ArrayReading(plan.members, plan.table.lengths, inputs)
+            lengths = plan.reading(inputs)
             lost = ~np.isfinite(block[:, bad]).all(axis=0) | negative(plan, lengths, shape)
             if lost.any():
                 lost[lost] = self._failed({name: value[lost] for name, value in inputs.items()}, int(lost.sum()))

@@ -89,17 +89,14 @@ class Part(Member):
         require_measure(angle, "angle", "Part: angle")
         self.at, self.angle = (quantity(x), quantity(y)), quantity(angle)
         self.mirrored = is_yes("Part: mirrored", mirrored)
-        self._check_words({"on": on is not None, "at": at is not None, "angle": not is_nothing(self.angle), "mirrored": self.mirrored})
-        self._check_given()
-
-    def _check_words(self, said: Mapping[str, bool]) -> None:
-        """Raise DefinitionError for a word of `Part` that is a name in the machine, too: it is unclear which of them is meant."""
+        said = {"on": on is not None, "at": at is not None, "angle": not is_nothing(self.angle), "mirrored": self.mirrored}
         for word in said:
             if said[word] and word in self.plan.members:
                 kind = self.plan.members[word].kind
                 what = f"Part({self.plan.title}, {word}=...): {word} places a part, and is a {kind} of {self.plan.title}"
                 reached = f'lower["{word}"], and given as Whole(**{{"lower.{word}": ...}})'
                 raise DefinitionError(f"{what}, too; rename that in a subclass to place the part. The member is reached by {reached}.")
+        self._check_given()
 
     def _set_in(self, machine: Any) -> dict[str, float]:
         """Return the dimensions that a design has set otherwise than its class."""
@@ -153,7 +150,13 @@ class Part(Member):
                     raise DefinitionError(f"{title}: the stroke {name} cannot be left out; give it a quantity, {name}=S.")
                 quantity(value)
             elif isinstance(member, Point):
-                self._check_point(title, name, member, value)
+                if value is None or not member.is_fixed:
+                    if not member.is_fixed:
+                        said = f"{title}: {name} moves in the part and takes no place"
+                        raise DefinitionError(f"{said}; give its fixed points, {', '.join(self.plan.ground)}, or carry the part by on=.")
+                    raise DefinitionError(f"{title}: the fixed point {name} cannot be left out; fuse it with a point or give (x, y).")
+                if not isinstance(value, (str, Member)):
+                    pair_of(value, f"{title}: {name}=")
             elif value is None and member is not None:
                 continue
             elif name in plan.table.spellings or isinstance(member, Dimension):
@@ -167,15 +170,6 @@ class Part(Member):
                 raise DefinitionError(f"{what}; leave it out by {name}=None, or exchange it in a subclass of {plan.title}.")
             else:
                 raise unknown("Name", name, [*plan.members, *plan.table.names()], where=title)
-
-    def _check_point(self, title: str, name: str, member: Point, value: object) -> None:
-        if value is None or not member.is_fixed:
-            if not member.is_fixed:
-                said = f"{title}: {name} moves in the part and takes no place"
-                raise DefinitionError(f"{said}; give its fixed points, {', '.join(self.plan.ground)}, or carry the part by on=.")
-            raise DefinitionError(f"{title}: the fixed point {name} cannot be left out; fuse it with a point or give (x, y).")
-        if not isinstance(value, (str, Member)):
-            pair_of(value, f"{title}: {name}=")
 
     def parts(self) -> tuple[Reference, ...]:
         own = [self.angle, *self.at]
@@ -343,19 +337,15 @@ class Renaming(ABC):
         if type(given) in (dict, FrozenDict, MappingProxyType):
             return {self.value(key, is_word): self.value(each, is_word) for key, each in given.items()}
         if is_dataclass(given) and not isinstance(given, type):
-            return self._data(given)
+            words = word_arguments(type(given))
+            changed = {each.name: self.value(getattr(given, each.name), each.name in words) for each in fields(given)}
+            if all(changed[name] is getattr(given, name) for name in changed):
+                return given
+            found = copy(given)
+            for name, value in changed.items():
+                object.__setattr__(found, name, value)
+            return found
         return given
-
-    def _data(self, given: Any) -> Any:
-        """Return a value of a frozen dataclass under the other names; itself, where nothing in it has a name."""
-        words = word_arguments(type(given))
-        changed = {each.name: self.value(getattr(given, each.name), each.name in words) for each in fields(given)}
-        if all(changed[name] is getattr(given, name) for name in changed):
-            return given
-        found = copy(given)
-        for name, value in changed.items():
-            object.__setattr__(found, name, value)
-        return found
 
 
 @final
@@ -544,7 +534,11 @@ def with_parts(members: Mapping[str, Member], title: str) -> dict[str, Member]:
         found |= brought.get(name, {name: member})
     if len(found) > MOST_MEMBERS:
         raise DefinitionError(f"{title} has {len(found)} members with those of its parts; up to {MOST_MEMBERS} are taken.")
-    return unaliased(found)
+    aliases = aliases_among(found)
+    if not aliases:
+        return dict(found)
+    renaming = Unaliased(aliases)
+    return {name: renaming.member(member) for name, member in found.items()}
 
 
 def carriers_first(parts: Mapping[str, Part]) -> list[str]:
@@ -578,15 +572,6 @@ def check_circuits(members: Mapping[str, Member], title: str) -> None:
                 part, _, own = inner[0].rpartition(".")
                 remedy = f"leave the part's own out, {part} = Part(..., {own}=None)"
                 raise DefinitionError(f"{title}: {first} and {name} both feed {fed.name}; {remedy}.", member=part)
-
-
-def unaliased(members: Mapping[str, Member]) -> dict[str, Member]:
-    """Return members that call fused points and shared strokes by their own names."""
-    aliases = aliases_among(members)
-    if not aliases:
-        return dict(members)
-    renaming = Unaliased(aliases)
-    return {name: renaming.member(member) for name, member in members.items()}
 
 
 @final

@@ -84,9 +84,13 @@ class Plan(Members):
         levels = dict.fromkeys((*self.strokes, *solved), Level.POSE) | dict.fromkeys(self.table.entries, Level.DESIGN)
         return Trace(self.members, self.table.lengths, levels)
 
+    def reading(self, inputs: Mapping[str, Scalar]) -> ArrayReading:
+        """Return the eager reading on arrays, nothing worked out yet."""
+        return ArrayReading(self.members, self.table.lengths, inputs)
+
     def read(self, inputs: Mapping[str, Scalar]) -> ArrayReading:
         """Return the eager reading on arrays, every point placed."""
-        reading = ArrayReading(self.members, self.table.lengths, inputs)
+        reading = self.reading(inputs)
         self.work_out(reading)
         return reading
 

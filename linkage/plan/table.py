@@ -77,7 +77,13 @@ class Table:
         given = quantity(value)
         key: Label = frozenset(slot.points) if slot.kind == "length" else (slot.points[1], frozenset((slot.points[0], slot.points[2])))
         if key in self._labels:
-            return self._repeated(key, slot, spelling, given, where)
+            first, owner = self._labels[key]
+            sign = 1 if slot.spellings[first] == slot.spellings[spelling] else -1
+            if isinstance(given, Number) and isinstance(owner, Number) and isclose(given.number, sign * owner.number, rel_tol=1e-9):
+                return Variable(first) if sign > 0 else -Variable(first)
+            if not isinstance(owner, Number) and sign > 0 and (given is owner or spelled(given) == spelled(owner)):
+                return owner
+            raise DefinitionError(f"{where}: {spelling}={spelled(given)} contradicts {first}={spelled(owner)}; a dimension has one value.")
         stands: Quantity = Variable(spelling) if isinstance(given, Number) else given
         if isinstance(given, Number):
             for each in slot.spellings:
@@ -92,16 +98,6 @@ class Table:
         else:
             self.angles[key] = stands
         return stands
-
-    def _repeated(self, key: Label, slot: Slot, spelling: str, given: Quantity, where: str) -> Quantity:
-        """Return the quantity of a label that stands somewhere already; the values must agree."""
-        first, owner = self._labels[key]
-        sign = 1 if slot.spellings[first] == slot.spellings[spelling] else -1
-        if isinstance(given, Number) and isinstance(owner, Number) and isclose(given.number, sign * owner.number, rel_tol=1e-9):
-            return Variable(first) if sign > 0 else -Variable(first)
-        if not isinstance(owner, Number) and sign > 0 and (given is owner or spelled(given) == spelled(owner)):
-            return owner
-        raise DefinitionError(f"{where}: {spelling}={spelled(given)} contradicts {first}={spelled(owner)}; a dimension has one value.")
 
     def settings(self, given: Mapping[str, npt.ArrayLike]) -> dict[str, Numbers]:
         """Return the design variables with some of them set: floats, or arrays for a batch of designs.

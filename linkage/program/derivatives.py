@@ -164,7 +164,14 @@ class Shares:
         elif node.op == "alias":
             yield node.args[1], found[node]
         elif node.op == "component":
-            yield from self._through_system(node, found[node])
+            system, place = node.args[0], int(node.args[1].value)
+            matrix, right = entries(system)
+            turned = [list(column) for column in zip(*matrix, strict=True)]
+            wanted = [found[node] if row == place else self.zero for row in range(len(right))]
+            unknowns = [self.graph.apply("component", system, float(row)) for row in range(len(right))]
+            for row, weight in enumerate(solution(self.graph, turned, wanted)):
+                yield right[row], weight
+                yield from ((matrix[row][column], -(weight * unknown)) for column, unknown in enumerate(unknowns))
         else:
             partials = OPERATIONS[node.op].partials(node, *node.args) if node.args else ()
             yield from ((arg, found[node] * partial) for arg, partial in zip(node.args, partials, strict=True))
@@ -179,17 +186,6 @@ class Shares:
         first = closure.roots[0].number
         spread = self.spread(weights, floor=first, held=closure.roots)
         yield from ((node, share) for node, share in spread.items() if node.number < first)
-
-    def _through_system(self, node: Node, share: Node) -> Iterator[tuple[Node, Node]]:
-        """Yield the shares of a system's entries for that of one unknown; the shares of all unknowns add up."""
-        system, place = node.args[0], int(node.args[1].value)
-        matrix, right = entries(system)
-        turned = [list(column) for column in zip(*matrix, strict=True)]
-        wanted = [share if row == place else self.zero for row in range(len(right))]
-        unknowns = [self.graph.apply("component", system, float(row)) for row in range(len(right))]
-        for row, weight in enumerate(solution(self.graph, turned, wanted)):
-            yield right[row], weight
-            yield from ((matrix[row][column], -(weight * unknown)) for column, unknown in enumerate(unknowns))
 
 
 def built_from(node: Node) -> Sequence[Node]:

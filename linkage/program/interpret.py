@@ -109,7 +109,7 @@ class Iterated:
         return cls(tuple([each.origin for each in closure.roots]), closure.residuals, rows)
 
 
-def scatter(outputs: Sequence[Node], inputs: Mapping[str, Numbers], iterated: Iterable[Iterated] = ()) -> tuple[FloatArray, FloatArray]:
+def scatter(outputs: Sequence[Node], inputs: Mapping[str, Numbers], iterated: Iterable[Iterated]) -> tuple[FloatArray, FloatArray]:
     """Return the values of some nodes at poses (n,), and how far rounding scatters them: both of the shape (outputs, n).
 
     Inputs are floats or arrays (n,) and taken as exact; `iterated` says which of them are solutions, in the order of construction. NaN
@@ -118,23 +118,18 @@ def scatter(outputs: Sequence[Node], inputs: Mapping[str, Numbers], iterated: It
     given: dict[str, Numbers] = {name: np.asarray(value, float) for name, value in inputs.items()}
     n = max(map(np.size, given.values()), default=1)
     for unknowns in iterated:
-        given |= iterated_again(unknowns, given, n)
+        values = shaken((*unknowns.rows, *unknowns.residuals), given)
+        entries = [np.broadcast_to(each, (RUNS + 1, n)) for each in values]
+        with np.errstate(all="ignore"):
+            change = np.array(solve_arrays(*entries))
+            at = np.stack([np.broadcast_to(given[node.value], change.shape[1:]) for node in unknowns.inputs])
+            change -= change[:, :1]
+            rest = SETTLED * np.abs(at).max(axis=0) * np.stack([noise()[node.number % PERIOD] for node in unknowns.inputs])
+        given |= {node.value: at[k] - change[k] + rest[k] for k, node in enumerate(unknowns.inputs)}
     runs = shaken(outputs, given)
     found = np.stack([np.broadcast_to(each, (RUNS + 1, n)) for each in runs]) if runs else np.empty((0, RUNS + 1, n))
     with np.errstate(all="ignore"):
         return found[:, 0], np.abs(found[:, 1:] - found[:, :1]).max(axis=1)
-
-
-def iterated_again(unknowns: Iterated, given: Mapping[str, Numbers], n: int) -> dict[str, Numbers]:
-    """Return unknowns, shape (runs, n), each run at the solution of its own rounded equations; the first as they are."""
-    values = shaken((*unknowns.residuals, *unknowns.rows), given)
-    entries = [np.broadcast_to(each, (RUNS + 1, n)) for each in (*values[len(unknowns.residuals) :], *values[: len(unknowns.residuals)])]
-    with np.errstate(all="ignore"):
-        change = np.array(solve_arrays(*entries))
-        at = np.stack([np.broadcast_to(given[node.value], change.shape[1:]) for node in unknowns.inputs])
-        change -= change[:, :1]
-        rest = SETTLED * np.abs(at).max(axis=0) * np.stack([noise()[node.number % PERIOD] for node in unknowns.inputs])
-    return {node.value: at[k] - change[k] + rest[k] for k, node in enumerate(unknowns.inputs)}
 
 
 @cache

@@ -51,14 +51,9 @@ class Enclosure(Operators["Enclosure | float", "Enclosure"]):
 ANYTHING = Enclosure(-inf, inf)
 
 
-def bounded_product(a: float, b: float) -> float:
-    """Return a product; of zero and no bound zero."""
-    return 0.0 if a == 0.0 or b == 0.0 else a * b
-
-
 def enclosed_product(a: Enclosure, b: Enclosure) -> Enclosure:
     """Return what products lie between."""
-    return Enclosure.around([bounded_product(x, y) for x in (a.low, a.high) for y in (b.low, b.high)])
+    return Enclosure.around([(0.0 if x == 0.0 or y == 0.0 else x * y) for x in (a.low, a.high) for y in (b.low, b.high)])
 
 
 def enclosed_quotient(a: Enclosure, b: Enclosure) -> Enclosure:

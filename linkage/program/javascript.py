@@ -88,16 +88,12 @@ class Expressions:
         names, found = short_names(self.taken), []
         for node in nodes:
             self.depth[node] = 1 + max([0 if arg.origin in self.named else self.depth.get(arg.origin, 0) for arg in node.args])
-            if self.has_name(node):
+            if self.uses[node] > 1 or node.op == "solve" or node in self.turning or self.depth[node] > DEEP:
                 text = self.operation(node)[0]
                 self.named[node] = name = next(names)
                 self.taken.add(name)
                 found.append(f"{name}={text}")
         return f"const {','.join(found)};" if found else ""
-
-    def has_name(self, node: Node) -> bool:
-        """Return whether an operation has to stand by itself: read several times, or done however the rest turns out."""
-        return self.uses[node] > 1 or node.op == "solve" or node in self.turning or self.depth[node] > DEEP
 
     def read(self, node: Node, least: int = CHOICE) -> str:
         """Return a node as an operand that binds at least so strongly."""

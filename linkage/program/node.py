@@ -376,25 +376,20 @@ def simpler_sum(graph: Graph, sign: float, a: Node, b: Node) -> Node | None:
     if sign < 0 and (reverse := graph.known("subtract", (b, a))) is not None:
         return graph.apply("negative", reverse)
     if is_fixed(a) != is_fixed(b):
-        return sum_with_fixed(graph, sign, a, b)
+        op = "add" if sign > 0 else "subtract"
+        if is_fixed(b):
+            x, fixed = split_sum(graph, a)
+            return None if equals(fixed, 0.0) else graph.apply("add", x, graph.apply(op, fixed, b))
+        x, fixed = split_sum(graph, b)
+        if not equals(fixed, 0.0):
+            return graph.apply(op, graph.apply(op, a, fixed), x)
+        number, factor, rest = factored(graph, b)
+        return None if number > 0.0 else graph.apply("subtract" if sign > 0 else "add", a, times(graph, -number, factor, rest))
     if not is_fixed(a):
         found = sum_of_shifted(graph, sign, a, b)
         if found is not None:
             return found
     return sum_of_products(graph, sign, a, b)
-
-
-def sum_with_fixed(graph: Graph, sign: float, a: Node, b: Node) -> Node | None:
-    """Return a + sign * b of which one is fixed, the fixed parts added up once per design."""
-    op = "add" if sign > 0 else "subtract"
-    if is_fixed(b):
-        x, fixed = split_sum(graph, a)
-        return None if equals(fixed, 0.0) else graph.apply("add", x, graph.apply(op, fixed, b))
-    x, fixed = split_sum(graph, b)
-    if not equals(fixed, 0.0):
-        return graph.apply(op, graph.apply(op, a, fixed), x)
-    number, factor, rest = factored(graph, b)
-    return None if number > 0.0 else graph.apply("subtract" if sign > 0 else "add", a, times(graph, -number, factor, rest))
 
 
 def sum_of_shifted(graph: Graph, sign: float, a: Node, b: Node) -> Node | None:

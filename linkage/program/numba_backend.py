@@ -81,15 +81,6 @@ class NumbaLoop:
         turned = self.turns(m, n)
         return pays_compiled(float(spent + m * n) * max(len(self.plan.pose), 1), turned in self._ready, lambda: self._texts[turned])
 
-    def _loop(self, turned: bool) -> Callable[..., None]:
-        """Return the compiled loop over poses or, turned, over designs."""
-        if turned not in self._ready:
-            self._ready[turned] = compiled_loop(self._texts[turned], "poses", lambda types: (
-                *(types.Array(types.float64, axes, "C", readonly=True) for axes in (2, 3)),  # what a motion holds cannot be written
-                types.float64[::1], *(types.int64[::1],) * 3,
-            ))  # fmt: skip
-        return self._ready[turned]
-
     def turns(self, m: int, n: int) -> bool:
         """Return whether designs, not poses, are best contiguous in the result."""
         return n < SHORT < m
@@ -98,7 +89,12 @@ class NumbaLoop:
         """Fill values, shape (outputs, designs, poses); a guard that is not above zero at some pose becomes -1."""
         m, n = values.shape[1:]
         turned = self.turns(m, n) and not any(map(is_table, poses))
-        loop, bad = self._loop(turned), np.zeros(max(len(guards), 1), np.int64)
+        if turned not in self._ready:
+            self._ready[turned] = compiled_loop(self._texts[turned], "poses", lambda types: (
+                *(types.Array(types.float64, axes, "C", readonly=True) for axes in (2, 3)),  # what a motion holds cannot be written
+                types.float64[::1], *(types.int64[::1],) * 3,
+            ))  # fmt: skip
+        loop, bad = self._ready[turned], np.zeros(max(len(guards), 1), np.int64)
         target = values.transpose(0, 2, 1) if turned else values
         for left in range(0, m, PART):
             part = slice(left, min(left + PART, m))

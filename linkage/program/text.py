@@ -59,7 +59,7 @@ class NodeNames:
         return lines
 
 
-def function_text(title: str, arguments: Sequence[Node], nodes: Iterable[Node], results: Sequence[Node], dialect: Dialect = PYTHON) -> str:
+def function_text(title: str, arguments: Sequence[Node], nodes: Iterable[Node], results: Sequence[Node], dialect: Dialect) -> str:
     """Return the text of a Python function that computes some nodes from others."""
     names = NodeNames(dialect, {node: f"a{place}" for place, node in enumerate(arguments)})
     head = f"def {title}({', '.join(names.names.values())}):"

@@ -53,14 +53,11 @@ class Curve:
             row = int(np.argmax(np.diff(self.xs) <= 0.0)) + 1
             raise DefinitionError(f"Curve: x must grow from row to row; {self.xs[row]:.6g} follows {self.xs[row - 1]:.6g}.")
         if self.period is not None:
-            self._check_period(self.period)
-
-    def _check_period(self, period: object) -> None:
-        """Raise DefinitionError for a table that does not close after its period."""
-        period = require_number("Curve: period", period, "a positive number is expected, such as 2 * pi", above=0.0)
-        if abs(self.xs[-1] - self.xs[0] - period) > 1e-9 * period or abs(self.ys[-1] - self.ys[0]) > 1e-9 * np.ptp(self.ys):
-            ends = f"from ({self.xs[0]:.6g}, {self.ys[0]:.6g}) to ({self.xs[-1]:.6g}, {self.ys[-1]:.6g})"
-            raise DefinitionError(f"Curve: the last row must lie one period after the first, with the same value; the table goes {ends}.")
+            period = require_number("Curve: period", self.period, "a positive number is expected, such as 2 * pi", above=0.0)
+            if abs(self.xs[-1] - self.xs[0] - period) > 1e-9 * period or abs(self.ys[-1] - self.ys[0]) > 1e-9 * np.ptp(self.ys):
+                what = "the last row must lie one period after the first, with the same value"
+                ends = f"from ({self.xs[0]:.6g}, {self.ys[0]:.6g}) to ({self.xs[-1]:.6g}, {self.ys[-1]:.6g})"
+                raise DefinitionError(f"Curve: {what}; the table goes {ends}.")
 
     def __call__(self, x: Any, order: int = 0) -> Any:
         """Return the curve of a quantity as a quantity, of numbers as numbers; or its derivative of that order.

@@ -383,21 +383,16 @@ def kinds_said(cls: type[Any], amount: Callable[[str], Any] = lambda unit: "quan
 def word_arguments(cls: type[Any]) -> frozenset[str]:
     """Return the attributes of a class whose texts are words and no names of members: `works="rod"`."""
     if cls not in WORD_ARGUMENTS:
-        WORD_ARGUMENTS[cls] = words_among(cls)
+        said = kinds_said(cls)
+        found: set[str] = set()
+        if cls.__init__ is not object.__init__:
+            for each in list(signature(cls.__init__).parameters.values())[1:]:
+                kind = said.get(each.name) or annotated_kind(each.annotation)
+                if isinstance(kind, str) and kind in PLAIN:
+                    found |= {each.name, *KEPT_AS.get(each.name, ())}
+        WORD_ARGUMENTS[cls] = frozenset(found)
     return WORD_ARGUMENTS[cls]
 
 
 WORD_ARGUMENTS: WeakKeyDictionary[type[Any], frozenset[str]] = WeakKeyDictionary()
 """What `word_arguments` has found, by class."""
-
-
-def words_among(cls: type[Any]) -> frozenset[str]:
-    """Return the arguments of a class that are words, and the attributes that they are kept in."""
-    said = kinds_said(cls)
-    found: set[str] = set()
-    if cls.__init__ is not object.__init__:
-        for each in list(signature(cls.__init__).parameters.values())[1:]:
-            kind = said.get(each.name) or annotated_kind(each.annotation)
-            if isinstance(kind, str) and kind in PLAIN:
-                found |= {each.name, *KEPT_AS.get(each.name, ())}
-    return frozenset(found)

@@ -102,7 +102,12 @@ def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[AppliedThrust]) 
     sides = [side for _, joint in plan.joints for side in (joint.on, joint.by) if side.role == "slider"]
     sliders = [slider(point) for point in dict.fromkeys(side.points[0] for side in sides) if point not in fixed]
     arms = [telescope(plan, name) for name in plan.telescopes]
-    links = declared_bodies(plan, arms)
+    inner = {frozenset(arm.points) for arm in arms}
+    links = [
+        FreeBody(body.name, body.points, (body.points[0], body.points[1]), label=link_name(plan, body.points))
+        for body in plan.links[1:]
+        if frozenset(body.points) not in inner and not holds_an_arm(plan, body.points)
+    ]
     pairs = sliding_pairs(plan, links)
     links = [link for link in links if not any(set(link.points) == pair.points for pair in pairs)]
     struts, hosts = two_point_members(plan, holders, thrusts, links)
@@ -113,16 +118,6 @@ def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[AppliedThrust]) 
     alone = [(strut.name, (strut.P, strut.Q)) for strut in struts if not strut.host and strut.pair is None]
     own = [FreeBody(name, ends, ends, label=joined_names(*ends)) for name, ends in alone]
     return (*sliders, *arms, *links, *carrying, *own, *(body for pair in pairs for body in pair.bodies)), struts, pairs
-
-
-def declared_bodies(plan: Plan, arms: Iterable[FreeBody]) -> list[FreeBody]:
-    """Return the bodies that steps and links declare, without the frame and the arms that a stroke moves."""
-    inner = {frozenset(arm.points) for arm in arms}
-    return [
-        FreeBody(body.name, body.points, (body.points[0], body.points[1]), label=link_name(plan, body.points))
-        for body in plan.links[1:]
-        if frozenset(body.points) not in inner and not holds_an_arm(plan, body.points)
-    ]
 
 
 def frame_points(plan: Plan) -> frozenset[str]:
@@ -159,22 +154,17 @@ def two_point_members(
     """Return the two-point members, and by their names the declared bodies that they are together with the points along them."""
     cylinders = [Strut(member_title(each), *each.ends, line=holders.line_of(each)) for each in holders.cylinders]
     given = [each for each in thrusts if not any(same(one, each.member) for one in holders.cylinders)]
-    struts = [*driven_lengths(plan, holders), *cylinders, *known_struts(added_up(given))]
-    twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
-    if twice:
-        raise DefinitionError(f"{plan.title}: two elements are called {twice}; give each a name of its own in the class.")
-    hosts = with_points(plan, struts, links)
-    return tuple(placed(plan, strut, hosts.get(strut.name)) for strut in struts), hosts
-
-
-def driven_lengths(plan: Plan, holders: Holders) -> list[Strut]:
-    """Return the lengths that a step drives, where no cylinder has taken over all their strokes."""
     found = []
     for bar in plan.cylinders:
         strokes = {name for name in plan.strokes if name == bar.length.name or name in plan.reaches(bar.length)}
         if strokes - holders.taken and not holders.given & plan.reaches(bar.length):
             found.append(Strut(joined_names(bar.P, bar.Q), bar.P, bar.Q, bar.length))
-    return found
+    struts = [*found, *cylinders, *known_struts(added_up(given))]
+    twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
+    if twice:
+        raise DefinitionError(f"{plan.title}: two elements are called {twice}; give each a name of its own in the class.")
+    hosts = with_points(plan, struts, links)
+    return tuple(placed(plan, strut, hosts.get(strut.name)) for strut in struts), hosts
 
 
 def with_points(plan: Plan, struts: Sequence[Strut], links: Sequence[FreeBody]) -> dict[str, FreeBody]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from ..motion.places import way_of
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel
 from ..quantities import name_of
+from ..vectors import Numbers
 from .applied import case_of
 from .holding import holders_of
 from .member_limits import PROBE, SAME, MemberLimit, bent_among, greatest_load, member_limits
@@ -50,7 +51,7 @@ class LoadAt:
     """
 
     plan: Plan
-    designs: Mapping[str, Any]
+    designs: Mapping[str, Numbers]
     point: str
     along: Direction
     case: Case = None
@@ -230,7 +231,7 @@ class LoadAt:
                 return greatest_load(values[0], values[1], *self.fixed)
         return self.most(self.motion(strokes))
 
-    def _run(self, kernel: Kernel, inputs: Mapping[str, Any], count: int) -> FloatArray | None:
+    def _run(self, kernel: Kernel, inputs: Mapping[str, Numbers], count: int) -> FloatArray | None:
         """Return the forces of the own loads and of one newton (2, elements, n); None where what is taken for granted does not hold."""
         found = kernel(inputs, way=way_of(count), size=(1, count))
         return found.values[:, 0].reshape(2, -1, count) if np.all(found.guards > 0.0) else None

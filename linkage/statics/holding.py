@@ -23,7 +23,7 @@ from ..loads import ForceElement, Poses, Reeving, Tie, TwoPinned, TwoPoint
 from ..motion import Motion
 from ..motion.conditions import REFUSE, WARN, condition_of_sine, is_or_are
 from ..motion.limits import where_words
-from ..plan import Plan
+from ..plan import Mask, Plan
 from ..program import FloatArray, Traced, elementwise, eliminated, is_traced, node_of
 from ..quantities import Member, joined_names
 from ..vectors import Numbers
@@ -275,7 +275,7 @@ def check_run(motion: AnyMotion, tie: Tie, run: Reeving, stroke: str) -> None:
         )
 
 
-def joined_lines(plan: Plan, elements: Sequence[ForceElement], ties: Sequence[Tie] = ()) -> list[tuple[TwoPoint, ...]]:
+def joined_lines(plan: Plan, elements: Sequence[ForceElement], ties: Sequence[Tie]) -> list[tuple[TwoPoint, ...]]:
     """Return the cylinders that hold, those of one pressure line together; without those whose thrust a tie tells."""
     fed = [member for each in elements for member in each.feeds(plan.members)]
     fed += [share.member for tie in ties for share in tie.shares]
@@ -295,7 +295,7 @@ def line_names(line: Sequence[TwoPoint]) -> str:
     return " and ".join(each.name or str(each) for each in line)
 
 
-def steady_rate(plan: Plan, line: Sequence[TwoPoint], stroke: str, is_tied: bool = False) -> float:
+def steady_rate(plan: Plan, line: Sequence[TwoPoint], stroke: str, is_tied: bool) -> float:
     """Return how the declared length of a single cylinder follows its stroke: a number, of all designs and poses; else 0."""
     length = plan.table.lengths.get(frozenset(line[0].ends)) if len(line) == 1 and not is_tied else None
     if length is None or {name for name in plan.strokes if name == length.name or name in plan.reaches(length)} != {stroke}:
@@ -419,7 +419,7 @@ class Levers:
         scaled = [[matrix[i][j] / columns[j] / rows[i] for j in count] for i in count]
         return condition_of_sine(scaled[0][0]) if len(scaled) == 1 else inverse_size(scaled)
 
-    def where(self, regular: Any) -> Levers:
+    def where(self, regular: Mask) -> Levers:
         """Return the same, of a program, with no value where it is not regular."""
         return replace(self, matrix=elementwise(lambda each: np.where(regular, each, np.nan), (self.matrix,)))
 

@@ -286,7 +286,7 @@ def joints_at(joints: Sequence[JointForce], point: str, title: str) -> tuple[Joi
     return tuple(each for each in joints if each.point == name)
 
 
-def joint_on(joints: Sequence[JointForce], point: str, on: str, title: str, by: str = "") -> tuple[JointForce, float]:
+def joint_on(joints: Sequence[JointForce], point: str, on: str, title: str, by: str) -> tuple[JointForce, float]:
     """Return the joint at a point that transmits a force to a body, and -1 where it is seen from the other body, else 1.
 
     `by` is the body that it comes from, where several press on the first one there.

@@ -17,7 +17,7 @@ from ..loads import ForceElement, Load
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import FRAME_SIDE, Angle, Joint, JointSide, Quantity, body_name, joined_names, name_of, signed_terms
-from ..steps import Guide, Link, Point
+from ..steps import Link, Point
 from .applied import AppliedThrust
 from .bodies import FRAME, FRAME_NAME, SlidingPair, Strut, frame_points, free_bodies, refuse_driven, sliding_blocks
 from .holding import Holders, holders_of
@@ -244,7 +244,12 @@ class Structure:
         """Return the body that one side of a joint names."""
         guide = self.plan.guide_of(side)
         if guide is not None:
-            return self.guide_carrier(guide)
+            if guide.angle is not None:
+                refuse_driven(self.plan, ((guide.angle, f"{guide.name} = {guide}: its angle"),))
+            if len(guide.points) == 2:
+                return self.carrier(guide.points[0], guide.points[1], f"{guide.name} = {guide}")
+            moving = [point for point in guide.points if point not in self.fixed]
+            return self.slider(moving[0]) if moving else FRAME
         if side.role == "slider":
             return self.slider(side.points[0])
         if side.role == "runner":
@@ -266,15 +271,6 @@ class Structure:
     def running(self) -> set[tuple[str, tuple[str, ...]]]:
         """The points that run on guides and slots, the driven ones too, each with its line."""
         return {(joint.point, self.plan.track(joint)) for _, joint in self.plan.joints if joint.track and joint.on.role == "runner"}
-
-    def guide_carrier(self, guide: Guide) -> int:
-        """Return the body that a guide belongs to."""
-        if guide.angle is not None:
-            refuse_driven(self.plan, ((guide.angle, f"{guide.name} = {guide}: its angle"),))
-        if len(guide.points) == 2:
-            return self.carrier(guide.points[0], guide.points[1], f"{guide.name} = {guide}")
-        moving = [point for point in guide.points if point not in self.fixed]
-        return self.slider(moving[0]) if moving else FRAME
 
     def slider(self, point: str) -> int:
         """Return the body at a point that moves without turning."""

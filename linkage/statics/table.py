@@ -113,7 +113,11 @@ def max_table(
         return judged_table(results.judge(over, acting))
     if over is not None or acting is not None:
         raise DefinitionError("max_table: over= and acting= are for a machine; results of pin_forces say both themselves.")
-    each_of = results_of(results)
+    found: list[object] = list(results) if isinstance(results, (list, tuple, Iterator)) else [results]
+    wrong = next((each for each in found if not isinstance(each, PinForces)), None)
+    if wrong is not None or None in found:
+        raise DefinitionError(f"max_table: {cited(wrong)} is no result of pin_forces; give pin_forces(motion), or a list of such.")
+    each_of = [each for each in found if isinstance(each, PinForces)]
     best: dict[tuple[str, str, str, str], PinLoad] = {}
     for one in each_of:
         with unwarned():  # what comes of a dead point is said by the row
@@ -159,15 +163,6 @@ def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer) -> 
 def joint_key(joint: JointForce) -> tuple[str, str, str, str]:
     """Return what tells a joint from others."""
     return joint.point, joint.on, joint.by, joint.kind
-
-
-def results_of(given: PinForces | Iterable[PinForces]) -> list[PinForces]:
-    """Return results of `pin_forces`, one or several, as a list; DefinitionError for anything else."""
-    found: list[object] = list(given) if isinstance(given, (list, tuple, Iterator)) else [given]
-    wrong = next((each for each in found if not isinstance(each, PinForces)), None)
-    if wrong is not None or None in found:
-        raise DefinitionError(f"max_table: {cited(wrong)} is no result of pin_forces; give pin_forces(motion), or a list of such.")
-    return [each for each in found if isinstance(each, PinForces)]
 
 
 def largest_loads(result: PinForces) -> list[PinLoad]:

@@ -100,7 +100,13 @@ def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Suppor
     motion = held_in_case(motion, acting)
     poses = FlatPoses(motion, "The axle loads", set())
     applied = traced_loads(motion, acting, AT_REST) if isinstance(motion, TracedMotion) else loads_over(motion, acting)
-    outside = outside_of(poses, applied, supports)
+    first = next(iter(supports.values()))
+    start, force, moment = poses.at(name_of(first.point)), poses.zeros(2).T, poses.zeros()
+    for load in applied.loads:
+        if load.element not in supports:
+            own = poses.flattened(load.force)
+            force, moment = force + own, moment + cross(poses.at(name_of(load.load.point)) - start, own)
+    outside = Outside(part_along(push_of(poses, first), force), part_along(to_the_right(poses, supports), force), np.asarray(moment))
     ways = {name: push_of(poses, each) for name, each in supports.items()}
     across, levers = directions(poses, supports, ways)
     ends: list[FloatArray | None]
@@ -231,17 +237,6 @@ class Outside:
     across: FloatArray
     along: FloatArray
     moment: FloatArray
-
-
-def outside_of(poses: FlatPoses, applied: AppliedLoads, supports: Mapping[str, Support]) -> Outside:
-    """Return the sum of all loads, but for what the supports are taken to have elsewhere."""
-    first = next(iter(supports.values()))
-    start, force, moment = poses.at(name_of(first.point)), poses.zeros(2).T, poses.zeros()
-    for load in applied.loads:
-        if load.element not in supports:
-            own = poses.flattened(load.force)
-            force, moment = force + own, moment + cross(poses.at(name_of(load.load.point)) - start, own)
-    return Outside(part_along(push_of(poses, first), force), part_along(to_the_right(poses, supports), force), np.asarray(moment))
 
 
 def push_of(poses: FlatPoses, support: Support) -> FloatArray:

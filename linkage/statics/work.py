@@ -77,15 +77,10 @@ def stroke_force(motion: Motion, acting: Acting, drive: str | None, efficiency: 
             force = force + rates.sense * sum(lost, np.zeros(poses.count))
         else:
             force = poses.flattened(found.drives[stroke])
-    return poses.full(with_losses(force, efficiency, rates.sense))
-
-
-def with_losses(force: FloatArray, efficiency: float, sense: int) -> FloatArray:
-    """Return F / k where the load resists the motion, F k where it drives it."""
     require_number("efficiency", efficiency, "a number above 0 and up to 1 is expected", above=0.0, most=1.0)
-    if efficiency != 1.0 and not sense:
+    if efficiency != 1.0 and not rates.sense:
         raise DefinitionError('An efficiency works against the motion: say direction="extending" or "retracting".')
-    return np.where(force * sense > 0.0, force / efficiency, force * efficiency)
+    return poses.full(np.where(force * rates.sense > 0.0, force / efficiency, force * efficiency))
 
 
 # The work of the loads.

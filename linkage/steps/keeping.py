@@ -128,7 +128,9 @@ class Construction:
                 self.placed.append(name)
                 self._place(name, member)
                 for each in [each for each, link in links.items() if set(link.point_names) <= set(self.placed)]:
-                    self._join_link(links.pop(each))
+                    link = links.pop(each)
+                    length = self.lengths.get(frozenset(link.point_names))
+                    self._join(link.point_names if length is None or not self.behind(self.form(length)) else ())
 
     def _points_behind(self, starts: Iterable[Member]) -> dict[str, Point]:
         """Return the points that some members hang on, at once or through vectors and quantities."""
@@ -155,11 +157,6 @@ class Construction:
             moved = any(self.behind(self.form(drive.quantity)) for joint in point.joints() if joint.arm for drive in joint.drives)
             for body in () if moved else point.bodies():
                 self._join(body)
-
-    def _join_link(self, link: Link) -> None:
-        """Take in a declared link, unless its length is driven."""
-        length = self.lengths.get(frozenset(link.point_names))
-        self._join(link.point_names if length is None or not self.behind(self.form(length)) else ())
 
     def _join(self, points: tuple[str, ...]) -> None:
         """Let points be one body; with any that shares two of them it is one."""

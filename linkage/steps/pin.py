@@ -108,12 +108,9 @@ class Group(Member):
         points += [name_of(slide.point) for slide in self.slides]
         values = [length for _, _, length in self.given] + [quantity(value) for _, step in self.attached for value in step.labels.values()]
         outside: list[Reference] = [point for point in dict.fromkeys(points) if point not in self.pins]
-        return (*outside, *(value for value in values if not value.is_constant), *self.guide_parts())
-
-    def guide_parts(self) -> tuple[Reference, ...]:
-        """Return what its slides' guides need outside the group: fixed guides, points of moving ones."""
         guides = [slide.guide for slide in self.slides]
-        return tuple(each for each in guides if not (isinstance(each, Guide) and set(each.points) & set(self.pins)))
+        outside += [value for value in values if not value.is_constant]
+        return (*outside, *(each for each in guides if not (isinstance(each, Guide) and set(each.points) & set(self.pins))))
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
         """Return what must vanish: a residual a rod, two a rigidly attached point, one a slide."""

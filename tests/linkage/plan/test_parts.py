@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from hydraulics import Cylinder, LiftCircuit
+from hydraulics import Cylinder, LiftCircuit, OilLine, Tank
 from linkage import (
     RIGHT,
     AssemblyError,
@@ -557,6 +557,7 @@ def test_a_cylinder_between_two_parts_is_told_by_both():
         lower = Part(Arm, S=s, load=None, ram=None, pump=None)
         other = Part(Arm, S=s, at=(1.5, 0), mirrored=True, load=None, ram=None, pump=None)
         tie = Cylinder(lower.T, other.T, bore=80 * mm, rod=40 * mm, closed=0.1, stroke=0.01)
+        drain, line = Tank(), OilLine("tie", "drain")
 
     assert any("lower.T other.T goes from" in verdict for verdict in Joined().verdicts())
 

@@ -47,7 +47,7 @@ from .study_file import (
     texts_said,
     tolerances_said,
     vary_said,
-    whole_number,
+    count_from,
 )
 
 SEARCH_OUTPUTS: Mapping[str, tuple[str, ...]] = {
@@ -188,9 +188,9 @@ SEARCH: Mapping[str, Read] = {
     "sigmas": lambda head, given: amount_said(given, ""),
     "method": one_of(SEARCH_METHODS),
     "solver": one_of(SOLVERS),
-    "starts": whole_number(1),
-    "seed": whole_number(0),
-    "limit": whole_number(1),
+    "starts": count_from(1),
+    "seed": count_from(0),
+    "limit": count_from(1),
     "folder": file_path,
     "round": rounding_said,
 }

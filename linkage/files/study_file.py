@@ -5,7 +5,7 @@
 
 A range is `"270 mm to 330 mm"`, `"270 to 330 mm in steps of 5 mm"`, `"within 60 mm"` of the present value; a list is the choices.
 
-A table holds the keywords of one function. What reads a key stands at the keyword, `count: Annotated[int, whole_number(1)] = 1024`, or in
+A table holds the keywords of one function. What reads a key stands at the keyword, `count: Annotated[int, count_from(1)] = 1024`, or in
 a mapping by names beside the function; it takes the head of the file and what stands under the key.
 """
 
@@ -369,7 +369,7 @@ def case_said(head: StudyHead, given: object) -> Any:
     return known_name("Load case", given, (PLAIN_CASE, *cases), where=head.plan.title)
 
 
-def whole_number(least: int) -> Read:
+def count_from(least: int) -> Read:
     """Return what reads a whole number of at least so much."""
 
     def read(head: StudyHead, given: Any) -> int:

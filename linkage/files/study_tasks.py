@@ -61,7 +61,7 @@ from .study_file import (
     range_said,
     texts_said,
     tolerances_said,
-    whole_number,
+    count_from,
 )
 from .survey_measures import TextMeasures, named_measures
 
@@ -199,7 +199,7 @@ def one_case(head: StudyHead, given: object) -> str:
     return str(found)
 
 
-def percentages(head: StudyHead, given: object) -> tuple[float, ...]:
+def percentile_list(head: StudyHead, given: object) -> tuple[float, ...]:
     """Return percentages from 0 to 100."""
     if not isinstance(given, list) or not all(is_number(each) and 0.0 <= each <= 100.0 for each in given):
         raise DefinitionError(f"{shortened(given)}: percentages from 0 to 100 are expected, such as [5, 50, 95].")
@@ -230,11 +230,11 @@ def survey_task(
     vary: Annotated[dict[str, Any], box_said, 'vary = { OB = "270 to 330 mm" }'],
     over: Annotated[dict[str, Any] | None, over_said] = None,
     measure: Annotated[dict[str, tuple[str, str]], measures_said, 'measure = { travel = "most(G_y) - least(G_y)" }'],
-    count: Annotated[int, whole_number(1)] = 1024,
+    count: Annotated[int, count_from(1)] = 1024,
     method: Annotated[str, one_of(SAMPLE_METHODS)] = "sobol",
-    seed: Annotated[int, whole_number(0)] = 0,
-    poses: Annotated[int, whole_number(2)] = 101,
-    piece: Annotated[int, whole_number(0)] = 0,
+    seed: Annotated[int, count_from(0)] = 0,
+    poses: Annotated[int, count_from(2)] = 101,
+    piece: Annotated[int, count_from(0)] = 0,
     folder: Path | None = None,
     progress: bool | Progress = False,
 ) -> TaskResult:
@@ -242,14 +242,14 @@ def survey_task(
     designs = Box.of(machine, vary).sample(count, method=method, seed=seed)
     measures = TextMeasures({name: text for name, (text, _) in measure.items()}, poses, over or {})
     found = survey(machine, designs, measures, folder=folder, progress=progress, piece=piece or None)
-    columns = [Column(each, part, unit_of(machine.plan, each)) for name, value in designs.items() for each, part in parts_of(name, value)]
+    columns = [Column(each, part, unit_of(machine.plan, each)) for name, value in designs.items() for each, part in setting_parts(name, value)]
     columns += [Column(name, np.asarray(found[name], float), unit) for name, (_, unit) in measure.items()]
     lines = [f"{machine.plan.title}: {count} designs."]
     lines += [f"  {summary_of(name, found[name], unit)}" for name, (_, unit) in measure.items()]
     return TaskResult("\n".join(lines), tuple(columns), found)
 
 
-def parts_of(name: str, value: Any) -> list[tuple[str, Any]]:
+def setting_parts(name: str, value: Any) -> list[tuple[str, Any]]:
     """Return a dimension and its values by name, a point as its two coordinates."""
     return [*zip((f"{name}.x", f"{name}.y"), value, strict=True)] if isinstance(value, tuple) else [(name, value)]
 
@@ -271,7 +271,7 @@ def zone_task(
     *,
     quantity: Annotated[Any, pose_quantity, 'quantity = "tilt"'],
     vary: Annotated[dict[str, Any], box_said, 'vary = { OB = "270 to 330 mm" }'],
-    poses: Annotated[int, whole_number(2)] = 51,
+    poses: Annotated[int, count_from(2)] = 51,
     strokes: Annotated[dict[str, Any] | None, swept_strokes] = None,
 ) -> TaskResult:
     """Look for the extremes of a quantity at every stroke over a box."""
@@ -282,7 +282,7 @@ def zone_task(
         Column(f"{part} at {word}", np.ravel(value), unit_of(plan, part))
         for word, at in (("least", found.low_at), ("greatest", found.high_at))
         for name, each in at.items()
-        for part, value in parts_of(name, each)
+        for part, value in setting_parts(name, each)
     ]
     least, most = float(np.nanmin(found.low, initial=np.inf)), float(np.nanmax(found.high, initial=-np.inf))
     lines = [f"{plan.title}: {title} from {show(least, unit)} to {show(most, unit)} over the box.", *found.remarks]
@@ -312,11 +312,11 @@ def tolerance_task(
     of: Annotated[dict[str, Any], quantities_said, 'of = ["tilt"]'],
     tolerances: Annotated[dict[str, Any], tolerances_said("tolerances")],
     subject_to: Annotated[Sequence[Constraint], condition_limits] = (),
-    count: Annotated[int, whole_number(1)] = 1 << 14,
-    seed: Annotated[int, whole_number(0)] = 0,
+    count: Annotated[int, count_from(1)] = 1 << 14,
+    seed: Annotated[int, count_from(0)] = 0,
     method: Annotated[str, one_of(SAMPLE_METHODS)] = "sobol",
-    percentiles: Annotated[tuple[float, ...], percentages] = (5.0, 50.0, 95.0),
-    poses: Annotated[int, whole_number(2)] = 21,
+    percentiles: Annotated[tuple[float, ...], percentile_list] = (5.0, 50.0, 95.0),
+    poses: Annotated[int, count_from(2)] = 21,
     strokes: Annotated[dict[str, Any] | None, swept_strokes] = None,
 ) -> TaskResult:
     """Vary dimensions within their tolerances at random: bands, the worst case, and the share of good machines."""
@@ -362,7 +362,7 @@ def settings_task(
     """Look for the settings of a box that give wanted values."""
     found = settings_for(machine, vary, targets)
     names = [each for name in (found.settings[0] if found.settings else ()) for each in coordinates(machine.plan, [name])]
-    rows = [[part for name, value in each.items() for _, part in parts_of(name, value)] for each in found.settings]
+    rows = [[part for name, value in each.items() for _, part in setting_parts(name, value)] for each in found.settings]
     parts = zip(names, zip(*rows, strict=True), strict=True)
     columns = [Column(name, np.array(part, float), unit_of(machine.plan, name)) for name, part in parts]
     return TaskResult(str(found), tuple(columns), found, solved=found.met)

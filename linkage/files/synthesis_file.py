@@ -43,7 +43,7 @@ from .study_file import (
     outputs_said,
     over_said,
     vary_said,
-    whole_number,
+    count_from,
 )
 
 SECTION = "synthesis"
@@ -233,9 +233,9 @@ SYNTHESIS: Mapping[str, Read] = {
     "timed": timed_said,
     "rank": by_class(lambda head, given: measure_said(given, head.machine, head.found["over"])),
     "case": case_said,
-    "starts": lambda head, given: given if given == "catalogue" else whole_number(1)(head, given),
-    "seed": whole_number(0),
-    "limit": whole_number(1),
+    "starts": lambda head, given: given if given == "catalogue" else count_from(1)(head, given),
+    "seed": count_from(0),
+    "limit": count_from(1),
     "folder": file_path,
     "round": rounding_said,
     **{name: task_said(name) for name in SYNTHESIS_TASKS},

@@ -93,13 +93,13 @@ def forces_at_pose(motion: Motion, pose: int, question: ForceQuestion) -> Forces
             found = ForcesAt(question.asked(alone), 0)
     if all(np.isfinite(found.one(joint.force)).all() for joint in found.found.joints):
         return found
-    words = refusal(motion, pose, question) or next(iter(found.found.remarks), said("the forces are not known here"))
+    words = why_no_forces(motion, pose, question) or next(iter(found.found.remarks), said("the forces are not known here"))
     if motion.unreachable != "nan":
         raise SingularError(words, motion=motion)
     return ForcesAt(found.found, found.pose, words)
 
 
-def refusal(motion: Motion, pose: int, question: ForceQuestion) -> str:
+def why_no_forces(motion: Motion, pose: int, question: ForceQuestion) -> str:
     """Return why a pose has no forces, in words; empty where nothing refuses them."""
     strokes = {name: np.array(values.ravel()[pose]) for name, values in motion.strokes.items()}
     try:

@@ -31,7 +31,7 @@ from .arrows import (
     significant,
     wordings,
 )
-from .force_arrows import ForceQuestion, force_layer, forces_at_pose, refusal
+from .force_arrows import ForceQuestion, force_layer, forces_at_pose, why_no_forces
 from .gap_marks import GapMark, draw_gap, gap_mark, worst_pose
 from .paper import footnote
 from .scene import Bounds
@@ -79,7 +79,7 @@ class Overlays:
         if self.rates is not None:
             rates_of("velocities", self.rates, motion.strokes, motion.shape, motion.plan.title)
         if not motion.reached.ravel()[pose]:
-            return Overlay((), (), (refusal(motion, pose, ForceQuestion()),), box)
+            return Overlay((), (), (why_no_forces(motion, pose, ForceQuestion()),), box)
         if self.forces is not None:
             forces = forces_at_pose(motion, pose, self.forces)
             if forces.refusal:

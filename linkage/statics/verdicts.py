@@ -38,7 +38,7 @@ def drive_remarks(judge: Judge) -> list[Remark]:
     plan = judge.plan
     if not any(each.holds for each in plan.of_kind(TwoPoint).values()) or any(map(np.ndim, judge.designs.values())):
         return []
-    held = {case: held_strokes(plan_in_case(plan, Acting(case=case))) for case in judge.cases}
+    held = {case: strokes_held(plan_in_case(plan, Acting(case=case))) for case in judge.cases}
     loose = {name: [case for case, strokes in held.items() if name not in strokes] for name in plan.strokes}
     asked = [(name, case) for name, cases in loose.items() for case in (cases if len(cases) < len(held) else [""])]
     answers = judge.lost_allowed().answers([most(abs(drive_force(name, case=case or None))) for name, case in asked]) if asked else []
@@ -53,7 +53,7 @@ def drive_remarks(judge: Judge) -> list[Remark]:
     return [remark for _, remark in found.values()]
 
 
-def held_strokes(plan: Plan) -> set[str]:
+def strokes_held(plan: Plan) -> set[str]:
     """Return the strokes that cylinders, closed lines and ropes hold."""
     held = set(holders_of(plan).taken)
     for tie in closed_ties(plan):

@@ -39,6 +39,7 @@ from .study_file import (
     StudyHead,
     amount_said,
     case_said,
+    count_from,
     file_path,
     keywords_read,
     one_of,
@@ -47,7 +48,6 @@ from .study_file import (
     texts_said,
     tolerances_said,
     vary_said,
-    count_from,
 )
 
 SEARCH_OUTPUTS: Mapping[str, tuple[str, ...]] = {

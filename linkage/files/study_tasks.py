@@ -52,6 +52,7 @@ from .study_file import (
     StudyHead,
     amount_said,
     case_said,
+    count_from,
     file_path,
     flattened,
     keywords_read,
@@ -61,7 +62,6 @@ from .study_file import (
     range_said,
     texts_said,
     tolerances_said,
-    count_from,
 )
 from .survey_measures import TextMeasures, named_measures
 
@@ -242,7 +242,8 @@ def survey_task(
     designs = Box.of(machine, vary).sample(count, method=method, seed=seed)
     measures = TextMeasures({name: text for name, (text, _) in measure.items()}, poses, over or {})
     found = survey(machine, designs, measures, folder=folder, progress=progress, piece=piece or None)
-    columns = [Column(each, part, unit_of(machine.plan, each)) for name, value in designs.items() for each, part in setting_parts(name, value)]
+    parts = [pair for name, value in designs.items() for pair in setting_parts(name, value)]
+    columns = [Column(each, part, unit_of(machine.plan, each)) for each, part in parts]
     columns += [Column(name, np.asarray(found[name], float), unit) for name, (_, unit) in measure.items()]
     lines = [f"{machine.plan.title}: {count} designs."]
     lines += [f"  {summary_of(name, found[name], unit)}" for name, (_, unit) in measure.items()]

@@ -38,12 +38,12 @@ from .study_file import (
     StudyHead,
     amount_said,
     case_said,
+    count_from,
     file_path,
     keywords_read,
     outputs_said,
     over_said,
     vary_said,
-    count_from,
 )
 
 SECTION = "synthesis"

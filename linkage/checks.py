@@ -28,7 +28,7 @@ def is_whole(value: object) -> TypeGuard[int]:
     return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
 
 
-def refusal(what: str, value: object, expected: str) -> DefinitionError:
+def unfit(what: str, value: object, expected: str) -> DefinitionError:
     """Return the error for a value: `count=0: a number is expected.`, `scale=0 is no size.`; `gap(width` is closed behind the value."""
     given = f"{what}={cited(value)}{')' * (what.count('(') - what.count(')'))}" if what else cited(value)
     return DefinitionError(f"{given}{' ' if expected.startswith('is ') else ': '}{expected}.")
@@ -37,7 +37,7 @@ def refusal(what: str, value: object, expected: str) -> DefinitionError:
 def require(holds: object, what: str, value: object, expected: str) -> None:
     """Refuse a value of which something does not hold; in the words of `require_number`."""
     if not holds:
-        raise refusal(what, value, expected)
+        raise unfit(what, value, expected)
 
 
 def require_one_design(designs: Mapping[str, object], said: str) -> None:
@@ -69,14 +69,14 @@ def require_number(
         It is no such number.
     """
     if not (is_number(value) and above < value < below and least <= value <= most):
-        raise refusal(what, value, expected)
+        raise unfit(what, value, expected)
     return value
 
 
 def require_whole(what: str, value: object, expected: str, *, least: float = -math.inf, most: float = math.inf) -> int:
     """Return what is one whole number from `least` to `most`; refuse anything else, as `require_number` does."""
     if not (is_whole(value) and least <= value <= most):
-        raise refusal(what, value, expected)
+        raise unfit(what, value, expected)
     return int(value)
 
 
@@ -85,5 +85,5 @@ def require_type(
 ) -> Kind:
     """Return what is of a kind, and its parts `of` a kind where that is said; refuse anything else, as `require_number` does."""
     if not isinstance(value, kind) or (of is not None and not all(isinstance(each, of) for each in cast(Iterable[object], value))):
-        raise refusal(what, value, expected)
+        raise unfit(what, value, expected)
     return value

@@ -175,8 +175,8 @@ class Members:
         for each, value in member.strokes.items() if isinstance(member, Drawn) else ():
             if each in self.strokes and isinstance(value, Amount):
                 require_measure(value, self.known_stroke_kind(each), f"{self.title}: {name} = drawn(...): {each}")
-        for _, value in member.coordinates() if isinstance(member, Point) else ():
-            self._check_terms(value, "length", f"{self.title}: {name} = {member}")
+        for _, coordinate in member.coordinates() if isinstance(member, Point) else ():
+            self._check_terms(coordinate, "length", f"{self.title}: {name} = {member}")
         for part in self.with_parts(name):
             for angle in part.in_radians():
                 self._check_terms(angle, "angle", f"{self.title}: {name} = {member}")

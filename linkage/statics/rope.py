@@ -32,7 +32,7 @@ from ..loads import (
 )
 from ..loads.element import Formulas, Reeving, value_text
 from ..loads.rope import Station, pulls, stations_of, wraps
-from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Question, Tabled, least
+from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Question, Tabled, least, require_motion
 from ..plan import Plan, strokes_alone
 from ..program import FloatArray
 from ..quantities import (
@@ -316,7 +316,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
 
     def formulas(self, written: Formulas) -> None:
         if self.force is None and self.gives(written.plan.members):
-            written.given(f"T_{self.name}", lambda motion: self.tension_in(motion, Acting()), "kN")
+            written.given(f"T_{self.name}", lambda motion: self.tension_in(require_motion(motion), Acting()), "kN")
 
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
         stations = self.stations(members)

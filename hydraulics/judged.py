@@ -329,8 +329,8 @@ class LiftingCylinder:
         """Return whether it goes back by itself against the resistance of the returning oil; where not, what the other side must give.
 
         It goes back against its working direction; of one that works with both sides the way the load drives it, and both ways where
-        that changes its sense: the worse is told. Where the load then drives it on, as a lever past its top, the pump's pressure on the
-        other side has to do it.
+        that changes its sense. The verdict is on the worse. Where the load then drives it on, as a lever past its top, the pump's pressure
+        on the other side has to do it.
         """
         judge, against = self.judge, said("against {pressure} in the return line", pressure=self.show(resistance))
         each_way = [(way, judge.answers([most(self.back(way, resistance)) <= 0.0])[0]) for way in self.ways_back]

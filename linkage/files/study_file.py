@@ -108,8 +108,8 @@ def keywords_read(
 ) -> dict[str, Any]:
     """Return the keywords of a function that a table gives, each read as `readers` say, else as its annotation does.
 
-    They are read in their order: `head.found` has those above. What must be given and is not is told by the annotation's example; without
-    one it is read as an empty table. SeveralError with all mistakes, each under its key.
+    They are read in their order: `head.found` has those above. For what must be given and is not, the message has the annotation's example;
+    without one it is read as an empty table. SeveralError with all mistakes, each under its key.
     """
     mistakes, parameters = Mistakes(), signature(function).parameters
     known = annotated_readers(function) if readers is None else {name: (read,) for name, read in readers.items()}

@@ -292,7 +292,7 @@ def zone_task(
 
 
 def whole_stroke(machine: Mechanism, poses: int) -> dict[str, FloatArray]:
-    """Return so many values of the stroke of a machine that has one [m or rad]; none of several."""
+    """Return so many values of the stroke of a machine that has one [m or rad], nothing where it has more."""
     return {name: np.linspace(each.start, each.end, poses) for name, each in machine.plan.strokes.items() if len(machine.plan.strokes) == 1}
 
 

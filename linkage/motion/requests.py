@@ -118,6 +118,11 @@ class Request(Arithmetic):
         return None
 
     @property
+    def of_laws(self) -> bool:
+        """Whether it is made of laws over a motion, which take long to trace: their looks share one program."""
+        return False
+
+    @property
     def may_be_unlimited(self) -> bool:
         """Whether its law may have no bound at some poses, as `unlimited` then tells."""
         return False
@@ -503,6 +508,10 @@ class Combined(Request):
         sides = [next((piece.side for piece in each if piece.side), "") for each in chosen]
         combined = [Combined(self.function, tuple(piece.request for piece in each)) for each in chosen]
         return tuple(SmoothPiece(request, side) for request, side in zip(combined, sides, strict=True))
+
+    @property
+    def of_laws(self) -> bool:
+        return any(each.of_laws for each in self.requests)
 
     @property
     def may_be_unlimited(self) -> bool:
@@ -891,7 +900,8 @@ def keeps_digits(plan: Plan, what: Request, inputs: Mapping[str, Any], near: Mas
     """
     if plan.solved or near.sum() < MANY * near.size:
         return np.zeros(near.shape, bool)
-    kernel, count = plan.made_beside(("coarse", what.key), lambda twin: coarse_look(twin, what))
+    made = plan.made_beside if what.of_laws else plan.made
+    kernel, count = made(("coarse", what.key), lambda twin: coarse_look(twin, what))
     values = np.broadcast_to(kernel(inputs, size=near.shape).values, (len(kernel.plan.outputs), *near.shape)).reshape(-1, near.size)
     own, size, shaken, least = values[:count], values[count], values[count + 1 : -1], values[-1]
     with np.errstate(all="ignore"):
@@ -909,7 +919,8 @@ def coarse_look(plan: Plan, what: Request) -> tuple[Kernel, int]:
 def examined(plan: Plan, what: Request, inputs: Mapping[str, Any], reading: ArrayReading) -> Conditioning:
     """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
     what.read_own(reading)
-    rounding = plan.made_beside(("rounding", what.key), lambda twin: Rounding.of(twin, what.rounded(twin)))
+    made = plan.made_beside if what.of_laws else plan.made
+    rounding = made(("rounding", what.key), lambda twin: Rounding.of(twin, what.rounded(twin)))
     error = what.error(plan, rounding.at(inputs))
     found = conditioning(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
     return found.as_loops() if what.stands_for_others else found

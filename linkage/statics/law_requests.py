@@ -137,6 +137,10 @@ class LawRequest(Request):
         return super().pieces(plan) if self.pieces_in is None else self.pieces_in(self, plan)
 
     @property
+    def of_laws(self) -> bool:
+        return True
+
+    @property
     def may_be_unlimited(self) -> bool:
         return self.unlimited_in is not None
 

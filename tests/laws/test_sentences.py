@@ -45,7 +45,7 @@ RATIO = re.compile(r"[\d.]+ (\w+) for 1 \1\b")
 
 OFFER = re.compile(
     r"an? (?:cylinder of )?(?:bore|rod)(?: of)? [\d.]+ \w+(?: and rod [\d.]+ \w+)?"
-    r"(?:,? (?:with a reserve of [\d.]+|it is up to [\d.]+ \w+))?"
+    r"(?:,? (?:with a reserve of [\d.]+|it is up to [\d.]+ \w+|would do, with \d+ %))?"
 )
 """A size that is offered: of the series of inches in a system that has them, another one than in millimetres."""
 

@@ -175,7 +175,7 @@ def test_stroke_of_half_the_length():
     assert_allclose(pin_forces(motion).thrusts["push"], want, rtol=1e-11)
     use, _ = plane.peak(lambda psi: moment(psi) / lever(psi, "K", "X") / plane.critical(ROD, long(psi, "K", "X")), ANGLES[0], ANGLES[-1])
     (buckling,) = [each for each in Pushed.push.checks(motion) if each.rule == "buckling"]
-    assert_allclose(number("safety", buckling), 1 / use, rtol=6e-3)
+    assert_allclose(number("safety", buckling), 0.92 / use, rtol=6e-3)  # the rod carries T / k_m while the pump lifts
 
 
 def test_beside_the_angle():
@@ -218,7 +218,7 @@ def test_cylinder_beside_a_driven_length():
 
     use, _ = plane.peak(used, ANGLES[0], ANGLES[-1])
     (buckling,) = [each for each in SecondAlone.lift.checks(motion) if each.rule == "buckling"]
-    assert_allclose(number("safety", buckling), 1 / use, rtol=6e-3)
+    assert_allclose(number("safety", buckling), 0.92 / use, rtol=6e-3)  # the rod carries T / k_m while the pump lifts
 
 
 class OnePressure(Pulled):

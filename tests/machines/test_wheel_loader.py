@@ -216,8 +216,8 @@ def test_verdicts_while_the_arm_lifts():
 
     worst, _ = plane.peak(use, 0.0, 1.100)
     (buckling,) = [each for each in WheelLoader.lift.checks(motion) if each.rule == "buckling"]
-    assert bool(buckling) == (worst * 3.5 <= 1.0)
-    assert_allclose(number("safety", buckling), 1 / worst, rtol=6e-3)
+    assert bool(buckling) == (worst * 3.5 <= 0.95)
+    assert_allclose(number("safety", buckling), 0.95 / worst, rtol=6e-3)  # the rod carries T / k_m
 
 
 def at_lengths(CD_, TU_):

@@ -5,7 +5,7 @@ import random
 import numpy as np
 import pytest
 
-from linkage import LEFT, Acting, Dyad, Ground, LinkageError, LoadCase, Mechanism, Stroke, Weight, angle, equations, export, report
+from linkage import LEFT, Acting, Column, Dyad, Ground, LinkageError, LoadCase, Mechanism, Stroke, Weight, angle, equations, export, report
 
 
 class Arm(Mechanism):
@@ -69,5 +69,5 @@ def checked(limits):
     from linkage.documents.reporting import checked_limits
 
     if limits is not None:
-        checked_limits(limits, ["tilt"], "Arm")
+        checked_limits(limits, {"tilt": Column("tilt", [0.0], "deg")}, "Arm")
     raise LinkageError("this far")

@@ -1207,7 +1207,7 @@ def test_what_is_no_path_has_no_page(tmp_path):
     ):
         with pytest.raises(DefinitionError, match=said):
             page(motion, file)
-    with pytest.raises(DefinitionError, match="a motion has its poses"):
+    with pytest.raises(DefinitionError, match="a motion has its own way"):
         page(level_lift(), file, at={"lift": 1.0})
     assert not file.exists()
 

@@ -340,7 +340,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         if over is not None:
             if strokes:
                 raise DefinitionError(f"{self.plan.title}: sweep(over=...) says where all strokes are; leave out {keywords(strokes)}.")
-            return self.judge(self._declared(over)).places[0].swept(count, unreachable)
+            return self.judge((over,)).places[0].swept(count, unreachable)
         return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
 
     @of_a_design

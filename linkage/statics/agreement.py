@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import cast, final
+from typing import final
 
 import numpy as np
 
@@ -58,7 +58,8 @@ class Slip:
 
 def slips(structure: Structure, poses: FlatPoses) -> Iterator[Slip]:
     """Yield what the joints of steps from other packages let slip, by each stroke and in each direction that they hold."""
-    own = [each for each in structure.contacts if each.owner and is_foreign(structure, each)]
+    members = structure.plan.members
+    own = [each for each in structure.contacts if each.owner and type(members[each.owner]).__module__.split(".")[0] != "linkage"]
     system = System(structure, poses, (), length=1.0)
     for stroke in structure.plan.strokes if own else ():
         speeds = Speeds(structure, poses, Rates({stroke: 1.0}))
@@ -86,24 +87,14 @@ def slips_in(contact: Contact, system: System, speeds: Speeds, stroke: str) -> I
             yield Slip(contact, letter, stroke, way, driven, np.hypot(on[0], on[1]) + np.hypot(by[0], by[1]))
 
 
-def is_foreign(structure: Structure, contact: Contact) -> bool:
-    """Return whether a joint is that of a step from another package."""
-    return type(structure.plan.members[contact.owner]).__module__.split(".")[0] != "linkage"
-
-
 def assumed_joints(structure: Structure, poses: FlatPoses) -> list[FloatArray]:
-    """Return numbers of a program, each shape (1,), that are above zero where the joints hold what they say."""
+    """Return numbers of a program, each shape (1,), above zero where joints hold what they say, exactly or roughly and near."""
     found, plan = list(slips(structure, poses)), structure.plan
     if not found:
         return []
     near = NEAR - poses.flattened(poses.motion._array(np.asarray(plan.trace.nearness(plan.members), object)))
     exactly, roughly = ([part * (slip.size + STILL) - slip.miss for slip in found] for part in (AGREES, ROUGHLY))
-    return [elementwise(holds_or_near, (a, b, near)) for a, b in zip(exactly, roughly, strict=True)]
-
-
-def holds_or_near(exactly: FloatArray, roughly: FloatArray, near: FloatArray) -> FloatArray:
-    """Return what is above zero where one of two does: exactly, or roughly and near."""
-    return cast(FloatArray, np.maximum(exactly, np.minimum(roughly, near)))
+    return [elementwise(np.maximum, (a, elementwise(np.minimum, (b, near)))) for a, b in zip(exactly, roughly, strict=True)]
 
 
 def check_joints(structure: Structure, poses: FlatPoses) -> None:
@@ -112,8 +103,19 @@ def check_joints(structure: Structure, poses: FlatPoses) -> None:
         rates = [np.hypot(*poses.rate(name, slip.stroke)) for name in structure.plan.moving]
         size = slip.size + 1e-3 * np.max(rates, axis=0, initial=STILL)
         bad = disagreeing(poses, slip.miss, AGREES * size, size)
-        if bad.any():
-            raise DefinitionError(slip_words(slip, structure, poses, bad))
+        if not bad.any():
+            continue
+        contact, plan, worst = slip.contact, structure.plan, int(np.argmax(np.where(bad, slip.miss, -1.0)))
+        unit = "rad" if slip.letter == "c" else "m"
+        drives = f" where its drives say {slip.driven[worst]:.4g} {unit}" if slip.driven.any() else ""
+        where = where_words(plan, poses.mask(bad), poses.motion.strokes)
+        joint = f"{contact.owner}.joints(): the joint {contact.kind!r} at {contact.point}"
+        raise DefinitionError(
+            f"{plan.title}: {joint} holds {slip.letter!r} between {structure.name(contact.on)} and {structure.name(contact.by)}, but there "
+            f"they move against each other by {slip.way[worst]:.4g} {unit} a unit of {slip.stroke}{drives}, {where}: its force would do "
+            "work, and pin forces would not agree with virtual work. A force acts at the origin of line=: let that be where the bodies "
+            "touch, let holds= be a direction in which they do not move against each other, and name in drives= what a stroke moves."
+        )
 
 
 def disagreeing(poses: FlatPoses, miss: FloatArray, limit: FloatArray | float, size: FloatArray | float) -> Mask:
@@ -126,20 +128,3 @@ def disagreeing(poses: FlatPoses, miss: FloatArray, limit: FloatArray | float, s
         sizes = np.broadcast_to(size, bad.shape)[bad]
         bad[bad] = ~(miss[bad] <= MARGIN * np.nan_to_num(error, nan=0.0) * sizes)
     return bad
-
-
-def slip_words(slip: Slip, structure: Structure, poses: FlatPoses, bad: Mask) -> str:
-    """Return what a joint says and what its bodies do, with the remedy."""
-    contact, plan = slip.contact, structure.plan
-    worst = int(np.argmax(np.where(bad, slip.miss, -1.0)))
-    unit = "rad" if slip.letter == "c" else "m"
-    drives = f" where its drives say {slip.driven[worst]:.4g} {unit}" if slip.driven.any() else ""
-    where = where_words(plan, poses.mask(bad), poses.motion.strokes)
-    bodies = f"{structure.name(contact.on)} and {structure.name(contact.by)}"
-    joint = f"{contact.owner}.joints(): the joint {contact.kind!r} at {contact.point}"
-    return (
-        f"{plan.title}: {joint} holds {slip.letter!r} between {bodies}, but there they move against each other by "
-        f"{slip.way[worst]:.4g} {unit} a unit of {slip.stroke}{drives}, {where}: its force would do work, and pin "
-        "forces would not agree with virtual work. A force acts at the origin of line=: let that be where the bodies touch, let holds= be "
-        "a direction in which they do not move against each other, and name in drives= what a stroke moves."
-    )

@@ -5,7 +5,7 @@ Each body has three rows (forces along x and y, moment about its first point ove
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from typing import final
@@ -98,23 +98,20 @@ class System:
         sizes = [3] * len(self.structure.bodies) + [2] * len(self.structure.lone)
         return [0, *np.cumsum(sizes).tolist()]
 
-    @property
-    def height(self) -> int:
-        """How many equations there are."""
-        return int(self.starts[-1])
-
     @cached_property
     def A(self) -> FloatArray:
         """The rows of the joint forces and of the forces of ropes, shape (n, rows, columns)."""
-        found = self.rows_of(self.unknowns)
-        return np.concatenate([found, self.run_rows], axis=2) if self.runs else found
+        found = self.rows_of(self.unknowns, self.width)
+        for index, row, value in self.run_entries():
+            found[:, row, index] += value
+        return found
 
     @cached_property
     def runs(self) -> tuple[tuple[tuple[int, Load, Wrench], ...], ...]:
         """What one unit of each rope's force puts on bodies: the body, the load, its wrench."""
         poses, none, found = self.poses, np.zeros(self.poses.count), []
-        for each in self.structure.holders.reeved:
-            run, pushed = each.run, self.pushed.get(each.name)
+        for name, run in self.structure.holders.reeved.items():
+            pushed = self.pushed.get(name)
             forces = [(load, poses.flattened(load.force)) for load in run.loads(poses.motion)]
             if pushed is not None:
                 forces = [(load, np.where(pushed, 0.0, force)) for load, force in forces]
@@ -123,34 +120,26 @@ class System:
             found.append(tuple((self.structure.bearer(load), load, wrench) for load, wrench in wrenches))
         return tuple(found)
 
-    @cached_property
-    def run_rows(self) -> FloatArray:
-        """The rows of the forces of ropes, shape (n, rows, ropes)."""
-        found = self.poses.zeros(self.height, len(self.runs))
-        for index, row, value in self.run_entries():
-            found[:, row, index] += value
-        return found
-
     def run_entries(self) -> Iterator[tuple[int, int, FloatArray]]:
-        """Yield the rope, the equation and what a unit of its force adds there, shape (n,)."""
-        for index, run in enumerate(self.runs):
+        """Yield the column of each rope, the equation and what a unit of its force adds there, shape (n,)."""
+        for index, run in enumerate(self.runs, len(self.unknowns)):
             for body, _, wrench in run:
                 yield from ((index, row, value) for row, value in self.parts(body, wrench))
 
     @property
     def width(self) -> int:
         """How many unknowns there are: those of the joints, then the forces of ropes."""
-        return len(self.unknowns) + len(self.structure.holders.runs)
+        return len(self.unknowns) + len(self.structure.holders.reeved)
 
     @cached_property
     def B(self) -> FloatArray:
         """The rows of the friction, shape (n, rows, frictions)."""
-        return self.rows_of(self.frictions)
+        return self.rows_of(self.frictions, len(self.frictions))
 
     @cached_property
     def load_rows(self) -> FloatArray:
         """The rows of the loads, shape (n, rows)."""
-        rows = self.poses.zeros(self.height)
+        rows = self.poses.zeros(self.starts[-1])
         for body, _, wrench in self.borne:
             for row, value in self.parts(body, wrench):
                 rows[:, row] += value
@@ -165,9 +154,9 @@ class System:
             for each in self.loads
         )
 
-    def rows_of(self, columns: Sequence[UnitWrench]) -> FloatArray:
-        """Return the rows of some unit wrenches, shape (n, rows, columns)."""
-        found = self.poses.zeros(self.height, len(columns))
+    def rows_of(self, columns: Sequence[UnitWrench], width: int) -> FloatArray:
+        """Return the rows of some unit wrenches, shape (n, rows, width), the columns first."""
+        found = self.poses.zeros(self.starts[-1], width)
         for index, column in enumerate(columns):
             for row, value in self.entries(column):
                 found[:, row, index] += value
@@ -194,7 +183,9 @@ class System:
     def drive(self, stroke: str) -> LinearForm:
         """Return the generalised force of a stroke [N or Nm]: each drive's force times how it follows the stroke."""
         forms = [force.multiplied(ratio) for ratio, force in self.drives(stroke)]
-        forms += [self.run(k).multiplied(rate) for k, rate in self.wound(stroke)]
+        for place, run in enumerate(self.structure.holders.reeved.values()):
+            if stroke in run.strokes:
+                forms.append(self.run(place).multiplied(self.poses.flattened(run.rate(self.poses.motion, stroke))))
         if not forms:
             raise DefinitionError(
                 f"{self.structure.plan.title}: the joints know no drive of {stroke}; "
@@ -202,12 +193,6 @@ class System:
                 "or by the drives in the joints() of a step of one's own."
             )
         return reduce(LinearForm.plus, forms)
-
-    def wound(self, stroke: str) -> Iterator[tuple[int, FloatArray]]:
-        """Yield the ropes whose length follows a stroke, by their places, and how it does, shape (n,)."""
-        for place, each in enumerate(self.structure.holders.reeved):
-            if stroke in each.run.strokes:
-                yield place, self.poses.flattened(each.run.rate(self.poses.motion, stroke))
 
     def drives(self, stroke: str) -> Iterator[tuple[FloatArray, LinearForm]]:
         """Yield how each driven quantity follows a stroke, shape (n,), with the force that drives it; those that do not are left out."""
@@ -218,23 +203,19 @@ class System:
             elif strut.known is None and strut.quantity is not None and self.follows(strut.quantity, stroke):
                 yield self.ratio(strut.quantity, stroke), self.thrust(strut)
         for contact in structure.contacts:
-            drives = list(structure.drives(contact))
+            drives, behind = list(structure.drives(contact)), structure.plan.reaches(contact.point)
             for letter in dict.fromkeys(letter for _, letter, _ in drives if contact.is_curve and letter != "c"):
-                if self.follows_curve(contact, stroke):
+                others = [name for name in structure.plan.moving if name in behind and name != contact.point]
+                if others:
+                    what = f"{contact.owner} is driven along a line of the frame, but its place depends on {', '.join(others)}, which move"
+                    remedy = "its force is not provided. Say by= the body that the line belongs to"
+                    raise DefinitionError(f"{structure.plan.title}: {what}; {remedy}.")
+                if stroke in behind:
                     way = (force_direction(contact, letter, poses) * poses.rate(contact.point, stroke)).sum(axis=0)
                     yield way, self.unknown(contact, letter, 1.0)
             for quantity, letter, sign in drives:
                 if (letter == "c" or not contact.is_curve) and self.follows(quantity, stroke):
                     yield self.ratio(quantity, stroke), self.unknown(contact, letter, sign)
-
-    def follows_curve(self, contact: Contact, stroke: str) -> bool:
-        """Return whether a point that is driven along a curve of the frame follows a stroke; DefinitionError where others move it too."""
-        plan, behind = self.structure.plan, self.structure.plan.reaches(contact.point)
-        others = [name for name in plan.moving if name in behind and name != contact.point]
-        if others:
-            what = f"{contact.owner} is driven along a line of the frame, but its place depends on {', '.join(others)}, which move"
-            raise DefinitionError(f"{plan.title}: {what}; its force is not provided. Say by= the body that the line belongs to.")
-        return stroke in behind
 
     def follows(self, quantity: Quantity, stroke: str) -> bool:
         """Return whether a driven quantity follows a stroke; DefinitionError where it follows moving points as well."""
@@ -271,26 +252,18 @@ class System:
         """Return a two-point member's thrust [N]: what pushes its far end against all that acts there."""
         if strut.pair is not None:
             return self.unknown(self.structure.sliding_joint(strut.pair, "t"), "t", 1.0)
-        body = self.structure.body_of(strut)
-
-        def far(contact: Contact) -> bool:
-            return self.structure.seat(contact, body) in strut.far
-
-        return self.cut(body, far, strut.far.__contains__, self.poses.along(strut.P, strut.Q))
-
-    def cut(self, body: int, is_joint: Callable[[Contact], bool], is_point: Callable[[str], bool], along: FloatArray) -> LinearForm:
-        """Return minus the forces on one side of a body along a direction, shape (2, n): what a cut there transmits."""
+        body, along = self.structure.body_of(strut), self.poses.along(strut.P, strut.Q)
         row, friction = self.poses.zeros(self.width), self.poses.zeros(len(self.frictions))
         for values, columns in ((row, self.unknowns), (friction, self.frictions)):
             for index, column in enumerate(columns):
                 sign = float(column.contact.on == body) - float(column.contact.by == body)
-                if sign and is_joint(column.contact):
+                if sign and self.structure.seat(column.contact, body) in strut.far:
                     values[:, index] = -sign * (column.wrench.force * along).sum(axis=0)
         for index, run in enumerate(self.runs, len(self.unknowns)):
             for bearer, load, wrench in run:
-                if bearer == body and is_point(load.point):
+                if bearer == body and load.point in strut.far:
                     row[:, index] += -(wrench.force * along).sum(axis=0)
-        pushes = [wrench.force for bearer, each, wrench in self.borne if bearer == body and is_point(each.load.point)]
+        pushes = [wrench.force for bearer, each, wrench in self.borne if bearer == body and each.load.point in strut.far]
         return LinearForm(row, friction, -sum(((force * along).sum(axis=0) for force in pushes), self.poses.zeros()))
 
     def known(self, way: int = 1) -> list[tuple[LinearForm, FloatArray]]:

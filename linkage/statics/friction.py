@@ -8,7 +8,7 @@ zero on the way the forces grow beyond all bounds: the mechanism jams, or locks 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import final
@@ -35,27 +35,13 @@ SLOWEST = 1e-10
 """Turning slower than this part of the fastest in the mechanism is none."""
 
 
-@final
-@dataclass(frozen=True)
-class PressingRows:
-    """Where each friction's pressing forces stand: a pin has two rows, a guide one; `parts` says how many each."""
+def rows_of(parts: Sequence[int]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the first and the last row of the forces that press each joint with friction: a pin has two `parts`, a guide one.
 
-    parts: tuple[int, ...]
-
-    @property
-    def first(self) -> FloatArray:
-        """The first row of each friction."""
-        return np.asarray(np.cumsum([0, *self.parts[:-1]]))
-
-    @property
-    def last(self) -> FloatArray:
-        """The last row of each friction: the first where it has one."""
-        return np.asarray(self.first + np.asarray(self.parts) - 1)
-
-    @property
-    def share(self) -> FloatArray:
-        """What the hypotenuse of first and last row counts (frictions, 1): of a single row, counted twice, the half of its square."""
-        return np.asarray(np.where(np.asarray(self.parts) == 2, 1.0, np.sqrt(0.5))[:, None])
+    The third is what the hypotenuse of both rows counts (frictions, 1): of a single row, counted twice, the half of its square.
+    """
+    first, counts = np.cumsum([0, *parts[:-1]]), np.asarray(parts)
+    return first, first + counts - 1, np.where(counts == 2, 1.0, np.sqrt(0.5))[:, None]
 
 
 @final
@@ -63,17 +49,17 @@ class PressingRows:
 class PressingForces:
     """The forces that make the frictions: without any (rows, n), and by each friction of one unit (rows, frictions, n).
 
-    `lever` (frictions, n) says how many units a friction of 1 N is, signed.
+    `parts` are the rows of each friction, one or two; `lever` (frictions, n) says how many units a friction of 1 N is, signed.
     """
 
-    rows: PressingRows
+    parts: tuple[int, ...]
     free: FloatArray
     by_unit: FloatArray
     lever: FloatArray
 
     def at(self, places: Mask | slice) -> PressingForces:
         """Return the same at some poses."""
-        return PressingForces(self.rows, self.free[:, places], self.by_unit[:, :, places], self.lever[:, places])
+        return PressingForces(self.parts, self.free[:, places], self.by_unit[:, :, places], self.lever[:, places])
 
     def forces(self, q: FloatArray) -> FloatArray:
         """Return the pressing forces (rows, n) at some frictions (frictions, n) [N]."""
@@ -83,29 +69,29 @@ class PressingForces:
 def consistent_frictions(pressing: PressingForces, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the frictions (frictions, n) [N] for coefficients (frictions, n), and where they have no bounded solution (n,)."""
     q, locked = np.zeros(coefficient.shape), np.zeros(coefficient.shape[1], bool)
+    first, last, share = rows_of(pressing.parts)
     for start in range(0, coefficient.shape[1], BLOCK):
         block = slice(start, start + BLOCK)
         here, mu = pressing.at(block), coefficient[:, block]
-        rows = here.rows
-        size = np.hypot(here.by_unit[rows.first], here.by_unit[rows.last]) * rows.share[:, :, None]
+        size = np.hypot(here.by_unit[first], here.by_unit[last]) * share[:, :, None]
         growth = mu * np.einsum("rjn,jn->rn", size, np.abs(here.lever))
         hard = ~(np.max(growth, axis=0, initial=0.0) < CONTRACTS)
         if not hard.all():
             with np.errstate(over="ignore", invalid="ignore"):  # of poses that do not contract
-                q[:, block] = iterated(rows, mu, here.forces)
+                q[:, block] = iterated(pressing.parts, mu, here.forces)
         if hard.any():
             q[:, block][:, hard], locked[block][hard] = continued(here.at(hard), mu[:, hard])
     return q, locked
 
 
-def iterated(rows: PressingRows, coefficient: FloatArray, forces: Callable[[FloatArray], FloatArray]) -> FloatArray:
+def iterated(parts: Sequence[int], coefficient: FloatArray, forces: Callable[[FloatArray], FloatArray]) -> FloatArray:
     """Return the frictions (frictions, n) to which plain iteration comes, where it contracts, with the pressing forces at frictions."""
-    first, last, share = rows.first, rows.last, rows.share * coefficient
-    q = np.zeros(coefficient.shape)
+    first, last, share = rows_of(parts)
+    q, factor = np.zeros(coefficient.shape), share * coefficient
     for _ in range(100):
         force = forces(q)
         x, y = force[first], force[last]
-        new = np.sqrt(x * x + y * y) * share  # np.hypot costs five times as much
+        new = np.sqrt(x * x + y * y) * factor  # np.hypot costs five times as much
         change, largest = np.abs(new - q), np.max(new, axis=0, initial=0.0)
         q = new
         if not np.any(change > UNCHANGED * largest):
@@ -116,12 +102,11 @@ def iterated(rows: PressingRows, coefficient: FloatArray, forces: Callable[[Floa
 def continued(pressing: PressingForces, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the frictions (frictions, n) that grow from none with the coefficients, NaN where they jam on the way, and where (n,)."""
     free, by_unit = pressing.free.T, np.moveaxis(pressing.by_unit * pressing.lever, -1, 0)
-    rows = [slice(first, last + 1) for first, last in zip(pressing.rows.first, pressing.rows.last, strict=True)]
-    forces = [(free[:, each], by_unit[:, each]) for each in rows]
-    final_coefficient = coefficient.T
-    q, alive = np.zeros(final_coefficient.shape), np.ones(len(final_coefficient), bool)
+    first, last, _ = rows_of(pressing.parts)
+    forces = [(free[:, a : b + 1], by_unit[:, a : b + 1]) for a, b in zip(first, last, strict=True)]
+    q, alive = np.zeros(coefficient.T.shape), np.ones(coefficient.shape[1], bool)
     for share in np.linspace(0.0, 1.0, STEPS + 1)[1:]:
-        q[alive], good = newton(q[alive], share * final_coefficient[alive], [(F[alive], G[alive]) for F, G in forces])
+        q[alive], good = newton(q[alive], share * coefficient.T[alive], [(F[alive], G[alive]) for F, G in forces])
         alive[alive] = good
     return np.where(alive[:, None], q, np.nan).T, ~alive
 
@@ -180,7 +165,7 @@ def joint_frictions(structure: Structure, poses: FlatPoses, frictions: tuple[Fri
     for friction in frictions:
         at_point = [each for each in structure.contacts if each.point == friction.point]
         joints = [each for each in at_point if (each.slides if friction.radius is None else each.kind == "pin")]
-        joints = [each for each in joints if not friction.guide or each.goes_by(friction.guide)]
+        joints = [each for each in joints if not friction.guide or friction.guide in each.line_names]
         if not joints:
             what = "no pin joint" if friction.radius is not None else f"nothing that slides on {friction.guide or 'a guide'}"
             remedy = "name another point"

@@ -35,18 +35,17 @@ class Looseness:
 
 
 def looseness(plan: Plan) -> Looseness:
-    """Return what is loose in a machine, worked out once a class and state of its lines."""
-    return plan.made(("looseness",), lambda _: looseness_at(sampled(plan)))
+    """Return what is loose in a machine, worked out once a class and state of its lines; nothing where joint forces are not provided."""
 
+    def made(_: Plan) -> Looseness:
+        with unwarned():
+            try:
+                equations = locked_equations(sampled(plan))
+            except DefinitionError as error:  # no cylinder where none is wanted, or points that keep no place
+                return Looseness(sentence=str(error))
+            return Looseness() if equations is None or not equations.lacks else Looseness(tuple(equations.loose()), equations.loose_words())
 
-def looseness_at(motion: Motion) -> Looseness:
-    """Return what is loose at some poses; nothing where none is reached, or where joint forces are not provided."""
-    with unwarned():
-        try:
-            equations = locked_equations(motion)
-        except DefinitionError as error:  # no cylinder where none is wanted, or points that keep no place
-            return Looseness(sentence=str(error))
-        return Looseness() if equations is None or not equations.lacks else Looseness(tuple(equations.loose()), equations.loose_words())
+    return plan.made(("looseness",), made)
 
 
 def locked_equations(motion: Motion) -> Equilibrium | None:
@@ -59,8 +58,7 @@ def locked_equations(motion: Motion) -> Equilibrium | None:
     fed += [each for each in elements if isinstance(each, TwoPoint) and not each.holds]
     laws = [AppliedThrust(member_title(each), each, np.zeros(motion.shape)) for each in fed]
     try:
-        system = System(Structure(motion.plan, elements, laws), poses, ())
-        return Equilibrium(system, bound=tuple(system.known()))
+        return Equilibrium(System(Structure(motion.plan, elements, laws), poses, ()))
     except NotHeldError:
         raise
     except DefinitionError:

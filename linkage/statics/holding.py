@@ -12,18 +12,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, reduce
+from functools import cached_property, partial, reduce
 from itertools import permutations, product
 from typing import Any, TypeVar, cast, final
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, SingularWarning, UntracedError, unwarned, warn
+from ..errors import DefinitionError, SingularError, SingularWarning, unwarned, warn
 from ..loads import ForceElement, Poses, Reeving, Tie, TwoPinned, TwoPoint
 from ..motion import Motion
 from ..motion.conditions import REFUSE, WARN, condition_of_sine, is_or_are
 from ..motion.limits import where_words
-from ..plan import Mask, Plan
+from ..plan import Plan
 from ..program import FloatArray, Traced, elementwise, eliminated, is_traced, node_of
 from ..quantities import Member, joined_names
 from ..vectors import Numbers
@@ -35,9 +35,6 @@ POSES = 7
 """Poses over the strokes at which it is looked how lengths follow them."""
 SLOWEST = 1e-9
 """A length that changes by less than this part of its end's way does not follow a stroke."""
-MOST_WRITTEN = 3
-"""Lines of cylinders that hold together in a program: whether the levers of more are near a singular pose, no formula of nodes tells."""
-
 
 @final
 @dataclass(frozen=True)
@@ -68,15 +65,6 @@ class PressureLine:
 
 @final
 @dataclass(frozen=True)
-class Reeved:
-    """A rope by its name, and how it runs."""
-
-    name: str
-    run: Reeving
-
-
-@final
-@dataclass(frozen=True)
 class Holders:
     """The lines that hold, in the order declared, and those that keep what is in them, each with the input that changes that."""
 
@@ -99,30 +87,19 @@ class Holders:
         return frozenset(line.stroke for line in self.all)
 
     @property
-    def runs(self) -> tuple[PressureLine, ...]:
-        """The closed ties that bend, each without straight members: ropes."""
-        return tuple(line for line in self.closed if line.tie is not None and line.tie.run is not None)
-
-    @property
-    def reeved(self) -> tuple[Reeved, ...]:
-        """The same by their names, with how they run."""
-        ties = [line.tie for line in self.runs]
-        return tuple(Reeved(tie.name, tie.run) for tie in ties if tie is not None and tie.run is not None)
-
-    def closed_by(self, name: str) -> PressureLine | None:
-        """Return the closed line of an element; None where it is none."""
-        return next((line for line in self.closed if line.tie is not None and line.tie.name == name), None)
+    def reeved(self) -> Mapping[str, Reeving]:
+        """How the closed ties run that bend, each without straight members, by their names: ropes."""
+        return {line.tie.name: line.tie.run for line in self.closed if line.tie is not None and line.tie.run is not None}
 
     @property
     def given(self) -> frozenset[str]:
         """The quantities that closed lines give."""
         return frozenset(line.tie.gives for line in self.closed if line.tie is not None)
 
-    def check_written(self) -> None:
-        """Raise UntracedError where more lines hold together than a program is written for."""
-        if len(self.lines) > MOST_WRITTEN and not all(line.is_steady for line in self.lines):
-            count = len(self.lines)
-            raise UntracedError(f"{count} lines of cylinders hold together, and a program is written for {MOST_WRITTEN} at the most.")
+    @property
+    def is_steady(self) -> bool:
+        """Whether nothing is closed, and the lengths of all lines follow their own strokes alone, in proportion."""
+        return not self.closed and all(line.is_steady for line in self.lines)
 
     def line_of(self, cylinder: TwoPoint) -> PressureLine | None:
         """Return the line that a cylinder is on, one that holds where it can be; None where it does not hold."""
@@ -244,22 +221,16 @@ def check_kept(motion: AnyMotion) -> None:
             takes = [np.ravel(part)[int(np.nanargmax(whole))] for part in np.broadcast_arrays(*parts)]
             words = " and ".join(f"{each.member.name} {way:+.4g}" for each, way in zip(tie.shares, takes, strict=True))
             what = f"{tie.name} locks the machine: it is closed, and a unit of {stroke} would change what is in it by {words} [SI]"
-            what += ratio_words(motion, tie, ties)
+            members = on_tie(tie)
+            other = next((one for one in ties if one is not tie and {on.name for on in on_tie(one)} == {on.name for on in members}), None)
+            if other is not None and len(members) == 2:
+                pair = " to ".join(each.name for each in members)
+                own, its = (np.ravel(np.divide(*(share_in(one, each, motion) for each in members)))[0] for one in (tie, other))
+                what += f"; {pair} is {its:.4g} on {other.name} and {own:.4g} on {tie.name}"
             raise DefinitionError(
                 f"{plan.title}: {what}. Let a step follow it, such as Dyad(U, P, UW={tie.shares[-1].member.name}.length), make the ratios "
                 "of its areas those of the other line, or open it by a Tank."
             )
-
-
-def ratio_words(motion: AnyMotion, tie: Tie, ties: Sequence[Tie]) -> str:
-    """Return how the shares of two members are to each other in a tie and in another one of the same two; "" where there is none."""
-    members = on_tie(tie)
-    others = [each for each in ties if each is not tie and {one.name for one in on_tie(each)} == {one.name for one in members}]
-    if len(members) != 2 or not others:
-        return ""
-    first, second = members
-    ratios = [float(np.ravel(share_in(each, first, motion) / share_in(each, second, motion))[0]) for each in (others[0], tie)]
-    return f"; {first.name} to {second.name} is {ratios[0]:.4g} on {others[0].name} and {ratios[1]:.4g} on {tie.name}"
 
 
 def check_run(motion: AnyMotion, tie: Tie, run: Reeving, stroke: str) -> None:
@@ -381,11 +352,6 @@ class Levers:
     cuts: tuple[tuple[FloatArray, ...], ...] = ()
     kept: tuple[tuple[FloatArray, ...], ...] = ()
 
-    @property
-    def is_traced(self) -> bool:
-        """Whether they are numbers of a program."""
-        return self.matrix.dtype == object
-
     def thrust(self, holders: Holders, member: TwoPoint, need: FloatArray, cuts: Sequence[FloatArray]) -> FloatArray:
         """Return what all lines together put on a cylinder (n,), where strokes need (n, lines), and what changes closed lines (n,) each."""
         units = self.thrusts(need) if holders.lines else need
@@ -406,9 +372,13 @@ class Levers:
         if self.matrix.shape[1] == 1:
             return need / self.matrix[:, 0]
         turned = np.swapaxes(self.matrix, 1, 2)
-        if self.is_traced or need.dtype == object:
-            return solved_traced(turned[0], need[0])[None]
-        return np.asarray(np.linalg.solve(turned, need[:, :, None])[:, :, 0])
+        if object not in (turned.dtype, need.dtype):
+            return np.asarray(np.linalg.solve(turned, need[:, :, None])[:, :, 0])
+        some = next(each for each in (*turned.flat, *need.flat) if isinstance(each, Traced))
+        graph, found = some.node.graph, np.empty((1, len(need[0])), object)
+        rows = [[graph.node(node_of(each)) for each in row] for row in turned[0]]
+        found[0] = [Traced(each, some.notes) for each in eliminated(rows, [graph.node(node_of(each)) for each in need[0]])]
+        return cast(FloatArray, found)
 
     @cached_property
     def condition(self) -> FloatArray:
@@ -418,10 +388,6 @@ class Levers:
         rows = [above_zero(reduce(np.maximum, [row[j] / columns[j] for j in count])) for row in sizes]
         scaled = [[matrix[i][j] / columns[j] / rows[i] for j in count] for i in count]
         return condition_of_sine(scaled[0][0]) if len(scaled) == 1 else inverse_size(scaled)
-
-    def where(self, regular: Mask) -> Levers:
-        """Return the same, of a program, with no value where it is not regular."""
-        return replace(self, matrix=elementwise(lambda each: np.where(regular, each, np.nan), (self.matrix,)))
 
 
 def share_of(
@@ -438,15 +404,16 @@ def with_levers(poses: FlatPoses, holders: Holders, what: str) -> tuple[FlatPose
     SingularError at the others unless NaN was asked for; `what` opens the sentence.
     """
     lines = holders.lines
-    if not holders.closed and all(line.is_steady for line in lines):
+    if holders.is_steady:
         matrix, one = np.zeros((poses.count, len(lines), len(lines))), np.ones(poses.count)
         for i, line in enumerate(lines):
             matrix[:, i, i] = line.steady
         return poses, (Levers(matrix, np.abs(matrix), tuple((one,) for _ in lines)),)
     ways = (1, -1) if any(line.changes_shares for line in lines) else (1,)
     if not isinstance(poses.motion, Motion):
-        return poses, poses.motion._once(("levers", holders.all), lambda: traced_levers(poses, holders, ways))
-    found = tuple(known_levers(poses, holders, way) for way in ways)
+        return poses, poses.motion._once(("levers", holders.all), partial(traced_levers, poses, holders, ways))
+    shared = "levers", holders.all, poses.good.tobytes()  # once for the same poses of a motion, for all loads and cylinders
+    found = tuple(poses.motion._once((*shared, way), partial(levers_of, poses, holders, way)) for way in ways)
     if not lines:
         return poses, found
     names = [each.name or str(each) for line in lines for each in line.cylinders]
@@ -463,12 +430,11 @@ def traced_levers(poses: FlatPoses, holders: Holders, ways: Sequence[int]) -> tu
     """Return the levers of lines as numbers of a program, without a value where the cylinders do not hold."""
     found = tuple(levers_of(poses, holders, way) for way in ways)
     cond = reduce(np.maximum, [each.condition for each in found]) if holders.lines else np.zeros(())
-    return tuple(each.where(cond <= REFUSE) for each in found) if is_traced(cond) else found
-
-
-def known_levers(poses: FlatPoses, holders: Holders, way: int) -> Levers:
-    """Return the levers of lines, worked out once for the same poses of a motion, for all loads and cylinders."""
-    return poses.motion._once(("levers", holders.all, way, poses.good.tobytes()), lambda: levers_of(poses, holders, way))
+    if not is_traced(cond):
+        return found
+    return tuple(
+        replace(each, matrix=elementwise(lambda lever: np.where(cond <= REFUSE, lever, np.nan), (each.matrix,))) for each in found
+    )
 
 
 def levers_of(poses: FlatPoses, holders: Holders, way: int) -> Levers:
@@ -670,13 +636,3 @@ def where_negative(values: FloatArray, x: FloatArray, y: FloatArray) -> FloatArr
     if values.dtype != object:
         return np.where(values < 0.0, x, y)
     return cast(FloatArray, elementwise(lambda each, a, b: np.where(each < 0.0, a, b), (values, x, y)))
-
-
-def solved_traced(A: FloatArray, b: FloatArray) -> FloatArray:
-    """Return the solution of a linear system whose numbers are those of a program, shape (k,)."""
-    some = next(each for each in (*A.ravel(), *b) if isinstance(each, Traced))
-    graph = some.node.graph
-    found = eliminated([[graph.node(node_of(each)) for each in row] for row in A], [graph.node(node_of(each)) for each in b])
-    result = np.empty(len(b), object)
-    result[:] = [Traced(each, some.notes) for each in found]
-    return cast(FloatArray, result)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Unpack, final
@@ -21,11 +21,11 @@ from ..quantities import Reference, name_of
 from ..shown import Shown
 from ..units import kN, show
 from .agreement import check_joints
-from .applied import AppliedLoad, AppliedLoads, applied_loads, rates_in
-from .bodies import FRAME_NAME
+from .applied import AppliedLoad, applied_loads, rates_in
+from .bodies import FRAME, FRAME_NAME
 from .force_program import forces_at
 from .held import held_in_case
-from .joints import Contact, Structure, acting_place, force_direction
+from .joints import Structure, acting_place, force_direction
 from .poses import FlatPoses
 from .solution import PoseForces, locked_words
 from .vehicle import ground_loads, standing_if_any, tipping_words
@@ -55,11 +55,9 @@ def joint_forces(motion: Motion, acting: Acting, split: str = "refuse") -> PinFo
         stroke_of(motion.plan, acting.drive, "drive")
     applied = applied_loads(motion, acting, rates)
     found = agreeing(forces_at(poses_held(motion, applied, "The joint forces"), applied, split), split)
-    remarks = [*locked_words(found, acting.movement), *lift_off_words(found), *self_locking_words(found), *at_rest_words(applied)]
-    remarks += [*slack_words(found), *tipping_words(motion, applied.acting)]
     return PinForces(
         motion, joints_of(found.structure, found.contacts, found.poses), found.drives, found.thrusts, applied.case, acting.movement,
-        found.poses.mask(found.locked), tuple(remarks), found, split,
+        found.poses.mask(found.locked), tuple(remarks_on(found)), found, split,
     )  # fmt: skip
 
 
@@ -183,7 +181,8 @@ class PinForces(Shown):
     @cached_property
     def on_bodies(self) -> Mapping[str, Mapping[str, FloatArray]]:
         """All forces by the body and the point they act at, or the joint where that is no point."""
-        found: dict[str, dict[str, FloatArray]] = {name: {} for name in self._structure.body_names}
+        structure = self._structure
+        found: dict[str, dict[str, FloatArray]] = {structure.name(body): {} for body in range(FRAME, len(structure.bodies))}
         names = [each.point if each.place is None else f"{each.point} ({each.kind})" for each in self.joints]
         pairs = list(zip(names, self.joints, strict=True))
         sides = [side for name, each in pairs for side in ((each.on, name, each.force), (each.by, name, -each.force))]
@@ -194,8 +193,25 @@ class PinForces(Shown):
 
     @cached_property
     def residual(self) -> float:
-        """The largest imbalance of forces or moments of any body over the largest force, at the worst pose."""
-        return residual(self)
+        """The largest imbalance of any body over the largest force there is, at the worst pose; moments over the machine's size.
+
+        The frame is one of the bodies where it stands on supports.
+        """
+        places, sums, largest = {point: self.motion[point] for point in self.motion.plan.points}, dict[str, FloatArray](), np.zeros(())
+        extent = max((float(np.nanmax(each, initial=0.0) - np.nanmin(each, initial=0.0)) for each in places.values()), default=1.0) or 1.0
+        acts = [(each, places[each.point] if each.place is None else each.place) for each in self.joints]
+        forces = [(each.on, place, each.force, each.couple) for each, place in acts]
+        forces += [(each.by, place, -each.force, -each.couple) for each, place in acts]
+        forces += [(body, places[load.load.point], load.force, np.zeros(())) for body, load in self._loads]
+        for body, place, force, couple in forces:
+            moment = (place[0] * force[1] - place[1] * force[0] + couple) / extent
+            row = np.stack(np.broadcast_arrays(*force, moment))
+            sums[body] = sums[body] + row if body in sums else row
+            largest = np.maximum(largest, np.hypot(force[0], force[1]))
+        held = {body: rows for body, rows in sums.items() if body != FRAME_NAME or self._ground}
+        bodies = [np.abs(rows[: 2 if body.startswith("pin ") else 3]).max(axis=0) for body, rows in held.items()]
+        worst = np.max(bodies, axis=0, initial=0.0) if bodies else np.zeros(())
+        return float(np.nanmax(worst / np.where(largest > 0.0, largest, 1.0), initial=0.0))
 
     @cached_property
     def gap(self) -> float:
@@ -269,15 +285,10 @@ def joints_of(
     for contact, (force, couple) in zip(structure.contacts, forces, strict=True):
         axis = structure.bodies[contact.on].axis if 0 <= contact.on < len(structure.bodies) else None
         on, by = structure.name(contact.on), structure.name(contact.by)
-        place = None if poses is None else place_elsewhere(contact, poses)
+        place = None if poses is None else acting_place(contact, poses)
+        place = None if poses is None or place is None or place is poses.at(contact.point) else poses.full(place)
         found.append(JointForce(contact.point, on, by, contact.kind, force, couple, axis, contact.has_force, place))
     return tuple(found)
-
-
-def place_elsewhere(contact: Contact, poses: FlatPoses) -> FloatArray | None:
-    """Return where a contact's force acts, shape (2, ...) [m]; None where that is its point."""
-    place = acting_place(contact, poses)
-    return None if place is poses.at(contact.point) else poses.full(place)
 
 
 def joints_at(joints: Sequence[JointForce], point: str, title: str) -> tuple[JointForce, ...]:
@@ -306,31 +317,6 @@ def joint_on(joints: Sequence[JointForce], point: str, on: str, title: str, by: 
     return taken[0]
 
 
-def residual(found: PinForces) -> float:
-    """Return the largest imbalance of any body over the largest force there is, at the worst pose; moments over the machine's size.
-
-    The frame is one of the bodies where it stands on supports.
-    """
-    motion, shape = found.motion, found.motion.shape
-    places = {point: motion[point] for point in motion.plan.points}
-    extent = max((float(np.nanmax(place, initial=0.0) - np.nanmin(place, initial=0.0)) for place in places.values()), default=1.0) or 1.0
-    sums: dict[str, FloatArray] = {}
-    largest = np.zeros(shape)
-    acts = [(each, places[each.point] if each.place is None else each.place) for each in found.joints]
-    forces = [(each.on, place, each.force, each.couple) for each, place in acts]
-    forces += [(each.by, place, -each.force, -each.couple) for each, place in acts]
-    forces += [(body, places[load.load.point], load.force, np.zeros(())) for body, load in found._loads]
-    for body, place, force, couple in forces:
-        moment = (place[0] * force[1] - place[1] * force[0] + couple) / extent
-        row = np.stack(np.broadcast_arrays(*force, moment))
-        sums[body] = sums[body] + row if body in sums else row
-        largest = np.maximum(largest, np.hypot(force[0], force[1]))
-    held = {body: rows for body, rows in sums.items() if body != FRAME_NAME or found._ground}
-    bodies = [np.abs(rows[: 2 if body.startswith("pin ") else 3]).max(axis=0) for body, rows in held.items()]
-    worst = np.max(bodies, axis=0, initial=0.0) if bodies else np.zeros(shape)
-    return float(np.nanmax(worst / np.where(largest > 0.0, largest, 1.0), initial=0.0))
-
-
 def range_text(values: FloatArray, unit: str) -> str:
     """Return a range of values [N or Nm] in words, in the unit given."""
     factor = kN if unit == "kN" else 1.0
@@ -341,9 +327,31 @@ def range_text(values: FloatArray, unit: str) -> str:
     return f"{' to '.join(ends)} {unit}"
 
 
-def lift_off_words(found: PoseForces) -> list[str]:
-    """Return the words for contacts that would have to pull to hold their bodies together: there these come apart."""
-    poses, structure, words = found.poses, found.structure, []
+def remarks_on(found: PoseForces) -> Iterator[str]:
+    """Yield in words where forces are not what the machine is meant to have: where it locks itself, comes apart, goes slack, tips over."""
+    poses, applied = found.poses, found.applied
+    yield from locked_words(found, applied.acting.movement)
+    yield from lift_off_words(found)
+    yield from self_locking_words(found)
+    if not applied.loads and not applied.thrusts:
+        if applied.acting.case in (None, PLAIN_CASE):
+            yield said("no load acts, so that all forces are zero; declare one in the class, such as load = Weight(G, mass=1200).")
+        else:
+            yield said("No load acts in the load case {case}: all forces there are zero.", case=applied.case)
+    elif applied.at_rest:
+        yield f"{', '.join(applied.at_rest)}: at rest a damper gives nothing; give the speeds, rates=dict(S=0.05)."
+    for name, tension in found.tensions.items():
+        slack = tension < 0.0
+        if slack.any():
+            where, push = where_words(poses.plan, slack, poses.motion.strokes), show(-float(np.nanmin(tension)), "N", 6)
+            what = f"there it would have to push, with up to {push}, and the constraint is not kept"
+            yield f"{name} goes slack {where}: {what}. Hang more weight on it, or take a rod."
+    yield from tipping_words(require_motion(poses.motion), applied.acting)
+
+
+def lift_off_words(found: PoseForces) -> Iterator[str]:
+    """Yield the words for contacts that would have to pull to hold their bodies together: there these come apart."""
+    poses, structure = found.poses, found.structure
     for contact, (force, _) in zip(structure.contacts, found.contacts, strict=True):
         if contact.joint is None or not contact.joint.pushes:
             continue
@@ -351,24 +359,10 @@ def lift_off_words(found: PoseForces) -> list[str]:
         mask = poses.mask(push < 0.0)
         if mask.any():
             bodies = f"{structure.name(contact.on)} from {structure.name(contact.by)}"
-            words.append(
+            yield (
                 f"{contact.owner} lifts off ({contact.kind}, {bodies}) {where_words(poses.plan, mask, poses.motion.strokes)}: there the "
                 f"contact would have to pull, with up to {show(-float(np.nanmin(push)), 'N', 6)}. Press it on with a spring or a weight."
             )
-    return words
-
-
-def slack_words(found: PoseForces) -> list[str]:
-    """Return the words for ropes that would have to push to keep their length: there they go slack."""
-    poses, words = found.poses, []
-    for name, tension in found.tensions.items():
-        mask = tension < 0.0
-        if mask.any():
-            words.append(
-                f"{name} goes slack {where_words(poses.plan, mask, poses.motion.strokes)}: there it would have to push, with up to "
-                f"{show(-float(np.nanmin(tension)), 'N', 6)}, and the constraint is not kept. Hang more weight on it, or take a rod."
-            )
-    return words
 
 
 def self_locking_words(found: PoseForces) -> list[str]:
@@ -384,14 +378,3 @@ def self_locking_words(found: PoseForces) -> list[str]:
         return []
     why = f"friction holds the load, which would move {stroke} without it; the drive must help"
     return [f"Self-locking while {applied.rates.direction} {where_words(motion.plan, mask, motion.strokes)}: {why}."]
-
-
-def at_rest_words(applied: AppliedLoads) -> list[str]:
-    """Return the words for what gives nothing: no loads at all, or none in a load case, dampers without rates."""
-    if not applied.loads and not applied.thrusts:
-        if applied.acting.case not in (None, PLAIN_CASE):
-            return [said("No load acts in the load case {case}: all forces there are zero.", case=applied.case)]
-        return [said("no load acts, so that all forces are zero; declare one in the class, such as load = Weight(G, mass=1200).")]
-    if not applied.at_rest:
-        return []
-    return [f"{', '.join(applied.at_rest)}: at rest a damper gives nothing; give the speeds, rates=dict(S=0.05)."]

@@ -70,10 +70,10 @@ class Contact:
         """
         return self.by == FRAME and not self.track and not (self.joint is not None and self.joint.arm)
 
-    def goes_by(self, name: str) -> bool:
-        """Return whether it is meant by the name of a guide, a step or a point of its line."""
-        given = self.joint.track if self.joint is not None else ()
-        return name in (self.owner, *self.track, *given)
+    @property
+    def line_names(self) -> tuple[str, ...]:
+        """What its line goes by: the names of a guide or a step, and of points on it."""
+        return (self.owner, *self.track, *(self.joint.track if self.joint is not None else ()))
 
 
 LETTERS = frozenset("xyntc")
@@ -283,11 +283,6 @@ class Structure:
         """The frame, the bodies and the lone pins."""
         return range(FRAME, len(self.bodies) + len(self.lone))
 
-    @property
-    def body_names(self) -> tuple[str, ...]:
-        """The names of the frame and of all bodies."""
-        return tuple(self.name(body) for body in range(FRAME, len(self.bodies)))
-
     def name(self, index: int) -> str:
         """Return a body's name."""
         if index == FRAME:
@@ -333,9 +328,8 @@ def measured_from(plan: Plan, joint: Joint, owner: str) -> tuple[str, str] | Non
     Raises DefinitionError for an angle that depends on moving points in another way: its torque has no one body to act against.
     """
     for drive in joint.drives:
-        if drive.along != "c":
-            continue
-        moving = [(sign, term) for sign, term in signed_terms(drive.quantity, plan.members) if follows_points(plan, term)]
+        terms = signed_terms(drive.quantity, plan.members) if drive.along == "c" else ()
+        moving = [(sign, term) for sign, term in terms if follows_points(plan, term)]
         if not moving:
             continue
         (sign, term), *others = moving

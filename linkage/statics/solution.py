@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import final
@@ -17,7 +17,7 @@ from .agreement import check_joints
 from .applied import AppliedLoad, AppliedLoads
 from .bodies import NotHeldError
 from .equilibrium import LinearForm, System
-from .friction import JointFriction, PressingForces, PressingRows, consistent_frictions, joint_frictions
+from .friction import JointFriction, PressingForces, consistent_frictions, joint_frictions
 from .joints import Contact, Structure
 from .poses import FlatPoses
 
@@ -51,52 +51,52 @@ class PoseForces:
     def tensions(self) -> Mapping[str, FloatArray]:
         """What ropes pull with by their names, shape (...) [N]."""
         found: dict[str, FloatArray] = {}
-        for each in self.structure.holders.reeved:
-            force = self.runs[each.name]
-            found[each.name] = np.maximum(-1.0 * force, 0.0) if each.run.back else -1.0 * force
-            if each.run.back:
-                found[each.run.back] = np.maximum(force, 0.0) * each.run.back_share(self.poses.motion)
+        for name, run in self.structure.holders.reeved.items():
+            force = self.runs[name]
+            found[name] = np.maximum(-1.0 * force, 0.0) if run.back else -1.0 * force
+            if run.back:
+                found[run.back] = np.maximum(force, 0.0) * run.back_share(self.poses.motion)
         return found
 
     def run_loads(self) -> Iterator[AppliedLoad]:
         """Yield what ropes put on the points that they run over."""
         motion = self.poses.motion
-        for each in self.structure.holders.reeved:
-            force = self.runs[each.name]
-            own = np.minimum(force, 0.0) if each.run.back else force
-            yield from (AppliedLoad(load, np.asarray(load.force * own), each.name) for load in each.run.loads(motion))
-            if each.run.back:
+        for name, run in self.structure.holders.reeved.items():
+            force = self.runs[name]
+            own = np.minimum(force, 0.0) if run.back else force
+            yield from (AppliedLoad(load, np.asarray(load.force * own), name) for load in run.loads(motion))
+            if run.back:
                 back = np.maximum(force, 0.0)
-                yield from (AppliedLoad(load, np.asarray(load.force * back), each.run.back) for load in each.run.back_loads(motion))
+                yield from (AppliedLoad(load, np.asarray(load.force * back), run.back) for load in run.back_loads(motion))
 
 
 def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseForces:
     """Return the forces by the equations solved on arrays."""
     system, frictions = system_with_friction(poses, applied)
-    found = Equilibrium(system, frictions, split, tuple(system.known())).solution()
+    structure, full = system.structure, poses.full
+    found = Equilibrium(system, frictions, split).solution()
     pulls = np.zeros(poses.count, bool)
-    for line in system.structure.holders.lines:
+    for line in structure.holders.lines:
         if line.changes_shares:  # several cylinders, one of which works with both sides: solved again where the first pulls
-            first = next(each for each in system.structure.struts if each.line is line)
+            first = next(each for each in structure.struts if each.line is line)
             pulls |= found.value(system.thrust(first)) < 0.0
     if pulls.any():
-        other = Equilibrium(system, frictions, split, tuple(system.known(-1))).solution()
+        other = Equilibrium(system, frictions, split, -1).solution()
         u, q = (np.where(pulls[:, None], a, b) for a, b in ((other.u, found.u), (other.q, found.q)))
         found = Solution(system, u, q, np.where(pulls, other.locked, found.locked), frictions)
-    pushed = {each.name: found.value(system.run(k)) > 0.0 for k, each in enumerate(system.structure.holders.reeved) if each.run.back}
+    ropes = structure.holders.reeved
+    pushed = {name: found.value(system.run(k)) > 0.0 for k, (name, run) in enumerate(ropes.items()) if run.back}
     if any(each.any() for each in pushed.values()):
         system = replace(system, pushed=pushed)
-        found = Equilibrium(system, frictions, split, tuple(system.known())).solution()
-    full = poses.full
-    joints = [found.transmitted(contact) for contact in system.structure.contacts]
+        found = Equilibrium(system, frictions, split).solution()
     result = PoseForces(
-        system.structure, poses, applied, frictions, found.q.T, found.locked,
-        [(full(force), full(couple)) for force, couple in joints],
+        structure, poses, applied, frictions, found.q.T, found.locked,
+        [(full(force), full(couple)) for force, couple in map(found.transmitted, structure.contacts)],
         {name: full(found.value(system.drive(name))) for name in poses.motion.strokes},
-        {each.name: full(found.value(system.thrust(each))) for each in system.structure.struts},
-        {each.name: full(found.value(system.run(k))) for k, each in enumerate(system.structure.holders.reeved)},
+        {each.name: full(found.value(system.thrust(each))) for each in structure.struts},
+        {name: full(found.value(system.run(k))) for k, name in enumerate(ropes)},
     )  # fmt: skip
-    check_joints(system.structure, poses)
+    check_joints(structure, poses)
     return result
 
 
@@ -156,13 +156,22 @@ def locked_words(found: PoseForces | Solution, direction: str) -> list[str]:
 @final
 @dataclass(frozen=True)
 class Equilibrium:
-    """A system with what its thrusts are bound to, and a column for each support that takes the place of a known drive force."""
+    """A system with what its thrusts are bound to, and a column for each support that takes the place of a known drive force.
+
+    `way` is 1 where the first cylinders of lines push, -1 where they pull; `given` are forms whose values are known besides.
+    """
 
     system: System
     frictions: list[JointFriction] = field(default_factory=list)
     split: str = "refuse"
-    bound: tuple[tuple[LinearForm, FloatArray], ...] = ()
+    way: int = 1
+    given: tuple[tuple[LinearForm, FloatArray], ...] = ()
     supports: FloatArray | None = None
+
+    @cached_property
+    def bound(self) -> list[tuple[LinearForm, FloatArray]]:
+        """The forms whose values are known."""
+        return [*self.system.known(self.way), *self.given]
 
     @cached_property
     def A(self) -> FloatArray:
@@ -187,12 +196,12 @@ class Equilibrium:
         start, spread = found[:, :, 0], found[:, :, 1:]  # u = start + spread q
         if not frictions:
             return Solution(system, start, np.zeros((poses.count, 0)), np.zeros(poses.count, bool), [])
-        rows = [system.first[each.contact] + k for each in frictions for k in range(each.contact.presses)]
+        parts = tuple(each.contact.presses for each in frictions)
+        rows = [system.first[each.contact] + k for each, count in zip(frictions, parts, strict=True) for k in range(count)]
         by_unit, lever = np.moveaxis(spread[:, rows], 0, -1), np.ones((len(frictions), poses.count))
-        pressing = PressingForces(PressingRows(tuple(each.contact.presses for each in frictions)), start[:, rows].T, by_unit, lever)
+        pressing = PressingForces(parts, start[:, rows].T, by_unit, lever)
         forces, locked = consistent_frictions(pressing, np.stack([each.coefficient for each in frictions]))
-        q = forces.T
-        return Solution(system, start + (spread * q[:, None]).sum(axis=2), q, locked, frictions)
+        return Solution(system, start + (spread * forces.T[:, None]).sum(axis=2), forces.T, locked, frictions)
 
     def solve(self) -> FloatArray:
         """Return the joint forces without friction and by each friction of 1 N, shape (n, columns, 1 + frictions).
@@ -234,19 +243,13 @@ class Equilibrium:
         one_word("split", self.split, SPLITS)
         if self.lacks:
             raise NotHeldError(self.loose_words())
-        columns = self.A.shape[2]
-        if self.rank < columns and self.split == "refuse":
-            raise DefinitionError(self.redundant_words(columns - self.rank))
+        if self.split == "refuse" and rank_of(self.sample) < self.A.shape[2]:
+            raise DefinitionError(self.redundant_words(self.A.shape[2] - rank_of(self.sample)))
 
     @cached_property
-    def rank(self) -> int:
-        """The rank of the equations."""
-        return rank_of(self.sample)
-
-    @property
     def lacks(self) -> int:
         """In how many ways bodies can still move."""
-        return int(self.A.shape[1]) - self.rank
+        return int(self.A.shape[1]) - rank_of(self.sample)
 
     @cached_property
     def sample(self) -> FloatArray:
@@ -276,30 +279,22 @@ class Equilibrium:
     def loose_words(self) -> str:
         """Return which bodies nothing holds, the lines of the class that place them, and what to do."""
         loose, structure = list(self.loose()), self.system.structure
+        plan, shared = structure.plan, [[each.name for each in line.cylinders] for line in structure.holders.lines]
         names = f"{', '.join(loose[:-1])} and {loose[-1]} are" if len(loose) > 1 else f"{''.join(loose)} is"
         ways = f"with its drives locked it can still move in {self.lacks} way{'s' if self.lacks > 1 else ''}"
-        remedy = self.sharing_words(loose) or (
-            f"{self.placing_words(loose)}A triangle in which another side changes than is meant, a Turn(...) without its length=, or an "
-            "OnLink on a distance that changes holds nothing. Declare what holds: Link(...) for bodies placed by Offset, a cylinder by "
-            "Dyad(..., AB=...), joints() of a step of one's own."
-        )
-        return f"{structure.plan.title}: {ways}: {names} held by nothing. {remedy}"
-
-    def placing_words(self, loose: Sequence[str]) -> str:
-        """Return the lines of the class that place the points of some bodies; "" where there are none."""
-        plan, bodies = self.system.structure.plan, [each for each in self.system.structure.bodies if each.name in loose]
-        moving = dict.fromkeys(point for body in bodies for point in body.points if point in plan.moving)
-        lines = [f"{point} = {plan.points[point]}" for point in moving]
-        return f"Look at {'; '.join(lines)}. " if lines else ""
-
-    def sharing_words(self, loose: Sequence[str]) -> str:
-        """Return that one pressure holds the sum of what its cylinders move and not each, where loose ones share one; "" where none do."""
-        shared = [[each.name for each in line.cylinders] for line in self.system.structure.holders.lines]
-        line = next((names for names in shared if len({*names} & {*loose}) > 1), None)
-        if line is None:
-            return ""
-        what = f"{' and '.join(line)} share one pressure, which holds the sum of what they move and not each"
-        return f"{what}: couple what they move by a link, or give each a stroke and a pump of its own."
+        line = next((each for each in shared if len({*each} & {*loose}) > 1), None)
+        if line is not None:
+            what = f"{' and '.join(line)} share one pressure, which holds the sum of what they move and not each"
+            remedy = f"{what}: couple what they move by a link, or give each a stroke and a pump of its own."
+        else:
+            points = dict.fromkeys(point for body in structure.bodies if body.name in loose for point in body.points)
+            lines = "; ".join(f"{point} = {plan.points[point]}" for point in points if point in plan.moving)
+            remedy = (
+                f"{f'Look at {lines}. ' if lines else ''}A triangle in which another side changes than is meant, a Turn(...) without its "
+                "length=, or an OnLink on a distance that changes holds nothing. Declare what holds: Link(...) for bodies placed by "
+                "Offset, a cylinder by Dyad(..., AB=...), joints() of a step of one's own."
+            )
+        return f"{plan.title}: {ways}: {names} held by nothing. {remedy}"
 
     def loose(self) -> Iterator[str]:
         """Yield the bodies that move when all joints hold."""
@@ -310,10 +305,9 @@ class Equilibrium:
     @cached_property
     def ways(self) -> FloatArray:
         """How bodies can move while all joints hold, at the first pose, shape (rows, ways): what does no work against any joint force."""
-        rows = self.system.height
+        rows = self.system.starts[-1]
         u, s, _ = np.linalg.svd(self.sample[0])
-        free = u[:, int((s > RANK * s.max(initial=0.0)).sum()) :]
-        return np.asarray(free[:rows])
+        return np.asarray(u[:rows, int((s > RANK * s.max(initial=0.0)).sum()) :])
 
 
 def rank_of(matrices: FloatArray) -> int:

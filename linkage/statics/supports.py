@@ -68,12 +68,11 @@ def reaction(
         return poses.full((by_work(poses, applied, stroke) - known) / lever)
     # with friction: the reaction at which it, the joint forces and the known drive force agree
     system, frictions = system_with_friction(poses, applied)
-    column, point = np.zeros((poses.count, system.height, 1)), name_of(element.point)
+    column, point = np.zeros((poses.count, system.starts[-1], 1)), name_of(element.point)
     push = Wrench(poses.at(point), push_of(poses, element), np.zeros(poses.count))
     for row, value in system.parts(system.structure.holder(point), push):
         column[:, row, 0] += value
-    bound = (*system.known(), (system.drive(stroke), known))
-    found = Equilibrium(system, frictions, bound=bound, supports=column).solution()
+    found = Equilibrium(system, frictions, given=((system.drive(stroke), known),), supports=column).solution()
     check_joints(system.structure, poses)
     locked_words(found, acting.movement)
     return poses.full(found.u[:, -1])

@@ -252,17 +252,23 @@ def eliminated_forces(
     `units` are unit wrenches of friction, `sizes` how large each is. DefinitionError where a body hangs loose or a link is redundant.
     """
     plan = motion.plan
-    backed = next((each for each in structure.holders.reeved if each.run.back), None)
-    if backed is not None:
-        what = f"the forces between bodies hang on which of {backed.name} and {backed.run.back} pulls, pose by pose"
-        raise UntracedError(f"{plan.title}: {what}: there are values, and no program that gives derivatives.")
+    for name, run in structure.holders.reeved.items():
+        if run.back:
+            what = f"the forces between bodies hang on which of {name} and {run.back} pulls, pose by pose"
+            raise UntracedError(f"{plan.title}: {what}: there are values, and no program that gives derivatives.")
     sampled = sampled_poses(plan)
-    inputs = sampled._grid.flat
     places = [motion.node(part) for point in plan.points for part in motion._nodes(point)]
-    system = System(structure, FlatPoses(motion, ""), applied.loads, units, half_extent(interpret(places, inputs), sampled))
+    system = System(structure, FlatPoses(motion, ""), applied.loads, units, half_extent(over_sampled(places, sampled)))
     found = elimination(system, motion, sizes)
-    if found is None or not is_regular(interpret(found.pivots, inputs), sampled):
-        check_at(sampled, structure, applied)
+    with np.errstate(invalid="ignore"):
+        pivots = None if found is None else np.min(np.abs(over_sampled(found.pivots, sampled)), axis=0, initial=np.inf)
+        is_regular = pivots is not None and bool(np.any(pivots > RANK))  # there is a solution at one of the poses
+    if not is_regular:  # in words, where a body hangs loose or a link is redundant at all of them
+        with unwarned():
+            poses = FlatPoses(sampled, "The joint forces")
+        thrusts = tuple(replace(each, thrust=np.zeros(sampled.shape)) for each in applied.thrusts)
+        if poses.count:
+            Equilibrium(System(Structure(plan, applied.elements, thrusts), poses, ())).check()
     if found is None:
         raise DefinitionError(f"{plan.title}: the joints have more forces than equations, or less.")
     return system, motion._array([found.unknowns()])
@@ -272,20 +278,17 @@ def elimination(system: System, motion: TracedMotion, sizes: Sequence[Node]) -> 
     """Return the equations of a traced system under its loads and frictions, eliminated; None where they are more or less than unknowns."""
     zero = motion._reading.graph.constant(0.0)
     bound = system.known()
-    rows: list[dict[int, Node]] = [{} for _ in range(system.height + len(bound))]
+    rows: list[dict[int, Node]] = [{} for _ in range(system.starts[-1] + len(bound))]
     if len(rows) != system.width:
         return None
-    for place, column in enumerate(system.unknowns):
-        for row, value in system.entries(column):
-            rows[row][place] = rows[row].get(place, zero) + motion.node(value[0])
-    for index, row, value in system.run_entries():
-        place = len(system.unknowns) + index
+    joints = ((place, row, value) for place, column in enumerate(system.unknowns) for row, value in system.entries(column))
+    for place, row, value in (*joints, *system.run_entries()):
         rows[row][place] = rows[row].get(place, zero) + motion.node(value[0])
     right = [-motion.node(each) for each in system.load_rows[0]]
     for unit, size in zip(system.frictions, sizes, strict=True):
         for row, value in system.entries(unit):
             right[row] = right[row] - motion.node(value[0]) * size
-    for number, (form, value) in enumerate(bound, system.height):
+    for number, (form, value) in enumerate(bound, system.starts[-1]):
         rows[number] = {place: motion.node(each) for place, each in enumerate(form.row[0])}
         rest = [motion.node(each) * size for each, size in zip(form.friction[0], sizes, strict=True)]
         right.append(sum((-each for each in rest), motion.node((value - form.rest)[0])))
@@ -303,33 +306,16 @@ def sampled_poses(plan: Plan) -> Motion:
     return found
 
 
-def over_sampled(values: Sequence[ArrayLike], sampled: Motion) -> FloatArray:
-    """Return numbers at the sampled poses that are reached, shape (numbers, poses)."""
-    rows = [np.broadcast_to(each, sampled._grid.size).ravel() for each in values]
+def over_sampled(nodes: Sequence[Node], sampled: Motion) -> FloatArray:
+    """Return numbers of a program at the sampled poses that are reached, shape (numbers, poses)."""
+    rows = [np.broadcast_to(each, sampled._grid.size).ravel() for each in interpret(nodes, sampled._grid.flat)]
     return np.reshape(rows, (len(rows), int(np.prod(sampled._grid.size))))[:, sampled.reached.ravel()]
 
 
-def half_extent(places: Sequence[ArrayLike], sampled: Motion) -> float:
-    """Return about half the extent of a mechanism at some poses [m], from the coordinates of its points: x and y of each in turn.
+def half_extent(places: FloatArray) -> float:
+    """Return about half the extent of a mechanism [m], from the coordinates of its points at some poses: x and y of each in turn.
 
     It is a power of two, which divides without rounding: two designs of a machine have the same forces to the last bit.
     """
-    found = over_sampled(places, sampled)
-    size = max((float(np.ptp(rows)) for rows in (found[0::2], found[1::2]) if rows.size), default=0.0)
+    size = max((float(np.ptp(rows)) for rows in (places[0::2], places[1::2]) if rows.size), default=0.0)
     return float(2.0 ** np.round(np.log2(size / 2.0))) if size > 0.0 else 1.0
-
-
-def is_regular(pivots: Sequence[ArrayLike], sampled: Motion) -> bool:
-    """Return whether the equations have a solution at one of some poses."""
-    with np.errstate(invalid="ignore"):
-        return bool(np.any(np.min(np.abs(over_sampled(pivots, sampled)), axis=0, initial=np.inf) > RANK))
-
-
-def check_at(sampled: Motion, structure: Structure, applied: AppliedLoads) -> None:
-    """Raise DefinitionError, in words, where a body hangs loose or a link is redundant at all of some poses."""
-    with unwarned():
-        poses = FlatPoses(sampled, "The joint forces")
-    thrusts = tuple(replace(each, thrust=np.zeros(sampled.shape)) for each in applied.thrusts)
-    if poses.count:
-        system = System(Structure(sampled.plan, applied.elements, thrusts), poses, ())
-        Equilibrium(system, bound=tuple(system.known())).check()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import TypeVar, Unpack
 from weakref import ref
@@ -11,20 +11,8 @@ import numpy as np
 
 from ..checks import require_number
 from ..errors import DefinitionError, UntracedError
-from ..loads import (
-    AT_REST,
-    FRICTIONLESS,
-    SENSES,
-    Acting,
-    ActingKeywords,
-    ForceElement,
-    Loads,
-    Rate,
-    Rates,
-    TwoPoint,
-    situation_of,
-    takes_situation,
-)
+from ..loads import Acting, ActingKeywords, Loads, TwoPoint, situation_of, takes_situation
+from ..loads.element import AT_REST, FRICTIONLESS, SENSES, ForceElement, Rate, Rates
 from ..motion import Motion, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Mask
@@ -41,6 +29,8 @@ from .solution import LEAST, PoseForces, locked_words
 from .traced_loads import TracedMotion, refuse_friction, traced_loads
 
 Made = TypeVar("Made")
+MOST_WRITTEN = 3
+"""Lines of cylinders that hold together in a program: whether the levers of more are near a singular pose, no formula of nodes tells."""
 
 
 @takes_situation
@@ -172,34 +162,35 @@ def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> Flo
     """Return the same of a motion's own plan, worked out anew."""
     plan_of(motion)
     motion = held_in_case(motion, acting)
-    plan = motion.plan
-    member = standing_for(motion, member)
+    plan, own = motion.plan, motion.plan.of_kind(TwoPoint).values()
+    if not any(same(member, each) for each in own):  # it is tried in the place of the machine's own one between the same points
+        member = next((each for each in own if each.holds and set(each.ends) == set(member.ends)), member)
     holders = holders_of(plan, [*(each.element for each in applied_elements(plan, replace(acting, case=None))), member])
-    line = holders.line_of(member)
-    if line is not None and isinstance(motion, TracedMotion):
-        holders.check_written()
+    line, count = holders.line_of(member), len(holders.lines)
+    is_steady = all(each.is_steady for each in holders.lines)
+    if line is not None and isinstance(motion, TracedMotion) and count > MOST_WRITTEN and not is_steady:
+        raise UntracedError(f"{count} lines of cylinders hold together, and a program is written for {MOST_WRITTEN} at the most.")
     rates = member_rates(motion, member, acting, line if line in holders.lines else None)
-    shared = shared_key(motion, acting, rates)
-    applied = made_once(motion, shared, "applied", lambda: applied_on(motion, acting, rates))
+    applied = kept(motion, acting, rates, "applied", lambda: applied_on(motion, acting, rates))
+    laws = [each.thrust for each in applied.thrusts if same(each.member, member)]
     if line is None:
-        own = [each.thrust for each in applied.thrusts if same(each.member, member)]
-        if not own:
+        if not laws:
             why = "it does not hold, and no element among these loads gives its force"
             raise DefinitionError(f"{plan.title}: {member.name or member} carries nothing here: {why}.")
-        return np.where(motion.reached, sum(own, np.zeros(motion.shape)), np.nan)
+        return np.where(motion.reached, sum(laws, np.zeros(motion.shape)), np.nan)
     what = f"The thrust of {member.name or member}"
-    refuse_friction(motion, applied)
-    if applied.frictions:
-        found = forces_at(poses_held(require_motion(motion), applied, what), applied)
-        locked_words(found, acting.movement)
+    found = with_friction(motion, applied, acting, what)
+    if found is not None:
         return found.thrusts[member_title(member)]
-    needed = holders.cylinders if holders.closed else line.cylinders
-    names = {name for point in (*applied.points, *(end for each in needed for end in each.ends)) for name in plan.reaches(point)}
-    poses, levers = with_levers(FlatPoses(motion, what, names), holders, what)
-    what_holds = ("needs", holders.all, poses.good.tobytes())
-    need = made_once(motion, shared, what_holds, lambda: needed_of(poses, applied, holders))
-    own = [poses.flattened(each.thrust) for each in applied.thrusts if same(each.member, member)]
-    return poses.full(sum(own, thrust_of_need(need, holders, levers, member)))[()]
+    ends = (end for each in (holders.cylinders if holders.closed else line.cylinders) for end in each.ends)
+    poses, levers, (need, cuts) = frictionless(motion, applied, acting, rates, holders, ends, what)
+    thrusts = [each.thrust(holders, member, need, cuts) for each in levers]
+    if len(levers) > 1:  # another one where the first cylinders pull
+        changing = (k for k, each in enumerate(holders.lines) if each.changes_shares)
+        place = next((k for k, each in enumerate(holders.lines) if each.has(member)), None)
+        pulling = levers[0].thrusts(need)[:, next(changing) if place is None else place]
+        thrusts = [where_negative(pulling, thrusts[1], thrusts[0])]
+    return poses.full(sum(map(poses.flattened, laws), thrusts[0]))[()]
 
 
 def pump_thrust(motion: AnyMotion, element: TwoPoint, acting: Acting) -> FloatArray:
@@ -215,24 +206,19 @@ def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> Fl
     """
     plan_of(motion)
     motion = held_in_case(motion, acting)
-    plan = motion.plan
-    holders = holders_of(plan, [*(each.element for each in applied_elements(plan, replace(acting, case=None))), element])
-    line = holders.closed_by(element.name)
-    if line is None or line.tie is None:
+    holders = holders_of(motion.plan, [*(each.element for each in applied_elements(motion.plan, replace(acting, case=None))), element])
+    line = next((each for each in holders.closed if each.tie is not None and each.tie.name == element.name), None)
+    if line is None:
         return None
     moves = acting.movement != FRICTIONLESS or acting.rates is not None
     rates = rates_in(require_motion(motion), acting) if moves else AT_REST
-    shared = shared_key(motion, acting, rates)
-    applied = made_once(motion, shared, "applied", lambda: applied_on(motion, acting, rates))
+    applied = kept(motion, acting, rates, "applied", lambda: applied_on(motion, acting, rates))
     what = f"The force of {element.name}"
-    refuse_friction(motion, applied)
-    if applied.frictions:
-        found = forces_at(poses_held(require_motion(motion), applied, what), applied)
-        locked_words(found, acting.movement)
+    found = with_friction(motion, applied, acting, what)
+    if found is not None:
         return found.runs[element.name]
-    points = (*applied.points, *(end for each in holders.cylinders for end in each.ends), *needs(element))
-    poses, levers = with_levers(FlatPoses(motion, what, {name for point in points for name in plan.reaches(point)}), holders, what)
-    need, cuts = made_once(motion, shared, ("needs", holders.all, poses.good.tobytes()), lambda: needed_of(poses, applied, holders))
+    points = (*(end for each in holders.cylinders for end in each.ends), *needs(element))
+    poses, levers, (need, cuts) = frictionless(motion, applied, acting, rates, holders, points, what)
     units = [np.moveaxis(each.thrusts(need) if holders.lines else need, 1, 0) for each in levers]
     forces = [each.kept_force(holders.closed.index(line), list(unit), cuts) for each, unit in zip(levers, units, strict=True)]
     if len(levers) == 1:
@@ -241,15 +227,39 @@ def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> Fl
     return poses.full(where_negative(units[0][pulling], forces[1], forces[0]))[()]
 
 
-def shared_key(motion: AnyMotion, acting: Acting, rates: Rates) -> Hashable:
-    """Return what tells loads at rest from others that act on a motion; None where they are worked out for each who asks."""
+def with_friction(motion: AnyMotion, applied: AppliedLoads, acting: Acting, what: str) -> PoseForces | None:
+    """Return all forces where friction has a part in them; None where it has none. UntracedError for a program."""
+    refuse_friction(motion, applied)
+    if not applied.frictions:
+        return None
+    found = forces_at(poses_held(require_motion(motion), applied, what), applied)
+    locked_words(found, acting.movement)
+    return found
+
+
+def frictionless(
+    motion: AnyMotion, applied: AppliedLoads, acting: Acting, rates: Rates, holders: Holders, points: Iterable[str], what: str
+) -> tuple[FlatPoses, tuple[Levers, ...], tuple[FloatArray, list[FloatArray]]]:
+    """Return the poses at which cylinders hold, their levers there, and what is needed by virtual work.
+
+    That is what the strokes that are taken over need, shape (n, lines), and what changes closed lines, (n,) each. `points` are those that
+    forces hang on, besides those that carry loads.
+    """
+    names = {name for point in (*applied.points, *points) for name in motion.plan.reaches(point)}
+    poses, levers = with_levers(FlatPoses(motion, what, names), holders, what)
+
+    def needed() -> tuple[FloatArray, list[FloatArray]]:
+        found = [by_work(poses, applied, line.stroke) for line in holders.lines]
+        need = np.stack(found, axis=-1) if found else np.zeros((poses.count, 0))
+        return need, [by_work(poses, applied, line.stroke) for line in holders.closed]
+
+    return poses, levers, kept(motion, acting, rates, ("needs", holders.all, poses.good.tobytes()), needed)
+
+
+def kept(motion: AnyMotion, acting: Acting, rates: Rates, what: Hashable, make: Callable[[], Made]) -> Made:
+    """Return what all cylinders ask of the same loads on a motion at rest, made once; each time for loads that may change."""
     identity = situation_identity(acting) if rates is AT_REST else None
-    return None if identity is None else (identity, acting.movement, acting.drive)
-
-
-def made_once(motion: AnyMotion, shared: Hashable, what: Hashable, make: Callable[[], Made]) -> Made:
-    """Return what all cylinders ask of the same loads on a motion, made once; each time where no key tells the loads."""
-    return make() if shared is None else motion._once(("held", what, shared), make)
+    return make() if identity is None else motion._once(("held", what, identity, acting.movement, acting.drive), make)
 
 
 def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:
@@ -258,8 +268,11 @@ def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:
         return applied_loads(motion, acting, rates)
     applied = traced_loads(motion, acting, rates)
     if rates and len(motion.plan.strokes) > 1:
-        still = traced_loads(motion, acting, AT_REST)
-        if [motion.node(each) for each in all_numbers(applied)] != [motion.node(each) for each in all_numbers(still)]:
+        numbers = []
+        for some in (applied, traced_loads(motion, acting, AT_REST)):
+            parts = [*(part for each in some.loads for part in each.force), *(each.thrust for each in some.thrusts)]
+            numbers.append([motion.node(each) for each in parts])
+        if numbers[0] != numbers[1]:
             raise UntracedError(
                 f"{motion.plan.title}: what rubs acts along the path of several strokes, so that no program gives it pose by pose; ask a "
                 "motion, or while nothing rubs."
@@ -267,24 +280,11 @@ def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:
     return applied
 
 
-def all_numbers(applied: AppliedLoads) -> list[FloatArray]:
-    """Return all numbers of what acts."""
-    return [*(part for each in applied.loads for part in each.force), *(each.thrust for each in applied.thrusts)]
-
-
 def poses_held(motion: Motion, applied: AppliedLoads, what: str) -> FlatPoses:
     """Return the poses at which a motion's forces can be worked out: not singular, and held by the cylinders that hold."""
     poses = FlatPoses(motion, what)
     holders = holders_of(motion.plan, applied.elements)
     return with_levers(poses, holders, what)[0] if holders.lines else poses
-
-
-def standing_for(motion: AnyMotion, member: TwoPoint) -> TwoPoint:
-    """Return the machine's own holding element in whose place another one is tried, between the same points; else the same."""
-    own = motion.plan.of_kind(TwoPoint).values()
-    if any(same(member, each) for each in own):
-        return member
-    return next((each for each in own if each.holds and set(each.ends) == set(member.ends)), member)
 
 
 def member_rates(motion: AnyMotion, member: TwoPoint, acting: Acting, line: PressureLine | None) -> Rates:
@@ -302,27 +302,3 @@ def member_rates(motion: AnyMotion, member: TwoPoint, acting: Acting, line: Pres
     growth = member.growth(motion, tangent)
     way = sense * np.sign(growth if is_traced(growth) else np.nan_to_num(growth))
     return Rates({name: way * rate for name, rate in tangent.items()}, direction=direction)
-
-
-def needed_of(poses: FlatPoses, applied: AppliedLoads, holders: Holders) -> tuple[FloatArray, list[FloatArray]]:
-    """Return what the strokes that are taken over need, by virtual work, shape (n, lines), and what changes closed lines, (n,) each."""
-    needs = [by_work(poses, applied, line.stroke) for line in holders.lines]
-    need = np.stack(needs, axis=-1) if needs else np.zeros((poses.count, 0))
-    return need, [by_work(poses, applied, line.stroke) for line in holders.closed]
-
-
-def thrust_of_need(
-    needed: tuple[FloatArray, list[FloatArray]], holders: Holders, levers: Sequence[Levers], member: TwoPoint
-) -> FloatArray:
-    """Return a holding cylinder's thrust by what the strokes taken over need, shape (n,), frictionless.
-
-    Of closed lines by the work on what changes them, as much as the lines that hold leave.
-    """
-    need, cuts = needed
-    found = [each.thrust(holders, member, need, cuts) for each in levers]
-    if len(levers) == 1:
-        return found[0]
-    place = next((k for k, line in enumerate(holders.lines) if line.has(member)), None)
-    if place is None:
-        place = next(k for k, line in enumerate(holders.lines) if line.changes_shares)
-    return where_negative(levers[0].thrusts(need)[:, place], found[1], found[0])

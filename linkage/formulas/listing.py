@@ -47,10 +47,8 @@ def _(member: Axis, reading: Listing) -> sympy.MatrixExpr:
     return x_axis_of(member.axes, reading)
 
 
-def x_axis_of(axes: Axes | None, reading: Listing) -> sympy.MatrixExpr:
+def x_axis_of(axes: Axes, reading: Listing) -> sympy.MatrixExpr:
     """Return the x axis; of a part its own one, along what carries it, mirrored and turned as the part is."""
-    if axes is None:
-        return X_AXIS
     along = TurnVL(reading.between(*axes.carrier), sympy.S.Zero, sympy.S.One) if axes.carrier else X_AXIS
     own = -along if axes.mirrored else along
     return own if axes.is_level else TurnV(own, reading.value(axes.angle).as_angle().expr)
@@ -73,7 +71,7 @@ def _(member: Guide, reading: Listing) -> sympy.MatrixExpr:
         angle = reading.input(f"{member.name}.angle")
     else:
         angle = reading.value(member.angle).as_angle()
-    sign = 1 if member.axes is None or not member.axes.mirrored else -1
+    sign = -1 if member.axes.mirrored else 1
     return TurnV(x_axis_of(member.axes, reading), sign * angle.expr)
 
 
@@ -242,7 +240,7 @@ class Listing:
     @property
     def fixed_guides(self) -> list[str]:
         """The guides whose origin is given."""
-        return [name for name, guide in self.plan.of_kind(Guide).items() if guide.P is None and guide.axes is None]
+        return [name for name, guide in self.plan.of_kind(Guide).items() if guide.P is None and guide.axes.is_frame]
 
     @property
     def given_points(self) -> list[str]:
@@ -325,7 +323,7 @@ class Listing:
         if ("line", name) not in self._vectors:
             self.define(("line", name), self.names.direction(name), symbolic_value(member, self), NUMBER)
         along = Place(lambda: self._vectors["line", name], self, unit=NUMBER)
-        if member.P is None and member.axes is not None and ("origin", name) not in self._vectors:
+        if member.P is None and not member.axes.is_frame and ("origin", name) not in self._vectors:
             place = member.axes.place(cast(Where, self), Vec(self.input(f"{name}.x"), self.input(f"{name}.y")))
             self.define(("origin", name), self.names.vector(name), sympy.ImmutableMatrix([term(place.x).expr, term(place.y).expr]), LENGTH)
         start = Place(lambda: self.names.vector(name), self) if member.P is None else self.at(member.P)

@@ -88,7 +88,7 @@ def of_one_kind(quantity: Quantity | Request) -> tuple[Any, ...]:
         scaled = quantity.function == "multiply" or (quantity.function == "divide" and isinstance(quantity.parts[1], float))
         parts = tuple(each for each in quantity.parts if not isinstance(each, float))
         return parts if same or (scaled and len(parts) == 1) else ()
-    if isinstance(quantity, (Sum, Negative)) or (isinstance(quantity, Function) and quantity.function in CHOOSING):
+    if isinstance(quantity, (Sum, Negative)) or (isinstance(quantity, Function) and quantity.symbol in CHOOSING):
         return tuple(each for each in quantity.parts() if not isinstance(each, Number))
     return ()
 
@@ -179,7 +179,7 @@ def operation(quantity: Any) -> tuple[str, tuple[Any, ...]]:
     if isinstance(quantity, Operation):
         return {"*": "multiply", "/": "divide", "**": "power"}[quantity.symbol], quantity.parts()
     if isinstance(quantity, Function):
-        return quantity.function, quantity.parts()
+        return quantity.symbol, quantity.parts()
     named = {Sum: "add", Negative: "negative"}.get(type(quantity), "")
     return named, quantity.parts() if named else ()
 

@@ -14,6 +14,7 @@ import numpy as np
 from ..errors import DefinitionError, about, cited, is_yes, unknown
 from ..frozen import FrozenDict
 from ..quantities import (
+    FRAME_AXES,
     Axes,
     Coordinate,
     Dimension,
@@ -460,11 +461,11 @@ class Renamed(Renaming):
 
     def _own_coordinate(self, given: Member) -> Quantity | None:
         """Return the coordinate of a fixed point of the part, for x(O) of it follows nothing that carries the part; None for all else."""
-        if not isinstance(given, Coordinate) or given.name or given.axes is not None:
+        if not isinstance(given, Coordinate) or given.name or not given.axes.is_frame:
             return None
         own = name_of(given.P)
         point = self.plan.unbound.get(own)
-        if not isinstance(point, Point) or getattr(point, "axes", None) is not None or f"{self.part.name}.{own}" in self.aliases:
+        if not isinstance(point, Point) or not getattr(point, "axes", FRAME_AXES).is_frame or f"{self.part.name}.{own}" in self.aliases:
             return None
         place = self.part.given.get(own) or [each for _, each in point.coordinates()]
         if not point.is_fixed or len(place) != 2:

@@ -31,7 +31,7 @@ def has_angles(plan: Members, asked: Iterable[str | Member]) -> bool:
     """Return whether some members are built from directions of points."""
     parts = [part for each in asked if isinstance(each, Quantity) for part in (each, *unnamed(each))]
     parts += [part for name in plan.reaches(*asked) for part in plan.with_parts(name)]
-    return any(isinstance(part, Angle) or (isinstance(part, Function) and part.function == "arctan2") for part in parts)
+    return any(isinstance(part, Angle) or (isinstance(part, Function) and part.symbol == "arctan2") for part in parts)
 
 
 def followed_angles(plan: Members, trace: Trace, loads: Sequence[Quantity]) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from ..star import declare_public
 from .arithmetic import TAKEN, Arithmetic
-from .axes import Axes
+from .axes import FRAME_AXES, Axes
 from .curve import Curve, CurveValue
 from .inputs import Dimension, Stroke, Variable
 from .joint import FRAME_SIDE, Driven, Joint, Jointed, JointSide, guided, pinned

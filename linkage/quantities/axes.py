@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass, field
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
 from ..vectors import Vec
-from .member import Reference, Turning, Where, name_of
+from .member import Reference, Where, name_of
 from .quantity import Number, Quantity, spelled
 
 NOTHING = Number(0.0)
@@ -43,7 +43,12 @@ class Axes:
     @property
     def are_upright(self) -> bool:
         """Whether they have the directions of the frame."""
-        return not self.carrier and not self.mirrored and is_nothing(self.angle)
+        return not self.carrier and not self.mirrored and self.is_level
+
+    @property
+    def is_frame(self) -> bool:
+        """Whether they are those of the frame itself."""
+        return self.are_upright and all(map(is_nothing, self.at))
 
     @property
     def is_level(self) -> bool:
@@ -58,13 +63,11 @@ class Axes:
     @property
     def identity(self) -> Hashable:
         """What tells them from other axes."""
-        at = tuple(each.identity for each in self.at)
-        return (self.carrier, at, self.angle.identity, self.mirrored)
+        return (self.carrier, *(each.identity for each in (*self.at, self.angle)), self.mirrored)
 
     def parts(self) -> tuple[Reference, ...]:
         """Return what they are built from."""
-        numbers = tuple(each for each in (*self.at, self.angle) if not each.is_constant)
-        return (*self.carrier, *numbers)
+        return (*self.carrier, *(each for each in (*self.at, self.angle) if not each.is_constant))
 
     def within(self, inner: Axes | None) -> Axes:
         """Return axes that stand in these, as they stand in the whole."""
@@ -83,8 +86,8 @@ class Axes:
         """Return the coordinates of a place of the part in the axes of what carries it."""
         x = negated(x) if self.mirrored else x
         if not is_nothing(self.angle):
-            angle: Any = self.angle.number if isinstance(self.angle, Number) and not self.angle.name else self.angle
-            cos, sin = np.cos(angle), np.sin(angle)
+            angle = self.angle.number if isinstance(self.angle, Number) and not self.angle.name else self.angle
+            cos, sin = np.cos(angle), np.sin(angle)  # type: ignore[call-overload]
             x, y = plus(multiplied(x, cos), negated(multiplied(y, sin))), plus(multiplied(x, sin), multiplied(y, cos))
         return plus(self.at[0], x), plus(self.at[1], y)
 
@@ -120,29 +123,21 @@ class Axes:
         carried: Vec = start + (along * x + along.left() * y)
         return carried
 
-    def turn(self, where: Where, given: Turning) -> Turning:
-        """Return the cosine and the sine of a direction of the part in the frame."""
-        found = self.vector(where, Vec(*given))
-        return found.x, found.y
-
     def read_vector(self, where: Where, given: Vec) -> Vec:
         """Return a vector of the frame as the part reads it."""
-        found = given
         if self.carrier:
             _, along = self._base(where)
-            found = Vec(along.dot(given), along.cross(given))
-        return self._straight(where, found)
+            given = Vec(along.dot(given), along.cross(given))
+        return self._straight(where, given)
 
     def read_place(self, where: Where, given: Vec) -> Vec:
         """Return a place in the frame as the part reads it [m]."""
-        x, y = (NOTHING.number if is_nothing(way) else where.value(way) for way in self.at)
-        if not self.carrier:
-            start_x, start_y = self.at
-            shifted = Vec(given.x if is_nothing(start_x) else given.x - x, given.y if is_nothing(start_y) else given.y - y)
-            return self._straight(where, shifted)
-        start, along = self._base(where)
-        way = given - start
-        return self._straight(where, Vec(along.dot(way) - x, along.cross(way) - y))
+        if self.carrier:
+            start, along = self._base(where)
+            way = given - start
+            given = Vec(along.dot(way), along.cross(way))
+        x, y = (part if is_nothing(way) else part - where.value(way) for way, part in zip(self.at, (given.x, given.y), strict=True))
+        return self._straight(where, Vec(x, y))
 
     def _straight(self, where: Where, given: Vec) -> Vec:
         """Return a vector in the axes of what carries the part as the part reads it."""
@@ -158,17 +153,19 @@ class Axes:
         return ", ".join([*words, *(["mirrored=True"] if self.mirrored else [])])
 
 
+FRAME_AXES = Axes()
+
+
 def negated(given: Quantity) -> Quantity:
     """Return a quantity with its sign changed; a number as a number."""
     return Number(-given.number if given.number else 0.0) if isinstance(given, Number) and not given.name else -given
 
 
-def multiplied(a: Quantity, factor: Any) -> Quantity:
+def multiplied(a: Quantity, factor: Quantity | float) -> Quantity:
     """Return a product; of numbers as a number."""
-    if is_nothing(a):
-        return a
-    is_plain = isinstance(a, Number) and not a.name and not isinstance(factor, Quantity)
-    return Number(a.number * float(factor)) if is_plain and isinstance(a, Number) else a * factor
+    if isinstance(a, Number) and (not a.number or not (a.name or isinstance(factor, Quantity))):
+        return a if not a.number else Number(a.number * float(factor))
+    return a * factor
 
 
 def plus(a: Quantity, b: Quantity) -> Quantity:

@@ -92,8 +92,9 @@ class Member:
         return self._name
 
     def parts(self) -> tuple[Reference, ...]:
-        """Return what this member is built from: names or members."""
-        return ()
+        """Return what this member is built from, names or members: those that `expects` lists, unless it says otherwise."""
+        found = (getattr(self, attribute) for attribute, _ in self.expects)
+        return tuple(part for part in found if part is not None)
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         """Return the design variables this member brings: name, default [SI], what it measures, display unit or ""."""
@@ -118,9 +119,12 @@ class Member:
         """Return the quantities that stand for lengths in this member, beside its labels: none may be negative."""
         return ()
 
+    radians: ClassVar[tuple[str, ...]] = ()
+    """Its attributes that hold the quantities of `in_radians`."""
+
     def in_radians(self) -> tuple[Any, ...]:
         """Return the quantities that stand for angles in this member: strokes and dimensions that they are sums of are in rad."""
-        return ()
+        return tuple(angle for angle in (getattr(self, attribute) for attribute in self.radians) if angle is not None)
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         """Raise DefinitionError for what only the whole class tells to be wrong: its members by name, its title."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from typing import final
@@ -11,7 +12,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..frozen import refuses_changes
 from ..vectors import Scalar
-from .axes import Axes
+from .axes import FRAME_AXES, Axes
 from .member import Member, Reference, Turning, Where, as_mapping, name_of
 from .quantity import Quantity
 
@@ -21,113 +22,98 @@ def label(reference: Reference) -> str:
     return (reference.name or str(reference)) if isinstance(reference, Member) else str(reference)
 
 
+class Output(Quantity):
+    """What is read off points: a direction, a distance or a coordinate, in the axes of the frame or of a part."""
+
+    measures = "length"
+    axes = FRAME_AXES
+    """The axes that it is read in."""
+
+    @property
+    @abstractmethod
+    def word(self) -> str:
+        """The name of the function that gives it."""
+
+    @property
+    def identity(self) -> Hashable:
+        places = Member.parts(self)
+        return self.name or (self.word, *map(name_of, places), *(() if self.axes.is_frame else self.axes.identity))
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*super().parts(), *self.axes.parts())
+
+    def __str__(self) -> str:
+        words = [*map(label, super().parts()), str(self.axes)]
+        return f"{self.word}({', '.join(filter(None, words))})"
+
+
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Angle(Quantity):
+class Angle(Output):
     """The direction of P -> Q [rad], counter-clockwise from the x axis."""
 
     P: Reference
     Q: Reference
-    axes: Axes | None = field(default=None, repr=False)
+    axes: Axes = field(default=FRAME_AXES, repr=False)
     expects = (("P", "point"), ("Q", "point"))
+    measures = "angle"
+    word = "angle"
 
     def __post_init__(self) -> None:
         if self.P is self.Q or (isinstance(self.P, str) and self.P == self.Q):
             raise DefinitionError(f"{self}: a direction leads from one point to another; name two points.")
 
-    @property
-    def measures(self) -> str:
-        return "angle"
-
-    @property
-    def identity(self) -> Hashable:
-        own = ("angle", name_of(self.P), name_of(self.Q))
-        return self.name or (own if self.axes is None else (*own, self.axes.identity))
-
-    def parts(self) -> tuple[Reference, ...]:
-        return (self.P, self.Q) if self.axes is None else (self.P, self.Q, *self.axes.parts())
-
     def in_axes(self, axes: Axes) -> Angle:
         return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
 
     def rule(self, where: Where) -> Scalar:
-        v = where.direction(name_of(self.P), name_of(self.Q))
-        v = v if self.axes is None else self.axes.read_vector(where, v)
+        v = self.axes.read_vector(where, where.direction(name_of(self.P), name_of(self.Q)))
         found = where.followed(str(self), v)
         return where.angle_of(v) if found is None else found
 
     def turning(self, where: Where) -> Turning:
-        v = where.at(self.Q) - where.at(self.P)
-        v = v if self.axes is None else self.axes.read_vector(where, v)
+        v = self.axes.read_vector(where, where.at(self.Q) - where.at(self.P))
         scale = 1.0 / where.link_length(name_of(self.P), name_of(self.Q))
         return v.x * scale, v.y * scale
-
-    def __str__(self) -> str:
-        return f"angle({label(self.P)}, {label(self.Q)}{axes_text(self.axes)})"
 
 
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Distance(Quantity):
+class Distance(Output):
     """The distance of P and Q [m]."""
 
     P: Reference
     Q: Reference
     expects = (("P", "point"), ("Q", "point"))
-
-    @property
-    def measures(self) -> str:
-        return "length"
-
-    @property
-    def identity(self) -> Hashable:
-        return self.name or ("distance", name_of(self.P), name_of(self.Q))
-
-    def parts(self) -> tuple[Reference, ...]:
-        return self.P, self.Q
+    word = "distance"
 
     def rule(self, where: Where) -> Scalar:
         return where.direction(name_of(self.P), name_of(self.Q)).length()
-
-    def __str__(self) -> str:
-        return f"distance({label(self.P)}, {label(self.Q)})"
 
 
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Coordinate(Quantity):
+class Coordinate(Output):
     """A point's x or y [m]."""
 
     P: Reference
     axis: str
-    axes: Axes | None = field(default=None, repr=False)
+    axes: Axes = field(default=FRAME_AXES, repr=False)
     expects = (("P", "point"),)
 
     @property
-    def measures(self) -> str:
-        return "length"
-
-    @property
-    def identity(self) -> Hashable:
-        own = (self.axis, name_of(self.P))
-        return self.name or (own if self.axes is None else (*own, self.axes.identity))
-
-    def parts(self) -> tuple[Reference, ...]:
-        return (self.P,) if self.axes is None else (self.P, *self.axes.parts())
+    def word(self) -> str:
+        return self.axis
 
     def in_axes(self, axes: Axes) -> Coordinate:
         return self.renewed(axes=axes.within(self.axes))
 
     def rule(self, where: Where) -> Scalar:
-        P = where.at(self.P)
-        P = P if self.axes is None else self.axes.read_place(where, P)
+        P = self.axes.read_place(where, where.at(self.P))
         return P.x if self.axis == "x" else P.y
-
-    def __str__(self) -> str:
-        return f"{self.axis}({label(self.P)}{axes_text(self.axes)})"
 
 
 @final
@@ -138,24 +124,13 @@ class Length(Quantity):
 
     vector: Reference
     expects = (("vector", "vector"),)
-
-    @property
-    def measures(self) -> str:
-        return "length"
-
-    def parts(self) -> tuple[Reference, ...]:
-        return (self.vector,)
+    measures = "length"
 
     def rule(self, where: Where) -> Scalar:
         return np.sqrt(where.apart(where.vector(self.vector).square()))
 
     def __str__(self) -> str:
         return f"abs({label(self.vector)})"
-
-
-def axes_text(axes: Axes | None) -> str:
-    """Return in which axes something is read, as it is written behind its points; "" for the frame's."""
-    return "" if axes is None else f", {axes}"
 
 
 def angle(P: Reference, Q: Reference) -> Quantity:
@@ -190,13 +165,11 @@ class AtPose(Quantity):
     of: Quantity
     strokes: Mapping[str, float]
     unmoved: tuple[str, ...] = ()
+    expects = (("of", "quantity"),)
 
     @property
     def measures(self) -> str:
         return self.of.measures
-
-    def parts(self) -> tuple[Reference, ...]:
-        return (self.of,)
 
     def rule(self, where: Where) -> Scalar:
         return where.at_pose(self.of, {**dict.fromkeys(self.unmoved, 0.0), **self.strokes})
@@ -213,10 +186,7 @@ class InnerQuantity(Quantity):
 
     owner: Reference
     own: str
-
-    @property
-    def measures(self) -> str:
-        return "length"
+    measures = "length"
 
     @property
     def called(self) -> str:

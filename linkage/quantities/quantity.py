@@ -94,13 +94,6 @@ def in_degrees(value: float) -> str:
 Operand: TypeAlias = "Quantity | float | str"
 
 
-def operation_of(symbol: str, a: Quantity, b: Quantity) -> Quantity:
-    """Return two quantities joined by an operator; a difference is a sum with the second one's sign changed."""
-    if symbol in ("+", "-"):
-        return Sum(a, b if symbol == "+" else Negative(b))
-    return Operation(symbol, a, b)
-
-
 COMPARED = "What holds over a stroke is said of one number of it: least(q) >= ..., most(q) <= ..., at(q, S=...) == ...."
 CHOICE = "choose by np.maximum or np.minimum, or make two classes of it"
 
@@ -183,7 +176,9 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
         given = [quantity(each) for each in operands]
         if function == "negative":
             return Negative(*given)
-        return operation_of(UFUNCS[function], *given) if function in UFUNCS else Function(function, *given)
+        if function in ("add", "subtract"):
+            return Sum(given[0], given[1] if function == "add" else Negative(given[1]))
+        return Operation(UFUNCS[function], *given) if function in UFUNCS else Function(function, *given)
 
     def __bool__(self) -> NoReturn:
         raise DefinitionError(f"{self}: a quantity has no value in a class, so that `if`, `and`, `or` cannot choose by it; {CHOICE}.")
@@ -216,13 +211,20 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
         return self.applied(name, *inputs)
 
 
-def identity_of_parts(whole: Quantity, kind: str, *parts: Quantity) -> Hashable:
-    """Return the identity of what consists of its parts alone: its name, else that of the parts, itself where one of them has no other."""
-    if whole.name:
-        return whole.name
-    identities = [part.identity for part in parts]
-    is_itself = any(identity is part for identity, part in zip(identities, parts, strict=True))
-    return whole if is_itself else (kind, *identities)
+class Expression(Quantity):
+    """What consists of its parts alone, joined by a `symbol`: where these are the same, it is the same."""
+
+    symbol: str
+
+    @property
+    def identity(self) -> Hashable:
+        """Its name, else that of its parts; itself where one of them has no other."""
+        identities = [(part, quantity(part).identity) for part in self.parts()]
+        is_itself = any(part is identity for part, identity in identities)
+        return self.name or (self if is_itself else (self.symbol, *(identity for _, identity in identities)))
+
+    def __str__(self) -> str:
+        return self.text()
 
 
 def quantity(value: Operand) -> Quantity:
@@ -283,9 +285,6 @@ class Ref(Quantity):
     def identity(self) -> Hashable:
         return self.name or self.target
 
-    def parts(self) -> tuple[Reference, ...]:
-        return (self.target,)
-
     def rule(self, where: Where) -> Scalar:
         return where.value(self.target)
 
@@ -306,23 +305,18 @@ def ref(name: str) -> Quantity:
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Sum(Quantity):
+class Sum(Expression):
     """The sum of two quantities; of two angles it is carried as cosine and sine."""
 
     a: Quantity
     b: Quantity
+    expects = (("a", "quantity"), ("b", "quantity"))
+    symbol = "+"
     binds = 1
-
-    @property
-    def identity(self) -> Hashable:
-        return identity_of_parts(self, "+", self.a, self.b)
 
     @property
     def measures(self) -> str:
         return self.a.measures or self.b.measures
-
-    def parts(self) -> tuple[Reference, ...]:
-        return self.a, self.b
 
     def rule(self, where: Where) -> Scalar:
         return where.value(self.a) + where.value(self.b)
@@ -337,29 +331,21 @@ class Sum(Quantity):
             return f"{spelled(self.a, 1, kind)} - {spelled(self.b.a, 2, kind)}"
         return f"{spelled(self.a, 1, kind)} + {spelled(self.b, 2, kind)}"
 
-    def __str__(self) -> str:
-        return self.text()
-
 
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Negative(Quantity):
+class Negative(Expression):
     """A quantity with its sign changed."""
 
     a: Quantity
+    expects = (("a", "quantity"),)
+    symbol = "-"
     binds = 1
-
-    @property
-    def identity(self) -> Hashable:
-        return identity_of_parts(self, "-", self.a)
 
     @property
     def measures(self) -> str:
         return self.a.measures
-
-    def parts(self) -> tuple[Reference, ...]:
-        return (self.a,)
 
     def rule(self, where: Where) -> Scalar:
         return -where.value(self.a)
@@ -370,9 +356,6 @@ class Negative(Quantity):
 
     def text(self, measures: str = "") -> str:
         return f"-{spelled(self.a, 3, measures or self.measures)}"
-
-    def __str__(self) -> str:
-        return self.text()
 
 
 def signed_terms(given: Quantity, members: Mapping[str, Member], sign: float = 1.0) -> Iterator[tuple[float, Quantity]]:
@@ -389,51 +372,42 @@ def signed_terms(given: Quantity, members: Mapping[str, Member], sign: float = 1
 
 
 @final
-class Operation(Quantity):
+class Operation(Expression):
     """The product, quotient or power of two quantities."""
+
+    expects = (("a", "quantity"), ("b", "quantity"))
 
     def __init__(self, symbol: str, a: Quantity, b: Quantity) -> None:
         self.symbol, self.a, self.b = symbol, a, b
         self.binds, self.left, self.right = BINDS[symbol]
 
-    @property
-    def identity(self) -> Hashable:
-        return identity_of_parts(self, self.symbol, self.a, self.b)
-
-    def parts(self) -> tuple[Reference, ...]:
-        return self.a, self.b
-
     def rule(self, where: Where) -> Scalar:
         return OPERATORS[self.symbol](where.value(self.a), where.value(self.b))
 
-    def __str__(self) -> str:
+    def text(self, measures: str = "") -> str:
         return f"{spelled(self.a, self.left)} {self.symbol} {spelled(self.b, self.right)}"
 
 
 @final
-class Function(Quantity):
+class Function(Expression):
     """A function of quantities: `np.sqrt(L1**2 + L2**2)`."""
 
     def __init__(self, function: str, *arguments: Quantity) -> None:
-        self.function, self.arguments = function, arguments
-
-    @property
-    def identity(self) -> Hashable:
-        return identity_of_parts(self, self.function, *self.arguments)
+        self.symbol, self.arguments = function, arguments
 
     @property
     def measures(self) -> str:
         kinds = {each.measures for each in self.arguments}
-        return kinds.pop() if self.function in ("absolute", "minimum", "maximum") and len(kinds) == 1 else ""
+        return kinds.pop() if self.symbol in ("absolute", "minimum", "maximum") and len(kinds) == 1 else ""
 
     def parts(self) -> tuple[Reference, ...]:
         return self.arguments
 
     def rule(self, where: Where) -> Scalar:
         values = [where.value(each) for each in self.arguments]
-        if self.function == "arctan2" and (found := where.followed(str(self), Vec(*values[::-1]))) is not None:
+        if self.symbol == "arctan2" and (found := where.followed(str(self), Vec(*values[::-1]))) is not None:
             return found
-        return FUNCTIONS[self.function](*values)
+        return FUNCTIONS[self.symbol](*values)
 
-    def __str__(self) -> str:
-        return f"{self.function}({', '.join(spelled(each) for each in self.arguments)})"
+    def text(self, measures: str = "") -> str:
+        return f"{self.symbol}({', '.join(spelled(each) for each in self.arguments)})"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Self
 
 from ..errors import DefinitionError
-from ..quantities import FRAME_SIDE, Axes, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
+from ..quantities import FRAME_AXES, Axes, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Vec
 from .primitives import Axis, Offset, Turn
 from .step import UNBOUND, Assignment, Position, Step
@@ -21,21 +21,18 @@ class Crank(Step):
     P: str
     PX: Quantity = UNBOUND
     parent_letters = arms = ("P",)
+    further = radians = ("angle",)
     from_drawing = "turn"
     expects = (("P", "point"), ("angle", "quantity"))
-    axes: Axes | None = None
-    """The axes that its angle is counted in; None for the frame's."""
+    axes = FRAME_AXES
+    """The axes that its angle is counted in."""
 
     def __init__(self, P: Reference, *, angle: Operand, at: Position | None = None, **lengths: Operand) -> None:
         super().__init__(P, labels=lengths, at=at)
         self.angle = quantity(angle)
 
     def parts(self) -> tuple[Reference, ...]:
-        own = (*super().parts(), self.angle)
-        return own if self.axes is None else (*own, *self.axes.parts())
-
-    def in_radians(self) -> tuple[Quantity, ...]:
-        return (self.angle,)
+        return (*super().parts(), *self.axes.parts())
 
     def check(self) -> None:
         super().check()
@@ -46,20 +43,17 @@ class Crank(Step):
         return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
 
     def place(self, where: Where) -> Vec:
-        turned = where.turn(self.angle)
-        cos, sin = turned if self.axes is None else self.axes.turn(where, turned)
-        arm = Vec(cos, sin) * where.value(self.PX)
-        X: Vec = where.at(self.P) + arm
-        return X
+        along = self.axes.vector(where, Vec(*where.turn(self.angle)))
+        length = where.value(self.PX)
+        arm = Vec(along.x * length, along.y * length)
+        return where.at(self.P) + arm
 
     def joints(self) -> tuple[Joint, ...]:
-        axes = self.axes or Axes()
-        by = JointSide(axes.carrier) if axes.carrier else FRAME_SIDE
-        return (Joint("crank", self.P, JointSide((self.P, self.X)), by, "c", drives=(Driven(self.angle, "c", axes.sign),)),)
+        drives = (Driven(self.angle, "c", self.axes.sign),)
+        return (Joint("crank", self.P, JointSide((self.P, self.X)), JointSide(self.axes.carrier), "c", drives=drives),)
 
     def expansion(self) -> tuple[Assignment, ...]:
-        axes = self.axes or Axes()
-        arm = Turn(Axis(self.axes), -self.angle if axes.mirrored else self.angle, length=self.PX)
+        arm = Turn(Axis(self.axes), -self.angle if self.axes.mirrored else self.angle, length=self.PX)
         name = self.word(self.P, self.X)
         return Assignment(name, self.PX), Assignment(name, arm), Assignment(self.X, Offset(self.P, arm))
 

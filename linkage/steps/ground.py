@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..errors import DefinitionError, cited
-from ..quantities import Axes, Number, Operand, Quantity, Reference, Where, label, quantity, spelled
+from ..quantities import FRAME_AXES, Axes, Number, Operand, Quantity, Reference, Where, label, quantity, spelled
 from ..vectors import Vec
 from .step import Point
 
@@ -14,8 +14,9 @@ from .step import Point
 class Ground(Point):
     """A fixed point [m]. Its coordinates are design variables: `M.x`, `M.y`, or `M=(x, y)` at once."""
 
-    axes: Axes | None = None
-    """The axes that its coordinates are counted in; None for the frame's."""
+    is_fixed = True
+    axes = FRAME_AXES
+    """The axes that its coordinates are counted in."""
 
     def __init__(self, x: Operand, y: Operand | None = None) -> None:
         if y is None:
@@ -26,12 +27,7 @@ class Ground(Point):
                 raise DefinitionError(f"Ground({self.x}, {self.y}): both coordinates must be finite numbers.")
 
     def parts(self) -> tuple[Reference, ...]:
-        own = tuple(part for part in (self.x, self.y) if not part.is_constant)
-        return own if self.axes is None else (*own, *self.axes.parts())
-
-    @property
-    def is_fixed(self) -> bool:
-        return True
+        return (*(part for part in (self.x, self.y) if not part.is_constant), *self.axes.parts())
 
     def coordinates(self) -> tuple[tuple[str, Quantity], ...]:
         return (f"{self.name}.x", self.x), (f"{self.name}.y", self.y)
@@ -44,16 +40,14 @@ class Ground(Point):
         return self.renewed(x=x, y=y)
 
     def place(self, where: Where) -> Vec:
-        own = Vec(*(where.input(name) if value.is_constant else where.value(value) for name, value in self.coordinates()))
-        return own if self.axes is None else self.axes.place(where, own)
+        own = (where.input(name) if value.is_constant else where.value(value) for name, value in self.coordinates())
+        return self.axes.place(where, Vec(*own))
 
     def in_axes(self, axes: Axes) -> Any:
         stands = axes.within(self.axes)
         if not stands.carrier:
             return self.renewed(axes=stands)
-        P, Q = stands.carrier
-        carried = Carried(P, Q, self.x, self.y)
-        return carried.renewed(_name=self.name, axes=stands)
+        return Carried(*stands.carrier, self.x, self.y).renewed(_name=self.name, axes=stands)
 
     def __str__(self) -> str:
         return f"Ground({spelled(self.x)}, {spelled(self.y)})"
@@ -65,6 +59,7 @@ class Carried(Ground):
     The axes have their origin in P, x goes to Q, y to its left. The coordinates are design variables: `N.x`, `N.y`, or `N=(x, y)`.
     """
 
+    is_fixed = False
     expects = (("P", "point"), ("Q", "point"))
 
     def __init__(self, P: Reference, Q: Reference, x: Operand, y: Operand) -> None:
@@ -76,24 +71,15 @@ class Carried(Ground):
     @property
     def P(self) -> Reference:
         """The point of the body that its axes begin in."""
-        return self.carrier[0]
+        return self.axes.carrier[0]
 
     @property
     def Q(self) -> Reference:
         """The point of the body that its x axis goes to."""
-        return self.carrier[1]
-
-    @property
-    def carrier(self) -> tuple[str, ...]:
-        """The names of the two points of the body."""
-        return () if self.axes is None else self.axes.carrier
-
-    @property
-    def is_fixed(self) -> bool:
-        return False
+        return self.axes.carrier[1]
 
     def bodies(self) -> tuple[tuple[str, ...], ...]:
-        return ((*self.carrier, self.name),)
+        return ((*self.axes.carrier, self.name),)
 
     def __str__(self) -> str:
-        return f"Carried({', '.join(self.carrier)}, {spelled(self.x)}, {spelled(self.y)})"
+        return f"Carried({', '.join(self.axes.carrier)}, {spelled(self.x)}, {spelled(self.y)})"

@@ -8,7 +8,7 @@ from typing import Self
 
 from ..errors import DefinitionError
 from ..quantities import (
-    FRAME_SIDE,
+    FRAME_AXES,
     Axes,
     Driven,
     Joint,
@@ -41,8 +41,9 @@ class Guide(Jointed):
     kind = "guide"
     expects = (("P", "point"), ("Q", "point"))
     argument_kinds = MappingProxyType({"P": "origin", "angle": "direction"})
-    axes: Axes | None = None
-    """The axes that its numbers are counted in; None for the frame's."""
+    radians = ("angle",)
+    axes = FRAME_AXES
+    """The axes that its numbers are counted in."""
 
     def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Operand | None = None) -> None:
         if P is None or (Q is None) == (angle is None):
@@ -56,21 +57,16 @@ class Guide(Jointed):
 
     def parts(self) -> tuple[Reference, ...]:
         angle = () if self.angle is None or self.angle.is_constant else (self.angle,)
-        own = (*(point for point in (self.P, self.Q) if point is not None), *angle)
-        return own if self.axes is None else (*own, *self.axes.parts())
+        return (*super().parts(), *angle, *self.axes.parts())
 
     def in_axes(self, axes: Axes) -> Self:
         return self if self.Q is not None and self.P is not None else self.renewed(axes=axes.within(self.axes))
 
-    def in_radians(self) -> tuple[Quantity, ...]:
-        return () if self.angle is None else (self.angle,)
-
     @property
     def points(self) -> tuple[str, ...]:
         """The names of the points the guide goes through."""
-        if self.P is None and self.axes is not None:
-            return self.axes.carrier
-        return tuple(name_of(point) for point in (self.P, self.Q) if point is not None)
+        own = tuple(name_of(point) for point in (self.P, self.Q) if point is not None)
+        return self.axes.carrier if self.P is None and not self.axes.is_frame else own
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         place = () if self.fixed_at is None else tuple(zip(("x", "y"), self.fixed_at, ("coordinate",) * 2, strict=True))
@@ -83,25 +79,24 @@ class Guide(Jointed):
 
     def line(self, where: Where) -> Line:
         """Return the origin [m] and the direction's cosine and sine."""
-        origin = where.at(self.P) if self.P is not None else Vec(where.input(f"{self.name}.x"), where.input(f"{self.name}.y"))
-        if self.P is None and self.axes is not None:
-            origin = self.axes.place(where, origin)
+        if self.P is not None:
+            origin = where.at(self.P)
+        else:
+            origin = self.axes.place(where, Vec(where.input(f"{self.name}.x"), where.input(f"{self.name}.y")))
         if self.Q is not None:
             along = where.at(self.Q) - origin
             scale = 1.0 / (where.link_length(name_of(self.P), name_of(self.Q)) if self.P is not None else along.length())
             return Line(origin, along * scale)
         assert self.angle is not None
         angle: Quantity = Variable(f"{self.name}.angle") if self.angle.is_constant else self.angle
-        along = Vec(*where.turn(angle))
-        return Line(origin, along if self.axes is None else self.axes.vector(where, along))
+        return Line(origin, self.axes.vector(where, Vec(*where.turn(angle))))
 
     def joints(self) -> tuple[Joint, ...]:
         """Return what keeps the carrier of a guide of a given direction from turning, where it goes through a moving point."""
         if self.P is None or self.angle is None:
             return ()
         P = name_of(self.P)
-        by = JointSide(self.axes.carrier) if self.axes is not None and self.axes.carrier else FRAME_SIDE
-        return (Joint("upright", P, JointSide((P,), "slider"), by, "c"),)
+        return (Joint("upright", P, JointSide((P,), "slider"), JointSide(self.axes.carrier), "c"),)
 
     def __str__(self) -> str:
         start = label(self.P) if self.P is not None else str(self.fixed_at)
@@ -117,16 +112,10 @@ class Slide(Jointed):
     def __init__(self, point: Reference, guide: Reference) -> None:
         self.point, self.guide = point, guide
 
-    def parts(self) -> tuple[Reference, ...]:
-        return self.point, self.guide
-
-    def miss(self, where: Where) -> Scalar:
-        """Return the point's distance from the guide [m], positive on its left: zero when it slides on it."""
-        line = where.line(self.guide)
-        return line.direction.cross(where.at(self.point) - line.origin)
-
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        return (self.miss(where),)
+        """Return the point's distance from the guide [m], positive on its left."""
+        line = where.line(self.guide)
+        return (line.direction.cross(where.at(self.point) - line.origin),)
 
     def joints(self) -> tuple[Joint, ...]:
         return (guided(name_of(self.point), name_of(self.guide)),)
@@ -147,8 +136,7 @@ class OnGuide(Point):
         return self.guide, self.along
 
     def place(self, where: Where) -> Vec:
-        line = where.line(self.guide)
-        return line.at(where.value(self.along))
+        return where.line(self.guide).at(where.value(self.along))
 
     def joints(self) -> tuple[Joint, ...]:
         guide, drives = name_of(self.guide), (Driven(self.along, "t"),)

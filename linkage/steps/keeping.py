@@ -100,7 +100,7 @@ def with_bodies(members: Mapping[str, Member], lengths: Mapping[frozenset[str], 
     if not any(isinstance(member, Offset) for member in members.values()):
         return dict(members)
     found = Construction(members, lengths)
-    return {name: member.keeping(found.kept[name]) if isinstance(member, Offset) else member for name, member in members.items()}
+    return {name: member.renewed(keeps=found.kept[name]) if isinstance(member, Offset) else member for name, member in members.items()}
 
 
 @final
@@ -272,7 +272,7 @@ class Construction:
         if isinstance(arrow, Turn):
             return self.direction(self.arrow(arrow.base)).plus(self.form(arrow.angle))
         if isinstance(arrow, Axis):
-            return Form() if arrow.axes is None else self._base(arrow.axes).plus(Form(number=pi if arrow.axes.mirrored else 0.0))
+            return self._base(arrow.axes).plus(Form(number=pi if arrow.axes.mirrored else 0.0))
         return self._atom(("direction of", arrow.name or id(arrow)), {STROKE, POINTS})
 
     def _base(self, axes: Axes) -> Form:
@@ -330,12 +330,8 @@ class Construction:
         if isinstance(given, Negative):
             return Form().plus(self.form(given.a), -1.0)
         if isinstance(given, Angle):
-            way, axes = self.direction_of(name_of(given.P), name_of(given.Q)), given.axes
-            if axes is None:
-                return way
-            if axes.mirrored:
-                return self._base(axes).plus(Form(number=pi)).plus(way, -1.0)
-            return way.plus(self._base(axes), -1.0)
+            way, base = self.direction_of(name_of(given.P), name_of(given.Q)), self._base(given.axes)
+            return base.plus(Form(number=pi)).plus(way, -1.0) if given.axes.mirrored else way.plus(base, -1.0)
         if isinstance(given, Distance):
             return self.pair_length(name_of(given.P), name_of(given.Q))
         if isinstance(given, Length):

@@ -120,7 +120,7 @@ class Group(Member):
             found.append(((where.at(rod.Q) - where.at(rod.P)).square() - length * length) * 0.5)
         for step in self.rigid:
             found.extend(step.constraints(where))
-        return (*found, *(slide.miss(where) for slide in self.slides))
+        return (*found, *(miss for slide in self.slides for miss in slide.constraints(where)))
 
     def __str__(self) -> str:
         return f'Group("{" ".join(self.pins)}")'

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..frozen import refuses_changes
 from ..quantities import (
-    FRAME_SIDE,
+    FRAME_AXES,
     Axes,
     Driven,
     Joint,
@@ -60,9 +60,6 @@ class Vector(Arrow):
     def __init__(self, P: Reference, Q: Reference) -> None:
         self.P, self.Q = P, Q
 
-    def parts(self) -> tuple[Reference, ...]:
-        return self.P, self.Q
-
     def vector(self, where: Where) -> Vec:
         return where.at(self.Q) - where.at(self.P)
 
@@ -76,18 +73,17 @@ class Vector(Arrow):
 class Axis(Arrow):
     """The unit vector of the x axis: what a crank's arm is turned from."""
 
-    def __init__(self, axes: Axes | None = None) -> None:
+    def __init__(self, axes: Axes = FRAME_AXES) -> None:
         self.axes = axes
 
     def parts(self) -> tuple[Reference, ...]:
-        return () if self.axes is None else self.axes.parts()
+        return self.axes.parts()
 
     def in_axes(self, axes: Axes) -> Self:
         return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
 
     def vector(self, where: Where) -> Vec:
-        along = Vec(1.0, 0.0)
-        return along if self.axes is None else self.axes.vector(where, along)
+        return self.axes.vector(where, Vec(1.0, 0.0))
 
     def length(self, where: Where) -> Scalar:
         return 1.0
@@ -99,17 +95,12 @@ class Axis(Arrow):
 class Turn(Arrow):
     """A vector turned by an angle [rad], then scaled to a length [m]; the length is kept where none is given."""
 
-    expects = (("base", "vector"), ("angle", "quantity"))
+    expects = (("base", "vector"), ("angle", "quantity"), ("scaled_to", "quantity"))
+    radians = ("angle",)
 
     def __init__(self, vector: Reference, angle: Operand, length: Operand | None = None) -> None:
         self.base, self.angle = vector, angle_given(angle, "Turn")
         self.scaled_to = None if length is None else quantity(length)
-
-    def parts(self) -> tuple[Reference, ...]:
-        return (self.base, self.angle) if self.scaled_to is None else (self.base, self.angle, self.scaled_to)
-
-    def in_radians(self) -> tuple[Quantity, ...]:
-        return (self.angle,)
 
     def in_axes(self, axes: Axes) -> Self:
         return self.renewed(angle=negated(self.angle)) if axes.mirrored else self
@@ -149,12 +140,10 @@ class CosineAngle(Quantity):
     It closes a loop: NaN where the three sides [m] do not make a triangle.
     """
 
+    measures = "angle"
+
     def __init__(self, a: Operand, b: Operand, c: Operand) -> None:
         self.triangle = (quantity(a), quantity(b), quantity(c))
-
-    @property
-    def measures(self) -> str:
-        return "angle"
 
     def parts(self) -> tuple[Reference, ...]:
         return self.triangle
@@ -214,15 +203,8 @@ class Offset(Point):
         if not isinstance(vector, (str, Arrow)):
             raise DefinitionError(f"Offset({label(P)}, {vector!r}): the second argument is a vector, such as Turn(AO, -OAB, length=L).")
 
-    def parts(self) -> tuple[Reference, ...]:
-        return self.P, self.by
-
     def place(self, where: Where) -> Vec:
         return where.at(self.P) + where.vector(self.by)
-
-    def keeping(self, keeps: OffsetLinks) -> Offset:
-        """Return this point with what it keeps by construction."""
-        return self.renewed(keeps=keeps)
 
     def bars(self) -> tuple[Bar, ...]:
         return self.keeps.rods
@@ -261,7 +243,7 @@ class Offset(Point):
         """Return what a drive holds that turns its vector or pushes it out."""
         name, start, keeps = self.name, name_of(self.P), self.keeps
         turned = () if keeps.angle is None else (Driven(keeps.angle, "c"),)
-        by = JointSide(keeps.by) if keeps.by else FRAME_SIDE
+        by = JointSide(keeps.by)
         if keeps.length is not None:
 
             def line(where: Where) -> Line:

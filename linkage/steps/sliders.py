@@ -69,6 +69,7 @@ class PinSlotDyad(Step):
     PX: Quantity = UNBOUND
     closes = True
     arms = ("P",)
+    further = ("offset",)
     chooses = "its pin may lie ahead of P or behind it"
     expects = (("P", "point"), ("Q", "point"))
 
@@ -78,9 +79,6 @@ class PinSlotDyad(Step):
     ) -> None:
         super().__init__(P, Q, labels=lengths, side=Side.RIGHT if side is None and near is None else side, near=near)
         self.offset = quantity(offset)
-
-    def parts(self) -> tuple[Reference, ...]:
-        return (*super().parts(), self.offset)
 
     def in_axes(self, axes: Axes) -> Self:
         return self.renewed(offset=negated(self.offset)) if axes.mirrored else self
@@ -134,6 +132,7 @@ class GuideCross(Step):
     guide: str
     other: str
     closes = True
+    sense = 1.0
     parent_letters = ("guide", "other")
     expects = (("guide", "guide"), ("other", "guide"))
 
@@ -153,10 +152,6 @@ class GuideCross(Step):
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         return where.line(self.guide).direction, where.line(self.other).direction
 
-    @property
-    def sense(self) -> float:
-        return 1.0
-
     def joints(self) -> tuple[Joint, ...]:
         return guided(self.X, self.guide), guided(self.X, self.other)
 
@@ -171,18 +166,14 @@ class YokeDyad(Step):
     P: str
     guide: str
     closes = True
+    sense = 1.0
     parent_letters = ("P", "guide")
+    further = radians = ("angle",)
     expects = (("P", "point"), ("guide", "guide"))
 
     def __init__(self, P: Reference, guide: Reference, *, angle: Operand = 1.5707963267948966) -> None:
         super().__init__(P, guide, labels={})
         self.angle = angle_given(angle, "YokeDyad")
-
-    def parts(self) -> tuple[Reference, ...]:
-        return (*super().parts(), self.angle)
-
-    def in_radians(self) -> tuple[Quantity, ...]:
-        return (self.angle,)
 
     def in_axes(self, axes: Axes) -> Self:
         return self.renewed(angle=negated(self.angle)) if axes.mirrored else self
@@ -201,10 +192,6 @@ class YokeDyad(Step):
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         direction = where.line(self.guide).direction
         return direction, direction.turned(*where.turn(self.angle))
-
-    @property
-    def sense(self) -> float:
-        return 1.0
 
     def joints(self) -> tuple[Joint, ...]:
         own, still = JointSide((self.X,), "slider"), ((self.angle, f"{self.sentence()}: its angle"),)

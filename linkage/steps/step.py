@@ -182,6 +182,8 @@ class Step(Point):
     """How its labels are spoken, where it is of a part."""
     parent_letters: tuple[str, ...] = ("P", "Q")
     argument_kinds = MappingProxyType({"side": "side", "near": "place", "at": "place"})
+    further: ClassVar[tuple[str, ...]] = ()
+    """Its attributes beside parents and labels that it is built from."""
     arms: tuple[str, ...] = ()
     """The letters of the parents that X hangs from by a link of its own: for P it has the length PX."""
     from_drawing: str = ""
@@ -228,7 +230,8 @@ class Step(Point):
         return (Side.LEFT, Side.RIGHT) if self.chooses else ()
 
     def parts(self) -> tuple[Reference, ...]:
-        return (*self.parents, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))
+        labels = (part for part in map(quantity, self.labels.values()) if not part.is_constant)
+        return (*self.parents, *labels, *(getattr(self, attribute) for attribute in self.further))
 
     def bind(self, X: str, table: DimensionTable) -> Self:
         bound = copy(self)

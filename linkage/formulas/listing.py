@@ -12,7 +12,21 @@ import sympy
 
 from ..motion import Motion
 from ..plan import Plan
-from ..quantities import AtPose, Axes, Member, Quantity, Reference, Tabulated, Turning, Variable, Where, joined_names, name_of, spelled
+from ..quantities import (
+    FRAME_AXES,
+    AtPose,
+    Axes,
+    Member,
+    Quantity,
+    Reference,
+    Tabulated,
+    Turning,
+    Variable,
+    Where,
+    joined_names,
+    name_of,
+    spelled,
+)
 from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, Point, Turn, Vector
 from ..vectors import FloatArray, Line, Numbers, Scalar, Vec
 from .names import SymbolNames
@@ -85,7 +99,7 @@ def _(member: Point, reading: Listing) -> sympy.MatrixExpr | None:
     """Return a point's place by its own rule; of one that is given by coordinates these where one is a formula, else None."""
     place = cast("Place | Vec", member.place(cast(Where, reading)))
     given = member.coordinates()
-    if not given or getattr(member, "axes", None) is not None:
+    if not given or not getattr(member, "axes", FRAME_AXES).is_frame:
         return vector_expr(place)
     is_formula = any(not value.is_constant for _, value in given)
     return sympy.ImmutableMatrix([term(place.x).expr, term(place.y).expr]) if is_formula else None
@@ -189,7 +203,7 @@ class Listing:
                 self._kept.append(each)
                 self.assign(each)
         for slide in group.slides:
-            miss = slide.miss(cast(Where, self))
+            (miss,) = slide.constraints(cast(Where, self))
             self.lines.append(ListingLine(miss.expr, sympy.S.Zero, LENGTH))
 
     def assign(self, each: Assignment) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import DefinitionError, unknown
 from ..plan import Part, Plan
 from ..program import FloatArray
-from ..quantities import Axes, Coordinate, Number, Quantity, quantity
+from ..quantities import FRAME_AXES, Axes, Coordinate, Number, Quantity, quantity
 from ..vectors import Numbers
 
 SAME = 1e-9
@@ -69,7 +69,7 @@ def dimension_in(whole: WholeMotion, part: Part, name: str, axes: Axes | None) -
     point, _, axis = name.rpartition(".")
     fused = whole.plan.aliases.get(f"{part.name}.{point}", "")
     if dotted not in table.spellings and fused and axis in ("x", "y"):
-        return whole.value(Coordinate(fused, axis, axes))
+        return whole.value(Coordinate(fused, axis, axes or FRAME_AXES))
     if dotted in table.spellings:
         owner, sign = table.spellings[dotted]
         return np.asarray(sign * whole.inputs[owner])

@@ -7,7 +7,7 @@ from typing import Self
 from ..quantities import Axes, Operand, Quantity, Reference, Where, distance
 from ..vectors import Scalar, Side, Vec
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
-from .step import UNBOUND, Assignment, Position, Step, opposite
+from .step import UNBOUND, Assignment, Position, Step
 
 
 class Dyad(Step):
@@ -34,7 +34,7 @@ class Dyad(Step):
         super().__init__(P, Q, labels=lengths, side=side, near=near, at=at)
 
     def in_axes(self, axes: Axes) -> Self:
-        return self.renewed(side=opposite(self.side)) if axes.mirrored else self
+        return self.renewed(side=Side(-self.side)) if axes.mirrored and self.side is not None else self
 
     def place(self, where: Where) -> Vec:
         P, base = where.at(self.P), where.at(self.Q) - where.at(self.P)
@@ -44,10 +44,7 @@ class Dyad(Step):
         return X
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
-        base = (where.at(self.Q) - where.at(self.P)).length()
-        sides = (base, where.value(self.PX), where.value(self.QX))
-        pairs = ((self.P, self.Q), (self.P, self.X), (self.Q, self.X))
-        return tuple((self.word(*pair), side) for pair, side in zip(pairs, sides, strict=True))
+        return self.triangle_sides(where, (where.at(self.Q) - where.at(self.P)).length())
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
         X, p, q = where.at(self.X), where.value(self.PX), where.value(self.QX)

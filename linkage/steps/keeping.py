@@ -84,14 +84,9 @@ class TurningBody:
     points: list[str] = field(default_factory=list)
     root: str = ""
 
-    @property
-    def on_it(self) -> list[str]:
-        """The points that tell how it is turned."""
-        return [*self.points, self.root] if self.root else self.points
-
     def pair(self, point: str) -> tuple[str, str] | None:
         """Return two points that tell how it is turned, one of them given if it can be; None where there is one alone."""
-        ordered = sorted(self.on_it, key=lambda each: each != point)
+        ordered = sorted(filter(None, (*self.points, self.root)), key=lambda each: each != point)
         return (ordered[0], ordered[1]) if len(ordered) > 1 else None
 
 
@@ -212,7 +207,7 @@ class Construction:
             return self._telescope(X, P, home.turns, by, arrow, None)
         if self.behind(length) or by is None:
             return OffsetLinks()
-        rays = [pair for pair in self.rays if P in pair and X not in pair and {*pair} <= {*home.on_it}]
+        rays = [pair for pair in self.rays if P in pair and X not in pair and {*pair} <= {*home.points, home.root}]
         home.points.append(X)
         if not rays or home is self.frame:
             return OffsetLinks(((P, by[1], X),), settled=True)
@@ -267,12 +262,13 @@ class Construction:
 
     def direction(self, arrow: Arrow) -> Form:
         """Return the direction of a vector as a sum of angles."""
-        if isinstance(arrow, Vector):
-            return self.direction_of(name_of(arrow.P), name_of(arrow.Q))
-        if isinstance(arrow, Turn):
-            return self.direction(self.arrow(arrow.base)).plus(self.form(arrow.angle))
-        if isinstance(arrow, Axis):
-            return self._base(arrow.axes).plus(Form(number=pi if arrow.axes.mirrored else 0.0))
+        match arrow:
+            case Vector():
+                return self.direction_of(name_of(arrow.P), name_of(arrow.Q))
+            case Turn():
+                return self.direction(self.arrow(arrow.base)).plus(self.form(arrow.angle))
+            case Axis():
+                return self._base(arrow.axes).plus(Form(number=pi if arrow.axes.mirrored else 0.0))
         return self._atom(("direction of", arrow.name or id(arrow)), {STROKE, POINTS})
 
     def _base(self, axes: Axes) -> Form:
@@ -281,11 +277,14 @@ class Construction:
 
     def length(self, arrow: Arrow) -> Form:
         """Return the length of a vector as a sum of lengths."""
-        if isinstance(arrow, Vector):
-            return self.pair_length(name_of(arrow.P), name_of(arrow.Q))
-        if isinstance(arrow, Turn):
-            return self.length(self.arrow(arrow.base)) if arrow.scaled_to is None else self.form(arrow.scaled_to)
-        return Form(number=1.0) if isinstance(arrow, Axis) else self._atom(("length of", arrow.name or id(arrow)), {STROKE, POINTS})
+        match arrow:
+            case Vector():
+                return self.pair_length(name_of(arrow.P), name_of(arrow.Q))
+            case Turn():
+                return self.length(self.arrow(arrow.base)) if arrow.scaled_to is None else self.form(arrow.scaled_to)
+            case Axis():
+                return Form(number=1.0)
+        return self._atom(("length of", arrow.name or id(arrow)), {STROKE, POINTS})
 
     def direction_of(self, P: str, Q: str) -> Form:
         """Return the direction from one point to another."""
@@ -323,25 +322,28 @@ class Construction:
 
     def _sum(self, given: Quantity) -> Form:
         """Return a quantity as a sum, by what it is made of."""
-        if isinstance(given, Number):
-            return Form(number=given.number)
-        if isinstance(given, Sum):
-            return self.form(given.a).plus(self.form(given.b))
-        if isinstance(given, Negative):
-            return Form().plus(self.form(given.a), -1.0)
-        if isinstance(given, Angle):
-            way, base = self.direction_of(name_of(given.P), name_of(given.Q)), self._base(given.axes)
-            return base.plus(Form(number=pi)).plus(way, -1.0) if given.axes.mirrored else way.plus(base, -1.0)
-        if isinstance(given, Distance):
-            return self.pair_length(name_of(given.P), name_of(given.Q))
-        if isinstance(given, Length):
-            return self.length(self.arrow(given.vector))
-        if isinstance(given, CosineAngle):
-            a, b, c = (self.form(side) for side in given.triangle)
-            key = ("corner", frozenset((a, b)), c)
-            self.corners[key] = given
-            return self._atom(key, self.behind(a) | self.behind(b) | self.behind(c))
-        return self._product(given) if isinstance(given, Operation) else self._other(given)
+        match given:
+            case Number():
+                return Form(number=given.number)
+            case Sum():
+                return self.form(given.a).plus(self.form(given.b))
+            case Negative():
+                return Form().plus(self.form(given.a), -1.0)
+            case Angle():
+                way, base = self.direction_of(name_of(given.P), name_of(given.Q)), self._base(given.axes)
+                return base.plus(Form(number=pi)).plus(way, -1.0) if given.axes.mirrored else way.plus(base, -1.0)
+            case Distance():
+                return self.pair_length(name_of(given.P), name_of(given.Q))
+            case Length():
+                return self.length(self.arrow(given.vector))
+            case CosineAngle():
+                a, b, c = (self.form(side) for side in given.triangle)
+                key = ("corner", frozenset((a, b)), c)
+                self.corners[key] = given
+                return self._atom(key, self.behind(a) | self.behind(b) | self.behind(c))
+            case Operation():
+                return self._product(given)
+        return self._other(given)
 
     def _product(self, given: Operation) -> Form:
         """Return a product, a quotient or a power: a multiple where one factor is a number."""
@@ -363,7 +365,7 @@ class Construction:
         for part in parts:
             if isinstance(part, Quantity):
                 behind |= self.behind(self.form(part))
-            elif not (isinstance(part, Point) and part.is_fixed):
+            elif not getattr(part, "is_fixed", False):
                 behind.add(POINTS)
         return self._atom(given.name or str(given), behind)
 
@@ -396,21 +398,23 @@ class Construction:
 
     def _known(self, arrow: Arrow) -> Quantity | None:
         """Return the length of a vector as a quantity of strokes and dimensions; None where it is not written as one."""
-        if isinstance(arrow, Turn):
-            return self._known(self.arrow(arrow.base)) if arrow.scaled_to is None else self._plain(arrow.scaled_to)
-        return self._plain(Distance(arrow.P, arrow.Q)) if isinstance(arrow, Vector) else None
+        match arrow:
+            case Turn():
+                return self._known(self.arrow(arrow.base)) if arrow.scaled_to is None else self._plain(arrow.scaled_to)
+            case Vector():
+                return self._plain(Distance(arrow.P, arrow.Q))
+        return None
 
     def _plain(self, given: Quantity) -> Quantity | None:
         """Return a length as a quantity of strokes and dimensions."""
         found = self._resolved(given)
-        if isinstance(found, Length):
-            return self._known(self.arrow(found.vector))
-        if isinstance(found, Distance):
-            P, Q = name_of(found.P), name_of(found.Q)
-            ray = next((pair for pair in ((P, Q), (Q, P)) if pair in self.arrows), None)
-            if ray is not None:
-                return self._known(self.arrow(self.arrows[ray]))
-            if frozenset((P, Q)) in self.lengths:
-                return self.lengths[frozenset((P, Q))]
-            return found if {P, Q} <= set(self.frame.points) else None
+        match found:
+            case Length():
+                return self._known(self.arrow(found.vector))
+            case Distance():
+                P, Q = name_of(found.P), name_of(found.Q)
+                ray = next((pair for pair in ((P, Q), (Q, P)) if pair in self.arrows), None)
+                if ray is not None:
+                    return self._known(self.arrow(self.arrows[ray]))
+                return self.lengths.get(frozenset((P, Q)), found if {P, Q} <= set(self.frame.points) else None)
         return given if all(point.is_fixed for point in self._points_behind([found]).values()) else None

@@ -47,10 +47,6 @@ class OnLink(Step):
         if self.QX is not UNBOUND and self.side is None and self.near is None and self.drawn_at is None:
             raise self.needs_side("a triangle of three sides lies on either side")
 
-    def dimensions(self) -> tuple[Quantity, ...]:
-        """Return the quantities of its labels."""
-        return tuple(each for each in (self.PX, self.QX, self.QPX) if each is not UNBOUND)
-
     def in_radians(self) -> tuple[Quantity, ...]:
         return () if self.QPX is UNBOUND else (self.QPX,)
 
@@ -85,12 +81,7 @@ class OnLink(Step):
         return P + (Q - P).turned(cos * scale, sin * scale)
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
-        if self.QX is UNBOUND:
-            return ()
-        base = where.link_length(self.P, self.Q)
-        sides = (base, where.value(self.PX), where.value(self.QX))
-        pairs = ((self.P, self.Q), (self.P, self.X), (self.Q, self.X))
-        return tuple((self.word(*pair), side) for pair, side in zip(pairs, sides, strict=True))
+        return () if self.QX is UNBOUND else self.triangle_sides(where, where.link_length(self.P, self.Q))
 
     def joints(self) -> tuple[Joint, ...]:
         """Return what holds the arm that a driven label moves: along it, across it and against turning."""

@@ -92,6 +92,9 @@ class Point(Jointed):
     closes: ClassVar[bool] = False
     """Whether placing this point closes a loop, so that it can fail and become singular."""
 
+    is_fixed: bool = False
+    """Whether it belongs to the frame."""
+
     kind = "point"
     file_section = "points"
 
@@ -121,11 +124,6 @@ class Point(Jointed):
     def expansion(self) -> tuple[Assignment, ...]:
         """Return the primitives that this step stands for, in the vector method's order; empty where its own rule is written out."""
         return ()
-
-    @property
-    def is_fixed(self) -> bool:
-        """Whether it belongs to the frame."""
-        return False
 
     def coordinates(self) -> tuple[tuple[str, Quantity], ...]:
         """Return the names and values of both coordinates, where it is given by them."""
@@ -197,7 +195,9 @@ class Step(Point):
     ) -> None:
         self.parents = parents
         self.labels = dict(labels)
-        self.side = None if side is None else side_of(side, type(self).__name__)
+        self.side = None if side is None else Side.said(side)
+        if self.side is None and side is not None:
+            raise DefinitionError(f"{type(self).__name__}: side={cited(side)}; say side=LEFT or side=RIGHT.")
         self.near = position(near, f"{type(self).__name__}(near=...)")
         self.drawn_at = position(at, f"{type(self).__name__}(at=...)")
 
@@ -238,9 +238,12 @@ class Step(Point):
         bound.X = X
         for letter, parent in zip(self.parent_letters, self.parents, strict=True):
             setattr(bound, letter, name_of(parent))
-        bound.check_points()
+        names = [X, *(getattr(bound, letter) for letter in self.parent_letters)]
+        if len(set(names)) < len(names):
+            raise DefinitionError(f"{bound.sentence()}: the points {', '.join(names)} must be different.")
         for attribute, (slot, spelling, sign, value) in match(self.labels, bound.fitting(), bound.sentence()).items():
-            bound.check_sense(slot, spelling, sign, value)
+            if slot.kind == "angle" and self.side is not None:
+                bound.check_sense(spelling, next(iter(slot.spellings)), sign, quantity(value))
             found = table.dimension(slot, spelling, value, bound.sentence())
             setattr(bound, attribute, found if sign > 0 else -found)
         bound.check()
@@ -249,17 +252,8 @@ class Step(Point):
     def having(self, values: Mapping[str, float]) -> Self:
         return self.renewed(labels=relabelled(self.labels, values))
 
-    def check_points(self) -> None:
-        """Raise DefinitionError where a point stands twice."""
-        names = [getattr(self, letter) for letter in self.parent_letters]
-        if len({self.X, *names}) < len(names) + 1:
-            raise DefinitionError(f"{self.sentence()}: the points {', '.join([self.X, *names])} must be different.")
-
-    def check_sense(self, slot: Slot, spelling: str, sign: int, value: Operand) -> None:
+    def check_sense(self, spelling: str, forward: str, sign: int, given: Quantity) -> None:
         """Raise DefinitionError for an angle whose own sense would be turned once more by the side."""
-        if slot.kind != "angle" or self.side is None:
-            return
-        given, forward = quantity(value), next(iter(slot.spellings))
         if sign < 0 or (isinstance(given, Number) and given.number < 0.0):
             why = f"{spelling} is counted from the other ray, which is -{forward}" if sign < 0 else f"{spelling} is negative"
             remedy = f"write {forward}= with a positive angle, or leave the side out"
@@ -267,7 +261,8 @@ class Step(Point):
 
     def missing(self, slot: Slot) -> DefinitionError:
         """Return the error for a label that must be given."""
-        return DefinitionError(f"{self.sentence()}: the {slot.kind} {'/'.join(slot.spellings)} is missing; give {slot_example(slot)}.")
+        example = next(iter(slot.spellings)) + ("=0.3 (m)" if slot.kind == "length" else "=30 * deg")
+        return DefinitionError(f"{self.sentence()}: the {slot.kind} {'/'.join(slot.spellings)} is missing; give {example}.")
 
     def needs_side(self, why: str) -> DefinitionError:
         """Return the error for a step that can be assembled in two ways and does not say which."""
@@ -282,11 +277,11 @@ class Step(Point):
 
     def sentence(self) -> str:
         """Return the step's opening words: `B = Dyad(A, O)`."""
-        return f"{self.X or self.name or '?'} = {type(self).__name__}({', '.join(map(parent_text, self.parents))})"
+        return f"{self.X or self.name or '?'} = {type(self).__name__}({', '.join(map(label, self.parents))})"
 
     def arguments(self) -> list[str]:
         """Return the arguments as they would be written."""
-        words = [parent_text(parent) for parent in self.parents]
+        words = [*map(label, self.parents)]
         words += written_labels(self.labels, self.fitting() if self.X else ())
         if self.side is not None:
             words.append(f"side={self.side}")
@@ -297,31 +292,13 @@ class Step(Point):
     def __str__(self) -> str:
         return f"{type(self).__name__}({', '.join(self.arguments())})"
 
-    def __repr__(self) -> str:
-        return str(self)
+    __repr__ = __str__
 
-
-def slot_example(slot: Slot) -> str:
-    """Return how a missing label would be written."""
-    return next(iter(slot.spellings)) + ("=0.3 (m)" if slot.kind == "length" else "=30 * deg")
-
-
-def parent_text(parent: Reference) -> str:
-    """Return a parent as it is written."""
-    return parent if isinstance(parent, str) else parent.name or str(parent)
-
-
-def side_of(side: object, what: str) -> Side:
-    """Return the side; raise DefinitionError for anything but LEFT and RIGHT, or these words."""
-    found = Side.said(side)
-    if found is None:
-        raise DefinitionError(f"{what}: side={cited(side)}; say side=LEFT or side=RIGHT.")
-    return found
-
-
-def opposite(side: Side | None) -> Side | None:
-    """Return the other side; None for None."""
-    return None if side is None else Side(-side)
+    def triangle_sides(self, where: Where, base: Scalar) -> tuple[tuple[str, Scalar], ...]:
+        """Return the sides of the triangle P Q X, as labelled lengths [m]; `base` is that of P Q."""
+        P, Q, X = (getattr(self, letter) for letter in "PQX")
+        lengths = (where.value(getattr(self, attribute)) for attribute in ("PX", "QX"))
+        return tuple(zip((self.word(P, Q), self.word(P, X), self.word(Q, X)), (base, *lengths), strict=True))
 
 
 def angle_given(given: Operand, what: str) -> Quantity:

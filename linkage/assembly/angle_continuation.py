@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..plan import Plan
-from ..program import FloatArray, Kernel
+from ..program import FloatArray, Kernel, Node
 from ..vectors import Numbers
 from .groups import GroupSolution, solve_groups
 from .newton import Mask
@@ -187,7 +187,13 @@ class StrokeLines:
         left, right = points.taken(inner), points.taken(inner + 1)
         done: list[tuple[Points, Points, Mask]] = []
         while len(left.line):
-            good, tiny = goes_straight(left, right), right.place - left.place <= LEAST
+            with np.errstate(all="ignore"):
+                change, width = right.value - left.value, right.place - left.place
+                size = np.minimum(np.hypot(*left.value), np.hypot(*right.value))
+                off = np.maximum(np.hypot(*(width * left.rate - change)), np.hypot(*(width * right.rate - change)))
+                # no other way than it seems: the vector changes by less than half of itself, and as its derivatives say
+                good = (np.hypot(*change) <= 0.5 * size) & (size > 0.0) & ((off <= 0.25 * size) | (width <= SHORT))
+            tiny = width <= LEAST
             hopeless = ~np.isfinite(left.value).all(axis=0)  # what lies behind the end of the reach is lost in any case
             settled = good | tiny | hopeless
             done.append((left.taken(settled), right.taken(settled), good[settled]))
@@ -219,15 +225,6 @@ class Points:
         return Points(np.concatenate([self.line, other.line]), np.concatenate([self.place, other.place]), value, rate)
 
 
-def goes_straight(left: Points, right: Points) -> Mask:
-    """Return between which places a vector goes no other way than it seems: by less than half of itself, and as its derivatives say."""
-    with np.errstate(all="ignore"):
-        change, width = right.value - left.value, right.place - left.place
-        size = np.minimum(np.hypot(*left.value), np.hypot(*right.value))
-        off = np.maximum(np.hypot(*(width * left.rate - change)), np.hypot(*(width * right.rate - change)))
-        return np.asarray((np.hypot(*change) <= 0.5 * size) & (size > 0.0) & ((off <= 0.25 * size) | (width <= SHORT)))
-
-
 @final
 @dataclass(frozen=True)
 class AnglePath:
@@ -247,7 +244,7 @@ class AnglePath:
         left, right, good = done[0]
         for more_left, more_right, more_good in done[1:]:
             left, right, good = left.joined(more_left), right.joined(more_right), np.concatenate([good, more_good])
-        (order,) = (np.lexsort((left.place, left.line)),)
+        order = np.lexsort((left.place, left.line))
         left, right, good = left.taken(order), right.taken(order), good[order]
         with np.errstate(all="ignore"):
             (ax, ay), (bx, by) = left.value, right.value
@@ -259,10 +256,10 @@ class AnglePath:
             first = first + 2.0 * pi * np.rint((near[start.line] - first) / (2.0 * pi))
         begin = np.flatnonzero(left.place == 0.0)
         piece = np.cumsum(left.place == 0.0) - 1
-        gone = np.cumsum(np.where(good, turn, 0.0))
-        missed = np.cumsum(~good)
-        angle = first[piece] + (gone - np.where(good, turn, 0.0)) - (gone - np.where(good, turn, 0.0))[begin][piece]
-        lost = (missed - ~good) - (missed - ~good)[begin][piece] > 0
+        gone = np.cumsum(np.where(good, turn, 0.0)) - np.where(good, turn, 0.0)
+        missed = np.cumsum(~good) - ~good
+        angle = first[piece] + gone - gone[begin][piece]
+        lost = missed - missed[begin][piece] > 0
         angle = np.where(lost, np.nan, angle)
         # next to the end of the reach the angle is that before it; where the vector vanishes there is none
         edge = ~good & ~np.isfinite(right.value).all(axis=0)
@@ -280,6 +277,12 @@ class AnglePath:
         return np.asarray(self.angle[index] + np.where(share > 0.0, share * self.change[index], 0.0))
 
 
+def followed_nodes(plan: Plan, name: str) -> list[Node]:
+    """Return the nodes of the vector whose direction is followed, then of its derivatives by the strokes."""
+    nodes = plan.trace.components(plan.trace.directions[name])
+    return [*nodes, *(each for stroke in plan.strokes for each in plan.derived(nodes, (stroke,)))]
+
+
 @final
 @dataclass(frozen=True)
 class Vectors:
@@ -294,16 +297,10 @@ class Vectors:
     def at(self, line: Index, place: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the vector and its derivative by the place, shape (2, k); NaN out of reach."""
         inputs, rows = self._inputs(line, place)
-        kernel: Kernel = self.plan.made(("followed", self.name), self._kernel)
+        kernel: Kernel = self.plan.made(("followed", self.name), lambda plan: Kernel(followed_nodes(plan, self.name)))
         found = kernel(inputs, size=(len(line), 1) if rows else (1, len(line))).values.reshape(-1, len(line))
         rate = sum((found[2 * k + 2 : 2 * k + 4] * slope[line] for k, slope in enumerate(self.ways.along.values())), np.zeros((2, 1)))
         return self._placed(found[:2], inputs), rate
-
-    def _kernel(self, plan: Plan) -> Kernel:
-        """Return the kernel of the vector, then of its derivatives by the strokes."""
-        vector = plan.trace.directions[self.name]
-        nodes = (plan.trace.graph.node(vector.x), plan.trace.graph.node(vector.y))
-        return Kernel([*nodes, *(each for stroke in plan.strokes for each in plan.derived(nodes, (stroke,)))])
 
     def _inputs(self, line: Index, place: FloatArray) -> tuple[dict[str, Numbers], bool]:
         """Return the inputs at places, and whether designs differ: then these are (k,) and strokes (k, 1)."""

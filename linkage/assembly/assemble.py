@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError, about, unknown
 from ..plan import needed_names, with_inner
-from ..quantities import Member, Number, Quantity, Reference, Stroke, Variable, name_of, needs
+from ..quantities import Member, Number, Quantity, Reference, Stroke, Variable, name_of, needs, of_kind
 from ..steps import Group, Guide, Link, OnLink, Pin, Point, Slide, Step
 from ..vectors import Side
 from .part_sketch import all_behind, with_begun_pins
@@ -28,19 +28,13 @@ def check_names(members: Mapping[str, Member], title: str) -> None:
             if each not in members:
                 raise unknown("Name", each, members, where=f"{title}.{name}", member=name)
     for name, member in members.items():
-        for reference, kind in parts_of(member):
+        joined: list[tuple[Reference, str]] = [(member.point, "point"), (member.guide, "guide")] if isinstance(member, Slide) else []
+        for reference, kind in [(point, "point") for point in member.points] if isinstance(member, Link) else joined:
             if members[name_of(reference)].kind != kind:
                 raise DefinitionError(f"{title}: {name} = {member}: {name_of(reference)} is not a {kind}.", member=name)
         if isinstance(member, Link):
             with about(name):
                 member.fitted()
-
-
-def parts_of(member: Member) -> list[tuple[Reference, str]]:
-    """Return what a link or a slide joins, each with the kind that it must be."""
-    if isinstance(member, Link):
-        return [(point, "point") for point in member.points]
-    return [(member.point, "point"), (member.guide, "guide")] if isinstance(member, Slide) else []
 
 
 # What no dyad pattern places: the smallest sets of pins whose equations determine them together.
@@ -154,7 +148,7 @@ def next_group(parts: Parts, title: str) -> Group:
         faulty = next((rows[row] for row in own if rows[row].fault), None)
         if faulty is not None:
             raise DefinitionError(f"{title}: {faulty.fault}", member=faulty.link)
-        return as_determined(grouped([pin for pin in parts.pins if pin in pins], [rows[row] for row in own]), title)
+        return grouped([pin for pin in parts.pins if pin in pins], [rows[row] for row in own], title)
     raise DefinitionError(f"{title}: no pin is left to place.")
 
 
@@ -182,8 +176,8 @@ def matching(rows: list[PinEquation], parts: Parts, title: str) -> dict[tuple[st
     return {each: found[place] - first for place, each in enumerate(coordinates)}
 
 
-def grouped(pins: list[str], rows: list[PinEquation]) -> Group:
-    """Return the group of some pins with its equations."""
+def grouped(pins: list[str], rows: list[PinEquation], title: str) -> Group:
+    """Return the group of some pins with its equations; DefinitionError for one that is held twice in the same way."""
     group = Group(" ".join(pins))
     group.given = tuple(dict.fromkeys(row.length for row in rows if row.length))
     attached: dict[str, tuple[str, OnLink]] = {}
@@ -192,16 +186,11 @@ def grouped(pins: list[str], rows: list[PinEquation]) -> Group:
             attached.setdefault(f"{row.attached[0]} {row.attached[1]}", row.attached)
     group.attached = tuple(attached.values())
     group.slides = tuple(row.slide for row in rows if row.slide)
-    return group
-
-
-def as_determined(group: Group, title: str) -> Group:
-    """Return a group that has as many different conditions as coordinates; DefinitionError for one that is held twice in the same way."""
-    held, needed = len(group.given) + 2 * len(group.attached) + len(group.slides), 2 * len(group.pins)
+    held, needed = len(group.given) + 2 * len(group.attached) + len(group.slides), 2 * len(pins)
     if held != needed:
-        what = f"the pins {' '.join(group.pins)} are held by {held} different conditions, {needed} are needed"
+        what = f"the pins {' '.join(pins)} are held by {held} different conditions, {needed} are needed"
         remedy = "take out a link that joins the same pins as another one, and add one that holds them"
-        raise DefinitionError(f"{title}: {what}; {remedy}.", member=group.pins[0])
+        raise DefinitionError(f"{title}: {what}; {remedy}.", member=pins[0])
     return group
 
 
@@ -230,13 +219,8 @@ def drawn_in(value: object, defaults: Mapping[str, float]) -> Any:
         return Number(defaults[value.variable])
     if not isinstance(value, Quantity):
         return tuple(drawn_in(each, defaults) for each in value) if isinstance(value, tuple) else value
-    changed = {name: drawn_in(each, defaults) for name, each in vars(value).items() if is_unnamed(each)}
-    return value.renewed(**changed)
-
-
-def is_unnamed(value: object) -> bool:
-    """Return whether a part of a quantity belongs to it alone: another quantity without a name, or several."""
-    return isinstance(value, tuple) or (isinstance(value, Quantity) and not value.name)
+    own = {name: each for name, each in vars(value).items() if not getattr(each, "name", "")}  # what belongs to it alone
+    return value.renewed(**{name: drawn_in(each, defaults) for name, each in own.items() if isinstance(each, (tuple, Quantity))})
 
 
 def is_loose(member: Member) -> bool:
@@ -268,18 +252,19 @@ class Assembler:
         used = all_behind(members, [name for name, member in members.items() if isinstance(member, (Point, Link, Guide))])
         self.parts = Parts(
             placed=set(),
-            pins={name: member for name, member in members.items() if isinstance(member, Pin) and is_loose(member)},
-            links={name: member for name, member in members.items() if isinstance(member, Link) and name not in held},
-            slides={name: member for name, member in members.items() if isinstance(member, Slide)},
-            guides={name: member for name, member in members.items() if isinstance(member, Guide)},
+            pins={name: pin for name, pin in of_kind(members, Pin).items() if is_loose(pin)},
+            links={name: link for name, link in of_kind(members, Link).items() if name not in held},
+            slides=of_kind(members, Slide),
+            guides=of_kind(members, Guide),
             sketch=self.sketch,
-            idle=tuple(name for name, member in members.items() if isinstance(member, Stroke) and name not in used),
+            idle=tuple(name for name in of_kind(members, Stroke) if name not in used),
             elements=members,
         )
 
     def run(self) -> dict[str, Member]:
         """Return all members, settled."""
         check_held(self.parts, self.title)
+        points = {point for link in self.parts.links.values() for point in link.point_names}
         while True:
             progress = True
             while progress:
@@ -293,8 +278,8 @@ class Assembler:
             found = next_step(self.parts)
             if found is not None:
                 self.settle(*found)
-            elif self.waits_for_steps():
-                return self.settled | self.pending | self.parts.pins
+            elif any(name in points and name not in self.parts.pins for name in self.pending):
+                return self.settled | self.pending | self.parts.pins  # they hang on a step that never comes: a cycle or an unknown name
             else:
                 self.add_group(next_group(self.parts, self.title))
 
@@ -318,11 +303,6 @@ class Assembler:
             member = self.parts.shapes[name].said(member)
         self.settled[name] = member
         self.parts.placed.add(name)
-
-    def waits_for_steps(self) -> bool:
-        """Return whether the loose pins hang on a step that can never come: a cycle or an unknown name."""
-        points = {point for link in self.parts.links.values() for point in link.point_names}
-        return any(name in points and name not in self.parts.pins for name in self.pending)
 
     def add_group(self, group: Group) -> None:
         """Settle the pins of a group together."""

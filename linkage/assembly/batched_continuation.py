@@ -69,17 +69,8 @@ class Memory:
     graph: Graph
     places: dict[str, int]
 
-    @classmethod
-    def of(cls, graph: Graph, names: Sequence[str]) -> Memory:
-        """Return the memory with rows of some names, in this order."""
-        return cls(graph, {name: k for k, name in enumerate(names)})
-
     def __getitem__(self, name: str) -> Node:
         return self.graph.input(f"@{name}", Level.POSE)
-
-    def all(self, names: Sequence[str]) -> list[Node]:
-        """Return the nodes of some rows."""
-        return [self[name] for name in names]
 
     def loop(self, results: Mapping[str, FloatNode], width: int, dialect: Dialect) -> list[str]:
         """Return the loop that writes rows from others."""
@@ -111,7 +102,7 @@ class Program:
         rows = [*state_rows(len(pins)), "goal", "limit", "largest", "ahead", "active", "last", "near", "settled", "stuck", "now", "extent"]
         rows += [name for letter in "gvy" for name in row_names(letter, len(pins))]
         rows += [name for letter, nodes in (("a", given), ("b", given), ("k", known)) for name in row_names(letter, len(nodes))]
-        memory = Memory.of(graph, [*rows, "right", "sense1", "size1", "bound"])
+        memory = Memory(graph, {name: k for k, name in enumerate([*rows, "right", "sense1", "size1", "bound"])})
         on = replaced(programs.nodes, {pin: memory[f"v{k}"] for k, pin in enumerate(pins)})
         lines = {node: memory[f"a{k}"] + memory["ahead"] * memory[f"b{k}"] for k, node in enumerate(given)}
         loops = rules_of(memory, len(pins), on)
@@ -194,7 +185,7 @@ class Program:
 def rules_of(memory: Memory, count: int, outputs: Sequence[Node]) -> dict[str, Mapping[str, FloatNode]]:
     """Return the rules as what rows become; `outputs` are the nodes of a group's programs on its rows."""
     pick, row = memory.graph.pick, memory
-    u, w, x, g, v, y = (memory.all(row_names(letter, count)) for letter in "uwxgvy")
+    u, w, x, g, v, y = ([memory[name] for name in row_names(letter, count)] for letter in "uwxgvy")
     on, (change, pivot, clear, size) = outputs[:count], outputs[count:]
     ahead, line, start = predicted(row["step"], row["limit"], [row["t"], row["before"], row["earlier"]], [u, w, x], pick)
     moves = pick(row["going"], 0.5, 0.0, pick(row["going"], 1.5, 1.0, 0.0))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import final
@@ -29,12 +28,26 @@ STEPS_KEPT = 1024
 """The places of steps of later groups of which the pins are kept."""
 
 
-class InputRoute(ABC):
-    """Ways from the sketch: straight lines of the program's inputs over places of lanes. A place is 0 at the sketch."""
+@final
+class InputRoute:
+    """Ways of the program's inputs, straight lines over places of lanes: a lane for every design and each of n ways.
 
-    @abstractmethod
+    `designs` hold what does not change on a way, floats or arrays (m,), `ways` what does: a value at place 0, and its change over a unit
+    of place, the same for all or one a way.
+    """
+
+    def __init__(self, designs: Mapping[str, Numbers], ways: Mapping[str, tuple[float, Numbers]], n: int = 1) -> None:
+        flat = {name: np.ravel(value) for name, value in designs.items()}
+        self.shared = {name: (value.item(), 0.0) for name, value in flat.items() if value.size == 1}
+        self.own = {name: value for name, value in flat.items() if value.size > 1}
+        self.ways, self.n = {name: (start, np.ravel(change)) for name, (start, change) in ways.items()}, n
+
     def lines(self, lane: Index) -> dict[str, tuple[Numbers, Numbers]]:
         """Return every input at place 0 and its change over a unit of place, floats or arrays like the lanes."""
+        own = {name: (value[lane // self.n], 0.0) for name, value in self.own.items()}
+        changes = self.ways.items()
+        moved = {name: (start, float(way[0]) if way.size == 1 else way[lane % self.n]) for name, (start, way) in changes}
+        return {**self.shared, **own, **moved}
 
     def inputs(self, lane: Index, place: FloatArray) -> dict[str, Numbers]:
         """Return the inputs at places of lanes, arrays (n,) or floats."""
@@ -79,7 +92,11 @@ class GroupPath:
         self._state: FloatArray = np.zeros((len(self._row), len(lanes.lane))) if begun is None else begun._state.copy()
         self._record: list[tuple[Index, FloatArray]] = [] if begun is None else list(begun._record)
         if begun is None:
-            self._begin()
+            sense, size = newton.sense(self._held(lanes.lane, lanes.place), lanes.u)
+            begin = dict.fromkeys(("t", "before", "earlier"), lanes.place) | {"sense": sense, "size": size, "step": FIRST * lanes.largest}
+            for name, values in (begin | {"going": np.abs(sense) >= TOUCH}).items():
+                self._state[self._row[name]] = values
+            self._state[self._pins] = self._state[self._old] = self._state[self._older] = lanes.u
         self._follow()
         self._store()
 
@@ -106,15 +123,6 @@ class GroupPath:
                 self._at_steps.clear()
             self._at_steps[key] = self.at(lane, place, inputs)
         return self._at_steps[key]
-
-    def _begin(self) -> None:
-        """Set the lanes to their beginning."""
-        lanes, row = self.lanes, self._row
-        sense, size = self.newton.sense(self._held(lanes.lane, lanes.place), lanes.u)
-        begin = dict.fromkeys(("t", "before", "earlier"), lanes.place) | {"sense": sense, "size": size, "step": FIRST * lanes.largest}
-        for name, values in (begin | {"going": np.abs(sense) >= TOUCH}).items():
-            self._state[row[name]] = values
-        self._state[self._pins] = self._state[self._old] = self._state[self._older] = lanes.u
 
     # -- from place to place ---------------------------------------------------------------------------------
 

@@ -13,7 +13,7 @@ from ..errors import SingularError
 from ..plan import Plan
 from ..program import FloatArray
 from ..vectors import Numbers
-from .group_continuation import GroupPath, Index, InputRoute, Lanes
+from .group_continuation import GroupPath, InputRoute, Lanes
 from .newton import Newton, at_sketch, lost_at_sketch
 
 SAMPLED = 1024
@@ -59,7 +59,8 @@ def solve_groups(plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[st
         ((name, values),) = strokes.items()
         solved = along_one(plan, newtons, kept, designs, name, values)
     else:
-        solved = along_many(newtons, kept.start, LineRoute(plan, designs, strokes, n), shape[0] * n)
+        ways = {name: (plan.sketch_strokes[name], np.asarray(value) - plan.sketch_strokes[name]) for name, value in strokes.items()}
+        solved = along_many(newtons, kept.start, InputRoute(designs, ways, n), shape[0] * n)
     found, crossed, stops = solved
     inputs: dict[str, FloatArray] = {}
     for newton, u in zip(newtons, found, strict=True):
@@ -103,7 +104,9 @@ def designed(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Number
     start = [np.repeat(base[newton.group.name], m, axis=1) for newton in newtons]
     if not changed:
         return start
-    found = group_paths(newtons, DesignRoute(plan, changed), start, np.ones(m), LINE, exact=True)
+    ways = {name: (plan.defaults[name], value - plan.defaults[name]) for name, value in changed.items()}
+    route = InputRoute({**plan.defaults, **plan.sketch_strokes}, ways, m)
+    found = group_paths(newtons, route, start, np.ones(m), LINE, exact=True)
     return [np.where(np.isinf(track.ended), track.u[:, track.last], np.nan) for track in found]
 
 
@@ -133,66 +136,11 @@ def group_paths(
 # -- the ways -------------------------------------------------------------------------------------------------
 
 
-@final
-class DesignRoute(InputRoute):
-    """From the class's design at place 0 to others at place 1, at the sketch."""
-
-    def __init__(self, plan: Plan, changed: Mapping[str, FloatArray]) -> None:
-        self.fixed: dict[str, Numbers] = {**plan.defaults, **plan.sketch_strokes}
-        self.moved = {name: (plan.defaults[name], value.ravel() - plan.defaults[name]) for name, value in changed.items()}
-
-    def lines(self, lane: Index) -> dict[str, tuple[Numbers, Numbers]]:
-        """Return the inputs, one a design."""
-        moved = {name: (old, float(change[0]) if change.size == 1 else change[lane]) for name, (old, change) in self.moved.items()}
-        return {**{name: (value, 0.0) for name, value in self.fixed.items()}, **moved}
-
-
-@final
-class StrokeRoute(InputRoute):
-    """Along one stroke, a lane for every design: upwards from the sketch, or downwards."""
-
-    def __init__(self, plan: Plan, designs: Mapping[str, Numbers], name: str, sense: float) -> None:
-        self.plan, self.designs, self.name, self.sense = plan, FlatDesigns(designs), name, sense
-        self.sketch = plan.sketch_strokes[name]
-
-    @property
-    def largest(self) -> float:
-        """The largest step."""
-        stroke = self.plan.strokes[self.name]
-        step = abs(stroke.end - stroke.start) / STEPS or 1.0
-        return min(step, ANGLE) if self.name in self.plan.turning else step
-
-    def lines(self, lane: Index) -> dict[str, tuple[Numbers, Numbers]]:
-        """Return the inputs of designs, and the stroke."""
-        return self.designs.lines(lane) | {self.name: (self.sketch, self.sense)}
-
-
-@final
-class LineRoute(InputRoute):
-    """To poses of several strokes, each along its own straight line from the sketch: a lane for every design and pose."""
-
-    def __init__(self, plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[str, FloatArray], n: int) -> None:
-        self.designs, self.n = FlatDesigns(designs), n
-        self.ways = {name: (plan.sketch_strokes[name], np.ravel(value) - plan.sketch_strokes[name]) for name, value in strokes.items()}
-
-    def lines(self, lane: Index) -> dict[str, tuple[Numbers, Numbers]]:
-        """Return the inputs of designs and poses."""
-        moved = {name: (start, float(way[0]) if way.size == 1 else way[lane % self.n]) for name, (start, way) in self.ways.items()}
-        return self.designs.lines(lane // self.n) | moved
-
-
-@final
-class FlatDesigns:
-    """The dimensions of designs, which do not change on the way: those of all alike, and those of which each has its own, (m,)."""
-
-    def __init__(self, designs: Mapping[str, Numbers]) -> None:
-        flat = {name: np.ravel(value) for name, value in designs.items()}
-        self.shared = {name: (value.item(), 0.0) for name, value in flat.items() if value.size == 1}
-        self.own = {name: value for name, value in flat.items() if value.size > 1}
-
-    def lines(self, row: Index) -> dict[str, tuple[Numbers, Numbers]]:
-        """Return the inputs of some designs and their changes, floats or arrays like the rows."""
-        return {**self.shared, **{name: (value[row], 0.0) for name, value in self.own.items()}}
+def largest_step(plan: Plan, name: str) -> float:
+    """Return the largest step along a stroke."""
+    stroke = plan.strokes[name]
+    step = abs(stroke.end - stroke.start) / STEPS or 1.0
+    return min(step, ANGLE) if name in plan.turning else step
 
 
 Found = tuple[list[FloatArray], npt.NDArray[np.int_], tuple[float, ...]]
@@ -211,10 +159,10 @@ def along_one(
         if not poses.size:
             continue
         side = slice(poses[0], poses[-1] + 1) if poses[-1] - poses[0] + 1 == poses.size else poses
-        route = StrokeRoute(plan, designs, name, sense)
-        place = np.abs(values[side] - route.sketch)
+        sketch, largest = plan.sketch_strokes[name], largest_step(plan, name)
+        route, place = InputRoute(designs, {name: (sketch, sense)}), np.abs(values[side] - sketch)
         begun = known.tracks.get((name, sense), ())
-        found = group_paths(newtons, route, start, np.full(m, float(place.max())), route.largest, exact=False, begun=begun)
+        found = group_paths(newtons, route, start, np.full(m, float(place.max())), largest, exact=False, begun=begun)
         known.tracks[name, sense] = found
         lane, at = np.repeat(np.arange(m), len(place)), np.tile(place, m)
         for number, track in enumerate(found):
@@ -224,11 +172,11 @@ def along_one(
                 crossed[:, side] = np.where((crossed[:, side] == 0) & beyond, number + 1, crossed[:, side])
         ended = min(float(track.ended[0]) for track in found)
         if m == 1 and 0.0 <= ended < place.max():
-            stops.append(route.sketch + sense * ended)
+            stops.append(sketch + sense * ended)
     return [each.reshape(len(each), -1) for each in u], crossed, tuple(stops)
 
 
-def along_many(newtons: Sequence[Newton], start: Sequence[FloatArray], route: LineRoute, count: int) -> Found:
+def along_many(newtons: Sequence[Newton], start: Sequence[FloatArray], route: InputRoute, count: int) -> Found:
     """Return the pins of every group at poses of several strokes, shape (coordinates, m * n), and what crossed."""
     crossed = np.zeros(count, int)
     found = group_paths(newtons, route, [np.repeat(each, route.n, axis=1) for each in start], np.ones(count), LINE, exact=True)

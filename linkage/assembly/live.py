@@ -9,8 +9,8 @@ from ..plan import Plan
 from ..program import Graph, Inputs, Level, Node, arrow_function, function_body, number, short_names
 from ..steps import Group
 from . import angle_continuation
-from .angle_continuation import piece_length
-from .groups import LINE, StrokeRoute
+from .angle_continuation import followed_nodes, piece_length
+from .groups import LINE, largest_step
 from .newton import ITERATIONS, Programs, at_sketch
 from .rules import FIRST, TOUCH, goes_on, interpolated, newton_ended, predicted, step_judged
 
@@ -58,7 +58,7 @@ def groups_text(plan: Plan, inputs: Inputs, dimensions: Sequence[str]) -> str:
         for place, name in enumerate(plan.groups)
     }
     groups = ",".join(f"[{first[name]},{group_text(plan, group, inputs)}]" for name, group in plan.groups.items())
-    largest = [StrokeRoute(plan, {}, name, 1.0).largest for name in plan.strokes]
+    largest = [largest_step(plan, name) for name in plan.strokes]
     constants = {
         "groups": f"[{groups}]",
         "seeds": json_of([seeds[name][:, 0].tolist() for name in plan.groups]),
@@ -81,13 +81,7 @@ def groups_text(plan: Plan, inputs: Inputs, dimensions: Sequence[str]) -> str:
 
 def angles_text(plan: Plan, clipped: Callable[[Plan, Sequence[Node]], Sequence[Node]], inputs: Inputs) -> str:
     """Return what follows the angles of a plan in JavaScript; `clipped` gives nodes that stand at a dead point to rounding."""
-    vectors = []
-    for name in plan.followed:
-        vector = plan.trace.directions[name]
-        nodes = (plan.trace.graph.node(vector.x), plan.trace.graph.node(vector.y))
-        vectors.append(
-            arrow_function(clipped(plan, [*nodes, *(each for stroke in plan.strokes for each in plan.derived(nodes, (stroke,)))]), inputs)
-        )
+    vectors = [arrow_function(clipped(plan, followed_nodes(plan, name)), inputs) for name in plan.followed]
     constants = {
         "followed": f"[{','.join(vectors)}]",
         "FOLLOWED": json_of(len(plan.strokes) + len(plan.grouped)),

@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import AssemblyError, DefinitionError
 from ..plan import ArrayReading, Plan, as_written
 from ..program import FloatArray
-from ..quantities import Member, joined_names, name_of
+from ..quantities import Member, joined_names, name_of, of_kind
 from ..shown import Shown
 from ..steps import Link, Pin, Step
 from ..vectors import Numbers, Side
@@ -90,10 +90,10 @@ def _modes(
     if not np.isfinite(list(places.values())).all():
         return
     if not left:
-        yield {name: _side(members[name]) for name in plan.points if _has_modes(members[name])}, places
+        steps = {name: step for name, step in of_kind(members, Step).items() if step.closes and step.modes()}
+        yield {name: steps[name].settled_side for name in plan.points if name in steps}, places
         return
-    declared = members[left[0]]
-    assert isinstance(declared, Step)
+    declared = of_kind(members, Step)[left[0]]
     for side in sorted(declared.modes(), key=lambda each: each is not declared.side):
         yield from _modes(plan, inputs, {**members, left[0]: sided_as(declared, side)}, left[1:])
 
@@ -105,15 +105,6 @@ def sided_as(step: Step, side: Side) -> Step:
     chosen = copy(step)
     chosen.side, chosen.near = side, None
     return chosen
-
-
-def _has_modes(member: Member) -> bool:
-    return isinstance(member, Step) and member.closes and bool(member.modes())
-
-
-def _side(member: Member) -> Side:
-    assert isinstance(member, Step)
-    return member.settled_side
 
 
 # The lines of code that choose a mode.
@@ -180,10 +171,7 @@ def members_on_sides(plan: Plan, declared: Mapping[str, Member], sides: Mapping[
     Beside these steps they are the points whose side a place in the sketch says, and that move in it with them.
     """
     chosen = with_own_groups(plan, {})
-    for name, side in sides.items():
-        step = plan.members[name]
-        assert isinstance(step, Step)
-        chosen[name] = sided_as(step, side)
+    chosen |= {name: sided_as(plan.of_kind(Step)[name], side) for name, side in sides.items()}
     own = {name: written_as(declared[name], chosen[name], None) for name in sides if name in declared}
     moved = [name for name in plan.points if is_sketched(declared.get(name)) and plan.reaches(name) & set(sides)]
     try:
@@ -209,11 +197,17 @@ def group_modes(plan: Plan, inputs: Mapping[str, Numbers]) -> Iterator[tuple[dic
     yield {}, with_own_groups(plan, {}), {}
     if not plan.groups:
         return
-    for pins in group_solutions(plan):
-        members = with_own_groups(plan, pins)
-        solved = solved_from(Plan(members, plan.title), inputs)
-        if solved is not None:
-            yield pins, members, solved
+    known = at_sketch(plan)
+    at: dict[str, Numbers] = {**plan.defaults, **plan.sketch_strokes}
+    for name, group in plan.groups.items():  # the pins of one group elsewhere, then of the next
+        newton = Newton(plan, group)
+        for u in other_solutions(newton, at, known[name]):
+            pins = {pin: (float(x), float(y)) for pin, x, y in zip(group.pins, u[0::2, 0], u[1::2, 0], strict=True)}
+            members = with_own_groups(plan, pins)
+            solved = solved_from(Plan(members, plan.title), inputs)
+            if solved is not None:
+                yield pins, members, solved
+        at |= dict(zip(newton.names, known[name], strict=True))
 
 
 def with_own_groups(plan: Plan, pins: Mapping[str, tuple[float, float]]) -> dict[str, Member]:
@@ -241,17 +235,6 @@ def solved_from(plan: Plan, inputs: Mapping[str, Numbers]) -> Mapping[str, Numbe
     return flat if np.isfinite(list(flat.values())).all() else None
 
 
-def group_solutions(plan: Plan) -> Iterator[dict[str, tuple[float, float]]]:
-    """Yield other solutions of a plan's groups at the sketch, default dimensions: the pins of one group elsewhere, then of the next."""
-    known = at_sketch(plan)
-    inputs: dict[str, Numbers] = {**plan.defaults, **plan.sketch_strokes}
-    for name, group in plan.groups.items():
-        newton = Newton(plan, group)
-        for u in other_solutions(newton, inputs, known[name]):
-            yield {pin: (float(u[2 * place, 0]), float(u[2 * place + 1, 0])) for place, pin in enumerate(group.pins)}
-        inputs |= dict(zip(newton.names, known[name], strict=True))
-
-
 def other_solutions(newton: Newton, inputs: Mapping[str, Numbers], known: FloatArray) -> list[FloatArray]:
     """Return the solutions of a group beside the known one, shape (coordinates, 1) each, from many places."""
     x, y = known[0::2], known[1::2]
@@ -267,17 +250,13 @@ def other_solutions(newton: Newton, inputs: Mapping[str, Numbers], known: FloatA
     for _ in range(ROUNDS):
         guess, done = newton.correct(held, guess, np.full(guess.shape[1], size))
         for u in guess[:, done].T[:, :, None]:
-            if all(np.abs(u - each).max() > SAME * size for each in found) and is_solution(newton, inputs, u, size):
-                found.append(u)
+            if all(np.abs(u - each).max() > SAME * size for each in found):
+                residual, rows, _ = newton.system(inputs, u)
+                # where the pins could give way the modes meet
+                is_held = np.isfinite(rows).all() and np.linalg.svd(rows[:, :, 0], compute_uv=False)[-1] > SAME
+                found += [u] if is_held and np.abs(residual).max() <= SAME * size else []
         left = ~done & np.isfinite(guess).all(axis=0)
         if not left.any():
             break
         guess = guess[:, left]
     return found[1:]
-
-
-def is_solution(newton: Newton, inputs: Mapping[str, Numbers], u: FloatArray, size: float) -> bool:
-    """Return whether pins fulfil their group's equations and are held there: where they could give way the modes meet."""
-    residual, rows, _ = newton.system(inputs, u)
-    held = np.linalg.svd(rows[:, :, 0], compute_uv=False)[-1] > SAME if np.isfinite(rows).all() else False
-    return bool(held and np.abs(residual).max() <= SAME * size)

@@ -313,30 +313,26 @@ class Elimination:
     def __init__(self, rows: Sequence[Sequence[Node]], values: FloatArray) -> None:
         self.matrix = rows
         self.rows = [list(row) for row in rows]
-        self.sizes = np.sqrt((values * values).sum(axis=1))
-        self.order = pivots(values / self.sizes[:, None], np.array([[not is_zero(entry) for entry in row] for row in rows]))
+        sizes = np.sqrt((values * values).sum(axis=1))
+        self.order = pivots(values / sizes[:, None], np.array([[not is_zero(entry) for entry in row] for row in rows]))
         self.factors: list[tuple[int, int, Node]] = []
         self.inverse: dict[int, Node] = {}
         self.beside: list[tuple[Node, Node]] = []
         left, columns = [row for row, _ in self.order], [column for _, column in self.order]
-        for row, column in self.order:
+        for row, column in self.order:  # the pivot's row is taken from the others in its column
             left.remove(row)
             columns.remove(column)
-            self._clear(row, column, [other for other in left if not is_zero(self.rows[other][column])], columns)
-
-    def _clear(self, row: int, column: int, others: Sequence[int], columns: Sequence[int]) -> None:
-        """Take a pivot's row from the others in its column."""
-        pivot = self.rows[row][column]
-        self.inverse[row] = 1.0 / pivot
-        if others:
-            sizes = [size_of(self.rows[other][column]) * float(self.sizes[row] / self.sizes[other]) for other in others]
-            self.beside.append((size_of(pivot), largest_of(sizes)))
-        for other in others:
-            factor = self.rows[other][column] * self.inverse[row]
-            self.factors.append((other, row, factor))
-            for each in columns:
-                if not is_zero(self.rows[row][each]):
-                    self.rows[other][each] = self.rows[other][each] - factor * self.rows[row][each]
+            pivot, others = self.rows[row][column], [other for other in left if not is_zero(self.rows[other][column])]
+            self.inverse[row] = 1.0 / pivot
+            if others:
+                entries = [size_of(self.rows[other][column]) * float(sizes[row] / sizes[other]) for other in others]
+                self.beside.append((size_of(pivot), largest_of(entries)))
+            for other in others:
+                factor = self.rows[other][column] * self.inverse[row]
+                self.factors.append((other, row, factor))
+                for each in columns:
+                    if not is_zero(self.rows[row][each]):
+                        self.rows[other][each] = self.rows[other][each] - factor * self.rows[row][each]
 
     def worth(self, least: float) -> Node:
         """Return a number that is above zero where every pivot is larger than `least` of what it clears away."""
@@ -366,17 +362,12 @@ class Elimination:
             column = self.solved([graph.constant(float(place == each)) for each in range(count)])
             total = total + squares(column) * squares(row)
         near = graph.apply("minimum", 1.0, 2.0 * count**0.5 / total**0.5)
-        determinant = graph.constant(parity(self.order))
+        columns = [column for _, column in sorted(self.order)]
+        crossings = sum(a > b for k, a in enumerate(columns) for b in columns[k + 1 :])  # the sign of a permutation
+        determinant = graph.constant(-1.0 if crossings % 2 else 1.0)
         for pivot_row, pivot_column in self.order:
             determinant = determinant * self.rows[pivot_row][pivot_column]
         return graph.pick(determinant, 0.0, -near, near)
-
-
-def parity(order: Sequence[tuple[int, int]]) -> float:
-    """Return the sign of a permutation."""
-    columns = [column for _, column in sorted(order)]
-    crossings = sum(a > b for k, a in enumerate(columns) for b in columns[k + 1 :])
-    return -1.0 if crossings % 2 else 1.0
 
 
 def pivots(values: FloatArray, filled: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
@@ -405,28 +396,20 @@ def pivots(values: FloatArray, filled: npt.NDArray[np.bool_]) -> list[tuple[int,
 
 def at_sketch(plan: Plan) -> dict[str, FloatArray]:
     """Return the pins of every group at the sketch, default dimensions, shape (coordinates, 1); AssemblyError where it is out of reach."""
-    found = plan.made("sketch", started_or_lost)
+    found = plan.made("sketch", started)
     if isinstance(found, AssemblyError):
         raise found.with_traceback(None)
     return found
 
 
-def started_or_lost(plan: Plan) -> dict[str, FloatArray] | AssemblyError:
-    """Return the pins of every group at the sketch, or why they cannot be assembled there."""
-    try:
-        return started(plan)
-    except AssemblyError as error:
-        return error
-
-
 def lost_at_sketch(plan: Plan) -> AssemblyError | None:
     """Return why the groups of a plan cannot be assembled at the sketch; None where they can."""
-    found = plan.made("sketch", started_or_lost) if plan.groups else None
+    found = plan.made("sketch", started) if plan.groups else None
     return found if isinstance(found, AssemblyError) else None
 
 
-def started(plan: Plan) -> dict[str, FloatArray]:
-    """Return the pins of every group at the sketch from their rough places."""
+def started(plan: Plan) -> dict[str, FloatArray] | AssemblyError:
+    """Return the pins of every group at the sketch from their rough places, or why they cannot be assembled there."""
     inputs: dict[str, Numbers] = {**plan.defaults, **plan.sketch_strokes}
     found: dict[str, FloatArray] = {}
     for name, group in plan.groups.items():
@@ -436,14 +419,14 @@ def started(plan: Plan) -> dict[str, FloatArray]:
         found[name], done, missing = newton.start(inputs, rough)
         names, strokes = " ".join(pin.name for pin in pins), strokes_text(plan, plan.sketch_strokes)
         if newton.is_dead(inputs, rough) or not (done or not newton.is_dead(inputs, found[name])):
-            raise SingularError(
+            return SingularError(
                 f"{plan.title}: the pins {names} stand in a dead point at {strokes}: what is drawn fits together, but it is "
                 "singular, so that how the pins go on from there is not settled. Draw them at other strokes, drawn(...), and out of line.",
                 point=pins[0].name, mask=np.ones((), bool),
             )  # fmt: skip
         if not done:
             gap = f"{missing / mm:.3g} mm are missing" if np.isfinite(missing) else "their equations have no value"
-            raise AssemblyError(
+            return AssemblyError(
                 f"{plan.title}: the pins {names} cannot be assembled from their sketch at {strokes}: {gap} in "
                 "the nearest pose. Move their near=(x, y) closer to the real pose, or change a length.",
                 point=pins[0].name, mask=np.ones((), bool), shortfall=missing,

@@ -10,14 +10,14 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..plan import ArrayReading, Part, has_no_axes
-from ..quantities import FRAME_SIDE, Axes, Member, Reference, needs
+from ..quantities import FRAME_SIDE, Axes, Member, Reference, needs, of_kind
 from ..steps import Drawn, Group, Pin
 from ..vectors import Line, Vec
 from .sketch import Place, Sketch, inputs_at, places_at
 
 TURNED = 0.7
 """The angle [rad] at which steps of other packages are tried."""
-ASIDE = Vec(0.31, -0.17)
+ASIDE = 0.31, -0.17
 """The displacement at which they are tried, over the size of the machine."""
 STAYS = 1e-9
 """A step comes to the place that its axes take it to, to so much of the machine's size."""
@@ -26,12 +26,11 @@ STAYS = 1e-9
 def with_begun_pins(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     """Return the members of a class, the pins of its parts' groups near the places that they have in the parts' own sketches."""
     found = dict(members)
-    for name, part in members.items():
-        if not isinstance(part, Part) or "." in name:
-            continue  # what stands in a part was begun with its class
-        check_foreign(part, part.axes(members))
-        if part.plan.groups and not part.stands_as_alone:
-            begin(name, part, found, title)
+    for name, part in of_kind(members, Part).items():
+        if "." not in name:  # what stands in a part was begun with its class
+            check_foreign(part, part.axes(members))
+            if part.plan.groups and not part.stands_as_alone:
+                begin(name, part, found, title)
     return found
 
 
@@ -43,11 +42,9 @@ def begin(name: str, part: Part, members: dict[str, Member], title: str) -> None
         if not isinstance(bound, Group):
             continue
         outside = [(each, f"{name}.{each}") for each in part.plan.points if each not in group.pins]
-        outside = [(each, part.aliases.get(dotted, dotted)) for each, dotted in outside]
         held = {each for each in needs(bound) if each in members}
-        pairs = [(each, dotted) for each, dotted in outside if dotted in held]
-        drawings = [name for name, member in members.items() if isinstance(member, Drawn)]
-        sketch = Sketch(all_behind(members, [*drawings, *(dotted for _, dotted in pairs)]), title)
+        pairs = [(each, part.aliases.get(dotted, dotted)) for each, dotted in outside if part.aliases.get(dotted, dotted) in held]
+        sketch = Sketch(all_behind(members, [*of_kind(members, Drawn), *(dotted for _, dotted in pairs)]), title)
         places = laid_on([own[each] for each, _ in pairs], [sketch.at(dotted) for _, dotted in pairs], part.mirrored, own, group.pins)
         for pin, place in places.items():
             member = members[f"{name}.{pin}"]
@@ -57,7 +54,7 @@ def begin(name: str, part: Part, members: dict[str, Member], title: str) -> None
 
 def check_foreign(part: Part, axes: Axes | None) -> None:
     """Raise DefinitionError for a step of another package that does not move with the axes of a part, as its class's sketch has it."""
-    steps = [] if axes is None else [step for step in part.plan.points.values() if has_no_axes(step)]
+    steps = [step for step in part.plan.points.values() if has_no_axes(step)]
     if axes is None or not steps:
         return
     with np.errstate(all="ignore"):
@@ -83,19 +80,17 @@ class MovedReading:
     def __init__(self, reading: ArrayReading, axes: Axes, size: float) -> None:
         self.reading, self.mirrored = reading, axes.mirrored
         turned = TURNED if axes.carrier or not axes.is_level else 0.0
-        self.cos, self.sin, self.aside = cos(turned), sin(turned), ASIDE * size
+        self.cos, self.sin, self.aside = cos(turned), sin(turned), Vec(ASIDE[0] * size, ASIDE[1] * size)
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self.reading, name)
 
     def _turned(self, given: Vec) -> Vec:
-        found: Vec = (Vec(-given.x, given.y) if self.mirrored else given).turned(self.cos, self.sin)
-        return found
+        return (Vec(-given.x, given.y) if self.mirrored else given).turned(self.cos, self.sin)
 
     def place(self, given: Vec) -> Vec:
         """Return where a place comes to."""
-        found: Vec = self._turned(given) + self.aside
-        return found
+        return self._turned(given) + self.aside
 
     def at(self, point: Reference) -> Vec:
         """Return a point's place [m]."""
@@ -119,18 +114,11 @@ def laid_on(
     own: list[Place], whole: list[Place], mirrored: bool, places: Mapping[str, Place], pins: Iterable[str]
 ) -> dict[str, Place]:
     """Return where pins come to lie when their part's points are laid on those of the whole, as near as can be."""
-
-    def complexes(given: Iterable[Place]) -> np.ndarray:
-        found = np.array([complex(*place) for place in given])
-        return found
-
-    def side(given: np.ndarray) -> np.ndarray:
-        return -given.conj() if mirrored else given
-
-    start, goal = side(complexes(own)), complexes(whole)
+    sense = -1.0 if mirrored else 1.0
+    start, goal = (np.array([complex(sign * x, y) for x, y in given]) for sign, given in ((sense, own), (1.0, whole)))
     turn = np.sum((goal - goal.mean()) * (start - start.mean()).conj())
     turn = turn / abs(turn) if abs(turn) > 0.0 else 1.0
-    moved = {pin: goal.mean() + turn * (side(np.array([complex(*places[pin])]))[0] - start.mean()) for pin in pins}
+    moved = {pin: goal.mean() + turn * (complex(sense * places[pin][0], places[pin][1]) - start.mean()) for pin in pins}
     return {pin: (float(place.real), float(place.imag)) for pin, place in moved.items()}
 
 

@@ -43,9 +43,9 @@ class Shape:
         if found is not None:
             return found[1]
         for R in self.points:
-            sides, angle = (self.given(R, P), self.given(R, Q)), self.given(P, R, Q)
-            if angle is not None and sides[0] is not None and sides[1] is not None:
-                p, q = sides[0][1], sides[1][1]
+            first, second, angle = self.given(R, P), self.given(R, Q), self.given(P, R, Q)
+            if first is not None and second is not None and angle is not None:
+                p, q = first[1], second[1]
                 derived: Quantity = np.sqrt(p * p + q * q - 2.0 * p * q * np.cos(angle[1]))
                 return derived
         return self.measured(P, Q)
@@ -104,18 +104,13 @@ class Shape:
             apart = [(P, Q) for P, Q in pairs if not self.coincide(P, pin)] or pairs
             said = [(P, Q) for P, Q in apart if self.given(P, pin)] or [(P, Q) for P, Q in apart if self.given(Q, P, pin)]
             P, Q = (said or apart)[0]
-            return OnLink(P, Q, at=self.pins[pin].drawn_at, **self.own((P, Q), pin))
+            own = filter(None, (self.given(P, pin), self.given(Q, P, pin)))
+            return OnLink(P, Q, at=self.pins[pin].drawn_at, **labelled(*own))
         for P, Q in pairs:
             p, q = self.distance(P, pin), self.distance(Q, pin)
             if p is not None and q is not None:
                 return OnLink(P, Q, near=near, **labelled((P + pin, p), (Q + pin, q)))
         return None
-
-    def own(self, firm: Sequence[str], pin: str) -> dict[str, Any]:
-        """Return the given labels that fit a step from the first two placed points."""
-        found = [self.given(firm[0], pin), self.given(firm[1], firm[0], pin)]
-        return labelled(*(each for each in found if each is not None))
-
 
 def labelled(*labels: tuple[str, Quantity]) -> dict[str, Any]:
     """Return labels as a step's keywords."""
@@ -181,101 +176,65 @@ class Parts:
         found = next(filter(None, (each.link_written(pin, self.elements) for each in giving for pin in pins)), "")
         return f" Let a link follow the length that is given to it: {found}." if found else ""
 
-    def is_placed(self, guide: str) -> bool:
-        """Return whether a guide lies on placed points."""
-        return set(self.guides[guide].points) <= self.placed
-
     def guides_of(self, pin: str) -> list[str]:
         """Return the placed guides a pin slides on."""
         found = [name_of(slide.guide) for slide in self.slides.values() if name_of(slide.point) == pin]
-        return [guide for guide in found if self.is_placed(guide)]
+        return [guide for guide in found if set(self.guides[guide].points) <= self.placed]
 
-    def arms(self, pin: str) -> Iterator[tuple[str, str, Quantity]]:
-        """Yield the links by which a pin hangs on one placed point: link, point, length."""
+    def arms(self, pin: str) -> Iterator[tuple[str, Quantity]]:
+        """Yield the points and the lengths of the links by which a pin hangs on one placed point."""
         for name, link in self.links.items():
             firm = self.firm(link)
             if pin in link.point_names and len(firm) == 1:
                 length = self.shapes[name].distance(firm[0], pin)
                 if length is not None and not self.shapes[name].coincide(firm[0], pin):
-                    yield name, firm[0], length
+                    yield firm[0], length
 
 
 def next_step(parts: Parts) -> tuple[str, Step] | None:
     """Return a pin that can be placed now and the step that places it; None where no pattern fits."""
     for pin in parts.pins:
-        if pin in parts.placed:
-            continue
-        for pattern in PATTERNS:
-            step = pattern(parts, pin)
-            if step is not None:
-                return pin, step
+        if pin not in parts.placed and (step := next(placements(parts, pin), None)) is not None:
+            return pin, step
     return None
 
 
-def on_body(parts: Parts, pin: str) -> Step | None:
-    """Return the pin's place on a body two of whose points are placed."""
+def placements(parts: Parts, pin: str) -> Iterator[Step]:
+    """Yield the steps that can place a pin now: on a body two of whose points are placed, then the dyads by their patterns."""
+    near = parts.pins[pin].sketched
     for name, link in parts.links.items():
         firm = parts.firm(link)
-        if pin in link.point_names and len(firm) >= 2:
-            step = parts.shapes[name].attachment(firm, pin)
-            if step is not None:
-                return step
-    return None
-
-
-def on_two_links(parts: Parts, pin: str) -> Step | None:
-    """Return the RRR dyad of two links that hang on a placed point each."""
+        if pin in link.point_names and len(firm) >= 2 and (step := parts.shapes[name].attachment(firm, pin)) is not None:
+            yield step
     arms = list(parts.arms(pin))
-    for k, (_, P, p) in enumerate(arms):
-        for _, Q, q in arms[k + 1 :]:
-            if P != Q:
-                return Dyad(P, Q, near=parts.pins[pin].sketched, **labelled((P + pin, p), (Q + pin, q)))
-    return None
-
-
-def on_link_and_guide(parts: Parts, pin: str) -> Step | None:
-    """Return the RRP dyad of a link that hangs on a placed point and a placed guide."""
+    for (P, p), (Q, q) in combinations(arms, 2):  # RRR
+        if P != Q:
+            yield Dyad(P, Q, near=near, **labelled((P + pin, p), (Q + pin, q)))
     guides = parts.guides_of(pin)
-    for _, P, length in parts.arms(pin):
-        if guides:
-            return SliderDyad(P, guides[0], near=parts.pins[pin].sketched, **labelled((P + pin, length)))
-    return None
-
-
-def on_two_guides(parts: Parts, pin: str) -> Step | None:
-    """Return the PRP dyad of a pin on two placed guides."""
-    guides = parts.guides_of(pin)
-    return GuideCross(guides[0], guides[1]) if len(guides) > 1 else None
-
-
-def in_slot(parts: Parts, pin: str) -> Step | None:
-    """Return the RPR dyad of a body that hangs on a placed point P and whose slot, through P and this pin, holds a placed pin."""
-    for _, P, length in parts.arms(pin):
+    for P, length in arms if guides else ():  # RRP
+        yield SliderDyad(P, guides[0], near=near, **labelled((P + pin, length)))
+    if len(guides) > 1:  # PRP
+        yield GuideCross(guides[0], guides[1])
+    for P, length in arms:  # RPR: the slot goes through P and this pin
         for slide in parts.slides.values():
             guide, held = parts.guides[name_of(slide.guide)], name_of(slide.point)
             if set(guide.points) == {P, pin} and held in parts.placed:
-                return PinSlotDyad(P, held, near=parts.pins[pin].sketched, **labelled((P + pin, length)))
-    return None
+                yield PinSlotDyad(P, held, near=near, **labelled((P + pin, length)))
+    for guide_name in guides:  # RPP
+        yield from yokes(parts, pin, guide_name)
 
 
-def on_guide_and_slot(parts: Parts, pin: str) -> Step | None:
-    """Return the RPP dyad of a body that slides on a placed guide with two points while its slot holds a placed pin."""
-    for guide in parts.guides_of(pin):
-        for name, link in parts.links.items():
-            partners = [each for each in parts.loose(link) if each != pin and guide in parts.guides_of(each)]
-            for slide in parts.slides.values():
-                slot, held = parts.guides[name_of(slide.guide)], name_of(slide.point)
-                ends = [each for each in slot.points if each != pin]
-                if pin in slot.points and set(slot.points) <= set(link.point_names) and held in parts.placed and partners:
-                    angle = parts.shapes[name].given(partners[0], pin, ends[0])
-                    if angle is not None:
-                        return YokeDyad(held, guide, angle=angle[1] if angle[0].startswith(partners[0]) else -angle[1])
-    return None
-
-
-PATTERNS: tuple[Callable[[Parts, str], Step | None], ...] = (
-    on_body, on_two_links, on_link_and_guide, on_two_guides, in_slot, on_guide_and_slot,
-)
+def yokes(parts: Parts, pin: str, guide: str) -> Iterator[YokeDyad]:
+    """Yield the RPP dyads of a body that slides on a placed guide with two points while its slot holds a placed pin."""
+    for name, link in parts.links.items():
+        partners = [each for each in parts.loose(link) if each != pin and guide in parts.guides_of(each)]
+        for slide in parts.slides.values():
+            slot, held = parts.guides[name_of(slide.guide)], name_of(slide.point)
+            ends = [each for each in slot.points if each != pin]
+            if pin in slot.points and set(slot.points) <= set(link.point_names) and held in parts.placed and partners:
+                angle = parts.shapes[name].given(partners[0], pin, ends[0])
+                if angle is not None:
+                    yield YokeDyad(held, guide, angle=angle[1] if angle[0].startswith(partners[0]) else -angle[1])
 
 
 def check_held(parts: Parts, title: str) -> None:

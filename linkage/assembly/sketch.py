@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import AssemblyError, DefinitionError
 from ..plan import ArrayReading, Plan, missing_words, strokes_text
 from ..quantities import Member, Operand, Quantity, Ref, joined_names, name_of, quantity
-from ..steps import Pin, Point, Step
+from ..steps import Pin, Step
 from ..vectors import Numbers, Vec
 from .angle_continuation import NONE_SOLVED, with_angles
 from .groups import solve_groups
@@ -120,7 +120,7 @@ def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> S
     if place is None or step.side is not None:
         return step
     sketches = {}
-    for side in modes(name, step, settled, title):
+    for side in Plan({**settled, name: step}, title).points[name].modes():
         chosen = copy(step)
         chosen.side, chosen.drawn_at = side, None
         sketches[side] = Sketch({**settled, name: chosen}, title)
@@ -129,7 +129,10 @@ def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> S
     distance = {side: float(np.hypot(*np.subtract(sketch.at(name), place))) for side, sketch in sketches.items()}
     side, other = sorted(distance, key=lambda each: distance[each])
     apart = float(np.hypot(*np.subtract(sketches[side].at(name), sketches[other].at(name))))
-    flat = type(step).from_drawing == "angle" and apart <= 1e-6 * distance_of_parents(step, sketches[side])  # a straight link has no sides
+    flat = type(step).from_drawing == "angle"  # a straight link has no sides
+    if flat:
+        P, Q = (sketches[side].at(name_of(parent)) for parent in step.parents)
+        flat = apart <= 1e-6 * float(np.hypot(*np.subtract(P, Q)))
     if not flat and distance[other] - distance[side] <= 1e-6 * max(apart, 1e-12):
         raise DefinitionError(
             f"{title}: {name} = {step} does not choose an assembly mode: both poses are equally near, the sketch lies on the dead line. "
@@ -139,18 +142,6 @@ def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> S
     chosen = copy(step)
     chosen.side, chosen.near = side, None
     return chosen
-
-
-def distance_of_parents(step: Step, sketch: Sketch) -> float:
-    """Return the distance of a step's parents in a sketch [m]."""
-    P, Q = (sketch.at(name_of(parent)) for parent in step.parents)
-    return float(np.hypot(*np.subtract(P, Q)))
-
-
-def modes(name: str, step: Step, settled: Mapping[str, Member], title: str) -> tuple[Any, ...]:
-    """Return the assembly modes of a step among settled ones."""
-    bound = Plan({**settled, name: step}, title).members[name]
-    return bound.modes() if isinstance(bound, Point) else ()
 
 
 def with_measured_labels(name: str, step: Step, sketch: Callable[[], Sketch]) -> Step:

@@ -33,6 +33,7 @@ from ..quantities import (
     in_degrees,
     name_of,
     needs,
+    of_kind,
     quantity,
     signed_terms,
     unnamed,
@@ -136,7 +137,7 @@ class Members:
 
     def of_kind(self, kind: type[Kind]) -> dict[str, Kind]:
         """Return the members of a kind by name, in order."""
-        return {name: member for name, member in self.members.items() if isinstance(member, kind)}
+        return of_kind(self.members, kind)
 
     @cached_property
     def points(self) -> Mapping[str, Point]:

@@ -29,6 +29,7 @@ from ..quantities import (
     label,
     name_of,
     needs,
+    of_kind,
     quantity,
 )
 from ..quantities import spelled as written
@@ -518,7 +519,7 @@ def has_no_axes(member: Member) -> bool:
 
 def with_parts(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     """Return the members of a class with those of its parts behind each part, and every name as the whole says it."""
-    parts = {name: member for name, member in members.items() if isinstance(member, Part)}
+    parts = of_kind(members, Part)
     if not parts:
         return dict(members)
     brought: dict[str, dict[str, Member]] = {}

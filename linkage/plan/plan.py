@@ -107,11 +107,9 @@ class Plan(Members):
             raise unknown("Name", target, self.named(), where=self.title)
         member = self.members[target] if isinstance(target, str) else target
         if isinstance(member, Point):
-            place = self.trace.at(member)
-            return self.trace.graph.node(place.x), self.trace.graph.node(place.y)
+            return self.trace.components(self.trace.at(member))
         if isinstance(member, Arrow):
-            vector = self.trace.vector(member)
-            return self.trace.graph.node(vector.x), self.trace.graph.node(vector.y)
+            return self.trace.components(self.trace.vector(member))
         if isinstance(member, Quantity):
             return (self.trace.graph.node(self.trace.value(member)),)
         raise DefinitionError(f"{self.title}: {target} has no value over the stroke; name a point, a vector or an output.")

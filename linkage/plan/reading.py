@@ -12,7 +12,7 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError, unknown
-from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, Where, name_of, needs
+from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, Where, name_of, needs, of_kind
 from ..steps import Group, Point, strokes_drawn
 from ..vectors import Line, Scalar, Vec
 
@@ -33,7 +33,7 @@ class Reading(Where):
         if name not in self.positions:
             step = self.members.get(name)
             if not isinstance(step, Point):
-                raise unknown("Point", name, (each for each, member in self.members.items() if isinstance(member, Point)))
+                raise unknown("Point", name, of_kind(self.members, Point))
             self.placing.append(name)
             try:
                 self.positions[name] = step.place(self)
@@ -178,10 +178,10 @@ class Reading(Where):
 
     def longest(self, lengths: Iterable[Quantity]) -> Scalar:
         """Return the square of the longest of some lengths that follow no stroke, or of the distance of two fixed points [m2]."""
-        fixed = [self.at(name) for name, member in self.members.items() if isinstance(member, Point) and member.is_fixed]
+        fixed = [self.at(name) for name, point in of_kind(self.members, Point).items() if point.is_fixed]
         squares = [(place - fixed[0]).square() for place in fixed[1:]]
         squares += [value * value for length in lengths if self.stays(value := self.value(length))]
-        ranges = [max(abs(member.start), abs(member.end)) for member in self.members.values() if isinstance(member, Stroke)]
+        ranges = [max(abs(stroke.start), abs(stroke.end)) for stroke in of_kind(self.members, Stroke).values()]
         return reduce(np.maximum, squares) if squares else max(ranges, default=1.0) ** 2 or 1.0
 
     def sizing(self) -> Reading:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..program import Graph, Level, Node, Tangent
-from ..quantities import Member, Quantity, Tabulated, Turning
+from ..quantities import Member, Quantity, Tabulated, Turning, of_kind
 from ..steps import Arrow, Point
 from ..vectors import Line, Scalar, Vec
 from .reading import ArrayReading, Reading
@@ -75,6 +75,10 @@ class Trace(Reading):
         self.kept: dict[object, object] = {}
         self.is_sizing = False
         self._tangents: dict[str, Tangent] = {}
+
+    def components(self, vector: Vec) -> tuple[Node, Node]:
+        """Return the nodes of both components of a vector or a place."""
+        return self.graph.node(vector.x), self.graph.node(vector.y)
 
     def tangent(self, name: str) -> Tangent:
         """Return the derivatives by an input, shared by all who ask: those of a loop are worked out once."""
@@ -180,7 +184,7 @@ class Trace(Reading):
     @cached_property
     def away(self) -> Node:
         """What is above zero where the fixed points stand near enough to the origin."""
-        places = [self.at(name) for name, member in self.members.items() if isinstance(member, Point) and member.is_fixed]
+        places = [self.at(name) for name, point in of_kind(self.members, Point).items() if point.is_fixed]
         coordinates = [part for place in places for part in (place.x, place.y)]
         return self.graph.node(self.extent * AWAY**2 - reduce(np.maximum, (part * part for part in coordinates), 0.0))
 

@@ -6,7 +6,7 @@ of it do not: where the arc tangent jumps from 180 to -180 deg, they would jump 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -39,10 +39,10 @@ def followed_angles(plan: Members, trace: Trace, loads: Sequence[Quantity]) -> t
 
     DefinitionError where one of them changes the pins of a group.
     """
-    ends = [node for place in trace.positions.values() for node in (trace.graph.node(place.x), trace.graph.node(place.y))]
+    ends = [node for place in trace.positions.values() for node in trace.components(place)]
     ends += [guard.node for guard in trace.guards] + [trace.graph.node(trace.value(each)) for each in loads]
     found = angles_that_count(trace, ends)
-    closures = dict.fromkeys(root.closure for group in plan.groups.values() for pin in group.pins for root in pin_nodes(trace, pin))
+    closures = dict.fromkeys(root.closure for group in plan.groups.values() for pin in group.pins for root in trace.components(trace.at(pin)))
     grouped = angles_that_count(trace, [residual for closure in closures if closure for residual in closure.residuals])
     if grouped:
         pins = ", ".join(pin for group in plan.groups.values() for pin in group.pins)
@@ -55,12 +55,6 @@ def followed_angles(plan: Members, trace: Trace, loads: Sequence[Quantity]) -> t
     return found
 
 
-def pin_nodes(trace: Trace, pin: str) -> Iterator[Node]:
-    """Yield the nodes of a pin's coordinates."""
-    place = trace.at(pin)
-    yield from (trace.graph.node(place.x), trace.graph.node(place.y))
-
-
 def angles_that_count(trace: Trace, ends: Sequence[Node]) -> tuple[str, ...]:
     """Return the moving angles of a trace whose whole turns change some nodes, in the order in which they were worked out."""
     nodes = ancestors(ends)
@@ -69,31 +63,20 @@ def angles_that_count(trace: Trace, ends: Sequence[Node]) -> tuple[str, ...]:
     for name, vector in trace.directions.items():
         angle = trace.graph.node(np.arctan2(vector.y, vector.x))
         if angle in behind and angle.level is Level.POSE:
-            changes = whole_turns(nodes, angle)
+            changes: dict[Node, float | None] = {}  # by how many turns each changes where the angle turns once; None: in another way
+            for node in nodes:
+                turns = [changes[each.origin] for each in node.args]
+                known = [each for each in turns if each is not None]
+                changes[node] = 1.0 if node is angle else None if len(known) < len(turns) else turns_of_operation(node, known)
             if any(changes[end] != 0.0 for end in wanted):
                 found.append(name)
     return tuple(found)
 
 
-def whole_turns(nodes: Sequence[Node], angle: Node) -> dict[Node, float | None]:
-    """Return by how many turns each of some nodes, in order of dependence, changes with a whole turn of an angle; None: in another way."""
-    found: dict[Node, float | None] = {}
-    for node in nodes:
-        changes = [found[each.origin] for each in node.args]
-        if node is angle:
-            found[node] = 1.0
-        elif not any(changes) and None not in changes:
-            found[node] = 0.0
-        else:
-            found[node] = turns_of_operation(node, changes)
-    return found
-
-
-def turns_of_operation(node: Node, changes: Sequence[float | None]) -> float | None:
+def turns_of_operation(node: Node, turns: Sequence[float]) -> float | None:
     """Return by how many turns an operation changes where its arguments change by so many; None where it changes in another way."""
-    if any(each is None for each in changes):
-        return None
-    turns = [each or 0.0 for each in changes]
+    if not any(turns):
+        return 0.0
     if node.op in ("add", "subtract"):
         return turns[0] + turns[1] if node.op == "add" else turns[0] - turns[1]
     if node.op == "negative":

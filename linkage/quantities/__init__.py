@@ -19,6 +19,7 @@ from .member import (
     keywords,
     name_of,
     needs,
+    of_kind,
     unnamed,
 )
 from .outputs import Angle, AtPose, Coordinate, Distance, InnerQuantity, Length, angle, distance, label, x, y

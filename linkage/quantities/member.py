@@ -8,7 +8,7 @@ from inspect import Parameter, Signature, signature
 from keyword import iskeyword
 from math import inf
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeVar
 from unicodedata import normalize
 from weakref import WeakKeyDictionary
 
@@ -255,6 +255,14 @@ def needs(member: Member) -> Iterator[str]:
             yield from needs(part)
         else:
             yield name_of(part)
+
+
+Kind = TypeVar("Kind", bound=Member)
+
+
+def of_kind(members: Mapping[str, Member], kind: type[Kind]) -> dict[str, Kind]:
+    """Return those of some members that are of a kind, by name, in order."""
+    return {name: member for name, member in members.items() if isinstance(member, kind)}
 
 
 def unnamed(member: Member) -> Iterator[Member]:

@@ -33,6 +33,7 @@ from ..quantities import (
     Variable,
     name_of,
     needs,
+    of_kind,
 )
 from .link import Link
 from .primitives import Arrow, Axis, CosineAngle, Offset, OffsetLinks, Turn, Vector
@@ -117,7 +118,7 @@ class Construction:
         self.placed: list[str] = []
         self.kept: dict[str, OffsetLinks] = {}
         self.used = self._points_behind(member for member in members.values() if isinstance(member, (Jointed, Link)))
-        links = {name: member for name, member in members.items() if isinstance(member, Link)}
+        links = of_kind(members, Link)
         for name, member in members.items():
             if isinstance(member, Point):
                 self.placed.append(name)

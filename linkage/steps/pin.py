@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from ..checks import require_number
 from ..errors import DefinitionError, cited
-from ..quantities import Member, Quantity, Reference, Stroke, Where, joined_names, name_of, quantity
+from ..quantities import Member, Quantity, Reference, Stroke, Where, joined_names, name_of, of_kind, quantity
 from ..vectors import Scalar, Vec
 from .guide import Guide, Slide
 from .labels import DimensionTable, Slot, Spoken
@@ -145,8 +145,8 @@ def drawn(**strokes: float) -> Drawn:
 
 def strokes_drawn(members: Mapping[str, Member]) -> dict[str, float]:
     """Return the strokes [SI] at which sketch positions hold: the start of each, unless the class or one of its parts says `drawn`."""
-    drawings = {name: member for name, member in members.items() if isinstance(member, Drawn)}
-    found = {name: float(member.start) for name, member in members.items() if isinstance(member, Stroke)}
+    drawings = of_kind(members, Drawn)
+    found = {name: float(stroke.start) for name, stroke in of_kind(members, Stroke).items()}
     for name in sorted(drawings, key=lambda each: -each.count(".")):  # the whole has the last word
         found |= {each: float(value) for each, value in drawings[name].strokes.items() if each in found}
     return found

@@ -42,7 +42,8 @@ def followed_angles(plan: Members, trace: Trace, loads: Sequence[Quantity]) -> t
     ends = [node for place in trace.positions.values() for node in trace.components(place)]
     ends += [guard.node for guard in trace.guards] + [trace.graph.node(trace.value(each)) for each in loads]
     found = angles_that_count(trace, ends)
-    closures = dict.fromkeys(root.closure for group in plan.groups.values() for pin in group.pins for root in trace.components(trace.at(pin)))
+    places = [trace.at(pin) for group in plan.groups.values() for pin in group.pins]
+    closures = dict.fromkeys(root.closure for place in places for root in trace.components(place))
     grouped = angles_that_count(trace, [residual for closure in closures if closure for residual in closure.residuals])
     if grouped:
         pins = ", ".join(pin for group in plan.groups.values() for pin in group.pins)

@@ -112,12 +112,17 @@ def missing_lowest(values: FloatArray) -> FloatArray:
 
 
 def at_own_legs(look: Look, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
-    """Return the values of K functions at places of their own (K, D, c, n), and whether these are reached, same shape."""
+    """Return the values of K functions at places of their own (K, D, c, n), and whether these are reached, same shape.
+
+    A place that several functions ask for, as at a border that they share, is looked at once.
+    """
     K, D = t.shape[:2]
-    leg = np.broadcast_to(leg[..., None], t.shape)
-    values, reached = look(np.moveaxis(leg, 0, 1).reshape(D, -1), np.moveaxis(t, 0, 1).reshape(D, -1))
-    values_of_each = values.reshape(K, D, K, *t.shape[2:])[np.arange(K), :, np.arange(K)]
-    return values_of_each, np.moveaxis(reached.reshape(D, K, *t.shape[2:]), 1, 0)
+    legs, places = (np.moveaxis(np.broadcast_to(each, t.shape), 0, 1).reshape(D, -1) for each in (leg[..., None], t))
+    _, first, back = np.unique(np.concatenate([legs, places]), axis=1, return_index=True, return_inverse=True)
+    values, reached = look(legs[:, first], places[:, first])
+    own = back.reshape(K, -1)  # of each function its columns among those looked at
+    values_of_each = values.reshape(K, D, -1)[np.arange(K)[:, None, None], np.arange(D)[:, None], own[:, None]]
+    return values_of_each.reshape(t.shape), np.moveaxis(reached.reshape(D, -1)[:, own], 1, 0).reshape(t.shape)
 
 
 # -- the samples ---------------------------------------------------------------------------------------------

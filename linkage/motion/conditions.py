@@ -9,8 +9,9 @@ the request's own program tells what rounding leaves of it (`Rounding`).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import accumulate, pairwise
 from typing import Any, final
 
 import numpy as np
@@ -40,23 +41,29 @@ LEAST = 1e-3
 @final
 @dataclass(frozen=True, eq=False)
 class Rounding:
-    """What rounding leaves of some nodes: their program, the groups' pins in it, and the machine's size."""
+    """What rounding leaves of the nodes of some results: their program, the groups' pins in it, and the machine's size."""
 
-    nodes: tuple[Node, ...]
+    nodes: tuple[tuple[Node, ...], ...]
     iterated: tuple[Iterated, ...]
     extent: Node
 
     @classmethod
-    def of(cls, plan: Plan, nodes: Iterable[Node]) -> Rounding:
-        """Return what rounding leaves of nodes of a plan's program."""
-        closures = [plan.trace.at(group.pins[0]).x.closure for group in plan.groups.values()]
-        graph = plan.trace.graph
-        return cls(tuple(nodes), tuple(map(Iterated.of, closures)), graph.node(plan.trace.extent))
+    def of(cls, plan: Plan, nodes: Iterable[tuple[Node, ...]]) -> Rounding:
+        """Return what rounding leaves of nodes of a plan's program, those of each result together."""
+        return cls(tuple(nodes), iterated(plan), plan.trace.graph.node(plan.trace.extent))
 
-    def at(self, inputs: Mapping[str, Numbers]) -> PrecisionLeft:
-        """Return what is left at poses, inputs as floats or (n,)."""
-        values, errors = scatter((*self.nodes, self.extent), inputs, self.iterated)
-        return PrecisionLeft(values[:-1], errors[:-1], np.sqrt(values[-1]))
+    def at(self, inputs: Mapping[str, Numbers], among: Sequence[int]) -> list[PrecisionLeft]:
+        """Return what is left of some of the results at poses, inputs as floats or (n,)."""
+        chosen = [self.nodes[k] for k in among]
+        values, errors = scatter([*(node for each in chosen for node in each), self.extent], inputs, self.iterated)
+        ends = list(accumulate(map(len, chosen), initial=0))
+        return [PrecisionLeft(values[a:b], errors[a:b], np.sqrt(values[-1])) for a, b in pairwise(ends)]
+
+
+def iterated(plan: Plan) -> tuple[Iterated, ...]:
+    """Return the unknowns of a plan's groups, in the order of construction."""
+    closures = [plan.trace.at(group.pins[0]).x.closure for group in plan.groups.values()]
+    return tuple(map(Iterated.of, closures))
 
 
 @final

@@ -275,8 +275,7 @@ class Evaluation:
                 for (first, each), gap in zip(self._starts(), empty, strict=True):
                     block[first : first + each.rows, gap] = 0.0
                 near, hard = ~above[len(above) - len(self.requests) :], above[: len(above) - len(self.requests)]
-                for each, here in zip(self.requests, near, strict=True):
-                    here &= ~keeps_digits(plan, each, inputs, here)
+                near &= ~keeps_digits(plan, self.requests, inputs, near)
                 bad = ~np.all(hard, axis=0) | near.any(axis=0) | ~np.isfinite(block).all(axis=0)
             if bad.any():
                 at_bad = {name: input_at(value, name in plan.table.entries, bad) for name, value in inputs.items()}
@@ -299,21 +298,20 @@ class Evaluation:
             lost = ~np.isfinite(block[:, bad]).all(axis=0) | negative(plan, lengths, shape)
             if lost.any():
                 lost[lost] = self._failed({name: value[lost] for name, value in inputs.items()}, int(lost.sum()))
-        refused = [np.zeros(shape, bool) for _ in self.requests]
-        for k, each in enumerate(self.requests):
-            here = near[k] & ~lost
-            if here.any():
-                at = {name: value[here] for name, value in inputs.items()}
-                found = examined(plan, each, at, plan.read(at))  # a reading of its own: what one request notes counts for no other
-                refused[k][here] = found.refused
-                if found.doubtful.any():
-                    told = found.at(found.doubtful)
-                    told = told.at(told.error == told.error.max())
-                    if k not in worst or told.error[0] > worst[k].error[0]:
-                        worst[k] = told
-        if (broken & ~lost & ~np.any(refused, axis=0)).any() or (self._raises and np.any([lost, *refused])):
+        refused, looked = np.zeros((len(self.requests), *shape), bool), near & ~lost
+        here, among = looked.any(axis=0), np.flatnonzero(looked.any(axis=1)).tolist()
+        at = {name: value[here] for name, value in inputs.items()}
+        for k, found in zip(among, examined(plan, self.requests, at, plan.read(at), among) if among else (), strict=True):
+            asked = looked[k][here]
+            refused[k][here] = found.refused & asked
+            if (found.doubtful & asked).any():
+                told = found.at(found.doubtful & asked)
+                told = told.at(told.error == told.error.max())
+                if k not in worst or told.error[0] > worst[k].error[0]:
+                    worst[k] = told
+        if (broken & ~lost & ~refused.any(axis=0)).any() or (self._raises and (lost.any() or refused.any())):
             self._refuse()
-        self._fill(block, bad, inputs, [lost | mask for mask in refused])
+        self._fill(block, bad, inputs, lost | refused)
 
     def _failed(self, inputs: Mapping[str, object], count: int) -> Mask:
         """Return the mask of poses, shape (count,), at which something that the requests are built from cannot be placed."""
@@ -324,7 +322,7 @@ class Evaluation:
                 failed |= mask
         return failed
 
-    def _fill(self, block: FloatArray, bad: Mask, inputs: Mapping[str, Any], without: Sequence[Mask]) -> None:
+    def _fill(self, block: FloatArray, bad: Mask, inputs: Mapping[str, Any], without: Mask) -> None:
         """Fill the bad poses of a block: to rounding where they stand at a dead point, with NaN where a request has no value."""
         for (first, each), mask in zip(self._starts(), without, strict=True):
             rows = slice(first, first + each.rows)
@@ -461,10 +459,8 @@ class PoseProgram:
     def _keeps_digits(self, designs: Mapping[str, object], strokes: Sequence[float]) -> bool:
         """Return whether a coarse look shows that all requests keep their digits at a pose."""
         inputs = {**designs, **dict(zip(self._plan.strokes, strokes, strict=True))}
-        return all(keeps_digits(self._plan, each, inputs, ONE_POSE)[0, 0] for each in self._requests)
-
-
-ONE_POSE = np.ones((1, 1), bool)
+        every = np.ones((len(self._requests), 1, 1), bool)
+        return not self._plan.solved and bool(keeps_digits(self._plan, self._requests, inputs, every).all())
 
 
 @final

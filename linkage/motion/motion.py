@@ -624,7 +624,7 @@ class Motion(Shown):
         near = near_singular(self._grid, what) & self.reached
         if not near.any():
             return refused
-        found = examined(self.plan, what, self._grid.inputs_at(near), self._grid.read_at(near))
+        (found,) = examined(self.plan, (what,), self._grid.inputs_at(near), self._grid.read_at(near), [0])
         refused[near], doubtful[near] = found.refused, found.doubtful
         if refused.any() and self.unreachable == "raise":
             raise error(found.at(found.refused), refused)

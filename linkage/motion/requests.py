@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from functools import reduce
-from itertools import product
+from itertools import accumulate, product
 from types import MappingProxyType
 from typing import Any, TypeAlias, cast, final
 from weakref import ref
@@ -24,8 +24,8 @@ from ..program import LAST, FloatArray, Kernel, Node, Notes, ancestors, disturbe
 from ..quantities import TAKEN, Arithmetic, Member, Number, Quantity, label, quantity, spelled
 from ..quantities.quantity import PoseCondition
 from ..steps import Arrow, Point
-from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Conditioning, PrecisionLeft, Rounding, conditioning
-from .grid import Angles, Grid, MotionLike, angles_of
+from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Conditioning, PrecisionLeft, Rounding, conditioning, iterated
+from .grid import Angles, Grid, Made, MotionLike, angles_of
 from .strokes import checked_name, order_of
 
 
@@ -876,7 +876,7 @@ def near_singular(grid: Grid, what: Request) -> Mask:
     with np.errstate(invalid="ignore"):
         above = watch(grid.flat, size=grid.size).values > 0.0
     near = ~above[0]
-    clear = keeps_digits(grid.plan, what, grid.flat, near)
+    (clear,) = keeps_digits(grid.plan, (what,), grid.flat, near[None])
     return np.asarray(grid.full((~np.all(above[1:], axis=0) | (near & ~clear))[None])[0])
 
 
@@ -892,36 +892,54 @@ MANY = 1.0 / 64
 """Of so many poses at least, all are looked at coarsely by a compiled program; of fewer each is looked at closely."""
 
 
-def keeps_digits(plan: Plan, what: Request, inputs: Mapping[str, Any], near: Mask) -> Mask:
-    """Return the mask of poses (designs, poses) of which a coarse look shows that a request keeps its digits; none where few are `near`.
+def keeps_digits(plan: Plan, requests: Sequence[Request], inputs: Mapping[str, Any], near: Mask) -> Mask:
+    """Return the mask (requests, designs, poses) of which a coarse look shows that a request keeps its digits; none where few are `near`.
 
     The product of all parts that come near says what is lost where each multiplies what the others lose, as hardly any machine does.
-    Pins that are found by iteration are not looked at so.
     """
-    if plan.solved or near.sum() < MANY * near.size:
-        return np.zeros(near.shape, bool)
-    made = plan.made_beside if what.of_laws else plan.made
-    kernel, count = made(("coarse", what.key), lambda twin: coarse_look(twin, what))
-    values = np.broadcast_to(kernel(inputs, size=near.shape).values, (len(kernel.plan.outputs), *near.shape)).reshape(-1, near.size)
-    own, size, shaken, least = values[:count], values[count], values[count + 1 : -1], values[-1]
+    many = near.sum(axis=(1, 2)) >= MANY * near[0].size
+    clear = np.zeros(near.shape, bool)
+    if not near[many].any():
+        return clear
+    kernel, counts = of_all("coarse", plan, requests, coarse_look)
+    size = near.shape[1:]
+    values = np.broadcast_to(kernel(inputs, size=size).values, (len(kernel.plan.outputs), *size)).reshape(-1, near[0].size)
+    extent, (own, shaken), least = np.sqrt(values[0]), np.split(values[1 : 1 + 2 * sum(counts)], 2), values[1 + 2 * sum(counts) :]
     with np.errstate(all="ignore"):
-        error = what.error(plan, PrecisionLeft(own, LAST * np.abs(shaken - own), np.sqrt(size)))
-        return np.asarray(((error <= DIGITS) & (least > NEAR**2)).reshape(near.shape))
+        left = PrecisionLeft(own, LAST * np.abs(shaken - own), extent)
+        for k, (what, count, last) in enumerate(zip(requests, counts, accumulate(counts), strict=True)):
+            if many[k]:
+                error = what.error(plan, left.part(slice(last - count, last)))
+                clear[k] = ((error <= DIGITS) & (least[k] > NEAR**2)).reshape(size)
+    return clear & near
 
 
-def coarse_look(plan: Plan, what: Request) -> tuple[Kernel, int]:
-    """Return the kernel of what tells a request's error, the size, the same disturbed and the least part; and the number of the first."""
-    own = what.rounded(plan)
-    least = plan.trace.least_part(what.names(plan))
-    return Kernel([*own, plan.trace.graph.node(plan.trace.extent), *disturbed(own), least]), len(own)
+def coarse_look(plan: Plan, requests: Sequence[Request]) -> tuple[Kernel, list[int]]:
+    """Return the kernel of the size, of what tells the requests' errors, the same disturbed and the least parts; and each one's number."""
+    own = [each.rounded(plan) for each in requests]
+    flat = [node for each in own for node in each]
+    least = [plan.trace.least_part(each.names(plan)) for each in requests]
+    return Kernel([plan.trace.graph.node(plan.trace.extent), *flat, *disturbed(flat, iterated(plan)), *least]), list(map(len, own))
 
 
-def examined(plan: Plan, what: Request, inputs: Mapping[str, Any], reading: ArrayReading) -> Conditioning:
-    """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
+def of_all(name: str, plan: Plan, requests: Sequence[Request], make: Callable[[Plan, Sequence[Request]], Made]) -> Made:
+    """Return what is made once of requests together: of laws, which take long to trace, from a program that all looks share."""
+    made = plan.made_beside if any(each.of_laws for each in requests) else plan.made
+    return made((name, *(each.key for each in requests)), lambda twin: make(twin, requests))
+
+
+def examined(
+    plan: Plan, requests: Sequence[Request], inputs: Mapping[str, Any], reading: ArrayReading, among: Sequence[int]
+) -> list[Conditioning]:
+    """Return how far poses are from singular ones for some `among` the requests: inputs as floats or (n,), and the eager reading there."""
+    rounding = of_all("rounding", plan, requests, lambda twin, these: Rounding.of(twin, [each.rounded(twin) for each in these]))
+    return [_conditioned(plan, requests[k], reading.copied(), left) for k, left in zip(among, rounding.at(inputs, among), strict=True)]
+
+
+def _conditioned(plan: Plan, what: Request, reading: ArrayReading, left: PrecisionLeft) -> Conditioning:
+    """Return how far poses are from singular ones for one request; what it notes itself in the reading counts for no other."""
     what.read_own(reading)
-    made = plan.made_beside if what.of_laws else plan.made
-    rounding = made(("rounding", what.key), lambda twin: Rounding.of(twin, what.rounded(twin)))
-    error = what.error(plan, rounding.at(inputs))
+    error = what.error(plan, left)
     found = conditioning(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
     return found.as_loops() if what.stands_for_others else found
 

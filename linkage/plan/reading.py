@@ -6,6 +6,7 @@ On arrays this is the eager evaluation; on a graph's nodes it is the trace of th
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from copy import copy
 from functools import cached_property, reduce
 from typing import final
 
@@ -219,6 +220,12 @@ class ArrayReading(Reading):
         self.rounding: dict[str, Scalar] = {}
         self.spans: dict[str, Scalar] = {}
         self.outside: dict[str, str] = {}
+
+    def copied(self) -> ArrayReading:
+        """Return the same reading, to go on from: what is worked out and noted there stays there."""
+        found = copy(self)
+        vars(found).update({name: value.copy() for name, value in vars(self).items() if isinstance(value, (dict, list))})
+        return found
 
     def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
         if curve.ends is not None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..vectors import FloatArray, Numbers
 from .derivatives import jacobian
+from .elimination import solution
 from .linear import solve_arrays
 from .node import Closure, Level, Node
 from .operations import OPERATIONS
@@ -88,6 +89,8 @@ SHAKEN = 0.75 * float(np.finfo(float).eps)
 SETTLED = 4.0
 """The last digits that iteration leaves of a group's pins."""
 PERIOD = 1999
+BLOCK = 256
+"""So many poses at a time: all values of a program are alive at once."""
 EXACT = frozenset(("constant", "input", "negative", "absolute", "sign", "minimum", "maximum", "pick", "solve", "component"))
 """Operations that do not round, or whose arguments are shaken already."""
 
@@ -109,14 +112,23 @@ class Iterated:
         return cls(tuple([each.origin for each in closure.roots]), closure.residuals, rows)
 
 
-def scatter(outputs: Sequence[Node], inputs: Mapping[str, Numbers], iterated: Iterable[Iterated]) -> tuple[FloatArray, FloatArray]:
+def scatter(outputs: Sequence[Node], inputs: Mapping[str, Numbers], iterated: Sequence[Iterated]) -> tuple[FloatArray, FloatArray]:
     """Return the values of some nodes at poses (n,), and how far rounding scatters them: both of the shape (outputs, n).
 
     Inputs are floats or arrays (n,) and taken as exact; `iterated` says which of them are solutions, in the order of construction. NaN
     where there is no value.
     """
-    given: dict[str, Numbers] = {name: np.asarray(value, float) for name, value in inputs.items()}
-    n = max(map(np.size, given.values()), default=1)
+    given = {name: np.asarray(value, float) for name, value in inputs.items()}
+    n = max((each.size for each in given.values()), default=1)
+    parts = [slice(first, first + BLOCK) for first in range(0, n, BLOCK)]
+    found = [_scattered(outputs, {name: each[part] if each.size > 1 else each for name, each in given.items()}, iterated) for part in parts]
+    values, errors = (np.concatenate(each, axis=-1) for each in zip(*found, strict=True))
+    return values, errors
+
+
+def _scattered(outputs: Sequence[Node], inputs: Mapping[str, FloatArray], iterated: Sequence[Iterated]) -> tuple[FloatArray, FloatArray]:
+    given: dict[str, Numbers] = dict(inputs)
+    n = max((each.size for each in inputs.values()), default=1)
     for unknowns in iterated:
         values = shaken((*unknowns.rows, *unknowns.residuals), given)
         entries = [np.broadcast_to(each, (RUNS + 1, n)) for each in values]
@@ -176,16 +188,31 @@ SPREADING = frozenset(("add", "subtract", "sqrt"))
 """Operations whose results are changed, besides all that poses are worked out from: those that lose digits."""
 
 
-def disturbed(outputs: Sequence[Node]) -> list[Node]:
-    """Return nodes like some outputs, worked out from inputs and by sums and roots whose digits are changed by about COARSE."""
+def disturbed(outputs: Sequence[Node], iterated: Iterable[Iterated]) -> list[Node]:
+    """Return nodes like some outputs, worked out from inputs and by sums and roots whose digits are changed by about COARSE.
 
-    def changed(node: Node) -> Node:
-        return node.graph.as_written("multiply", (node, node.graph.constant(1.0 + COARSE * coarse_noise()[node.number % PERIOD])))
+    Unknowns that were found by iteration follow by a step of Newton's method, and are changed besides by what iteration leaves.
+    """
 
-    behind = ancestors(outputs)
+    def changed(node: Node, by: float = COARSE) -> Node:
+        return node.graph.as_written("multiply", (node, node.graph.constant(1.0 + by * coarse_noise()[node.number % PERIOD])))
+
+    def spread(node: Node, args: tuple[Node, ...]) -> Node | None:
+        return changed(node.graph.as_written(node.op, args)) if node.op in SPREADING else None
+
+    unknowns = list(iterated)
+    behind = ancestors([*outputs, *(node for each in unknowns for node in each.residuals)])
     read = {arg.origin for node in behind if node.level is Level.POSE for arg in node.args}
-    leaves = {node: changed(node) for node in behind if node in read and (node.op == "input" or node.level is Level.DESIGN)}
-    return rewritten(outputs, lambda node, args: changed(node.graph.as_written(node.op, args)) if node.op in SPREADING else None, leaves)
+    solved = {node for each in unknowns for node in each.inputs}
+    leaves = {node: changed(node) for node in behind if node in read - solved and (node.op == "input" or node.level is Level.DESIGN)}
+    for each in unknowns:
+        size = len(each.inputs)
+        matrix = [each.rows[k : k + size] for k in range(0, size * size, size)]
+        steps = solution(each.inputs[0].graph, matrix, rewritten(each.residuals, spread, leaves))
+        reach = sum((abs(node) for node in each.inputs[1:]), abs(each.inputs[0]))
+        rest = [reach * (SETTLED * COARSE * coarse_noise()[node.number % PERIOD]) for node in each.inputs]
+        leaves |= {node: node - step + left for node, step, left in zip(each.inputs, steps, rest, strict=True)}
+    return rewritten(outputs, spread, leaves)
 
 
 @cache

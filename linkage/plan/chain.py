@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
-from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, joined_names, needs
+from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, joined_names, needs, of_kind, reached
 from ..steps import Point
 from .bodies import FRAME, Body
 from .members import Members, carrying_pairs, member_sides
@@ -63,6 +63,10 @@ class KinematicChain:
         """Return the bodies of a point, the frame first."""
         return [body for body in self.bodies if point in body.points]
 
+    def block(self, points: Sequence[str]) -> str:
+        """Return the sliding block of some points; "" where there is none yet."""
+        return next((body.name for body in self.bodies if body.kind == "block" and body.points == points), "")
+
     def holding(self, points: Sequence[str]) -> str:
         """Return the body of some points, or of the first of them; the frame where none has it."""
         both = [body for body in self.bodies if points and set(points) <= set(body.points)]
@@ -96,13 +100,8 @@ def chain_of(plan: Members) -> KinematicChain:
     """Return the chain of a mechanism."""
     arms = {name: arm_points(plan, name) for name in plan.telescopes}
     carrying = carrying_pairs(plan)
-    chain = KinematicChain(
-        [
-            body
-            for body in plan.links
-            if body.fixed or not (holds_an_arm(plan, body.points) or any(pair <= set(body.points) for pair in carrying))
-        ]
-    )
+    apart = [body for body in plan.links if holds_an_arm(plan, body.points) or any(pair <= set(body.points) for pair in carrying)]
+    chain = KinematicChain([body for body in plan.links if body.fixed or body not in apart])
     driven = {frozenset((bar.P, bar.Q)): bar for bar in plan.cylinders}
     others = [[point for point in plan.points if point in pair] for pair in carrying if pair not in driven]
     for P, Q in (*((bar.P, bar.Q) for bar in plan.cylinders), *others):
@@ -122,7 +121,7 @@ def chain_of(plan: Members) -> KinematicChain:
     halves = half_joints(plan)
     for _, joint in halves:
         for side in (joint.on, joint.by):
-            if side.role == "slider" and not any(body.kind == "block" and body.points == side.points for body in chain.bodies):
+            if side.role == "slider" and not chain.block(side.points):
                 chain.add(f"{side.points[0]} (slider)", "block", side.points)
     blocks = [(name, joint, moved_side(chain, name, joint)) for name, joint in halves]
     for name, joint, block in blocks:
@@ -146,13 +145,8 @@ def driven_by(plan: Members, quantity: Quantity) -> tuple[str, ...]:
 
 def strokes_alone(quantity: Quantity, members: Mapping[str, Member]) -> tuple[str, ...]:
     """Return the strokes among the members of a class that a quantity follows by itself, not through points."""
-    stack, found = [quantity.name] if quantity.name else [*needs(quantity)], set()
-    while stack:
-        name = stack.pop()
-        if name not in found and not isinstance(members[name], Point):
-            found.add(name)
-            stack += needs(members[name])
-    return tuple(name for name, member in members.items() if name in found and isinstance(member, Stroke))
+    found = reached([quantity.name] if quantity.name else needs(quantity), members, barred=Point)
+    return tuple(name for name in of_kind(members, Stroke) if name in found)
 
 
 def half_joints(plan: Members) -> list[tuple[str, Joint]]:
@@ -165,7 +159,7 @@ def half_joints(plan: Members) -> list[tuple[str, Joint]]:
 def moved_side(chain: KinematicChain, name: str, joint: Joint) -> str:
     """Return the body that slides: the one that moves without turning where the joint names it, else a block at its point."""
     if joint.on.role == "slider" and joint.point in joint.on.points:
-        return next(body.name for body in chain.bodies if body.kind == "block" and body.points == joint.on.points)
+        return chain.block(joint.on.points)
     return chain.add(f"{joint.point} (block)", "block", (joint.point,))
 
 
@@ -173,7 +167,7 @@ def guided_by(chain: KinematicChain, plan: Members, side: JointSide) -> str:
     """Return the body that a line belongs to."""
     guide = plan.guide_of(side)
     if side.role == "slider":
-        return next(body.name for body in chain.bodies if body.kind == "block" and body.points == side.points)
+        return chain.block(side.points)
     return chain.holding(side.points if guide is None else guide.points)
 
 

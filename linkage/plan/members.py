@@ -35,6 +35,7 @@ from ..quantities import (
     needs,
     of_kind,
     quantity,
+    reached,
     signed_terms,
     unnamed,
 )
@@ -195,14 +196,10 @@ class Members:
         """Return the names of all members that some things are built from, themselves included; with `within` not what is behind these."""
         if not within and len(starts) == 1 and isinstance(starts[0], str) and starts[0] in self._behind:
             return set(self._behind[starts[0]])
-        stack = [name for each in starts for name in ([each] if isinstance(each, str) else needs(each))]
-        found: set[str] = set(within)
-        while stack:
-            name = stack.pop()
-            if name not in found:
-                member = self.member(name)
-                found.add(name)
-                stack += [*needs(member), *(member.companions if isinstance(member, Point) else ())]
+        names = [name for each in starts for name in ([each] if isinstance(each, str) else needs(each))]
+        for name in names:
+            self.member(name)
+        found = reached(names, self.members, within)
         if not within and len(starts) == 1 and isinstance(starts[0], str):
             self._behind[starts[0]] = frozenset(found)
         return found

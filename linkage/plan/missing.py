@@ -44,16 +44,14 @@ def negative(plan: Members, reading: ArrayReading, shape: tuple[int, ...], point
 def opening(plan: Members, name: str) -> str:
     """Return how a sentence about a member begins: `B = Dyad(A, O)`; a pin of a group goes by the group."""
     member = plan.members[name]
-    group = member.companions if isinstance(member, Point) else ()
-    if group:
-        return next(f"{each} = {found}" for each, found in plan.groups.items() if found.pins == group)
+    if member.companions:
+        return next(f"{each} = {found}" for each, found in plan.groups.items() if found.pins == member.companions)
     return member.sentence() if isinstance(member, Step) else f"{name} = {member}"
 
 
 def name_or_pins(plan: Members, name: str) -> str:
     """Return a member's name; a pin of a group goes by the names of all its pins."""
-    member = plan.members[name]
-    group = member.companions if isinstance(member, Point) else ()
+    group = plan.members[name].companions
     return f"the group {' '.join(group)}" if group else name
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass
 from types import MappingProxyType
-from typing import Any, Protocol, TypeGuard, final
+from typing import Any, final
 
 import numpy as np
 
@@ -48,19 +48,6 @@ LEFT_BEHIND = ("over", "load case", "planes")
 """What speaks of a whole machine and stays with the class that says it."""
 
 
-class HasPlan(Protocol):
-    """A class of mechanisms, or a design of one."""
-
-    @property
-    def plan(self) -> Plan:
-        """What it is made of."""
-
-
-def is_mechanism(given: object) -> TypeGuard[HasPlan]:
-    """Return whether something is a class of mechanisms or a design."""
-    return isinstance(getattr(given, "plan", None), Plan)
-
-
 class PartNameError(DefinitionError, AttributeError):
     """A name that a part has not."""
 
@@ -81,12 +68,20 @@ class Part(Member):
         self, machine: object, *, on: Reference | Sequence[Reference] | None = None, at: Sequence[Operand] | None = None,
         angle: Operand = 0.0, mirrored: bool = False, **given: object,
     ) -> None:  # fmt: skip
-        if not is_mechanism(machine):
+        plan = getattr(machine, "plan", None)
+        if not isinstance(plan, Plan):
             raise DefinitionError(f"Part({cited(machine)}): a class of mechanisms is expected, or a design of one, such as Part(FourBar).")
         self.machine: Any = machine if isinstance(machine, type) else type(machine)
-        self.plan: Plan = machine.plan
-        self.given: dict[str, Any] = {**self._set_in(machine), **given}
-        self.on = carriers_of(on)
+        self.plan = plan
+        values = {} if isinstance(machine, type) else getattr(machine, "dimensions", {})
+        set_in = {name: value for name, value in values.items() if np.ndim(value) or value != plan.defaults[name]}
+        if any(map(np.ndim, set_in.values())):
+            raise DefinitionError(f"Part({plan.title}(...)): this is a batch of designs; a part is one of them.")
+        self.given: dict[str, Any] = {**set_in, **given}
+        carriers: object = () if on is None else on.split() if isinstance(on, str) else [on] if isinstance(on, Member) else on
+        self.on: tuple[Reference, ...] = tuple(carriers) if isinstance(carriers, (list, tuple)) else ()
+        if on is not None and (not 0 < len(self.on) < 3 or not all(isinstance(each, (str, Member)) for each in self.on)):
+            raise DefinitionError(f"Part(on={cited(on)}): name two points of the body that carries it, a link, or nothing for the frame.")
         x, y = (0.0, 0.0) if at is None else pair_of(at, "Part(at=...)")
         require_measure(angle, "angle", "Part: angle")
         self.at, self.angle = (quantity(x), quantity(y)), quantity(angle)
@@ -100,15 +95,6 @@ class Part(Member):
                 raise DefinitionError(f"{what}, too; rename that in a subclass to place the part. The member is reached by {reached}.")
         self._check_given()
 
-    def _set_in(self, machine: Any) -> dict[str, float]:
-        """Return the dimensions that a design has set otherwise than its class."""
-        if isinstance(machine, type):
-            return {}
-        changed = {name: value for name, value in machine.dimensions.items() if np.ndim(value) or value != self.plan.defaults[name]}
-        if any(map(np.ndim, changed.values())):
-            raise DefinitionError(f"Part({self.plan.title}(...)): this is a batch of designs; a part is one of them.")
-        return changed
-
     # -- names ----------------------------------------------------------------------------------------------
 
     def __getattr__(self, name: str) -> Any:
@@ -118,28 +104,17 @@ class Part(Member):
 
     def __getitem__(self, name: str) -> Any:
         """Return the reference to a member of the part, `lower["name"]`."""
-        member = self.plan.members.get(name)
-        if member is None:
-            owned = {each.partition(".")[0] for each in self.plan.members}
-            if name in self.plan.table.spellings:
-                return Ref(f"{self._called}.{name}")
-            known = sorted(owned | set(self.plan.aliases))
-            if name in self.plan.aliases:
-                return f"{self._called}.{name}"
-            error = unknown("Name", name, known, where=f"{self._called or 'Part'} = Part({self.plan.title})")
-            raise PartNameError(str(error))
-        called = f"{self._called}.{name}"
-        if isinstance(member, Part):
-            return Inner(member, called)
-        if member.inside:
-            return HeldName(called, member)
-        return Ref(called) if isinstance(member, Quantity) else called
-
-    @property
-    def _called(self) -> str:
         if not self.name:
             raise DefinitionError(f"Part({self.plan.title}) has no name yet; bind it in the class first, lower = Part(...), then lower.B.")
-        return self.name
+        called, member = f"{self.name}.{name}", self.plan.members.get(name)
+        if member is None and name not in self.plan.table.spellings:
+            known = sorted({each.partition(".")[0] for each in self.plan.members} | set(self.plan.aliases))
+            raise PartNameError(str(unknown("Name", name, known, where=f"{self.name} = Part({self.plan.title})")))
+        if isinstance(member, Part):
+            return Inner(member, called)
+        if member is not None and member.inside:
+            return HeldName(called, member)
+        return Ref(called) if member is None or isinstance(member, Quantity) else called
 
     # -- what it was given ----------------------------------------------------------------------------------
 
@@ -152,10 +127,10 @@ class Part(Member):
                     raise DefinitionError(f"{title}: the stroke {name} cannot be left out; give it a quantity, {name}=S.")
                 quantity(value)
             elif isinstance(member, Point):
-                if value is None or not member.is_fixed:
-                    if not member.is_fixed:
-                        said = f"{title}: {name} moves in the part and takes no place"
-                        raise DefinitionError(f"{said}; give its fixed points, {', '.join(self.plan.ground)}, or carry the part by on=.")
+                if not member.is_fixed:
+                    said = f"{title}: {name} moves in the part and takes no place"
+                    raise DefinitionError(f"{said}; give its fixed points, {', '.join(self.plan.ground)}, or carry the part by on=.")
+                if value is None:
                     raise DefinitionError(f"{title}: the fixed point {name} cannot be left out; fuse it with a point or give (x, y).")
                 if not isinstance(value, (str, Member)):
                     pair_of(value, f"{title}: {name}=")
@@ -174,19 +149,13 @@ class Part(Member):
                 raise unknown("Name", name, [*plan.members, *plan.table.names()], where=title)
 
     def parts(self) -> tuple[Reference, ...]:
-        own = [self.angle, *self.at]
-        found: list[Reference] = [each for each in own if not each.is_constant]
+        found: list[Reference] = [self.angle, *self.at]
         for name, value in self.given.items():
-            if value is None:
-                continue
             if isinstance(self.plan.members.get(name), Point):
-                if isinstance(value, (str, Member)):
-                    found.append(value)
-                else:
-                    found += [each for each in map(quantity, value) if not each.is_constant]
-            elif not quantity(value).is_constant:
+                found += [value] if isinstance(value, (str, Member)) else map(quantity, value)
+            elif value is not None:
                 found.append(quantity(value))
-        return (*self.on, *found)
+        return (*self.on, *(each for each in found if not (isinstance(each, Quantity) and each.is_constant)))
 
     # -- what it brings -------------------------------------------------------------------------------------
 
@@ -203,10 +172,8 @@ class Part(Member):
                 by_name = target.name or (target.target if isinstance(target, Ref) else "")
                 if by_name:
                     found[f"{self.name}.{name}"] = by_name
-        return found | {f"{self.name}.{name}": self._whole(target, found) for name, target in self.plan.aliases.items()}
-
-    def _whole(self, name: str, aliases: Mapping[str, str]) -> str:
-        return aliases.get(f"{self.name}.{name}", f"{self.name}.{name}")
+        inner = {f"{self.name}.{name}": f"{self.name}.{target}" for name, target in self.plan.aliases.items()}
+        return found | {name: found.get(target, target) for name, target in inner.items()}
 
     def axes(self, members: Mapping[str, Member]) -> Axes | None:
         """Return the axes of the part in the whole; None where they are the frame's."""
@@ -216,10 +183,8 @@ class Part(Member):
         if len(names) == 1:
             what = f"{self.name} = {self}: {names[0]} is one point, and gives a part no directions"
             raise DefinitionError(f"{what}; name two points of the body that carries it, on=({names[0]}, ...), or a link.")
-        found = Axes(names[0], names[1], self.at, self.angle, self.mirrored) if names else None
-        if found is None and (self.mirrored or any(not is_nothing(each) for each in (*self.at, self.angle))):
-            found = Axes(at=self.at, angle=self.angle, mirrored=self.mirrored)
-        return found
+        found = Axes(*(names[:2] or (None, None)), self.at, self.angle, self.mirrored)
+        return None if found.is_frame else found
 
     def brought(self, members: Mapping[str, Member]) -> dict[str, Member]:
         """Return the members of the part as they stand among those of the whole, by their dotted names."""
@@ -244,10 +209,7 @@ class Part(Member):
         words = [self.plan.title, *(f"{name}={given_text(value)}" for name, value in self.given.items() if name.isidentifier())]
         if self.on:
             words.append(f"on={label(self.on[0])}" if len(self.on) == 1 else f"on=({', '.join(map(label, self.on))})")
-        if not all(map(is_nothing, self.at)):
-            words.append(f"at=({', '.join(map(written, self.at))})")
-        words += [] if is_nothing(self.angle) else [f"angle={written(self.angle, 0, 'angle')}"]
-        words += ["mirrored=True"] if self.mirrored else []
+        words += filter(None, [str(Axes(at=self.at, angle=self.angle, mirrored=self.mirrored))])
         dotted = {name: value for name, value in self.given.items() if not name.isidentifier()}
         more = [f"**{{{', '.join(f'{name!r}: {given_text(value)}' for name, value in dotted.items())}}}"] if dotted else []
         return f"Part({', '.join([*words, *more])})"
@@ -281,8 +243,7 @@ class Inner:
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        view = self._part.renewed(_name=self._is_called)
-        return view[name]
+        return self._part.renewed(_name=self._is_called)[name]
 
     __getitem__ = __getattr__
 
@@ -306,17 +267,6 @@ def pair_of(given: object, what: str) -> tuple[Operand, Operand]:
     require_measure(pair, "length", what)
     x, y = pair
     return x, y
-
-
-def carriers_of(on: object) -> tuple[Reference, ...]:
-    """Return the references to what carries a part."""
-    if on is None:
-        return ()
-    given = on.split() if isinstance(on, str) else [on] if isinstance(on, Member) else on
-    found = tuple(given) if isinstance(given, (list, tuple)) else ()
-    if not 0 < len(found) < 3 or not all(isinstance(each, (str, Member)) for each in found):
-        raise DefinitionError(f"Part(on={cited(on)}): name two points of the body that carries it, a link, or nothing for the frame.")
-    return found
 
 
 class Renaming(ABC):
@@ -381,26 +331,17 @@ class Renamed(Renaming):
                 continue
             with about(dotted):
                 found[dotted] = self._member_in_part(name, dotted, member)
-        if left_out:
-            self._check_left(left_out, found)
+        for name, each in ((name, each) for name, member in found.items() for each in needs(member)) if left_out else ():
+            lost, own = each.removeprefix(f"{part.name}."), name.removeprefix(f"{part.name}.")
+            if lost in left_out and each not in found:
+                said = f"{part.name} = {part}: {lost}=None, but {own} = {source[own]} needs it"
+                raise DefinitionError(f"{said}; leave that out, too, {own}=None.", member=part.name)
         return found
-
-    def _check_left(self, left_out: set[str], found: Mapping[str, Member]) -> None:
-        """Raise DefinitionError where something needs a member that was left out."""
-        for name, member in found.items():
-            for each in needs(member):
-                lost = each.removeprefix(f"{self.part.name}.")
-                if lost in left_out and each not in found:
-                    own = name.removeprefix(f"{self.part.name}.")
-                    said = f"{self.part.name} = {self.part}: {lost}=None, but {own} = {self.plan.unbound[own]} needs it"
-                    raise DefinitionError(f"{said}; leave that out, too, {own}=None.", member=self.part.name)
 
     def _member_in_part(self, name: str, dotted: str, member: Member) -> Member:
         """Return a member with its name in the whole, where the part stands, with the dimensions that are given."""
         given = self.part.given
-        if name in given and isinstance(member, (Stroke, Dimension)) and not is_number(given[name]):
-            return quantity(given[name]).renewed(_name=dotted)
-        if name in given and isinstance(member, Stroke):
+        if name in given and (isinstance(member, Stroke) or (isinstance(member, Dimension) and not is_number(given[name]))):
             return quantity(given[name]).renewed(_name=dotted)
         found = self.member(member)
         values: dict[str, Any] = {}
@@ -411,7 +352,8 @@ class Renamed(Renaming):
             if owner and value is not None:
                 for spelling, (other, own) in self.plan.table.spellings.items():
                     if other == owner:
-                        values[f"{self.part.name}.{spelling}"] = with_sign(value, sign * own)
+                        signed = value if is_number(value) else quantity(value)
+                        values[f"{self.part.name}.{spelling}"] = signed if sign * own > 0 else -signed
         if not values:
             return found
         before = {each for each, *_ in found.variables()}
@@ -434,14 +376,12 @@ class Renamed(Renaming):
         found = object.__new__(type(given))
         self.memo[id(given)] = found
         for attribute, value in vars(given).items():
-            if attribute == "_class":
+            if attribute in ("_class", "spoken"):
                 continue
             if attribute == "_name":
                 value = self.names.get(value, value) if value else value
             elif attribute == "labels" and isinstance(given, (Step, Link)):
                 value = {f"{self.part.name}.{spelling}": self.value(each, is_word=False) for spelling, each in value.items()}
-            elif attribute == "spoken":
-                continue
             elif attribute == "variable" and isinstance(given, Variable):  # a coordinate of a part's own fixed point
                 value = f"{self.part.name}.{value}"
             elif isinstance(given, Part) and attribute == "given":  # its keys are the inner part's own names
@@ -499,14 +439,6 @@ class Renamed(Renaming):
             target = self.names[given.name]
             return Ref(target) if isinstance(given, Quantity) else target
         return self.member(given)
-
-
-def with_sign(value: Any, sign: int) -> Any:
-    """Return a number or a quantity with a sign."""
-    if is_number(value):
-        return value if sign > 0 else -value
-    found = quantity(value)
-    return found if sign > 0 else -found
 
 
 def has_no_axes(member: Member) -> bool:
@@ -590,12 +522,10 @@ class Unaliased(Renaming):
         words = word_arguments(type(given))
         changes = {}
         for attribute, value in vars(given).items():
-            if isinstance(given, Part) and attribute == "given":  # its keys are the part's own names
+            if attribute == "labels" or (isinstance(given, Part) and attribute == "given"):  # its keys are the part's own names
                 changes[attribute] = {name: self.value(each, is_word=False) for name, each in value.items()}
-            elif attribute not in ("_name", "_class", "labels", "spoken", "plan", "machine"):
+            elif attribute not in ("_name", "_class", "spoken", "plan", "machine"):
                 changes[attribute] = self.value(value, attribute in words)
-            elif attribute == "labels":
-                changes[attribute] = {name: self.value(each, is_word=False) for name, each in value.items()}
         return given.renewed(**changes)
 
     def named_member(self, given: Member) -> Any:

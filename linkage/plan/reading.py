@@ -13,7 +13,7 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError, unknown
-from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, Where, name_of, needs, of_kind
+from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, Where, name_of, needs, of_kind, reached
 from ..steps import Group, Point, strokes_drawn
 from ..vectors import Line, Scalar, Vec
 
@@ -114,15 +114,7 @@ class Reading(Where):
 
     def behind(self, quantity: Reference) -> set[str]:
         """Return the names of all that a quantity is built from."""
-        stack = [quantity] if isinstance(quantity, str) else [*needs(quantity)]
-        found = set[str]()
-        while stack:
-            name = stack.pop()
-            if name not in found:
-                found.add(name)
-                member = self.members[name]
-                stack += [*needs(member), *(member.companions if isinstance(member, Point) else ())]
-        return found
+        return reached([quantity] if isinstance(quantity, str) else needs(quantity), self.members)
 
     def line(self, guide: Reference) -> Line:
         """Return a guide's line."""

@@ -32,7 +32,14 @@ class Tangent:
 
     def of(self, node: Node) -> Node:
         """Return the derivative of a node."""
-        for each in self._unsettled(node):
+        found: set[Node] = set()  # the ancestors that may have a derivative and do not know it yet
+        stack, floor = [node], max(self._first, self.limit)
+        while stack:
+            each = stack.pop()
+            if each.number >= floor and each not in found and each not in self._known:
+                found.add(each)
+                stack.extend(built_from(each))
+        for each in sorted(found, key=lambda each: each.number):
             if each not in self._known:
                 self._settle(each)
         return self._lookup(node)
@@ -41,19 +48,6 @@ class Tangent:
         if node in self._known:
             return self._known[node]
         return self.beyond._lookup(node) if self.beyond is not None and node.number < self.limit else self.zero
-
-    def _unsettled(self, node: Node) -> list[Node]:
-        """Return the ancestors that may have a derivative and do not know it yet, in order of dependence."""
-        found: set[Node] = set()
-        stack = [node]
-        floor = max(self._first, self.limit)
-        while stack:
-            each = stack.pop()
-            if each.number < floor or each in found or each in self._known:
-                continue
-            found.add(each)
-            stack.extend(built_from(each))
-        return sorted(found, key=lambda each: each.number)
 
     def _solved(self, node: Node) -> Node:
         """Return the derivative of one unknown of A u = b: the solution of A du = db - dA u."""

@@ -99,12 +99,8 @@ class PlainFloats:
             rows = self.poses(self.design([each[place] for each in designs]), [float_list(value, n) for value in here], n)
             values[:, place] = np.array([row[:count] for row in rows], float).T.reshape(count, n)
             for k in range(len(guards)):
-                guards[k] = least_guard([guards[k], *(row[count + k] for row in rows)])
-
-
-def least_guard(values: Sequence[float]) -> float:
-    """Return the least of some numbers; NaN, which no comparison sees, where one of them is."""
-    return min(values) if all(value == value for value in values) else math.nan
+                seen = [guards[k], *(row[count + k] for row in rows)]
+                guards[k] = math.nan if any(map(math.isnan, seen)) else min(seen)  # no comparison sees NaN
 
 
 def one_float(value: Numbers) -> float:

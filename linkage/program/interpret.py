@@ -161,21 +161,13 @@ def shaken(outputs: Sequence[Node], given: Mapping[str, Numbers]) -> list[Number
             found = node_value(node, values, given, clipped=True)
             if node.op == "arctan2":
                 y, x = (np.asarray(values[arg.origin]) for arg in node.args)
-                found = near_first(np.where((y == 0.0) & (x == 0.0), np.nan, found))
-            values[node] = found if node.op in EXACT or doubles(node) else found + found * changes[node.number % PERIOD]
+                angle = np.where((y == 0.0) & (x == 0.0), np.nan, found)  # a point has no direction to itself
+                # within half a turn of the first run
+                found = angle if angle.ndim < 2 else angle - 2.0 * np.pi * np.round((angle - angle[:1]) / (2.0 * np.pi))
+            # a product with a power of two rounds nothing
+            doubles = node.op == "multiply" and any(arg.op == "constant" and abs(frexp(arg.value)[0]) == 0.5 for arg in node.args)
+            values[node] = found if node.op in EXACT or doubles else found + found * changes[node.number % PERIOD]
     return [values[node.origin] for node in outputs]
-
-
-def doubles(node: Node) -> bool:
-    """Return whether an operation multiplies by a power of two, which rounds nothing."""
-    return node.op == "multiply" and any(arg.op == "constant" and abs(frexp(arg.value)[0]) == 0.5 for arg in node.args)
-
-
-def near_first(angle: FloatArray) -> FloatArray:
-    """Return angles (runs, n) [rad] within half a turn of those of the first run; NaN where a point has no direction to itself."""
-    if angle.ndim < 2:
-        return angle
-    return angle - 2.0 * np.pi * np.round((angle - angle[:1]) / (2.0 * np.pi))
 
 
 # The same seen by a program of its own, compiled: run once with digits shaken that are far from the last ones.

@@ -116,7 +116,9 @@ class Kernel:
         m, n = size or (sized(*split_inputs(self.plan, inputs)) if out is None else out.shape[1:])
         backend = self._backend(way, m, n)
         design, poses = split_inputs(backend.plan, inputs)
-        values = allocated(len(self.plan.outputs), m, n, backend.turns(m, n)) if out is None else out
+        values, count = out, len(self.plan.outputs)
+        if values is None:  # designs contiguous where it is turned, else poses
+            values = np.empty((count, n, m)).transpose(0, 2, 1) if backend.turns(m, n) else np.empty((count, m, n))
         guards = self._unseen.copy()
         if m == n == 1 and isinstance(backend, PlainFloats):
             backend.run(design, poses, values, guards)
@@ -177,11 +179,6 @@ def sized(design: Sequence[Numbers], poses: Sequence[Numbers]) -> tuple[int, int
     """Return how many designs and poses the inputs are for."""
     m = max((value.shape[0] for value in (*design, *filter(is_table, poses)) if is_array(value)), default=1)
     return m, max((value.shape[-1] for value in poses if is_array(value)), default=1)
-
-
-def allocated(count: int, m: int, n: int, turned: bool) -> FloatArray:
-    """Return an array for results, shape (count, m, n); designs contiguous where it is turned, else poses."""
-    return np.empty((count, n, m)).transpose(0, 2, 1) if turned else np.empty((count, m, n))
 
 
 def run_threads(

@@ -231,7 +231,11 @@ def block_code(plan: Schedule) -> BlockCode:
         target = registers.take(node)
         if node.op == "reciprocal":
             operands.insert(0, registers.number(1.0))
-        lines.append(statement(node.op, ", ".join(operands), target))
+        op, given = ("divide" if node.op == "reciprocal" else node.op), ", ".join(operands)
+        if op in MAKERS:
+            lines.append(f"{target}{'' if op == 'solve' else '[...]'} = {op}({given})")
+        else:
+            lines.append(f"{op}({given}, {'out=' if op in NAMED else ''}{target})")
         lines += [f"g[{guard}] = least({target}, None)" for guard in watched.pop(node, ())]
         if node not in last:
             registers.release((node,))
@@ -243,16 +247,6 @@ def block_code(plan: Schedule) -> BlockCode:
     body = "\n    ".join([*unpacked, *lines]) or "pass"
     numbers = {name: np.array(value) for value, name in registers.numbers.items()}
     return BlockCode(f"def pose(c, i, r, o, g):\n    {body}\n", registers.count, numbers)
-
-
-def statement(op: str, operands: str, target: str) -> str:
-    """Return one operation as a line."""
-    if op == "solve":
-        return f"{target} = solve({operands})"
-    op = "divide" if op == "reciprocal" else op
-    if op in MAKERS:
-        return f"{target}[...] = {op}({operands})"
-    return f"{op}({operands}, {'out=' if op in NAMED else ''}{target})"
 
 
 @final

@@ -128,8 +128,10 @@ class Comparison:
         self.truth, self.notes, self.thin, self.slit = truth, notes, thin, slit
 
     def __and__(self, other: object) -> Comparison:
-        both = self.truth.graph.apply("minimum", self.truth, truth_of(other))
-        return Comparison(both, self.notes, self.thin or is_thin(other), self.slit and is_slit(other))
+        graph = self.truth.graph
+        if not isinstance(other, Comparison):  # never true is so at most where numbers are equal, always true is false at most there
+            other = Comparison(graph.constant(1.0 if other else -1.0), self.notes, not other, bool(other))
+        return Comparison(graph.apply("minimum", self.truth, other.truth), self.notes, self.thin or other.thin, self.slit and other.slit)
 
     def __or__(self, other: object) -> Comparison:
         return ~(~self & (~other if isinstance(other, Comparison) else not other))
@@ -206,21 +208,6 @@ def arrayed(value: object) -> Any:
 def node_of(number: object) -> Any:
     """Return a traced number's node; any other number as it is."""
     return number.node if isinstance(number, Traced) else number
-
-
-def truth_of(condition: object) -> Any:
-    """Return a condition's node, or 1 for what is true and -1 for what is not."""
-    return condition.truth if isinstance(condition, Comparison) else 1.0 if condition else -1.0
-
-
-def is_thin(condition: object) -> bool:
-    """Return whether a condition is true only where numbers are equal; what is never true counts."""
-    return condition.thin if isinstance(condition, Comparison) else not condition
-
-
-def is_slit(condition: object) -> bool:
-    """Return whether a condition is false only where numbers are equal; what is always true counts."""
-    return condition.slit if isinstance(condition, Comparison) else bool(condition)
 
 
 def hyperbolic_tangent(a: Any) -> Any:

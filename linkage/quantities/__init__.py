@@ -20,6 +20,7 @@ from .member import (
     name_of,
     needs,
     of_kind,
+    reached,
     unnamed,
 )
 from .outputs import Angle, AtPose, Coordinate, Distance, InnerQuantity, Length, angle, distance, label, x, y

@@ -119,6 +119,11 @@ class Member:
         """Return the quantities that stand for lengths in this member, beside its labels: none may be negative."""
         return ()
 
+    @property
+    def companions(self) -> tuple[str, ...]:
+        """The points that are found together with this one; empty where it is placed alone."""
+        return ()
+
     radians: ClassVar[tuple[str, ...]] = ()
     """Its attributes that hold the quantities of `in_radians`."""
 
@@ -263,6 +268,23 @@ Kind = TypeVar("Kind", bound=Member)
 def of_kind(members: Mapping[str, Member], kind: type[Kind]) -> dict[str, Kind]:
     """Return those of some members that are of a kind, by name, in order."""
     return {name: member for name, member in members.items() if isinstance(member, kind)}
+
+
+def reached(
+    starts: Iterable[str], members: Mapping[str, Member], known: Iterable[str] = (), barred: type[Member] | tuple[()] = ()
+) -> set[str]:
+    """Return the names of all that some names are built from, themselves included, as far as they are members.
+
+    What is `known` stands among them, and nothing is looked for behind it, nor behind members of a kind that is `barred`.
+    """
+    stack, found = list(starts), set(known)
+    while stack:
+        name = stack.pop()
+        if name not in found and name in members:
+            found.add(name)
+            member = members[name]
+            stack += () if isinstance(member, barred) else (*needs(member), *member.companions)
+    return found
 
 
 def unnamed(member: Member) -> Iterator[Member]:

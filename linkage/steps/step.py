@@ -151,11 +151,6 @@ class Point(Jointed):
         """Return the two directions whose angle is the transmission angle of this joint; empty where it has none."""
         return ()
 
-    @property
-    def companions(self) -> tuple[str, ...]:
-        """The points that are found together with this one; empty where it is placed alone."""
-        return ()
-
     def modes(self) -> tuple[Side, ...]:
         """Return the assembly modes a side chooses from; empty where there is only one."""
         return ()

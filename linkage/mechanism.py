@@ -101,21 +101,19 @@ def of_own_motion(method: Callable[[Mechanism, Motion], Result]) -> Callable[[Me
     return checked
 
 
-def design_of_motion(motion: Motion) -> Mechanism:
-    """Return the design that a motion is of; DefinitionError where its class is not there any more."""
+def played_along(motion: Motion, at: object) -> tuple[Mechanism, Motion]:
+    """Return the design of a motion, and the motion that it is shown along.
+
+    DefinitionError where `at` says another way, or the class of the motion is not there any more.
+    """
+    if at:
+        raise DefinitionError(f"{motion.plan.title}: a motion has its own way; at={cited(at)} goes with a machine.")
     classes: list[type[Mechanism]] = [Mechanism]
     for each in classes:
         if each.plan is motion.plan:
-            return each(**motion.designs)
+            return each(**motion.designs), motion
         classes += each.__subclasses__()
     raise DefinitionError(f"{motion.plan.title}: the class of this motion is not there any more; give its machine.")
-
-
-def played_along(motion: Motion, at: object) -> tuple[Mechanism, Motion]:
-    """Return the design of a motion, and the motion that it is shown along; DefinitionError where `at` says another way."""
-    if at:
-        raise DefinitionError(f"{motion.plan.title}: a motion has its own way; at={cited(at)} goes with a machine.")
-    return design_of_motion(motion), motion
 
 
 def verdicts_of(machine: Mechanism, judge: Judge, motion: Motion | None = None) -> list[Verdict]:
@@ -219,10 +217,9 @@ class Mechanism(Shown, metaclass=MechanismType):
         members = declared(cls)
         with_members = with_parts(members, cls.__name__)
         type.__setattr__(cls, "plan", Plan(assembled(with_members, cls.__name__), cls.__name__))
-        for name in cls.plan.of_kind(LoadCase):
-            if name == PLAIN_CASE:
-                text = f'{cls.__name__}: a load case cannot be named {name}: that is what the machine\'s own loads are called; rename it.'
-                raise DefinitionError(text, member=name)
+        if PLAIN_CASE in cls.plan.of_kind(LoadCase):
+            text = f"{cls.__name__}: a load case cannot be named {PLAIN_CASE}: that is what the machine's own loads are called; rename it."
+            raise DefinitionError(text, member=PLAIN_CASE)
         reached = cls.plan.reaches(*cls.plan.moving)
         for name in cls.plan.strokes:
             if name in OPTIONS:
@@ -265,9 +262,8 @@ class Mechanism(Shown, metaclass=MechanismType):
         title = type(self).__name__
         if name == "_values":
             raise DefinitionError(f"{title}: its own __init__ does not call super().__init__(**dimensions); let it do that first.")
-        if not name.startswith("_") and (name in self.plan.table.spellings or f"{name}.x" in self.plan.table.spellings):
-            raise AttributeError(f'{title} has no attribute {name!r}; the dimension is machine["{name}"].', name=name, obj=self)
-        raise AttributeError(f"{title} has no attribute {name!r}.", name=name, obj=self)
+        remedy = f'; the dimension is machine["{name}"]' if not name.startswith("_") and name in self else ""
+        raise AttributeError(f"{title} has no attribute {name!r}{remedy}.", name=name, obj=self)
 
     def __contains__(self, name: object) -> bool:
         """Whether a name is that of a dimension: `"OB" in machine`."""
@@ -306,8 +302,9 @@ class Mechanism(Shown, metaclass=MechanismType):
     @of_a_design
     def replaced(self, **dimensions: npt.ArrayLike) -> Self:
         """Return the same design with some dimensions changed."""
-        given = self._settings(dimensions)
-        touched = {owner for name in dimensions for owner in self._owners(name)}
+        given, spellings = self._settings(dimensions), self.plan.table.spellings
+        named = {each for name in dimensions for each in (name, f"{name}.x", f"{name}.y")}
+        touched = {spellings[each][0] for each in named if each in spellings}
         changed = copy(self)
         changed._values = FrozenDict({name: given[name] if name in touched else value for name, value in self._values.items()})
         return changed
@@ -318,10 +315,6 @@ class Mechanism(Shown, metaclass=MechanismType):
         values = self._values.items()
         part._values = FrozenDict({name: value if isinstance(value, float) else value[start:stop] for name, value in values})
         return part
-
-    def _owners(self, name: str) -> set[str]:
-        spellings = self.plan.table.spellings
-        return {spellings[each][0] for each in (name, f"{name}.x", f"{name}.y") if each in spellings}
 
     @of_a_design
     def sweep(self, count: int | None = None, /, *, over: object = None, unreachable: str = "raise", **strokes: object) -> Motion:
@@ -466,18 +459,20 @@ class Mechanism(Shown, metaclass=MechanismType):
 
     def judge(self, over: object = None, acting: Acting | None = None) -> Judge:
         """Return who answers questions of this design, over what is given or what it runs."""
-        given = self.overs if over is None else list(map(self._declared, over if isinstance(over, (list, tuple)) else (over,)))
-        known = [isinstance(each, (Over, Motion)) or is_strokes(each) for each in given]
-        if not all(known) or not known:
-            wrong = given[known.index(False)] if known else over
-            raise DefinitionError(f"{self.plan.title}: over={cited(wrong)}: an Over is expected, such as Over(S=(0.0, 0.2)), or several.")
-        overs = [Over(**each) if isinstance(each, Mapping) else each for each in given]
+        declared = {each.name: each for each in self.overs if each.name}
+        overs: list[Over | Motion] = []
+        given: Sequence[object] = self.overs if over is None else over if isinstance(over, (list, tuple)) else (over,)
+        for each in given or (over,):
+            if isinstance(each, str):
+                overs.append(declared[known_name("Over", each, declared, where=self.plan.title)])
+            elif isinstance(each, (Over, Motion)):
+                overs.append(each)
+            elif isinstance(each, Mapping) and all(isinstance(name, str) for name in each):  # short for an Over
+                overs.append(Over(**each))
+            else:
+                what = "an Over is expected, such as Over(S=(0.0, 0.2)), or several"
+                raise DefinitionError(f"{self.plan.title}: over={cited(each)}: {what}.")
         return Judge(self.plan, self._values, overs, acting, self)
-
-    def _declared(self, over: object) -> Any:
-        """Return the `Over` of the class that a text names; anything else as it is."""
-        known = {each.name: each for each in self.overs if each.name}
-        return known[known_name("Over", over, known, where=self.plan.title)] if isinstance(over, str) else over
 
     @of_a_design
     def featured(self) -> Featured:
@@ -572,15 +567,14 @@ def declared(cls: type) -> dict[str, Member]:
     members: dict[str, Member] = {}
     for base in reversed(cls.__mro__):
         for name, value in vars(base).items():
-            if not isinstance(value, Member):
-                check_no_member(cls.__name__, name, value)
             if isinstance(value, Member):
                 check_bindable(name, f"member of {cls.__name__}")
                 if name in vars(Mechanism) or name in WORDS:
                     raise DefinitionError(f"{cls.__name__}: {name} is a word of the framework; give the member another name.", member=name)
                 members[name] = value
-            elif name in members:
-                del members[name]
+            else:
+                check_no_member(cls.__name__, name, value)
+                members.pop(name, None)
     return members
 
 
@@ -622,11 +616,6 @@ def check_no_member(title: str, name: str, value: object) -> None:
     if lost:
         what = f"{title}.{name} holds {len(lost)} member{'s' if len(lost) > 1 else ''} in a {type(value).__name__}, which declares nothing"
         raise DefinitionError(f"{what}; bind each to a name of its own, and look for a comma too many at the end of the line.")
-
-
-def is_strokes(given: object) -> bool:
-    """Return whether something is a dictionary by names, which is short for an `Over`."""
-    return isinstance(given, Mapping) and all(isinstance(name, str) for name in given)
 
 
 def require_mechanism(given: object) -> None:

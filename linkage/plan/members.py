@@ -215,13 +215,13 @@ class Members:
         return isinstance(quantity, Stroke) or any(self.member(name).name in self._driven for name in needs(quantity))
 
     @cached_property
-    def _driven(self) -> frozenset[str]:
+    def _driven(self) -> set[str]:
         """The names of the members that follow a stroke."""
         found = set(self.strokes)
         for name, member in self.members.items():  # in order: what a member needs stands before it
             if not found.isdisjoint(needs(member)):
                 found.add(name)
-        return frozenset(found)
+        return found
 
     @cached_property
     def bars(self) -> tuple[Bar, ...]:

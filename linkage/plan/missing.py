@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..program import FloatArray
-from ..quantities import Member, joined_names, spelled
+from ..quantities import joined_names, spelled
 from ..steps import Guide, Point, Step
 from ..units import mm
 from .members import Members
@@ -57,21 +57,19 @@ def name_or_pins(plan: Members, name: str) -> str:
 
 def missing_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) -> tuple[str, float]:
     """Return why a member cannot be placed at the poses `lost` of a reading, at the worst of them, and what is missing [m]."""
-    told = negative_words(plan, name, reading) or coinciding_words(plan, name, reading) or followed_words(plan, name, reading)
-    return told or outside_words(plan, name, reading) or triangle_words(plan, name, reading, lost)
-
-
-def negative_words(plan: Members, name: str, reading: ArrayReading) -> tuple[str, float] | None:
-    """Return which length of a point is negative, at its worst pose, and by how much [m]; None where none is."""
     for owner, length in plan.following:
         least = float(np.min(reading.value(length)))
         if owner == name and least < 0.0:
             return f"the length {spelled(length)} = {least:.4g} m is negative. Keep the stroke where it is positive.", -least
-    return None
+    told = coinciding_words(plan, name, reading) or followed_words(plan, name, reading)
+    tables = [reading.outside[each] for each in (name, *sorted(plan.reaches(name))) if each in reading.outside]
+    if tables and not told:
+        told = f"{tables[0]}. Shorten the stroke or give the table more rows."
+    return (told, float("nan")) if told else triangle_words(plan, name, reading, lost)
 
 
-def coinciding_words(plan: Members, name: str, reading: ArrayReading) -> tuple[str, float] | None:
-    """Return which two points of a step or its guides coincide, so that no direction goes from one to the other; None where none do."""
+def coinciding_words(plan: Members, name: str, reading: ArrayReading) -> str:
+    """Return which two points of a step or its guides coincide, so that no direction goes from one to the other; "" where none do."""
     step = plan.members[name]
     parents = [getattr(step, letter) for letter in step.parent_letters] if isinstance(step, Step) else []
     guides = plan.of_kind(Guide)
@@ -80,34 +78,31 @@ def coinciding_words(plan: Members, name: str, reading: ArrayReading) -> tuple[s
             continue
         base = reading.at(names[1]) - reading.at(names[0])
         if np.any((base.x == 0.0) & (base.y == 0.0)):
-            words = f"{names[0]} and {names[1]} coincide there, so that no direction goes from one to the other. Move one of them."
-            return words, float("nan")
-    return None
+            return f"{names[0]} and {names[1]} coincide there, so that no direction goes from one to the other. Move one of them."
+    return ""
 
 
-def followed_words(plan: Members, name: str, reading: ArrayReading) -> tuple[str, float] | None:
-    """Return which angle of a point cannot be followed from the sketch; None where none is lost."""
+def followed_words(plan: Members, name: str, reading: ArrayReading) -> str:
+    """Return which angle of a point cannot be followed from the sketch; "" where none is lost."""
     lost = [angle for angle in reading.directions if np.any(np.isnan(reading.inputs.get(angle, 0.0)))]
     used = {str(part) for each in plan.reaches(name) for part in plan.with_parts(each)} if lost else set[str]()
     for angle in lost:
         if angle in used:
             why = "on the way its ends meet, or a pose is out of reach"
             remedy = "Take a whole multiple of it, which need not be followed, or drive the angle by a Stroke"
-            return f"{angle}, whose whole turns count here, cannot be followed there from the sketch: {why}. {remedy}.", float("nan")
-    return None
-
-
-def outside_words(plan: Members, name: str, reading: ArrayReading) -> tuple[str, float] | None:
-    """Return which table has no row for a point; None where none is missing."""
-    words = next((reading.outside[each] for each in (name, *sorted(plan.reaches(name))) if each in reading.outside), "")
-    return (f"{words}. Shorten the stroke or give the table more rows.", float("nan")) if words else None
+            return f"{angle}, whose whole turns count here, cannot be followed there from the sketch: {why}. {remedy}."
+    return ""
 
 
 def triangle_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) -> tuple[str, float]:
     """Return how a triangle misses, at its worst pose, and by how much [m]."""
-    sides = plan.members[name].sides(reading)
+    member = plan.members[name]
+    sides = member.sides(reading)
     if not sides:
-        return shortage_words(plan, plan.members[name], reading)
+        words, gaps = member.shortage(reading) if isinstance(member, Point) else ("it has no value", float("nan"))
+        gap = float(np.max(gaps))
+        amount = "" if np.isnan(gap) else f": {length_text(gap)} are missing"
+        return f"{words}{amount}. {'Shorten the stroke or change' if plan.moves(member) else 'Change'} a dimension.", gap
     labels = [label for label, _ in sides]
     values = np.array(np.broadcast_arrays(*(value for _, value in sides), lost)[:-1], float).reshape(len(sides), -1)[:, lost]
     for label, value in zip(labels, values, strict=True):
@@ -120,26 +115,14 @@ def triangle_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) 
     worst = int(np.nanargmax(missing))
     longest = int(values[:, worst].argmax())
     others = [index for index in range(3) if index != longest]
-    gap = float(missing[worst])
-    return (
-        f"{' + '.join(labels[index] for index in others)} = {values[others, worst].sum():.4g} m is {length_text(gap)} short of "
-        f"{labels[longest]} = {values[longest, worst]:.4g} m. {remedy(plan, name, labels, longest, values[:, worst], reading)}",
-        gap,
-    )
+    gap, whole = float(missing[worst]), f"{labels[longest]} = {values[longest, worst]:.4g} m"
+    short = f"{' + '.join(labels[index] for index in others)} = {values[others, worst].sum():.4g} m is {length_text(gap)} short of {whole}"
+    return f"{short}. {remedy(plan, name, labels, longest, values[:, worst], reading)}", gap
 
 
 def length_text(length: float) -> str:
     """Return a length [m] in millimetres, in metres from 1 m on."""
     return f"{length / mm:.3g} mm" if length < 1.0 else f"{length:.3g} m"
-
-
-def shortage_words(plan: Members, member: Member, reading: ArrayReading) -> tuple[str, float]:
-    """Return what is too short, at the worst pose, and by how much [m]."""
-    words, gaps = member.shortage(reading) if isinstance(member, Point) else ("it has no value", float("nan"))
-    gap = float(np.max(gaps))
-    missing = "" if np.isnan(gap) else f": {length_text(gap)} are missing"
-    start = "Shorten the stroke or change" if plan.moves(member) else "Change"
-    return f"{words}{missing}. {start} a dimension.", gap
 
 
 def remedy(plan: Members, name: str, labels: Sequence[str], longest: int, values: FloatArray, reading: ArrayReading) -> str:
@@ -162,11 +145,9 @@ def growth_of(plan: Members, label: str, reading: ArrayReading) -> float:
     named = [each for ends, each in plan.table.lengths.items() if label in (joined_names(*sorted(ends)), joined_names(*sorted(ends)[::-1]))]
     if not named:
         return 0.0
-    (length, *_) = named
+    length, total = named[0], 0.0
     reached = plan.reaches(length)
-    strokes = [name for name in plan.strokes if name == length.name or name in reached]
-    total = 0.0
-    for name in strokes:
+    for name in (name for name in plan.strokes if name == length.name or name in reached):
         step = 1e-6 * (abs(plan.strokes[name].end - plan.strokes[name].start) or 1.0)
         there = ArrayReading(plan.members, plan.table.lengths, {**reading.inputs, name: np.asarray(reading.inputs[name]) + step})
         total += float(np.sum(np.asarray(there.value(length)) - np.asarray(reading.value(length))) / step)

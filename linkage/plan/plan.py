@@ -21,7 +21,7 @@ from .chain import KinematicChain, chain_of
 from .members import Members, named_by
 from .reading import ArrayReading, Reading
 from .trace import Trace
-from .tracked_angles import angles_that_count, followed_angles, has_angles, load_quantities
+from .tracked_angles import angles_that_count, followed_angles, has_angles
 
 Made = TypeVar("Made")
 
@@ -169,7 +169,9 @@ class Plan(Members):
     @cached_property
     def followers(self) -> tuple[Quantity, ...]:
         """The quantities that the loads of the class follow."""
-        return load_quantities(self)
+        given = [part for member in self.members.values() if member.kind == "load" for part in member.parts()]
+        found = (self.members.get(part) if isinstance(part, str) else part for part in given)
+        return tuple(each for each in dict.fromkeys(found) if isinstance(each, Quantity))
 
     @cached_property
     def followed(self) -> tuple[str, ...]:

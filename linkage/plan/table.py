@@ -107,7 +107,7 @@ class Table:
         values: dict[str, Numbers] = dict(self.defaults)
         by: dict[str, str] = {}
         for name, value in given.items():
-            for each, part in ((name, value),) if name in self.spellings else self._pairs(name, value):
+            for each, part in self._pairs(name, value):
                 owner, sign = self.spellings[each]
                 if by.setdefault(owner, name) != name:
                     raise DefinitionError(f"{self.title}: {by[owner]} and {name} both set {owner}; leave one of them out.")

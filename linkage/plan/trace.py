@@ -228,7 +228,8 @@ class Trace(Reading):
             return X
 
         names = step.companions or (step.name,)
-        values = [self.graph.node(part) for name in names for part in self._raw(name, step, X)]
+        placed = [X if name == step.name else of_kind(self.members, Point)[name].place(self) for name in names]
+        values = [node for place in placed for node in self.components(place)]
 
         def residuals(roots: tuple[Node, ...]) -> tuple[Scalar, ...]:
             for name, x, y in zip(names, roots[::2], roots[1::2], strict=True):
@@ -240,15 +241,6 @@ class Trace(Reading):
         for name, x, y in zip(names, roots[::2], roots[1::2], strict=True):
             self.positions[name] = Vec(x, y)
         return self.positions[step.name]
-
-    def _raw(self, name: str, step: Point, X: Vec) -> tuple[Scalar, Scalar]:
-        """Return the selected position of a point of a loop."""
-        if name == step.name:
-            return X.x, X.y
-        other = self.members[name]
-        assert isinstance(other, Point)
-        place = other.place(self)
-        return place.x, place.y
 
     def close_angle(self, cos: Scalar, sin: Scalar) -> Turning:
         (root,) = self.graph.close((sin,), lambda roots: ((cos * cos + roots[0] * roots[0]) * 0.5,))

@@ -20,13 +20,6 @@ WHOLE = 1e-14
 """A multiple so near to a whole number, for its size, is one."""
 
 
-def load_quantities(plan: Members) -> tuple[Quantity, ...]:
-    """Return the quantities that the loads of a class follow."""
-    given = [part for member in plan.members.values() if member.kind == "load" for part in member.parts()]
-    found = (plan.members.get(part) if isinstance(part, str) else part for part in given)
-    return tuple(each for each in dict.fromkeys(found) if isinstance(each, Quantity))
-
-
 def has_angles(plan: Members, asked: Iterable[str | Member]) -> bool:
     """Return whether some members are built from directions of points."""
     parts = [part for each in asked if isinstance(each, Quantity) for part in (each, *unnamed(each))]

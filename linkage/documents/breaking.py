@@ -5,35 +5,41 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ..formulas.typeset import Box, BoxRow, Fenced, Fraction, Rooted, Script, Sign, boxes, breakable
-from .setting import set_formula
+from ..formulas.typeset import Box, BoxRow, Fenced, Fraction, Rooted, Script, Sign, boxes, breakable, extent
 
-MATH = 8.8
-"""The size that equations are set in [points]."""
-LONGEST = 430.0
-"""The widest piece of an equation [points]: a line of an A4 page, without the equation's number and the sign of equality."""
+LONGEST = 44.0
+"""The widest piece of an equation, in sizes of its letters: a line of an A4 page, without the equation's number."""
+LEAST = 0.65
+"""A side of numbers that would have to be set smaller than this share to fit is left out: what it comes to follows."""
 DEEPEST = 12
 """How often a formula is opened, part in part; what is too wide even then is set smaller."""
 
 
 def line_pieces(step: str) -> list[Box]:
     """Return a side of an equation in LaTeX in pieces between which a line may break, none wider than a line."""
-    return [piece for each in breakable(boxes(step)) for piece in formula_pieces(each, LONGEST, MATH)]
+    return [piece for each in breakable(boxes(step)) for piece in formula_pieces(each, LONGEST)]
 
 
-def formula_pieces(box: Box, room: float, size: float, depth: int = 0) -> list[Box]:
-    """Return a formula in pieces that are no wider than a room [points] where it can be broken, set in a size; a short one whole.
+def readable(steps: Sequence[str]) -> list[list[Box]]:
+    """Return the sides of an equation in pieces, without numbers that would be too small to read: neither the first two nor the last."""
+    sides = [line_pieces(step) for step in steps]
+    fits = [max(map(extent, pieces)) <= LONGEST / LEAST for pieces in sides]
+    return [pieces for place, pieces in enumerate(sides) if place < 2 or place == len(sides) - 1 or fits[place]]
+
+
+def formula_pieces(box: Box, room: float, depth: int = 0) -> list[Box]:
+    """Return a formula in pieces that are no wider than a room [sizes of its letters] where it can be broken; a short one whole.
 
     What is longer than a line is opened: parentheses stay at the ends of their pieces, and a fraction becomes a quotient in one line.
     """
-    if depth > DEEPEST or set_formula(box, size).width <= room:
+    if depth > DEEPEST or extent(box) <= room:
         return [box]
     cut = cuts(box)
     if len(cut) == 1:
         cut = opened(cut[0])
     if len(cut) == 1:
         return cut
-    return filled_pieces([piece for each in cut for piece in formula_pieces(each, room, size, depth + 1)], room, size)
+    return filled_pieces([piece for each in cut for piece in formula_pieces(each, room, depth + 1)], room)
 
 
 def cuts(box: Box) -> list[Box]:
@@ -72,7 +78,7 @@ def opened(box: Box) -> list[Box]:
 def opened_row(row: BoxRow) -> list[Box]:
     """Return a row without signs of operation, its longest part opened."""
     row = row_of(row)
-    sizes = [set_formula(each, 1.0).width for each in row.parts]
+    sizes = [extent(each) for each in row.parts]
     for place in sorted(range(len(sizes)), key=lambda k: -sizes[k]):
         inner = opened(row.parts[place])
         if len(inner) > 1:
@@ -105,12 +111,12 @@ def in_parentheses(box: Box) -> Box:
     return box if not isinstance(box, BoxRow) or len(box.parts) < 2 else Fenced("(", box, ")")
 
 
-def filled_pieces(parts: Sequence[Box], room: float, size: float) -> list[Box]:
+def filled_pieces(parts: Sequence[Box], room: float) -> list[Box]:
     """Return pieces, as many as fit into a room together as one."""
     found: list[Box] = []
     for part in parts:
         longer = row_of(found[-1], part) if found else part
-        if found and set_formula(longer, size).width <= room:
+        if found and extent(longer) <= room:
             found[-1] = longer
         else:
             found.append(part)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from typing import TYPE_CHECKING, TypeAlias, final
 
 from ..language import said
@@ -96,6 +97,15 @@ class Section:
 
     title: str
     blocks: tuple[Block, ...]
+
+    @property
+    def rows(self) -> Iterator[tuple[bool, tuple[Block, ...]]]:
+        """Its blocks one by one; small pictures that follow each other in one row, which True marks."""
+        for is_pair, blocks in groupby(self.blocks, lambda block: isinstance(block, Illustration) and block.size[0] < 4.0):
+            if is_pair:
+                yield True, tuple(blocks)
+            else:
+                yield from ((False, (each,)) for each in blocks)
 
 
 @final

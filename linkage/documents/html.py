@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from base64 import b64encode
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from html import escape
 from importlib.resources import files
 from pathlib import Path
@@ -14,20 +14,7 @@ from ..formulas.mathml import mathml
 from ..formulas.typeset import boxes
 from ..language import said
 from .breaking import line_pieces
-from .content import (
-    Block,
-    Cell,
-    Document,
-    Equality,
-    Formula,
-    Illustration,
-    ListBlock,
-    Mark,
-    Paragraph,
-    Section,
-    TableBlock,
-    captions_of,
-)
+from .content import Block, Cell, Document, Equality, Formula, Illustration, ListBlock, Mark, Paragraph, Section, TableBlock, captions_of
 from .pictures import picture_svg
 from .title import TitleBlock
 
@@ -101,22 +88,10 @@ def coloured(mark: Mark) -> str:
 def section_lines(number: int, section: Section, captions: dict[int, str]) -> Iterator[str]:
     """Yield a section; small pictures that follow each other stand in pairs."""
     yield f'<section><h2 id="s{number}">{number}. {escape(section.title)}</h2>'
-    small: list[str] = []
-    for block in section.blocks:
-        if isinstance(block, Illustration) and block.size[0] < 4.0:
-            small.append(figure_html(block, captions))
-            continue
-        yield from paired(small)
-        small = []
-        yield block_html(block, captions)
-    yield from paired(small)
+    for is_pair, row in section.rows:
+        blocks = "".join(block_html(block, captions) for block in row)
+        yield f'<div class="pair">{blocks}</div>' if is_pair else blocks
     yield "</section>"
-
-
-def paired(small: Sequence[str]) -> Iterator[str]:
-    """Yield pictures two beside each other."""
-    if small:
-        yield f'<div class="pair">{"".join(small)}</div>'
 
 
 def block_html(block: Block, captions: dict[int, str]) -> str:

@@ -28,7 +28,6 @@ from ..units import UNITS, factor, show, unit_sign
 from .content import Block, Cell, Illustration, Paragraph, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit
 from .run import ReportSubject
-from .setting import width
 
 HALF = 3.25
 """The width of a curve [inch]; two stand beside each other."""
@@ -212,11 +211,9 @@ def beyond_words(answers: Sequence[Answer], column: Column) -> str:
 def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object] | None, beyond: Sequence[Answer]) -> None:
     """Draw a column over the stroke with its limit, and lines for what lies beyond it elsewhere."""
     panel(ax, motion, column, bound)
-    heading = ax.get_title(loc="left")
-    room = 72.0 * ax.bbox.width / ax.figure.dpi
-    size = min(TITLE, HEADING_SHARE * room / width(heading, 1.0, "bold"))
     pad = 9.0 if bound is None else 19.0  # a limit's words stand above the curve, under the heading
-    ax.set_title(heading, loc="left", fontsize=size, fontweight="bold", color=INK, pad=pad)
+    heading = ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=TITLE, fontweight="bold", color=INK, pad=pad)
+    heading.set_fontsize(TITLE * min(1.0, HEADING_SHARE * ax.bbox.width / heading.get_window_extent().width))
     for each in beyond:
         if np.isfinite(each.value):
             mark_beyond(ax, float(each.value) / factor(column.shown_unit), amount_text(each, column), isinstance(each.question, Least))

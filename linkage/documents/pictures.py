@@ -53,18 +53,15 @@ def picture_svg(picture: Illustration) -> str:
     with rc_context(REPRODUCIBLE):
         figure = Figure(figsize=picture.size, dpi=100)
         FigureCanvasAgg(figure)
-        painted(figure, picture, (0.0, 0.0))
+        painted(figure, picture)
         stream = BytesIO()
         figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     return stream.getvalue().decode().replace("'DejaVu Sans'", FONT)
 
 
-def painted(figure: Figure, picture: Illustration, corner: tuple[float, float]) -> Axes:
-    """Return the axes of a picture, painted on a figure with its lower left corner at a place [inch]."""
+def painted(figure: Figure, picture: Illustration) -> Axes:
+    """Return the axes of a picture, painted on a figure of its size."""
     (wide, high), (left, right, bottom, top) = picture.size, picture.room
-    whole_wide, whole_high = figure.get_size_inches()
-    x, y = corner[0] + left, corner[1] + bottom
-    place = (x / whole_wide, y / whole_high, (wide - left - right) / whole_wide, (high - bottom - top) / whole_high)
-    ax = figure.add_axes(place)
+    ax = figure.add_axes((left / wide, bottom / high, 1.0 - (left + right) / wide, 1.0 - (bottom + top) / high))
     picture.paint(ax)
     return ax

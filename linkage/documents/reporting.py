@@ -49,7 +49,7 @@ from .html import write_html
 from .inputs import definition_section, inputs_section, own_paragraphs, plain_words
 from .markdown import write_markdown
 from .outcome import amount_text, curve_columns, limits_section, members_sections, results_section, sketch_section
-from .pdf import write_pdf
+from .pdf import check_typst, write_pdf
 from .run import ReportSubject
 from .title import TitleBlock
 
@@ -80,7 +80,7 @@ def report(
     checked: str = "",
     approved: str = "",
 ) -> Path:
-    """Return the path of the calculation report it wrote: .html, in one file; .pdf, A4; or .md with its pictures in FILE_files.
+    """Return the path of the calculation report it wrote: .html, in one file; .pdf, A4, by Typst; or .md with its pictures in FILE_files.
 
     It begins with a title block, a sketch, verdicts, tables and curves. Then stand the inputs with units and sources, assumptions, and the
     standards that are cited. The equations are numbered from `start` on, with numbers filled in. Pin forces stand in every load case and
@@ -104,6 +104,8 @@ def report(
         machine, given = played_along(machine, at)
     if place.suffix.lower() not in WRITERS:
         raise DefinitionError(f"{cited(str(path))}: a report's name ends in one of {', '.join(WRITERS)}, which chooses the format.")
+    if place.suffix.lower() == ".pdf":
+        check_typst(place)
     check_place(place)
     block = TitleBlock(number, revision, date, client, prepared, checked, approved)
     shown = units if units is not None or current_system() else own_system(machine)

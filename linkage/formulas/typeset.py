@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import TypeAlias, final
 
 SMALL_LETTERS = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon varphi chi psi omega"
@@ -117,6 +118,27 @@ def breakable(box: Box) -> list[Box]:
             cut.append([])
         cut[-1].append(part)
     return [BoxRow(tuple(parts)) for parts in cut if parts]
+
+
+def extent(box: Box) -> float:
+    """Return about how wide a box is, in sizes of its letters: where a formula has to break, on paper and on a page."""
+    match box:
+        case Sign("space", text):
+            return float(text)
+        case Sign(kind, text):
+            return (1.2 if kind == "operator" and text in "+−·×=<>≤≥" else 0.5) * len(text)
+        case BoxRow(parts):
+            return sum(map(extent, parts))
+        case Fraction(over, under):
+            return 0.2 + max(extent(over), extent(under))
+        case Script(base, low, high):
+            return extent(base) + 0.7 * max(extent(each) for each in (low, high, BoxRow(())) if each is not None)
+        case Arrowed(base) | Rooted(base):
+            return 0.5 + extent(base)
+        case Fenced(_, body, _):
+            return 1.0 + extent(body)
+    columns = zip_longest(*box.rows, fillvalue=BoxRow(()))
+    return sum(1.0 + max(map(extent, column)) for column in columns)
 
 
 def is_operator(box: Box) -> bool:

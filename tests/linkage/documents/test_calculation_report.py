@@ -434,12 +434,6 @@ def test_markdown_and_its_pictures_are_replaced_whole(tmp_path):
         report(Lifter(), tmp_path / "own.md")
 
 
-def test_a_pdf_has_pages_and_fonts_and_no_date():
-    content = pdf(lifter())
-    assert content.startswith(b"%PDF") and b"/CreationDate" not in content and b"/Type3" not in content
-    assert content.count(b"/Type /Page ") >= 4
-
-
 @pytest.mark.skipif(shutil.which("pdftotext") is None, reason="poppler's pdftotext is not installed")
 def test_the_text_of_a_pdf_can_be_selected_in_russian_too(tmp_path):
     document, path = report_document(MowerLift(), language="ru"), tmp_path / "m.pdf"

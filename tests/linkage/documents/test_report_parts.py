@@ -1,8 +1,11 @@
 """What a checking engineer looks for: who signs, what stands where, what is assumed, what pins carry; and that nothing is cut."""
 
 import re
+import shutil
+import subprocess
 from dataclasses import replace
 from functools import cache, partial
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -33,23 +36,22 @@ from linkage.cli import main
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.documents import report_document
-from linkage.documents.breaking import LONGEST, MATH, formula_pieces
+from linkage.documents.breaking import LONGEST, formula_pieces
 from linkage.documents.content import Illustration, ListBlock, TableBlock
 from linkage.documents.forces import Stop, blocked_cylinders, worst_blocked
 from linkage.documents.html import html_text
 from linkage.documents.inputs import plain_words, with_units
 from linkage.documents.markdown import markdown
 from linkage.documents.outcome import CURVE_ROOM, HALF, draw_column
-from linkage.documents.pdf import BOTTOM, HIGH, LEFT, TOP, WIDE, Flow, Page, pdf
-from linkage.documents.pdf import RIGHT as RIGHT_EDGE
+from linkage.documents.pdf import pdf
 from linkage.documents.pictures import painted
 from linkage.documents.reporting import NUMBER, cited_numbers, own_system, speaking
 from linkage.documents.run import ReportSubject
-from linkage.documents.setting import GlyphRun, set_formula, width
 from linkage.documents.sources import without_unit
 from linkage.documents.title import FIELDS, TitleBlock
 from linkage.formulas import equations
-from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes
+from linkage.formulas.mathml import mathml
+from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes, extent
 from linkage.motion import Column
 from linkage.statics import elements_of
 from linkage.units import bar, deg, mm
@@ -57,6 +59,8 @@ from mechanisms.crane import Crane
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
+
+needs_poppler = pytest.mark.skipif(shutil.which("pdftotext") is None, reason="poppler's pdftotext is not installed")
 
 
 class Loader(Mechanism):
@@ -143,12 +147,15 @@ def test_a_title_block_says_what_is_given_and_leaves_lines_for_the_rest(write):
     assert "<b>" not in given
 
 
+@needs_poppler
 def test_a_pdf_has_its_title_block_on_the_first_page_and_its_number_on_all():
-    document = signed()
-    pages = Flow(document).pages
-    first = [each.text for each in pages[0].ink if isinstance(each, GlyphRun)]
-    assert {"R-104", "N. N.", "M. M.", "K. K.", "signature"} <= {*first}
-    assert document.footer.startswith("R-104, revision B · Loader") and len(pdf(document)) > 10_000
+    pages = words_of(signed())
+    first = {text for text, *_ in pages[0]}
+    assert {"R-104", "N.", "M.", "K.", "signature"} <= first
+    feet = [[text for text, _, top, *_ in page if top > FOOT] for page in pages]
+    assert feet == [
+        ["R-104,", "revision", "B", "·", "Loader", "page", f"{number}", "of", f"{len(pages)}"] for number in range(1, len(pages) + 1)
+    ]
 
 
 @pytest.mark.parametrize("wrong", [{"number": 104}, {"client": "two\nlines"}, {"checked": None}])
@@ -175,11 +182,10 @@ def test_results_come_before_inputs_and_inputs_before_equations():
 
 @pytest.mark.parametrize("machine", [Loader, ThreePointHitch, MowerLift])
 def test_the_sketch_is_on_the_first_page_with_every_pin_by_name(machine):
-    first = Flow(shown(machine)).pages[0]
-    ((sketch, _, _),) = first.pictures
+    sketch = shown(machine).sections[0].blocks[0]
     figure = Figure(figsize=sketch.size)
     FigureCanvasAgg(figure)
-    names = {each.get_text() for each in painted(figure, sketch, (0.0, 0.0)).findobj(Text)}
+    names = {each.get_text() for each in painted(figure, sketch).findobj(Text)}
     assert sketch.name == "sketch" and {*machine.plan.points} <= names
 
 
@@ -349,62 +355,65 @@ def random_formula(draw, depth):
 
 def letters(box: Box) -> str:
     """Return what is set of a formula, as text, without the signs that a quotient in one line takes."""
-    return "".join(each.text for each in set_formula(box, 1.0).ink if isinstance(each, GlyphRun)).translate(str.maketrans("", "", "()/ "))
+    return re.sub(r"<[^>]*>", "", mathml(box)).translate(str.maketrans("", "", "()/ "))
 
 
 @for_all("seed", range(30))
 def test_a_formula_of_any_kind_breaks_into_pieces_that_fit_and_loses_nothing(seed):
     draw = np.random.default_rng(seed)
     box = random_formula(draw, 4)
-    found = formula_pieces(box, 120.0, MATH)
-    assert all(set_formula(each, MATH).width <= 120.0 for each in found)
+    found = formula_pieces(box, 14.0)
+    assert all(extent(each) <= 14.0 for each in found)
     assert sorted("".join(map(letters, found))) == sorted(letters(box))
 
 
 def test_what_fits_is_not_broken():
     box = boxes(r"\frac{a + b}{c} \cdot \cos\left(x\right)")
-    assert formula_pieces(box, LONGEST, MATH) == [box]
+    assert formula_pieces(box, LONGEST) == [box]
+
+
+LEFT, RIGHT_EDGE, FOOT, BELOW = 57.0, 595.276 - 42.0, 841.89 - 50.0, 841.89 - 20.0
+"""The margins of a page, and where its foot begins and ends [points]."""
+
+
+def words_of(document):
+    """Return the words of a report as PDF, page by page, each with its box (left, top, right, bottom) [points]."""
+    with speaking(document.language, None):
+        content = pdf(document)
+    found = subprocess.run(["pdftotext", "-bbox", "-", "-"], input=content, check=True, capture_output=True)
+    pages = ElementTree.fromstring(found.stdout.decode().replace("\u200b", "")).iter("{http://www.w3.org/1999/xhtml}page")
+    return [[(each.text, *(float(each.get(edge)) for edge in ("xMin", "yMin", "xMax", "yMax"))) for each in page] for page in pages]
 
 
 def cut_in(cls, language):
     """Return the texts that are cut in a machine's report as PDF, on its pages and in the pictures on them, or that cover others."""
     with speaking(language, own_system(cls())):
-        pages = Flow(shown(cls, language)).pages
-        pictures = [(picture.name, text) for page in pages for picture, _, _ in page.pictures for text in beyond_the_picture(picture)]
+        document = shown(cls, language)
+        pages = words_of(document)
+        drawn = [block for section in document.sections for block in section.blocks if isinstance(block, Illustration)]
+        pictures = [(picture.name, text) for picture in drawn for text in beyond_the_picture(picture)]
     return [*(each for page in pages for each in (*beyond_the_margins(page), *covering_texts(page))), *pictures]
 
 
-def runs_of(page):
-    """Return the texts of a page with their boxes (left, right, top, bottom) [points]."""
-    runs = [each for each in page.ink if isinstance(each, GlyphRun) and each.text.strip()]
-    return runs, np.array([(each.x, each.x + width(each.text, each.size, each.face), each.y - 0.6 * each.size, each.y) for each in runs])
-
-
 def beyond_the_margins(page):
-    """Return the texts of a page that lie beyond its margins."""
-    runs, boxes_drawn = runs_of(page)
-    inside = [
-        left >= LEFT - 0.5 and right <= WIDE - RIGHT_EDGE + 0.5 and TOP - 6.0 <= foot <= HIGH - BOTTOM + 4.0
-        for left, right, _, foot in boxes_drawn
-    ]  # fmt: skip
-    return [each.text for each, is_inside in zip(runs, inside, strict=True) if not is_inside]
+    """Return the words of a page that lie beyond its margins."""
+    return [text for text, left, top, right, foot in page if left < LEFT - 1.0 or right > RIGHT_EDGE + 1.0 or top < 36.0 or foot > BELOW]
 
 
 def covering_texts(page):
-    """Return the pairs of texts of a page that lie on each other."""
-    runs, boxes_drawn = runs_of(page)
-    left, right, top, foot = boxes_drawn.T
+    """Return the pairs of words of a page that stand on one line, and on each other."""
+    page = [each for each in page if "\u20d7" not in each[0]]  # arrows over what is between them
+    left, top, right, foot = np.array([box for _, *box in page]).T
     across = np.minimum(right, right[:, None]) - np.maximum(left, left[:, None])
-    down = np.minimum(foot, foot[:, None]) - np.maximum(top, top[:, None])
-    pairs = np.argwhere(np.triu((across > 0.8) & (down > 0.8), 1))
-    return [(runs[one].text, runs[other].text) for one, other in pairs]
+    in_line = (np.abs(top - top[:, None]) < 0.1) & (np.abs(foot - foot[:, None]) < 0.1)
+    return [(page[one][0], page[other][0]) for one, other in np.argwhere(np.triu(in_line & (across > 1.0), 1))]
 
 
 def beyond_the_picture(picture):
     """Return the texts of a picture that its edges cut."""
     figure = Figure(figsize=picture.size, dpi=72)
     canvas = FigureCanvasAgg(figure)
-    painted(figure, picture, (0.0, 0.0))
+    painted(figure, picture)
     renderer, drawn = canvas.get_renderer(), []
     draw_text = renderer.draw_text
 
@@ -424,6 +433,7 @@ DAILY = {("three_point_hitch", "en"), ("jansen", "en"), ("mower_lift", "ru")}
 EDGES = [(name, language) for name in sorted(registered()) for language in ("en", "ru")]
 
 
+@needs_poppler
 @pytest.mark.parametrize(("name", "language"), [each if each in DAILY else pytest.param(*each, marks=pytest.mark.slow) for each in EDGES])
 def test_nothing_is_cut_at_the_papers_edge(name, language):
     assert not cut_in(find(name), language)
@@ -431,13 +441,11 @@ def test_nothing_is_cut_at_the_papers_edge(name, language):
 
 def test_what_is_cut_is_found():
     """The readers of edges see a text beyond the margin, one on another, and one that a picture's edge cuts."""
-    def put(x, y, text):
-        return GlyphRun(x, y, text, 8.8, "regular")
-
-    inside = put(LEFT, 100.0, "inside")
-    page = Page([put(WIDE - RIGHT_EDGE - 10.0, 100.0, "beyond"), put(LEFT, HIGH - 20.0, "below"), inside])
+    inside = ("inside", LEFT, 100.0, LEFT + 30.0, 110.0)
+    page = [("beyond", 540.0, 100.0, 560.0, 110.0), ("below", LEFT, 820.0, LEFT + 30.0, 830.0), inside]
     assert beyond_the_margins(page) == ["beyond", "below"]
-    assert covering_texts(Page([inside, put(LEFT + 5.0, 100.0, "on it")])) == [("inside", "on it")] and not covering_texts(Page([inside]))
+    on_it = ("on it", LEFT + 5.0, 100.0, LEFT + 40.0, 110.0)
+    assert covering_texts([inside, on_it]) == [("inside", "on it")] and not covering_texts([inside])
     heading = "a heading that is much too long for it"
     picture = Illustration("cut", "", (2.0, 2.0), (0.1, 0.1, 0.1, 0.1), lambda ax: ax.set_title(heading))
     assert heading in beyond_the_picture(picture)
@@ -450,9 +458,10 @@ def test_a_long_heading_of_a_curve_fits_its_picture():
     assert not beyond_the_picture(Illustration("curve", "", size, room, paint))
 
 
+@needs_poppler
 def test_no_text_of_a_title_block_is_lost():
     long = {name: f"{name} " + "Forestry and Construction Machines of the North " * 3 for name in FIELDS}
-    page = Flow(replace(shown(), block=TitleBlock(**long))).pages[0]
-    put = "".join(each.text for each in page.ink if isinstance(each, GlyphRun)).replace(" ", "")
-    assert all(text.replace(" ", "")[-40:] in put for text in long.values())
+    page = words_of(replace(shown(), block=TitleBlock(**long)))[0]
+    put = [text for text, *_ in page]
+    assert all(put.count(word) >= len(long) * 3 for word in ("Forestry", "Machines", "North"))
     assert not beyond_the_margins(page) and not covering_texts(page)

@@ -5,10 +5,11 @@ import re
 from xml.etree import ElementTree
 
 from linkage import LEFT, Dyad, Ground, Mechanism, OnLink, Stroke, Weight, angle, equations
+from linkage.documents.content import Document, Equality, Mark, Section
 from linkage.documents.html import math
-from linkage.documents.setting import set_formula
+from linkage.documents.pdf import pdf
+from linkage.documents.title import TitleBlock
 from linkage.formulas.names import SymbolNames
-from linkage.formulas.typeset import boxes
 from tests.for_all import for_all
 
 LETTERS = ("ABMxyz", "αλΩρ", "ЖфЩ", "_", "0127", "é中")
@@ -47,7 +48,7 @@ def test_a_point_of_any_name_is_typeset(seed):
     name = ["M_", "_M", "M__"][seed] if seed < 3 else drawn_name(random.Random(seed))
     listed = equations(arm(name), forces=True, ratio=name)
     texts = [step for line in listed.sheet({"S": 0.05}) for step in line.steps] + listed.definitions
-    assert all(set_formula(boxes(text), 9.0).width > 0.0 for text in texts)
+    assert pdf(Document("M", "", TitleBlock(), (), Mark(True, ""), (Section("", (Equality(1, tuple(texts)),)),), "en"))
     for text in texts:
         ElementTree.fromstring(math(text))
         assert "_" not in re.sub(r"\\_|_\{|_[A-Za-z0-9]", "", text)

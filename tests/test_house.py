@@ -39,7 +39,7 @@ MAY_IMPORT = {  # of the project's own three
 MAY_PRINT = {"cli", "demo"}
 
 HEAVY = {"PIL", "imageio_ffmpeg", "matplotlib", "networkx", "numba", "pydantic", "rich", "scipy", "sympy"}
-OPTIONAL = {"dask", "distributed", "ezdxf", "pymoo", "xlsxwriter"}  # extras: there may be nothing to import
+OPTIONAL = {"dask", "distributed", "ezdxf", "pymoo", "typst", "xlsxwriter"}  # extras: there may be nothing to import
 HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "synthesis", "pictures", "reports", "files", "exports", "documents")}
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ..formulas.typeset import Box, BoxRow, Fenced, Fraction, Rooted, Script, Sign, boxes, breakable, extent
+from ..formulas.typeset import Box, BoxRow, Fenced, Fraction, Rooted, Script, Sign, boxes, breakable, rough_width
 
 LONGEST = 44.0
 """The widest piece of an equation, in sizes of its letters: a line of an A4 page, without the equation's number."""
@@ -23,7 +23,7 @@ def line_pieces(step: str) -> list[Box]:
 def readable(steps: Sequence[str]) -> list[list[Box]]:
     """Return the sides of an equation in pieces, without numbers that would be too small to read: neither the first two nor the last."""
     sides = [line_pieces(step) for step in steps]
-    fits = [max(map(extent, pieces)) <= LONGEST / LEAST for pieces in sides]
+    fits = [max(map(rough_width, pieces)) <= LONGEST / LEAST for pieces in sides]
     return [pieces for place, pieces in enumerate(sides) if place < 2 or place == len(sides) - 1 or fits[place]]
 
 
@@ -32,7 +32,7 @@ def formula_pieces(box: Box, room: float, depth: int = 0) -> list[Box]:
 
     What is longer than a line is opened: parentheses stay at the ends of their pieces, and a fraction becomes a quotient in one line.
     """
-    if depth > DEEPEST or extent(box) <= room:
+    if depth > DEEPEST or rough_width(box) <= room:
         return [box]
     cut = cuts(box)
     if len(cut) == 1:
@@ -78,7 +78,7 @@ def opened(box: Box) -> list[Box]:
 def opened_row(row: BoxRow) -> list[Box]:
     """Return a row without signs of operation, its longest part opened."""
     row = row_of(row)
-    sizes = [extent(each) for each in row.parts]
+    sizes = [rough_width(each) for each in row.parts]
     for place in sorted(range(len(sizes)), key=lambda k: -sizes[k]):
         inner = opened(row.parts[place])
         if len(inner) > 1:
@@ -116,7 +116,7 @@ def filled_pieces(parts: Sequence[Box], room: float) -> list[Box]:
     found: list[Box] = []
     for part in parts:
         longer = row_of(found[-1], part) if found else part
-        if found and extent(longer) <= room:
+        if found and rough_width(longer) <= room:
             found[-1] = longer
         else:
             found.append(part)

@@ -12,7 +12,7 @@ from matplotlib import get_data_path
 
 from ..disk import replacing
 from ..errors import DefinitionError
-from ..formulas.typeset import boxes, extent
+from ..formulas.typeset import boxes, rough_width
 from ..formulas.typst import typst_math
 from ..language import said
 from .breaking import LONGEST, readable
@@ -76,7 +76,7 @@ def block_data(is_pair: bool, row: Sequence[Block], captions: dict[int, str]) ->
             return {"kind": "table", "caption": captions.get(id(table), ""), "headings": headings, "columns": columns, "rows": cells}
         case Equality(number, steps):
             sides = readable(steps)
-            longest = max(extent(piece) for pieces in sides for piece in pieces)
+            longest = max(rough_width(piece) for pieces in sides for piece in pieces)
             math = " = ".join(" ".join(map(typst_math, pieces)) for pieces in sides)
             return {"kind": "equation", "number": number, "math": math, "size": LONGEST / max(LONGEST, longest)}
     drawn = [

@@ -120,7 +120,7 @@ def breakable(box: Box) -> list[Box]:
     return [BoxRow(tuple(parts)) for parts in cut if parts]
 
 
-def extent(box: Box) -> float:
+def rough_width(box: Box) -> float:
     """Return about how wide a box is, in sizes of its letters: where a formula has to break, on paper and on a page."""
     match box:
         case Sign("space", text):
@@ -128,17 +128,17 @@ def extent(box: Box) -> float:
         case Sign(kind, text):
             return (1.2 if kind == "operator" and text in "+−·×=<>≤≥" else 0.5) * len(text)
         case BoxRow(parts):
-            return sum(map(extent, parts))
+            return sum(map(rough_width, parts))
         case Fraction(over, under):
-            return 0.2 + max(extent(over), extent(under))
+            return 0.2 + max(rough_width(over), rough_width(under))
         case Script(base, low, high):
-            return extent(base) + 0.7 * max(extent(each) for each in (low, high, BoxRow(())) if each is not None)
+            return rough_width(base) + 0.7 * max(rough_width(each) for each in (low, high, BoxRow(())) if each is not None)
         case Arrowed(base) | Rooted(base):
-            return 0.5 + extent(base)
+            return 0.5 + rough_width(base)
         case Fenced(_, body, _):
-            return 1.0 + extent(body)
+            return 1.0 + rough_width(body)
     columns = zip_longest(*box.rows, fillvalue=BoxRow(()))
-    return sum(1.0 + max(map(extent, column)) for column in columns)
+    return sum(1.0 + max(map(rough_width, column)) for column in columns)
 
 
 def is_operator(box: Box) -> bool:

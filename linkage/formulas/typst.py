@@ -22,9 +22,9 @@ def typst_math(box: Box) -> str:
         case Sign("space", text):
             return f"#h({text}em)"
         case Sign("word", text):
-            return f"word({quoted(text)})"
+            return f"word({typst_string(text)})"
         case Sign("name", text) if text != "°":
-            return f"op({quoted(text)})"
+            return f"op({typst_string(text)})"
         case Sign(_, text):
             return text if text in LITERAL or text[:1].isdigit() else escaped(text)
         case BoxRow(parts):
@@ -79,6 +79,6 @@ def escaped(text: str) -> str:
     return SPECIAL.sub(r"\\\g<0>", text)
 
 
-def quoted(text: str) -> str:
+def typst_string(text: str) -> str:
     """Return a text as a string of Typst's."""
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'

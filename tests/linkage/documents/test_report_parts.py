@@ -51,7 +51,7 @@ from linkage.documents.sources import without_unit
 from linkage.documents.title import FIELDS, TitleBlock
 from linkage.formulas import equations
 from linkage.formulas.mathml import mathml
-from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes, extent
+from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes, rough_width
 from linkage.motion import Column
 from linkage.statics import elements_of
 from linkage.units import bar, deg, mm
@@ -363,7 +363,7 @@ def test_a_formula_of_any_kind_breaks_into_pieces_that_fit_and_loses_nothing(see
     draw = np.random.default_rng(seed)
     box = random_formula(draw, 4)
     found = formula_pieces(box, 14.0)
-    assert all(extent(each) <= 14.0 for each in found)
+    assert all(rough_width(each) <= 14.0 for each in found)
     assert sorted("".join(map(letters, found))) == sorted(letters(box))
 
 

@@ -7,7 +7,7 @@ under their names: `P = { kind = "mypackage.cams:CamFollower", O = "A", lift = "
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from inspect import Parameter, ismethod, signature
 from typing import Any, final
@@ -17,10 +17,11 @@ from ..loads import ForceElement
 from ..quantities import Member
 from ..quantities.member import KEPT_AS, annotated_kind, kinds_said
 from ..steps import Point, Step
+from ..units import SI
 from .design import Design
-from .names import NAME_LENGTH, Names, entry_as, shortened
+from .names import NAME_LENGTH, FileTable, Keywords, Names, entry_as, is_list, require_entry, shortened
 from .source import Mistakes, each_of
-from .validators import KINDS, Kind, amount, kind_named, number_of, quantity_of
+from .validators import KINDS, Kind, amount, fixed_number, number_of, quantity_of
 
 LABELS = 100
 VALUES = 100
@@ -79,7 +80,10 @@ def parameters_of(cls: type[Any]) -> list[Parameter]:
 
 def arguments_of(cls: type[Any]) -> tuple[Argument, ...]:
     """Return the arguments that a class takes by name, in order."""
-    said = kinds_of_arguments(cls)
+    said = kinds_said(cls, amount)
+    if issubclass(cls, Step):
+        parents = [each.name for each in parameters_of(cls) if each.kind is Parameter.POSITIONAL_OR_KEYWORD]
+        said = {own: said.get(letter, "point") for own, letter in zip(parents, cls.parent_letters, strict=False)} | said
     factories = {each.name: each.default_factory for each in fields(cls)} if is_dataclass(cls) else {}
     found = []
     for each in parameters_of(cls):
@@ -93,16 +97,7 @@ def arguments_of(cls: type[Any]) -> tuple[Argument, ...]:
     return tuple(found)
 
 
-def kinds_of_arguments(cls: type[Any]) -> dict[str, Any]:
-    """Return the kinds of arguments as a class and its bases say them, those of a step's parents included."""
-    said = kinds_said(cls, amount)
-    if issubclass(cls, Step):
-        parents = [each.name for each in parameters_of(cls) if each.kind is Parameter.POSITIONAL_OR_KEYWORD]
-        said = {own: said.get(letter, "point") for own, letter in zip(parents, cls.parent_letters, strict=False)} | said
-    return said
-
-
-def kind_of(cls: type[Any], parameter: Parameter, said: Mapping[str, Any]) -> Kind:
+def kind_of(cls: type[Any], parameter: Parameter, said: FileTable) -> Kind:
     """Return the kind of an argument: as the class says it, else by its annotation; else a quantity of a point, an option of a load."""
     kind, annotation = said.get(parameter.name), parameter.annotation
     if kind is None:
@@ -114,7 +109,7 @@ def kind_of(cls: type[Any], parameter: Parameter, said: Mapping[str, Any]) -> Ki
     if isinstance(kind, tuple):
         return list_of(*kind)
     if isinstance(kind, str):
-        return kind_named(kind)
+        return KINDS[kind] if kind in KINDS or kind not in SI else fixed_number(kind)  # what a unit measures is a kind too, "mass"
     if hasattr(kind, "kind"):
         kind = kind.kind()
     return kind if isinstance(kind, Kind) else Kind(
@@ -125,9 +120,9 @@ def kind_of(cls: type[Any], parameter: Parameter, said: Mapping[str, Any]) -> Ki
 # -- their table -------------------------------------------------------------------------------------------
 
 
-def read_table(given: Mapping[object, object], names: Names, arguments: Iterable[Argument], mistakes: Mistakes) -> dict[str, Any]:
+def read_table(given: Mapping[Any, object], names: Names, arguments: Iterable[Argument], mistakes: Mistakes) -> Keywords:
     """Return the arguments that a table says, by name; what is wrong or missing is noted under its key."""
-    found: dict[str, Any] = {}
+    found: Keywords = {}
     for each in arguments:
         if isinstance(each.kind, Within):
             found[each.name] = read_table(given, names, each.kind.arguments, mistakes)
@@ -140,22 +135,22 @@ def read_table(given: Mapping[object, object], names: Names, arguments: Iterable
     return found
 
 
-def check_keys(given: Mapping[Any, Any], known: Iterable[str], mistakes: Mistakes) -> None:
+def check_keys(given: Iterable[object], known: Iterable[str], mistakes: Mistakes) -> None:
     """Note the keys that are none."""
     for key in given:
         if key not in known:
             mistakes.add((str(key),), "is not a key of it.")
 
 
-def made_of(found: Mapping[str, object], arguments: Iterable[Argument]) -> dict[str, Any]:
+def made_of(found: FileTable, arguments: Iterable[Argument]) -> Keywords:
     """Return arguments as their class takes them, once all of them are sound."""
     return {each.name: each.kind.make(found[each.name]) for each in arguments if each.name in found}
 
 
-def written_table(member: object, design: Design, arguments: Iterable[Argument], owner: str = "") -> dict[str, Any]:
+def written_table(member: object, design: Design, arguments: Iterable[Argument], owner: str = "") -> Keywords:
     """Return the arguments of a member by their keys; those of a value within it come last."""
-    found: dict[str, Any] = {}
-    inner: dict[str, Any] = {}
+    found: Keywords = {}
+    inner: Keywords = {}
     for each in arguments:
         written = each.written(member, design, owner)
         if isinstance(each.kind, Within):
@@ -177,7 +172,7 @@ class Within(Kind):
         """Return the kind of a value of a class."""
         arguments = arguments_of(part)
 
-        def write(value: object, design: Design, name: str) -> dict[str, Any]:
+        def write(value: object, design: Design, name: str) -> Keywords:
             if not isinstance(value, part):
                 what = f"its {name.rpartition('.')[2]} is a Python function" if callable(value) else repr(value)
                 raise DefinitionError(f"{what}, which a file cannot hold; write {part.__name__}(...), whose numbers may follow dimensions.")
@@ -190,21 +185,21 @@ def list_of(part: type[Any]) -> Kind:
     """Return the kind of a list of values of a class: a table with the arguments of that class for each."""
     arguments = arguments_of(part)
 
-    def read_one(given: object, names: Names) -> dict[str, Any]:
-        if not isinstance(given, Mapping):
-            raise DefinitionError("is not a table { key = value }.")
-        mistakes = Mistakes()
-        found = read_table(given, names, arguments, mistakes)
-        check_keys(given, [each.key for each in arguments], mistakes)
-        mistakes.check()
-        return found
+    def read(given: object, names: Names) -> list[Keywords]:
+        if not isinstance(given, (list, tuple)) or len(given) > VALUES:
+            many = f"{len(given)} are too many; at most {VALUES} items are read." if isinstance(given, (list, tuple)) else ""
+            raise DefinitionError(many or "is not a list [...].")
 
-    def read(given: object, names: Names) -> list[dict[str, Any]]:
-        if not isinstance(given, (list, tuple)):
-            raise DefinitionError("is not a list [...].")
-        if len(given) > VALUES:
-            raise DefinitionError(f"{len(given)} are too many; at most {VALUES} items are read.")
-        return each_of(enumerate(given), lambda place, each: read_one(each, names))
+        def read_one(place: int, each: object) -> Keywords:
+            if not isinstance(each, Mapping):
+                raise DefinitionError("is not a table { key = value }.")
+            mistakes = Mistakes()
+            found = read_table(each, names, arguments, mistakes)
+            check_keys(each, [argument.key for argument in arguments], mistakes)
+            mistakes.check()
+            return found
+
+        return each_of(enumerate(given), read_one)
 
     return Kind(
         read,
@@ -284,9 +279,11 @@ class FileEntry:
         parents: Iterable[Any] = ()
         if self.word:
             with mistakes.at(self.word):
-                parents = self._read_parents(given[self.word], names)
-                if [each.name for each in self.built_from] == [self.spread]:
-                    (parents,) = parents
+                if len(self.built_from) == 1:
+                    parents = self.built_from[0].kind.read(given[self.word], names)
+                    parents = parents if self.built_from[0].name == self.spread else (parents,)
+                else:
+                    parents = self._read_parents(given[self.word], names)
         else:
             under_keys = read_table(given, names, self.built_from, mistakes)
             parents = under_keys.pop(self.spread, under_keys.values())
@@ -302,7 +299,7 @@ class FileEntry:
         with told(f"{self.describes.__name__}(...)"):
             return self.make(*parents, **options)
 
-    def _labels(self, given: Mapping[Any, Any]) -> dict[str, Any]:
+    def _labels(self, given: Iterable[object]) -> Keywords:
         """Return the keys that are lengths and angles of points; DefinitionError for one that cannot be."""
         labels = [key for key in given if key not in self.keys] if self.has_labels else []
         if len(labels) > LABELS:
@@ -313,14 +310,12 @@ class FileEntry:
                 raise DefinitionError(f"{shortened(key)} is not a label; write the points' names joined, such as AB or BOC.")
         return dict.fromkeys(labels)
 
-    def _read_parents(self, given: object, names: Names) -> tuple[Any, ...]:
-        """Return what a member is built from: one thing, or a list of them."""
-        if len(self.built_from) == 1:
-            return (self.built_from[0].kind.read(given, names),)
-        if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != len(self.built_from):
-            words = self._kind_words()
-            what = f"two {words[0]}s" if words in (["point"] * 2, ["guide"] * 2) else " and ".join(f"a {word}" for word in words)
-            raise DefinitionError(f"{shortened(given)} is not {what}, such as {self._parents()}.")
+    def _read_parents(self, given: Any, names: Names) -> tuple[Any, ...]:
+        """Return what a member is built from, of a list."""
+        words = self._kind_words()
+        what = f"two {words[0]}s" if words in (["point"] * 2, ["guide"] * 2) else " and ".join(f"a {word}" for word in words)
+        fits = is_list(given) and len(given) == len(self.built_from)
+        require_entry(fits, given, f"is not {what}, such as {self._parents()}")
         return tuple(argument.kind.read(each, names) for argument, each in zip(self.built_from, given, strict=True))
 
     # -- writing ---------------------------------------------------------------------------------------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, cast, final
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast, final
 from unicodedata import normalize
 
 from ..errors import DefinitionError, unknown
@@ -14,15 +14,14 @@ if TYPE_CHECKING:
     from ..mechanism import Mechanism
 
 Kind = TypeVar("Kind")
+FileTable: TypeAlias = Mapping[str, Any]
+"""A table of a file: what stands under its keys."""
+Keywords: TypeAlias = dict[str, Any]
+"""Keywords of a function, or what is written under the keys of a table, by name."""
 
 NAME_LENGTH = 60
 DEEPEST_NAME = 12
 """So many names stand in a dotted one at most: those of parts in parts, of a member, of its number."""
-
-
-def no_folder(name: str) -> NoReturn:
-    """Raise DefinitionError: there is no folder to look for a file in."""
-    raise DefinitionError(f"{name}: no file stands beside these tables; put the machine in them, machines = ....")
 
 
 @final
@@ -31,14 +30,14 @@ class Names:
     """The members of a file by name: the section each stands in, and its kind (`point`, `quantity`, `guide`, ...)."""
 
     sections: Mapping[str, str]
-    kinds: Mapping[str, str]
+    kinds: dict[str, str]
     built: dict[str, Member] = field(default_factory=dict)
     """The members that are read already."""
     machines: Mapping[str, type[Mechanism]] = field(default_factory=dict)
     """The machines that the file holds for its parts."""
-    load_beside: Callable[[str], type[Mechanism]] = no_folder
-    """What loads the machine of another file in the same folder."""
-    of_parts: tuple[str, ...] = ()
+    load_beside: Callable[[str], type[Mechanism]] | None = None
+    """What loads the machine of another file in the same folder; None of what is written."""
+    of_parts: list[str] = field(default_factory=list)
     """The strokes that parts bring, `lower.S`."""
 
     @property
@@ -90,6 +89,16 @@ def member_name(name: object) -> str:
     if name.startswith("__") or len(name) > NAME_LENGTH:
         raise DefinitionError(f"{shortened(name)} cannot be a name here: up to {NAME_LENGTH} characters, no double _ at the start.")
     return name
+
+
+def is_list(given: object) -> bool:
+    """Return whether this is a list, not a text."""
+    return isinstance(given, Sequence) and not isinstance(given, str)
+
+
+def listed(given: Any) -> Sequence[Any]:
+    """Return the items of a list, or what is no list as the only one."""
+    return given if isinstance(given, (list, tuple)) else [given]
 
 
 def entry_as(given: object, kind: type[Kind] | tuple[type[Kind], ...], expected: str) -> Kind:

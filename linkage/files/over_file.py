@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Any
 
 from ..errors import DefinitionError, unknown
 from ..motion import OPTIONS, Over, stroke_unit
 from ..quantities import Number, PoseCondition, Quantity, is_number, quantity
 from .design import Design, degrees_text
 from .expression import expression
-from .names import Names, by_whole_names, entry_as, shortened
+from .names import Keywords, Names, by_whole_names, entry_as, listed, shortened
 from .validators import amount_of
 
 SHAPES = ("path", "poses")
@@ -32,10 +31,9 @@ def over_read(given: object, names: Names) -> Over:
     if len(chosen) > 1:
         raise DefinitionError("it is a path and poses at once; a path goes on between its places, poses have nothing between them.")
     make = {"path": Over.path, "poses": Over.poses}.get(chosen[0] if chosen else "", Over)
-    options: dict[str, Any] = {key: given[key] for key in ("cases", "lost") if key in given}
+    options: Keywords = {key: given[key] for key in ("cases", "lost") if key in given}
     if "only" in given:
-        texts = given["only"] if isinstance(given["only"], list) else [given["only"]]
-        options["only"] = [condition_of(text, names) for text in texts]
+        options["only"] = [condition_of(text, names) for text in listed(given["only"])]
     for key, value in given.items():  # of a stroke one value or several: numbers [SI], texts with a unit, quantities of the design
         if key in known:
             options[key] = tuple(amount_of(each, names, "") for each in value) if isinstance(value, list) else amount_of(value, names, "")
@@ -56,31 +54,22 @@ def condition_of(text: object, names: Names) -> PoseCondition:
     return PoseCondition(left, found.group(2), right.number if isinstance(right, Number) else right)
 
 
-def over_written(member: Over, design: Design) -> dict[str, Any]:
+def over_written(member: Over, design: Design) -> Keywords:
     """Return where is looked as a table; DefinitionError for a condition that a file cannot hold."""
-    found: dict[str, Any] = {} if member.shape == "box" else {member.shape: True}
+    found: Keywords = {} if member.shape == "box" else {member.shape: True}
     for name, value in member.strokes.items():
-        turns = stroke_unit(design.plan, name) == "rad"
-        parts = [end_written(each, turns, design) for each in (value if isinstance(value, tuple) else (value,))]
+        parts: list[float | str] = []
+        for each in listed(value):
+            end = float(each) if is_number(each) else design.scalar(quantity(each))
+            parts.append(degrees_text(end) if is_number(each) and stroke_unit(design.plan, name) == "rad" else end)
         found[name] = parts if isinstance(value, tuple) else parts[0]
-    only = [condition_written(each, design) for each in member.only]
+    only = []
+    for condition in member.only:
+        for side in (condition.left, condition.right):
+            if not is_number(side) and not isinstance(side, (str, Quantity)):
+                what = f"only=[{condition}]: a file holds conditions of quantities such as x(T) or a named output, and {side} is a request"
+                raise DefinitionError(f"{what}; take the condition out, or keep the class in Python.")
+        left, right = (design.scalar(quantity(side)) for side in (condition.left, condition.right))
+        only.append(f"{left} {condition.symbol} {right}")
     options = {"only": only, "cases": list(member.cases or ()), "lost": member.lost}
     return found | {key: value for key, value in options.items() if value}
-
-
-def end_written(given: Any, turns: bool, design: Design) -> float | str:
-    """Return a value of a stroke: a number, of an angle in degrees, or the quantity that it follows."""
-    if is_number(given):
-        return degrees_text(float(given)) if turns else float(given)
-    return design.scalar(quantity(given))
-
-
-def condition_written(given: PoseCondition, design: Design) -> str:
-    """Return a condition on poses as text; DefinitionError for one of forces or pressures, which has no word in a file."""
-    sides = []
-    for each in (given.left, given.right):
-        if not is_number(each) and not isinstance(each, (str, Quantity)):
-            what = f"only=[{given}]: a file holds conditions of quantities such as x(T) or a named output, and {each} is a request"
-            raise DefinitionError(f"{what}; take the condition out, or keep the class in Python.")
-        sides.append(design.scalar(quantity(each)))
-    return f"{sides[0]} {given.symbol} {sides[1]}"

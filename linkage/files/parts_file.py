@@ -7,6 +7,7 @@ another file in the same folder, `machine = "arm.toml"`.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from ..plan import Part
 from ..quantities import Member, Number, label, name_of, quantity
 from ..steps import Point
 from .design import Design, degrees_text
-from .names import Names, by_whole_names, entry_as, shortened
+from .names import Keywords, Names, by_whole_names, entry_as, require_entry, shortened
 from .validators import coordinates_of, points_of, quantity_of, switch_of
 
 OWN_KEYS = {"on": points_of, "at": coordinates_of, "angle": quantity_of, "mirrored": switch_of}
@@ -30,7 +31,7 @@ def machine_named(given: object, names: Names) -> type[Mechanism]:
     given = entry_as(given, str, 'is no machine; write machine = "Arm", of [machines.Arm...] or an installed one')
     if given in names.machines:
         return names.machines[given]
-    if given.endswith(FILES):
+    if given.endswith(FILES) and names.load_beside is not None:
         return names.load_beside(given)
     installed = plugins.entry_points(plugins.MACHINES)
     if given in installed:
@@ -40,13 +41,12 @@ def machine_named(given: object, names: Names) -> type[Mechanism]:
     raise unknown("Machine", given, [*names.machines, *installed])
 
 
-def part_read(given: object, names: Names) -> Part:
+def part_read(given: Any, names: Names) -> Part:
     """Return the part that an entry says."""
-    if not isinstance(given, Mapping) or "machine" not in given:
-        raise DefinitionError(f'{shortened(given)} is no part; write {{ machine = "Arm", S = "s1" }}.')
+    require_entry(isinstance(given, Mapping) and "machine" in given, given, 'is no part; write { machine = "Arm", S = "s1" }')
     machine = machine_named(given["machine"], names)
     plan = machine.plan
-    options: dict[str, Any] = {key: read(given[key], names) for key, read in OWN_KEYS.items() if key in given}
+    options: Keywords = {key: read(given[key], names) for key, read in OWN_KEYS.items() if key in given}
     for name, value in by_whole_names(given):
         if name == "machine" or name in OWN_KEYS:
             continue
@@ -59,13 +59,21 @@ def part_read(given: object, names: Names) -> Part:
     return Part(machine, **options)
 
 
-def part_written(member: Part, design: Design) -> dict[str, Any]:
+def part_written(member: Part, design: Design) -> Keywords:
     """Return a part as a file holds it; a member that is left out is false."""
     design.written |= {name for name in design.plan.table.entries if name.startswith(f"{member.name}.")}
     own = {name.removeprefix(f"{member.name}."): value for name, value in design.set.items() if name.startswith(f"{member.name}.")}
-    found: dict[str, Any] = {"machine": member.plan.title}
+    found: Keywords = {"machine": member.plan.title}
     for name, value in {**member.given, **own}.items():
-        found[name] = given_written(name, value, member, design)
+        owner, _ = member.plan.table.spellings.get(name, ("", 1))
+        if value is None:
+            found[name] = False
+        elif isinstance(member.plan.members.get(name), Point):
+            found[name] = label(value) if isinstance(value, (str, Member)) else [design.scalar(quantity(each)) for each in value]
+        elif owner and member.plan.table.entries[owner].kind == "angle":
+            found[name] = degrees_text(design.scalar(quantity(value)))
+        else:
+            found[name] = design.scalar(quantity(value))
     if member.on:
         names = [name_of(each) for each in member.on]
         found["on"] = names[0] if len(names) == 1 else names
@@ -74,19 +82,6 @@ def part_written(member: Part, design: Design) -> dict[str, Any]:
     if not (isinstance(member.angle, Number) and member.angle.number == 0.0):
         found["angle"] = degrees_text(design.scalar(member.angle))
     return found | ({"mirrored": True} if member.mirrored else {})
-
-
-def given_written(name: str, value: Any, member: Part, design: Design) -> Any:
-    """Return what a part was given for one of its names."""
-    if value is None:
-        return False
-    if isinstance(member.plan.members.get(name), Point):
-        if isinstance(value, (str, Member)):
-            return label(value)
-        return [design.scalar(quantity(each)) for each in value]
-    found = design.scalar(quantity(value))
-    owner, _ = member.plan.table.spellings.get(name, ("", 1))
-    return degrees_text(found) if owner and member.plan.table.entries[owner].kind == "angle" else found
 
 
 def dotted_kinds(name: str, machine: type[Mechanism]) -> dict[str, str]:
@@ -109,16 +104,13 @@ def machines_of(members: Mapping[str, Member]) -> dict[str, type[Mechanism]]:
 
 def beside(folder: Path | None, load: Callable[[Path], type[Mechanism]]) -> Callable[[str], type[Mechanism]]:
     """Return what loads the machine of a file in the folder of the one that is read, each once; DefinitionError for one elsewhere."""
-    known: dict[str, type[Mechanism]] = {}
 
+    @cache
     def loaded(name: str) -> type[Mechanism]:
         if folder is None:
             raise DefinitionError(f"{shortened(name)}: a text has no folder; put the machine in it, [machines.Name...].")
-        if Path(name).name != name:
-            what = f"{shortened(name)}: the file of a part stands in the folder of the one that names it"
-            raise DefinitionError(f"{what}; give its name alone.")
-        if name not in known:
-            known[name] = load(folder / name)
-        return known[name]
+        where = "the file of a part stands in the folder of the one that names it; give its name alone"
+        require_entry(Path(name).name == name, name, where)
+        return load(folder / name)
 
     return loaded

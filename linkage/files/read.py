@@ -5,11 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Collection, Mapping
 from copy import copy
-from dataclasses import replace
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
@@ -19,7 +17,7 @@ from ..motion import Featured
 from ..plan import Table
 from ..quantities import Member
 from ..steps import Point
-from .names import Names, by_whole_names, member_name, shortened
+from .names import FileTable, Names, by_whole_names, member_name, shortened
 from .parts_file import beside, dotted_kinds, machine_named
 from .registry import registry
 from .source import Faults, source
@@ -39,7 +37,7 @@ def load(path_or_text: str | os.PathLike[str], trust: Collection[str] = ()) -> t
     Raises FileError with every mistake, its key and, in TOML, its line; AssemblyError for a mechanism that cannot be assembled.
     """
     found = source(path_or_text)
-    return built(found.data, Faults(source=found.name, line_of=found.line_of), trusted(trust), found.folder)
+    return built(found.data, found.faults, trusted(trust), found.folder)
 
 
 def from_dict(data: Mapping[str, object], trust: Collection[str] = ()) -> type[Mechanism]:
@@ -59,7 +57,7 @@ DEEPEST = 8
 
 
 def built(
-    data: Any, faults: Faults, trust: Collection[str], folder: Path | None = None, depth: int = 0,
+    data: FileTable, faults: Faults, trust: Collection[str], folder: Path | None = None, depth: int = 0,
     machines: Mapping[str, type[Mechanism]] = MappingProxyType({}),
 ) -> type[Mechanism]:  # fmt: skip
     """Return the class that the tables say.
@@ -67,33 +65,42 @@ def built(
     `folder` is that of the file, where other files of parts may stand; `machines` are those that the file around holds for parts.
     """
     sections = sections_of(data, faults)
-    title, doc = head_read(data, faults)
-    featured = featured_read(data.get("featured", {}), faults)
+    title, doc, featured = head_read(data, faults)
     if depth > DEEPEST:
         raise FileError(f"{faults.source}: files of parts name each other more than {DEEPEST} deep, or in a circle.")
 
     def load_part(path: Path) -> type[Mechanism]:
         found = source(path)
-        return built(found.data, Faults(source=found.name, line_of=found.line_of), trust, folder, depth + 1)
+        return built(found.data, found.faults, trust, folder, depth + 1)
 
-    names = names_of(sections, faults)
-    names = replace(names, machines=machines_read(data, faults, trust, folder, depth, machines), load_beside=beside(folder, load_part))
-    names = with_parts_named(names, sections, faults)
-    order = ordered(data, names, faults)
-    members = members_read(order, sections, names, title, faults, trust)
+    found = names_of(sections, faults)
+    kinds = {name: registry().kind(section) for name, section in found.items()}
+    held = machines_read(data, faults, trust, folder, depth, machines)
+    names = Names(found, kinds, machines=held, load_beside=beside(folder, load_part))
+    for name, entry in sections.get("parts", {}).items():
+        if isinstance(entry, Mapping) and "machine" in entry:
+            with faults.at("parts", name, "machine"):
+                machine = machine_named(entry["machine"], names)
+                names.kinds.update(dotted_kinds(name, machine))
+                said = dict(by_whole_names(entry))
+                names.of_parts.extend(f"{name}.{each}" for each in machine.plan.strokes if each not in said)
+    for name in ordered(data, names, faults):
+        section = names.sections[name]
+        with faults.at(section, name), np.errstate(all="ignore"):
+            names.built[name] = member_read(name, section, sections[section][name], names, title, trust)
     faults.check()
-    return class_made(title, doc, featured, members, names, faults)
+    return class_made(title, doc, featured, names, faults)
 
 
 # -- the tables --------------------------------------------------------------------------------------------
 
 
-def sections_of(data: object, faults: Faults) -> dict[str, Mapping[str, Any]]:
+def sections_of(data: object, faults: Faults) -> dict[str, FileTable]:
     """Return the sections with their entries; anything else is noted."""
     if not isinstance(data, Mapping):
         raise FileError(f"{faults.source}: a table of sections is expected, not {type(data).__name__}.")
     known = registry().sections
-    found: dict[str, Mapping[str, Any]] = {}
+    found: dict[str, FileTable] = {}
     for key, value in data.items():
         if key in known and isinstance(value, Mapping):
             found[key] = value
@@ -103,30 +110,24 @@ def sections_of(data: object, faults: Faults) -> dict[str, Mapping[str, Any]]:
     return found
 
 
-def head_read(data: Mapping[str, Any], faults: Faults) -> tuple[str, str | None]:
-    """Return the class's name and its docstring."""
-    title, doc = data.get("name"), data.get("doc")
+def head_read(data: FileTable, faults: Faults) -> tuple[str, str | None, Featured]:
+    """Return the class's name, its docstring and what it is about; anything else is noted."""
+    title, doc, featured, given = data.get("name"), data.get("doc"), Featured(), data.get("featured", {})
     with faults.at("name"):
         if title is None:
             raise DefinitionError('the name of the mechanism is missing; begin with name = "ThreePointHitch".')
         member_name(title)
     if doc is not None and not (isinstance(doc, str) and all(each.isprintable() or each in "\n\t" for each in doc)):
         faults.add(("doc",), f"{shortened(doc)} is not a text of printable characters.")
-    return str(title), doc
-
-
-def featured_read(given: object, faults: Faults) -> Featured:
-    """Return what the machine is about; anything else is noted."""
-    found = Featured()
     with faults.at("featured"):
         if not isinstance(given, Mapping) or not {"column", "path", "limits", "coupler"} >= given.keys():
             raise DefinitionError('a table is expected, column = "tilt", path = ["G"], limits = { tilt = [0.1, "most"] }.')
-        found = Featured(**given)
-    return found
+        featured = Featured(**given)
+    return str(title), doc, featured
 
 
 def machines_read(
-    data: Mapping[str, Any], faults: Faults, trust: Collection[str], folder: Path | None, depth: int, around: Mapping[str, type[Mechanism]]
+    data: FileTable, faults: Faults, trust: Collection[str], folder: Path | None, depth: int, around: Mapping[str, type[Mechanism]]
 ) -> dict[str, type[Mechanism]]:
     """Return the machines that a file holds for its parts, by name, beside those `around`; one may have parts that are others of them."""
     given = data.get("machines", {})
@@ -134,42 +135,32 @@ def machines_read(
     if not isinstance(given, Mapping) or not all(isinstance(each, Mapping) for each in given.values()) or len(given) > MACHINES:
         faults.add(("machines",), f"a table of up to {MACHINES} machines is expected, each with its sections.")
         return found
+    inner: dict[str, set[str]] = {}
+    for name, tables in given.items():
+        parts = tables.get("parts", {})
+        entries = parts.values() if isinstance(parts, Mapping) else ()
+        inner[name] = {str(each["machine"]) for each in entries if isinstance(each, Mapping) and "machine" in each} & given.keys()
     try:
-        order = [*TopologicalSorter({name: named_machines(tables) & given.keys() for name, tables in given.items()}).static_order()]
+        order = [*TopologicalSorter(inner).static_order()]
     except CycleError as error:
         faults.add(("machines", error.args[1][0]), "holds itself as a part; a machine in a circle has no end.")
         return found
     for name in order:
-        inner = {"name": name, **{key: value for key, value in given[name].items() if key != "machines"}}
+        tables = {"name": name, **{key: value for key, value in given[name].items() if key != "machines"}}
         own = Faults(source=f"{faults.source}, machines.{name}")
         with faults.at("machines", name):
-            found[name] = built(inner, own, trust, folder, depth + 1, found)
+            found[name] = built(tables, own, trust, folder, depth + 1, found)
     return found
 
 
-def named_machines(tables: Mapping[str, object]) -> set[str]:
-    """Return the machines that the parts of a machine name."""
-    parts = tables.get("parts", {})
-    entries = parts.values() if isinstance(parts, Mapping) else ()
-    return {str(each["machine"]) for each in entries if isinstance(each, Mapping) and "machine" in each}
-
-
-def with_parts_named(names: Names, sections: Mapping[str, Mapping[str, object]], faults: Faults) -> Names:
-    """Return the names with those of the members of parts; a stroke that a part is not given is one of the machine."""
-    kinds, strokes = dict(names.kinds), list[str]()
-    for name, entry in sections.get("parts", {}).items():
-        if isinstance(entry, Mapping) and "machine" in entry:
-            with faults.at("parts", name, "machine"):
-                machine = machine_named(entry["machine"], names)
-                kinds |= dotted_kinds(name, machine)
-                said = dict(by_whole_names(entry))
-                strokes += [f"{name}.{each}" for each in machine.plan.strokes if each not in said]
-    return replace(names, kinds=kinds, of_parts=tuple(strokes))
-
-
-def names_of(sections: Mapping[str, Mapping[str, object]], faults: Faults) -> Names:
-    """Return all names with their sections and kinds; bad, double and too many ones are noted."""
-    check_sizes(sections, faults.source)
+def names_of(sections: Mapping[str, Mapping[str, object]], faults: Faults) -> dict[str, str]:
+    """Return all names with their sections; bad and double ones are noted. FileError for more members than any machine has."""
+    entries = [entry for table in sections.values() for entry in table.values()]
+    sketched = [entry for entry in entries if isinstance(entry, Mapping) and not {"near", "at"}.isdisjoint(entry)]
+    links = sections.get("links", {})
+    for each, limit, what in ((entries, MEMBERS, "members"), (sketched, SKETCHED, "sketch positions"), (links, LINKS, "links")):
+        if len(each) > limit:
+            raise FileError(f"{faults.source}: {len(each)} {what} are too many; up to {limit} are read.")
     found: dict[str, str] = {}
     for section, entries in sections.items():
         for name in entries:
@@ -179,23 +170,13 @@ def names_of(sections: Mapping[str, Mapping[str, object]], faults: Faults) -> Na
                     taken = f"stands in [{found[name]}] too" if name in found else "is a word of the framework"
                     raise DefinitionError(f"{name} {taken}; give it another name.")
                 found[name] = section
-    return Names(found, {name: registry().kind(section) for name, section in found.items()})
+    return found
 
 
-def check_sizes(sections: Mapping[str, Mapping[str, object]], where: str) -> None:
-    """Raise FileError for more members than any machine has."""
-    entries = [entry for table in sections.values() for entry in table.values()]
-    sketched = [entry for entry in entries if isinstance(entry, Mapping) and not {"near", "at"}.isdisjoint(entry)]
-    links = sections.get("links", {})
-    for found, limit, what in ((entries, MEMBERS, "members"), (sketched, SKETCHED, "sketch positions"), (links, LINKS, "links")):
-        if len(found) > limit:
-            raise FileError(f"{where}: {len(found)} {what} are too many; up to {limit} are read.")
-
-
-def ordered(data: Mapping[str, Any], names: Names, faults: Faults) -> list[str]:
+def ordered(data: FileTable, names: Names, faults: Faults) -> list[str]:
     """Return the names in the order that the file says; those it does not mention stand behind."""
     order = data.get("order", [])
-    given: list[Any] = order if isinstance(order, list) and all(isinstance(each, str) for each in order) else [None]
+    given: list[object] = order if isinstance(order, list) and all(isinstance(each, str) for each in order) else [None]
     anywhere = {name for table in data.values() if isinstance(table, Mapping) for name in table}
     unknown = [shortened(each) for each in given if each not in anywhere]
     if unknown or len(set(given)) < len(given):
@@ -206,42 +187,28 @@ def ordered(data: Mapping[str, Any], names: Names, faults: Faults) -> list[str]:
 # -- the members -------------------------------------------------------------------------------------------
 
 
-def members_read(
-    order: list[str], sections: Mapping[str, Mapping[str, object]], names: Names, title: str, faults: Faults, trust: Collection[str]
-) -> dict[str, Member]:
-    """Return the members by name, in an order, each sound by itself; the mistakes of the others are noted."""
-    for name in order:
-        section = names.sections[name]
-        given = sections[section][name]
-        with faults.at(section, name), np.errstate(all="ignore"):
-            member = registry().reading(section, given, trust).read(given, names)
-            member.__set_name__(Mechanism, name)
-            check_alone(name, member, title)
-            names.built[name] = member
-    return names.built
-
-
-def check_alone(name: str, member: Member, title: str) -> None:
-    """Raise DefinitionError for what is wrong with a member by itself, whatever the others are."""
+def member_read(name: str, section: str, given: object, names: Names, title: str, trust: Collection[str]) -> Member:
+    """Return a member that is sound by itself, whatever the others are."""
+    member = registry().reading(section, given, trust).read(given, names)
+    member.__set_name__(Mechanism, name)
     table = Table(title)
     for variable, default, kind, unit in member.variables():
         table.add(variable, default, kind, f"{name} = {member}", unit)
     member.enter(table)
     if isinstance(member, Point):
         member.bind(name, table)
+    return member
 
 
 # -- the class ---------------------------------------------------------------------------------------------
 
 
-def class_made(
-    title: str, doc: str | None, featured: Featured, members: Mapping[str, Member], names: Names, faults: Faults
-) -> type[Mechanism]:
-    """Return the class with these members; what is wrong with it as a whole comes with the file's name and key."""
+def class_made(title: str, doc: str | None, featured: Featured, names: Names, faults: Faults) -> type[Mechanism]:
+    """Return the class with the members that are built; what is wrong with it as a whole comes with the file's name and key."""
     try:
         with np.errstate(all="ignore"):
             own = {"__module__": __name__, "__doc__": doc, "featured": lambda self: featured}
-            machine: type[Mechanism] = type(title, (Mechanism,), {**own, **members})
+            machine: type[Mechanism] = type(title, (Mechanism,), {**own, **names.built})
             for name in machine.plan.named():
                 with about(name):
                     machine.plan.nodes(name)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, final
+from typing import Any, NoReturn, final
 
 from ..disk import read
 from ..errors import DefinitionError, FileError
@@ -35,6 +35,11 @@ class Source:
     places: Mapping[Key, int]
     folder: Path | None = None
     """The folder of the file; None of a text."""
+
+    @property
+    def faults(self) -> Faults:
+        """The mistakes of the file, none as yet."""
+        return Faults(source=self.name, line_of=self.line_of)
 
     def line_of(self, key: Key) -> int:
         """Return the line of a key, else the first one inside it, else that of the nearest table around it; 0 where none is known."""
@@ -67,9 +72,13 @@ def decoded(name: str, raw: bytes, is_json: bool) -> Source:
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
         raise FileError(f"{name}, line {line}: the file is not UTF-8 text; save it in that encoding.") from None
-    parse: Callable[[str], Any] = from_json if is_json else from_toml
     try:
-        return Source(name, parse(text), {} if is_json else key_lines(text))
+        if is_json:
+            return Source(name, json.loads(text, parse_constant=refused, object_pairs_hook=unique), {})
+        for number, each in enumerate(text.split("\n"), 1):
+            if len(each) > TOML_LINE:
+                raise ValueError(f"the line has {len(each)} characters, up to {TOML_LINE} are read (at line {number}, column 1)")
+        return Source(name, tomllib.loads(text), key_lines(text))
     except RecursionError:
         raise FileError(f"{name}: lists or tables are nested too deeply; a mechanism's file needs three levels.") from None
     except ValueError as error:
@@ -92,20 +101,7 @@ def located(name: str, message: str, text: str) -> str:
     return f"{name}, line {match.group(1)}: {(message[: match.start()] + message[match.end() :]).strip()}."
 
 
-def from_toml(text: str) -> Any:
-    """Return what a TOML text says; ValueError for lines that are too long."""
-    for number, line in enumerate(text.split("\n"), 1):
-        if len(line) > TOML_LINE:
-            raise ValueError(f"the line has {len(line)} characters, up to {TOML_LINE} are read (at line {number}, column 1)")
-    return tomllib.loads(text)
-
-
-def from_json(text: str) -> Any:
-    """Return what a JSON text says; ValueError for NaN, infinities and keys that stand twice."""
-    return json.loads(text, parse_constant=refused, object_pairs_hook=unique)
-
-
-def refused(word: str) -> Any:
+def refused(word: str) -> NoReturn:
     """Raise ValueError: it is no number of JSON."""
     raise ValueError(f"{word} is not a number")
 
@@ -131,25 +127,17 @@ def key_lines(text: str) -> Mapping[Key, int]:
     """Return the line, counted from 1, of every table and key that stands at the start of one."""
     found: dict[Key, int] = {}
     table: Key = ()
-    for number, line in lines_outside(text):
-        match = _PATH.match(line)
-        if match is None:
-            continue
-        path = tuple(part.strip("\"'") for part in _SPLIT.findall(match.group(2)))
-        if match.group(1):
-            table = path
-        found.setdefault(table if match.group(1) else (*table, *path), number)
-    return found
-
-
-def lines_outside(text: str) -> Iterator[tuple[int, str]]:
-    """Yield the lines, with their numbers, that do not start inside a text of several lines."""
-    inside = ""
+    inside = ""  # the mark of a text of several lines that goes on
     for number, line in enumerate(text.splitlines(), 1):
-        if not inside:
-            yield number, line
+        match = None if inside else _PATH.match(line)
+        if match is not None:
+            path = tuple(part.strip("\"'") for part in _SPLIT.findall(match.group(2)))
+            if match.group(1):
+                table = path
+            found.setdefault(table if match.group(1) else (*table, *path), number)
         for mark in _LONG.findall(line):
             inside = "" if inside == mark else inside or mark
+    return found
 
 
 # -- what is wrong -----------------------------------------------------------------------------------------

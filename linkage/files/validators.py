@@ -10,14 +10,14 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, known_name, unknown
 from ..quantities import Number, Quantity, is_number, label, name_of, quantity
 from ..steps import Arrow
-from ..units import SI, UNITS, parse
+from ..units import UNITS, parse
 from ..vectors import Side
 from .design import Design, degrees_text, option
 from .expression import arrow_in, expression, one_unit
-from .names import Names, by_whole_names, entry_as, require_entry, shortened
+from .names import Names, by_whole_names, entry_as, is_list, require_entry, shortened
 from .source import each_of
 
 Read: TypeAlias = Callable[[Any, Names], Any]
@@ -66,57 +66,39 @@ class Kind:
 # -- numbers and expressions -------------------------------------------------------------------------------
 
 
-def quantity_of(given: object, names: Names) -> Quantity:
+def quantity_of(given: Any, names: Names) -> Quantity:
     """Return a number [SI], a text such as `500 mm`, or an expression as a quantity."""
     if isinstance(given, str):
         return expression(given, names)
-    if not is_number(given):
-        raise DefinitionError(f"{shortened(given)} is neither a finite number nor an expression in quotes.")
+    require_entry(is_number(given), given, "is neither a finite number nor an expression in quotes")
     return Number(float(given))
 
 
 def number_of(given: object, names: Names, measures: str = "") -> float:
     """Return a number as it is given, or that of a text without names whose unit measures what it should [SI]."""
-    if isinstance(given, str):
-        check_unit(given, measures)
-        found = expression(given, names)
-        if not isinstance(found, Number):
-            raise DefinitionError(f"{shortened(given)}: a number is expected here, with no names in it.")
-        return found.number
-    if not is_number(given):
-        raise DefinitionError(f"{shortened(given)} is not a finite number.")
-    return given  # an int stays one: it prints as it was written
+    found: float = amount_of(given, names, measures)
+    require_entry(not isinstance(found, Quantity), given, "a number is expected here, with no names in it")
+    return found
 
 
 def amount_of(given: object, names: Names, measures: str) -> Any:
     """Return a number [SI], that of a text such as `1200 kg` whose unit measures what it should, or an expression as a quantity."""
     if not isinstance(given, str):
-        return number_of(given, names)
-    check_unit(given, measures)
+        require_entry(is_number(given), given, "is not a finite number")
+        return given  # an int stays one: it prints as it was written
+    unit = one_unit(given) if measures else ""
+    if unit and UNITS[unit][1] != measures:
+        parse(given.strip("+-() \t\n"), measures)  # which tells the units that do
     found = expression(given, names)
     return found.number if isinstance(found, Number) else found
-
-
-def check_unit(text: str, measures: str) -> None:
-    """Raise DefinitionError where a text is one number with a unit that measures something else."""
-    unit = one_unit(text) if measures else ""
-    if unit and UNITS[unit][1] != measures:
-        parse(text.strip("+-() \t\n"), measures)
-
-
-def two(given: object, what: str) -> tuple[Any, Any]:
-    """Return the two parts of a list; DefinitionError for anything else."""
-    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != 2:
-        raise DefinitionError(f"{shortened(given)} is not {what}.")
-    return given[0], given[1]
 
 
 def several(what: str, one: Read) -> Read:
     """Return the check of a list of two, each by itself."""
 
-    def read(given: object, names: Names) -> tuple[Any, Any]:
-        first, second = two(given, what)
-        return one(first, names), one(second, names)
+    def read(given: Any, names: Names) -> tuple[Any, Any]:
+        require_entry(is_list(given) and len(given) == 2, given, f"is not {what}")
+        return one(given[0], names), one(given[1], names)
 
     return read
 
@@ -154,11 +136,10 @@ def arrow_of(given: object, names: Names) -> Arrow | str:
     return arrow_in(given, names)
 
 
-def words_in(given: object, what: str) -> Sequence[Any]:
+def words_in(given: Any, what: str) -> Sequence[Any]:
     """Return the words of a text such as `O B C`, or of a list; DefinitionError where there is none."""
-    words = given.split() if isinstance(given, str) else given
-    if not isinstance(words, Sequence) or not words:
-        raise DefinitionError(f"{shortened(given)} is not {what}.")
+    words: Sequence[Any] = given.split() if isinstance(given, str) else given
+    require_entry(is_list(words) and words, given, f"is not {what}")
     return words
 
 
@@ -171,16 +152,14 @@ def body_of(given: object, names: Names) -> str:
     """Return the name of a link, or the names of points of a body, in one text."""
     what = 'a body; name a link, or two of its points such as "O B"'
     words = words_in(given, what)
-    require_entry(len(set(map(str, words))) >= len(words), given, f"is not {what}")
+    require_entry(len(set(map(str, words))) == len(words), given, f"is not {what}")
     kind = "point" if len(words) > 1 else "link"
     return " ".join(names.checked(word, kind) for word in words)
 
 
-def loads_of(given: object, names: Names) -> Any:
+def loads_of(given: Any, names: Names) -> Any:
     """Return the name of a load, or a list of such."""
-    if isinstance(given, str) or not isinstance(given, Sequence):
-        return names.checked(given, "load")
-    return [names.checked(each, "load") for each in given]
+    return [names.checked(each, "load") for each in given] if is_list(given) else names.checked(given, "load")
 
 
 def factors_of(given: object, names: Names) -> dict[str, float]:
@@ -192,12 +171,9 @@ def factors_of(given: object, names: Names) -> dict[str, float]:
 
 def strokes_of(given: object, names: Names) -> dict[str, float]:
     """Return values of strokes by name [SI]."""
-    strokes = names.strokes
-    given = entry_as(given, Mapping, "is not a table of strokes, such as { S = 0.0 }")
-    said = dict(by_whole_names(given))
+    said = dict(by_whole_names(entry_as(given, Mapping, "is not a table of strokes, such as { S = 0.0 }")))
     for name in said:
-        if name not in strokes:
-            raise unknown("Stroke", shortened(name, quote=False), strokes)
+        known_name("Stroke", name, names.strokes)
     return {name: number_of(value, names) for name, value in said.items()}
 
 
@@ -213,15 +189,14 @@ def rope_points_of(given: object, names: Names) -> tuple[str, ...]:
     return tuple(member_of(word, names) for word in words_in(given, 'what a rope runs over, such as ["A", "sheave", "D"]'))
 
 
-def side_named(given: object, names: Names) -> Side:
+def side_named(given: object, names: Names) -> Side | None:
     """Return the side that a word says."""
     found = Side.said(given) if isinstance(given, str) else None
-    if found is None:
-        raise DefinitionError(f'{shortened(given)} is not a side; write "LEFT" or "RIGHT".')
+    require_entry(found is not None, given, 'is not a side; write "LEFT" or "RIGHT"')
     return found
 
 
-def word_of(given: object, names: Names | None = None) -> str:
+def word_of(given: Any, names: Names | None = None) -> str:
     """Return a word that stands for itself."""
     if not isinstance(given, str) or not given.isprintable():
         raise DefinitionError(f"{shortened(given)} stands where a word in quotes is expected.")
@@ -230,8 +205,7 @@ def word_of(given: object, names: Names | None = None) -> str:
 
 def switch_of(given: object, names: Names) -> bool:
     """Return true or false."""
-    given = entry_as(given, (bool, np.bool_), "is neither true nor false")
-    return bool(given)
+    return bool(entry_as(given, (bool, np.bool_), "is neither true nor false"))
 
 
 # -- as they are written -----------------------------------------------------------------------------------
@@ -270,16 +244,6 @@ def written_body(value: object, design: Design, name: str) -> str:
 def written_carrier(value: Any, design: Design, name: str) -> str | None:
     """Return the names of the points that carry something in one text; None where nothing does."""
     return " ".join(map(name_of, value)) if value else None
-
-
-def written_centre(value: Any, design: Design, name: str) -> Any:
-    """Return a point's name, or two coordinates."""
-    return file_value(value, design) if isinstance(value, tuple) else name_of(value)
-
-
-def written_pair(value: object, design: Design, name: str) -> Any:
-    """Return numbers in a list; DefinitionError for lists in it."""
-    return option(value)
 
 
 # -- the kinds ---------------------------------------------------------------------------------------------
@@ -327,17 +291,17 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "body": Kind(body_of, written_body, refers=True),
         "loads": Kind(loads_of, written_names, refers=True),
         "member": Kind(member_of, refers=True),
-        "run": Kind(rope_points_of, lambda value, design, name: list(map(name_of, value)), refers=True),
-        "load list": Kind(loads_listed, lambda value, design, name: [name_of(each) for each in value]),
+        "run": Kind(rope_points_of, refers=True),
+        "load list": Kind(loads_listed),
         "load factors": Kind(factors_of),
         "origin": Kind(point_or(place_of), written_origin),
-        "place": Kind(place_of, written_pair),
-        "pair": Kind(pair_of, written_pair),
-        "gravity": Kind(gravity_of, written_pair),
+        "place": Kind(place_of),
+        "pair": Kind(pair_of),
+        "gravity": Kind(gravity_of),
         "force vector": Kind(force_of, written_force),
-        "corner": Kind(lambda given, names: coordinates_of(given, names)),
+        "corner": Kind(coordinates_of),
         "corners": Kind(corners_of, refers=True),
-        "centre": Kind(point_or(coordinates_of), written_centre, refers=True),
+        "centre": Kind(point_or(coordinates_of), refers=True),
         "carrier": Kind(points_of, written_carrier),
         "path": Kind(word_of, refers=True),
         "lengths": Kind(lengths_of, written_lengths),
@@ -350,8 +314,3 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
     }
 )
 """The kinds by name: what a class may say in `argument_kinds`, `expects` and `places`."""
-
-
-def kind_named(name: str) -> Kind:
-    """Return a kind by its name; what a unit measures is one as well, "mass"."""
-    return KINDS[name] if name in KINDS or name not in SI else fixed_number(name)

@@ -9,14 +9,13 @@ from collections.abc import Iterator, Mapping
 from inspect import cleandoc
 from pathlib import Path
 from textwrap import fill
-from typing import Any
 
 from ..disk import replacing_text
 from ..errors import DefinitionError, FileError
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..plan import Part
 from .design import Design, measured_labels, members_to_write
-from .names import Names, shortened
+from .names import FileTable, Keywords, Names, shortened
 from .parts_file import dotted_kinds, machines_of
 from .registry import registry
 
@@ -24,7 +23,7 @@ Machine = type[Mechanism] | Mechanism
 WIDTH = 120
 
 
-def to_dict(machine: Machine) -> dict[str, Any]:
+def to_dict(machine: Machine) -> Keywords:
     """Return a mechanism as tables of plain values; an instance's changed dimensions are the new defaults.
 
     Raises DefinitionError for what a file cannot hold: several designs at once, members and functions of unknown kinds.
@@ -39,15 +38,18 @@ def to_dict(machine: Machine) -> dict[str, Any]:
     for name, member in members.items():
         kinds |= dotted_kinds(name, member.machine) if isinstance(member, Part) else {}
     design = Design(machine, Names(sections, kinds, machines=machines))
-    tables: dict[str, dict[str, Any]] = {section: {} for section in dict.fromkeys(sections.values())}
+    tables: dict[str, Keywords] = {section: {} for section in dict.fromkeys(sections.values())}
     for name, member in members.items():
-        tables[sections[name]][name] = entry_written(name, entries[name].write, member, design)
+        try:
+            tables[sections[name]][name] = entries[name].write(member, design)
+        except DefinitionError as error:
+            raise DefinitionError(f"{design.plan.title}.{name} cannot be written into a file: {error}") from error
     if design.set:
         for name, labels in measured_labels(design, members).items():
             tables[sections[name]][name] |= labels
     names = [name for table in tables.values() for name in table]
     head = head_table(machine, [] if names == list(members) else list(members)) | tables
-    held: dict[str, Any] = {}
+    held: Keywords = {}
     for title, part in machines.items():
         own = to_dict(part)
         held |= own.pop("machines", {})
@@ -55,36 +57,23 @@ def to_dict(machine: Machine) -> dict[str, Any]:
     return head | ({"machines": held} if held else {})
 
 
-def entry_written(name: str, write: Any, member: Any, design: Design) -> Any:
-    """Return a member's entry; DefinitionError, with its name, where there is none."""
-    try:
-        return write(member, design)
-    except DefinitionError as error:
-        raise DefinitionError(f"{design.plan.title}.{name} cannot be written into a file: {error}") from error
-
-
-def head_table(machine: Machine, order: list[str]) -> dict[str, Any]:
-    """Return what stands above the sections: name, docstring, the members' order where these do not keep it, what it is about."""
-    cls = type(machine) if isinstance(machine, Mechanism) else machine
+def head_table(machine: Machine, order: list[str]) -> Keywords:
+    """Return what stands above the sections: name, docstring, the members' order where these do not keep it, what it is about [SI]."""
+    design = machine if isinstance(machine, Mechanism) else machine()
+    cls = type(design)
     doc = cleandoc(cls.__doc__ or "")
     if not all(each.isprintable() or each in "\n\t" for each in doc):
         raise DefinitionError(f"{cls.__name__}: its docstring holds characters that cannot be printed; take them out.")
-    beside = {"doc": doc, "order": order, "featured": featured_table(machine)}
+    about = design.featured()
+    limits = {name: list(limit) for name, limit in about.limits.items()}
+    featured: Keywords = {"column": about.column, "path": list(about.path), "limits": limits, "coupler": about.coupler}
+    beside = {"doc": doc, "order": order, "featured": {name: value for name, value in featured.items() if value}}
     return {"name": cls.__name__} | {name: value for name, value in beside.items() if value}
-
-
-def featured_table(machine: Machine) -> dict[str, Any]:
-    """Return what a machine is about, [SI]; empty where it does not say."""
-    design = machine if isinstance(machine, Mechanism) else machine()
-    found = design.featured()
-    limits = {name: list(limit) for name, limit in found.limits.items()}
-    table: dict[str, Any] = {"column": found.column, "path": list(found.path), "limits": limits, "coupler": found.coupler}
-    return {name: value for name, value in table.items() if value}
 
 
 def left_out(machine: Machine) -> tuple[str, ...]:
     """Return the names of what a class has beside its members, which a file does not hold: functions, checks, values of its own."""
-    cls: Any = type(machine) if isinstance(machine, Mechanism) else machine
+    cls = type(machine) if isinstance(machine, Mechanism) else machine
     if not (isinstance(cls, type) and issubclass(cls, Mechanism)):
         require_mechanism(cls)
     own = [base for base in cls.__mro__ if issubclass(base, Mechanism) and base is not Mechanism]
@@ -94,12 +83,17 @@ def left_out(machine: Machine) -> tuple[str, ...]:
 
 def to_toml(machine: Machine) -> str:
     """Return a mechanism as TOML text; numbers are exact. DefinitionError for what a file cannot hold."""
-    return toml_text(to_dict(machine))
+    return "\n\n".join(toml_blocks(to_dict(machine), "")) + "\n"
 
 
 def to_json(machine: Machine) -> str:
     """Return a mechanism as JSON text; numbers are exact. DefinitionError for what a file cannot hold."""
-    sections = (f"  {json_inline(name)}: {json_section(value)}" for name, value in to_dict(machine).items())
+    sections = []
+    for name, value in to_dict(machine).items():
+        text = json_inline(value)
+        if isinstance(value, Mapping):  # a line for each member
+            text = "{\n" + ",\n".join(f"    {json_inline(each)}: {json_inline(inner)}" for each, inner in value.items()) + "\n  }"
+        sections.append(f"  {json_inline(name)}: {text}")
     return "{\n" + ",\n".join(sections) + "\n}\n"
 
 
@@ -119,16 +113,6 @@ def save(machine: Machine, path: str | os.PathLike[str]) -> None:
         stream.write(text)
 
 
-# -- JSON: a line for each member --------------------------------------------------------------------------
-
-
-def json_section(value: object) -> str:
-    """Return a section with a line for each member; any other value in one line."""
-    if not isinstance(value, Mapping):
-        return json_inline(value)
-    return "{\n" + ",\n".join(f"    {json_inline(name)}: {json_inline(each)}" for name, each in value.items()) + "\n  }"
-
-
 def json_inline(value: object) -> str:
     """Return a value in one line."""
     return json.dumps(value, ensure_ascii=False, allow_nan=False)
@@ -137,13 +121,8 @@ def json_inline(value: object) -> str:
 # -- TOML: a line for each member where it fits, a table of its own where it does not -----------------------
 
 
-def toml_text(data: Mapping[str, Any]) -> str:
-    """Return the text of a file's tables: plain values first, then a table for each section."""
-    return "\n\n".join(toml_blocks(data, "")) + "\n"
-
-
-def toml_blocks(data: Mapping[str, Any], path: str) -> Iterator[str]:
-    """Yield the head of a machine, then its sections; `path` is that of one that the file holds for its parts."""
+def toml_blocks(data: FileTable, path: str) -> Iterator[str]:
+    """Yield the head of a machine, plain values, then a table for each section; `path` is that of one that the file holds for its parts."""
     head = [f"{toml_key(name)} = {long_text(value)}" for name, value in data.items() if not isinstance(value, Mapping)]
     yield "\n".join([*([f"[{path}]"] if path else []), *head])
     for name, table in data.items():
@@ -154,7 +133,7 @@ def toml_blocks(data: Mapping[str, Any], path: str) -> Iterator[str]:
             yield "\n".join(toml_section(f"{path}.{toml_key(name)}" if path else toml_key(name), table))
 
 
-def toml_section(name: str, table: Mapping[str, Any]) -> Iterator[str]:
+def toml_section(name: str, table: FileTable) -> Iterator[str]:
     """Yield a section's lines."""
     lines = [f"{toml_key(each)} = {toml_inline(value)}" for each, value in table.items()]
     if not all(isinstance(value, Mapping) for value in table.values()) or all(len(line) <= WIDTH for line in lines):

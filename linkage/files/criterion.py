@@ -45,6 +45,7 @@ from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
 from .callables import request_function
 from .expression import BINARY, Grammar, Token, constant, finite
+from .names import Keywords
 
 CRITERION_GRAMMAR = (
     "a criterion is made of least(...), most(...), integral(...), at(..., S=...), names, numbers with units, + - * / **, and <= >= =="
@@ -162,14 +163,15 @@ class CriterionParser(Grammar):
     def joined(self, sign: str, a: object, b: object) -> Any:
         if sign in ("*", "/") and isinstance(a, Request) and isinstance(b, Amount):
             return Combined("multiply" if sign == "*" else "divide", (a, Number(float(b))))  # measures something else
+        said = f"{self.words(a)} {sign} {self.words(b)}"
         if sign in ("+", "-"):
-            self.check_sum(sign, a, b)
+            common_kind(self.plan, said, self.kind_of(a), self.kind_of(b))
         try:
             found = BINARY[sign](a, b)
         except ArithmeticError:
             raise DefinitionError(f"{a!r} {sign} {b!r} has no finite value.") from None
         except TypeError:
-            raise DefinitionError(f"{self.words(a)} {sign} {self.words(b)} cannot be calculated.") from None
+            raise DefinitionError(f"{said} cannot be calculated.") from None
         if not (is_number(a) and is_number(b)):
             return found
         number = finite(found, f"{a!r} {sign} {b!r}")
@@ -177,14 +179,11 @@ class CriterionParser(Grammar):
         is_multiple = len(units) == 1 and (sign == "*" or (sign == "/" and isinstance(a, Amount)))
         return Amount(number, units[0]) if is_multiple else number
 
-    def check_sum(self, sign: str, a: object, b: object) -> None:
-        """Raise DefinitionError where a number with a unit is added to a quantity of another kind."""
-        kinds = [
-            MeasureKind(KINDS[each.measures]) if isinstance(each, Amount) and each.measures in KINDS
-            else kind_of_quantity(self.plan, each) if isinstance(each, (Quantity, Request)) else None
-            for each in (a, b)
-        ]  # fmt: skip
-        common_kind(self.plan, f"{self.words(a)} {sign} {self.words(b)}", *kinds)
+    def kind_of(self, part: object) -> MeasureKind | None:
+        """Return what a part of a sum measures; None of what may be added to anything."""
+        if isinstance(part, Amount):
+            return MeasureKind(KINDS[part.measures]) if part.measures in KINDS else None
+        return kind_of_quantity(self.plan, part) if isinstance(part, (Quantity, Request)) else None
 
     def negative(self, part: Any) -> Any:
         if isinstance(part, str):
@@ -199,11 +198,7 @@ class CriterionParser(Grammar):
     def atom(self, token: Token) -> Any:
         if token.kind == "number":
             return Amount(token.value, UNITS[token.unit][1]) if token.unit else token.value
-        return self.named(token.text.strip("'\""))
-
-    def named(self, name: str) -> Any:
-        """Return what a name stands for; DefinitionError, with the names there are, for one that has no value at a pose."""
-        plan = self.plan
+        plan, name = self.plan, token.text.strip("'\"")
         member = plan.members.get(name)
         if isinstance(member, Quantity):
             return member
@@ -231,46 +226,45 @@ class CriterionParser(Grammar):
         name = self.word(node.func).text
         make, of_quantities = self.function(name), name in MEASURES or name in NUMERIC
         positional = [self.argument(each, of_quantities, depth) for each in node.args]
-        named: dict[str, Any] = {}
+        named: Keywords = {}
         for each in node.keywords:
             key = self.word(each).text
             if key in named:
                 raise DefinitionError(f"{key}= stands twice.")
             named[key] = self.argument(each.value, False, depth)
+        parameters = signature(make).parameters
         try:
             given = signature(make).bind(*positional, **named)
-            given.arguments |= {key: int(value) for key, value in given.arguments.items() if is_count(value, make, key)}
-            positional, named = [*given.args], given.kwargs
         except TypeError as error:
-            raise DefinitionError(f"{name}(...): {error}; write {name}{usage(make)}.") from None
-        except ValueError:  # NumPy's functions say no signature
-            pass
+            raise DefinitionError(f"{name}(...): {error}; write {name}({', '.join(parameters)}).") from None
+        for key, value in given.arguments.items():  # a whole number in the place of one, such as the order of a derivative
+            if type(value) is float and value.is_integer() and parameters[key].annotation in (int, "int"):
+                given.arguments[key] = int(value)
         try:
-            return make(*positional, **named)
+            return make(*given.args, **given.kwargs)
         except TypeError:
             said = ", ".join(map(self.words, positional))
             raise DefinitionError(f"{name}({said}) cannot be calculated; it takes quantities and numbers.") from None
 
     def function(self, name: str) -> Callable[..., Any]:
         """Return a function by its name."""
-        if name in NUMERIC:
-            return self.numeric(NUMERIC[name])
         if name in MEASURES or name in PLACED:
             return {**MEASURES, **PLACED}[name]
-        return request_function(name, (*MEASURES, *PLACED, *NUMERIC))
-
-    def numeric(self, name: str) -> Callable[..., Any]:
-        """Return NumPy's function of numbers, quantities and requests; a number of numbers."""
+        if name not in NUMERIC:
+            return request_function(name, (*MEASURES, *PLACED, *NUMERIC))
+        function = getattr(np, NUMERIC[name])
 
         def made(*parts: object) -> Any:
-            if any(isinstance(each, (Measure, str, Worst)) for each in parts):
-                what = next(each for each in parts if isinstance(each, (Measure, str, Worst)))
-                raise DefinitionError(f"{name}({self.words(what)}) cannot be calculated; it takes quantities over poses, as least(abs(q)).")
-            if len(parts) != getattr(np, name).nin:
-                raise DefinitionError(f"{name}(...) takes {getattr(np, name).nin} arguments, not {len(parts)}.")
+            """Return NumPy's function of numbers, quantities and requests; a number of numbers."""
+            wrong = [self.words(each) for each in parts if isinstance(each, (Measure, str, Worst))]
+            if wrong:
+                what = f"{NUMERIC[name]}({wrong[0]}) cannot be calculated"
+                raise DefinitionError(f"{what}; it takes quantities over poses, as least(abs(q)).")
+            if len(parts) != function.nin:
+                raise DefinitionError(f"{NUMERIC[name]}(...) takes {function.nin} arguments, not {len(parts)}.")
             with np.errstate(all="ignore"):
-                found = getattr(np, name)(*parts)
-            return finite(float(found), f"{name}({', '.join(map(repr, parts))})") if all(map(is_number, parts)) else found
+                found = function(*parts)
+            return finite(float(found), f"{NUMERIC[name]}({', '.join(map(repr, parts))})") if all(map(is_number, parts)) else found
 
         return made
 
@@ -284,13 +278,3 @@ class CriterionParser(Grammar):
         if not of_quantities and isinstance(node, ast.Tuple) and len(node.elts) == 2:
             return tuple(self.meaning(each, depth) for each in node.elts)
         return self.meaning(node, depth)
-
-
-def is_count(value: object, make: Callable[..., Any], key: str) -> bool:
-    """Return whether an argument is a whole number without a unit in the place of one, such as the order of a derivative."""
-    return type(value) is float and value.is_integer() and signature(make).parameters[key].annotation in (int, "int")
-
-
-def usage(make: Callable[..., Any]) -> str:
-    """Return how a function is called: its arguments by name."""
-    return f"({', '.join(signature(make).parameters)})"

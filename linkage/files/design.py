@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from copy import copy
-from itertools import permutations
+from itertools import chain, permutations
 from math import isfinite
 from typing import Any, final
 
@@ -97,12 +97,7 @@ def in_unit(value: float, unit: str) -> float | str:
 
 
 def option(value: object) -> Any:
-    """Return an option of a load as a file holds it: a number, a word, a name, a list of them; DefinitionError for anything else."""
-    return [one_option(each) for each in value] if isinstance(value, (tuple, list, np.ndarray)) and np.ndim(value) else one_option(value)
-
-
-def one_option(value: object) -> Any:
-    """Return a number, a word or a member's name; DefinitionError for anything else."""
+    """Return an option of a load as a file holds it: a number, a word or a member's name; DefinitionError for anything else."""
     value = name_of(value) if isinstance(value, Member) else plain(value)
     if is_number(value) or isinstance(value, str):
         return value
@@ -138,28 +133,26 @@ def without_sketch(name: str, member: Member, machine: Mechanism) -> Member:
         found.near = found.drawn_at = None
         return found
     if isinstance(member, Pin):
-        strokes: dict[str, Any] = dict(machine.plan.sketch_strokes)
-        x, y = machine.at(**strokes)[name]
+        x, y = machine.at(**machine.plan.sketch_strokes)[name]
         return Pin(near=(float(x), float(y)))
     return member
 
 
 def measured_labels(design: Design, members: Mapping[str, Member]) -> dict[str, dict[str, float]]:
     """Return the labels that the class measured from its drawing, by the link that they belong to [m, rad]."""
+    owners: dict[str, str] = {}
+    for name, member in members.items():
+        if isinstance(member, Link):
+            points = [name_of(point) for point in member.points]
+            for several in chain(permutations(points, 2), permutations(points, 3)):
+                owners.setdefault(joined_names(*several), name)
     found: dict[str, dict[str, float]] = {}
     for each, entry in design.plan.table.entries.items():
         if each not in design.written and entry.kind in ("length", "angle"):
-            owner = next((name for name, member in members.items() if isinstance(member, Link) and is_label_of(each, member)), "")
-            if not owner:
+            if each not in owners:
                 raise DefinitionError(f"{each} was measured from the drawing and belongs to no link; give it in the class.")
-            found.setdefault(owner, {})[each] = float(design.set.get(each, entry.default))
+            found.setdefault(owners[each], {})[each] = float(design.set.get(each, entry.default))
     return found
-
-
-def is_label_of(text: str, link: Link) -> bool:
-    """Return whether a label is made of a link's own points."""
-    names = [name_of(point) for point in link.points]
-    return text in {joined_names(*several) for count in (2, 3) for several in permutations(names, count)}
 
 
 # -- what a quantity or a vector says, apart from how it is written: whether a text reads back as the same --

@@ -26,7 +26,7 @@ from ..quantities import Function, Length, Member, Number, Quantity, angle, dist
 from ..quantities.quantity import FUNCTIONS
 from ..steps import Arrow, CosineAngle, Turn, Vector
 from ..units import DIGITS, UNITS, parse
-from .names import Names
+from .names import Keywords, Names
 
 EXPRESSION_LENGTH = 1_000
 OPERATIONS = 100
@@ -95,9 +95,9 @@ class Call:
     keywords: tuple[str, ...] = ()
 
     @property
-    def makes_vector(self) -> bool:
-        """Whether it makes a vector, not a quantity."""
-        return self.make in (Vector, Turn)
+    def kind(self) -> str:
+        """What it makes: "vector" or "quantity"."""
+        return "vector" if self.make in (Vector, Turn) else "quantity"
 
 
 def applied(function: str) -> Callable[..., Quantity]:
@@ -156,7 +156,7 @@ def expression(text: str, names: Names) -> Quantity:
     What holds no name is calculated at once, as Python does it in a class: `"2 * 0.3"` is the number 0.6.
     """
     parser = Parser(text, names)
-    found: Quantity = parser.argument(parser.tree, "quantity")
+    found: Quantity = parser.meaning(parser.tree)
     return found
 
 
@@ -286,12 +286,11 @@ class Parser(Grammar):
         if name not in CALLS:
             raise DefinitionError(f"{self.text!r}: {unknown('Function', name, CALLS)}")
         call = CALLS[name]
-        if call.makes_vector != (kind == "vector"):
-            raise DefinitionError(f"{self.text!r}: {name}(...) is not a {kind}.")
-        if len(node.args) != len(call.kinds):
-            raise DefinitionError(f"{self.text!r}: {name}(...) takes {len(call.kinds)} arguments, not {len(node.args)}.")
+        if call.kind != kind or len(node.args) != len(call.kinds):
+            what = f"is not a {kind}" if call.kind != kind else f"takes {len(call.kinds)} arguments, not {len(node.args)}"
+            raise DefinitionError(f"{self.text!r}: {name}(...) {what}.")
         found = [self.argument(each, kind, depth) for each, kind in zip(node.args, call.kinds, strict=True)]
-        keywords: dict[str, Any] = {}
+        keywords: Keywords = {}
         for each in node.keywords:
             key = self.word(each).text
             if key not in call.keywords or key in keywords:
@@ -302,14 +301,14 @@ class Parser(Grammar):
     def argument(self, node: ast.expr, kind: str, depth: int = 0) -> Any:
         """Return one argument: a point's name, a vector or its name, or a quantity."""
         name, is_name = self.word(node).text, self.is_word(node, "name")
-        calls = isinstance(node, ast.Call) and self.is_word(node.func, "name")
+        call = node if isinstance(node, ast.Call) and self.is_word(node.func, "name") else None
         if kind == "any":
-            is_vector = (calls and name in CALLS and CALLS[name].makes_vector) or (is_name and self.names.kinds.get(name) == "vector")
-            kind = "vector" if is_vector else "quantity"
+            known = CALLS[name].kind if call is not None and name in CALLS else self.names.kinds.get(name)
+            kind = "vector" if known == "vector" and (call is not None or is_name) else "quantity"
         if kind == "quantity":
             return self.meaning(node, depth)
-        if isinstance(node, ast.Call) and calls and kind == "vector":
-            return self.called(node, depth + 1, kind)
+        if call is not None and kind == "vector":
+            return self.called(call, depth + 1, kind)
         if not is_name:
             raise self.fault(f"the name of a {kind}", node)
         return self.checked(name, kind)

@@ -61,8 +61,12 @@ class Bare:
 
 def stroke_written(member: Stroke, design: Design) -> list[float | str]:
     """Return a stroke's ends, those of an angle in degrees."""
-    turns = stroke_unit(design.plan, member.name) == "rad"
-    return [degrees_text(end) if turns else end for end in (member.start, member.end)]
+    return [stroke_value(end, member.name, design) for end in (member.start, member.end)]
+
+
+def stroke_value(value: float, stroke: str, design: Design) -> float | str:
+    """Return a value of a stroke, that of an angle in degrees."""
+    return degrees_text(value) if stroke_unit(design.plan, stroke) == "rad" else value
 
 
 def dimension_of(given: object, names: Names) -> Dimension:
@@ -107,8 +111,7 @@ def vector_of(given: object, names: Names) -> steps.Arrow:
 
 def drawn_written(member: steps.Drawn, design: Design) -> dict[str, Any]:
     """Return the strokes at which a sketch holds, angles in degrees."""
-    turning = [name for name in design.plan.strokes if stroke_unit(design.plan, name) == "rad"]
-    return {name: degrees_text(plain(value)) if name in turning else plain(value) for name, value in member.strokes.items()}
+    return {name: stroke_value(plain(value), name, design) for name, value in member.strokes.items()}
 
 
 def ground_written(member: steps.Ground, design: Design) -> list[float | str]:
@@ -223,13 +226,10 @@ class Registry:
         example = EXAMPLES.get(section) or next(iter(words.values())).example
         key = next((key for key in given if isinstance(key, str)), "") if isinstance(given, Mapping) else ""
         what = unknown("Kind", shortened(key, quote=False), words) if key else f"{shortened(given)} is no entry of [{section}]."
-        raise DefinitionError(f"{what} Write it like {example}.{self.elsewhere(given)}{self.absent()}")
-
-    def elsewhere(self, given: object) -> str:
-        """Return in which section an entry would be known, in words; "" where in none."""
         keys = set(given) if isinstance(given, Mapping) else set()
-        found = [(word, section) for section, words in self.sections.items() for word in words if word and word in keys]
-        return "".join(f" {word} stands in [{section}]." for word, section in found[:1])
+        others = [(word, other) for other, known in self.sections.items() for word in known if word and word in keys]
+        elsewhere = f" {others[0][0]} stands in [{others[0][1]}]." if others else ""
+        raise DefinitionError(f"{what} Write it like {example}.{elsewhere}{self.absent()}")
 
     def absent(self) -> str:
         """Return which packages of this distribution are not registered, in words; "" where all are."""
@@ -260,10 +260,10 @@ def registry() -> Registry:
     return Registry((*OWN, *(FileEntry(cls, cls.file_section, cls.__name__ if worded(cls) else "") for cls in extensions())))
 
 
-def extensions() -> Iterable[type[Member]]:
-    """Yield the classes that other packages bring; DefinitionError, with its name, for one that cannot be loaded."""
-    for name, entry in plugins.entry_points(plugins.MEMBERS).items():
-        yield plugins.guarded(entry.load, f"the entry {name} ({entry.value}) of a file")
+def extensions() -> list[type[Member]]:
+    """Return the classes that other packages bring; DefinitionError, with its name, for one that cannot be loaded."""
+    entries = plugins.entry_points(plugins.MEMBERS).items()
+    return [plugins.guarded(entry.load, f"the entry {name} ({entry.value}) of a file") for name, entry in entries]
 
 
 # -- classes that are named by their import path -----------------------------------------------------------

@@ -15,11 +15,12 @@ import os
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, final
 
 from ..errors import DefinitionError
-from ..mechanism import Mechanism
+from ..motion.measures import Condition, Measure
 from ..motion.regions import outside
 from ..quantities import is_number
 from ..study.optimise import METHODS as SEARCH_METHODS
@@ -30,12 +31,13 @@ from ..study.space import size_of_machine
 from ..study.survey import Progress
 from ..surroundings import Outline
 from .criterion import condition_said, measure_said
-from .names import entry_as, require_entry, shortened
+from .names import Keywords, entry_as, require_entry, shortened
 from .source import each_of
 from .study_file import (
     PICTURE_SUFFIXES,
     FindMachine,
     Read,
+    Settings,
     StudyHead,
     amount_said,
     case_said,
@@ -73,26 +75,23 @@ class SearchFile:
 
     search: Callable[..., Any]
     machine: Any
-    arguments: Mapping[str, Any]
+    arguments: Keywords
     rounding: Mapping[str, float] | None
     outputs: Mapping[str, tuple[Path, ...]]
 
     def run(self, folder: str | os.PathLike[str] | None = None, progress: bool | Progress = False) -> Any:
         """Return what the search finds; `folder` stands above the file's own."""
-        own = self.arguments.get("folder")
-        return self.search(self.machine, **{**self.arguments, "folder": folder or own}, progress=progress)
+        return self.search(self.machine, **{**self.arguments, "folder": folder or self.arguments.get("folder")}, progress=progress)
 
 
-def read_search(
-    path: str | os.PathLike[str], find: FindMachine, settings: Callable[[type[Mechanism]], Mapping[str, Any]] = lambda machine: {}
-) -> SearchFile:
+def read_search(path: str | os.PathLike[str], find: FindMachine, settings: Settings = lambda machine: {}) -> SearchFile:
     """Return the search that a TOML or JSON file asks for; FileError with every mistake, its line and its key.
 
     `find` returns a class by the machine's text; `settings` are dimensions that stand above those of the file.
     """
     head = StudyHead.of(path, (*SEARCH, "outputs"), find, settings)
     data, faults = head.data, head.faults
-    arguments: dict[str, Any] = {}
+    arguments: Keywords = {}
     with faults.at():
         arguments = keywords_read(head, optimise, {key: data[key] for key in data if key in SEARCH}, SEARCH)
     count = sum(len(each) if isinstance(each, list) else 1 for each in (data.get("minimise"), data.get("maximise")) if each)
@@ -112,22 +111,23 @@ def read_search(
 # What reads a key of a search.
 
 
-def objectives_said(head: StudyHead, given: object) -> list[Any]:
+def objective_said(head: StudyHead, given: object) -> Measure:
+    """Return what a text says is to be least or greatest."""
+    return measure_said(given, head.machine, head.found["over"])
+
+
+def objectives_said(head: StudyHead, given: object) -> list[Measure]:
     """Return what is to be least or greatest: the measure of a text, or those of a list, mistakes under their numbers."""
-
-    def measured(text: object) -> Any:
-        return measure_said(text, head.machine, head.found["over"])
-
-    return texts_said(given, measured) if isinstance(given, list) else [measured(given)]
+    return texts_said(given, partial(objective_said, head)) if isinstance(given, list) else [objective_said(head, given)]
 
 
-def conditions_said(head: StudyHead, given: object) -> list[Any]:
+def conditions_said(head: StudyHead, given: object) -> list[Condition]:
     """Return the conditions of a list of texts; SeveralError with all mistakes, each under its number."""
     given = entry_as(given, (str, list), 'a list of conditions is expected, such as ["most(tilt) <= 8 deg"]')
     return texts_said(given, lambda text: condition_said(text, head.machine, head.found["over"]))
 
 
-def regions_said(head: StudyHead, given: object) -> dict[str, Any]:
+def regions_said(head: StudyHead, given: object) -> Keywords:
     """Return the regions of points as `optimise` takes them; SeveralError with all mistakes, each under its point."""
     given = entry_as(given, Mapping, 'a region for each point is expected, such as regions = { C = "plate" }')
 
@@ -139,21 +139,21 @@ def regions_said(head: StudyHead, given: object) -> dict[str, Any]:
     return dict(each_of(given.items(), region_said))
 
 
-def shape_said(given: object) -> Any:
+def shape_said(given: Any) -> Any:
     """Return a shape, or the shapes of a list: corners, an outline's name, a circle, `outside(...)` of an outline, or outside of any."""
     if isinstance(given, str):
         forbidden = _OUTSIDE.match(given)
         return given if forbidden is None else outside(forbidden.group("outline"))
-    if isinstance(given, Mapping) and set(given) == {"outside"}:
+    keys = set(given) if isinstance(given, Mapping) else set()
+    if keys == {"outside"}:
         return outside(shape_said(given["outside"]))
-    if isinstance(given, Mapping) and set(given) == {"at", "radius"} and is_corner(given["at"]):
+    if keys == {"at", "radius"} and is_corner(given["at"]):
         x, y = (amount_said(each, "length") for each in given["at"])
         return Outline.circle((x, y), amount_said(given["radius"], "length"))
-    if isinstance(given, list) and given and all(map(is_corner, given)):
+    require_entry(isinstance(given, list) and given, given, f"is no region; write {REGION_WORDS}")
+    if all(map(is_corner, given)):
         return [tuple(amount_said(each, "length") for each in corner) for corner in given]
-    if isinstance(given, list) and given:
-        return [shape_said(each) for each in given]
-    raise DefinitionError(f"{shortened(given)} is no region; write {REGION_WORDS}.")
+    return [shape_said(each) for each in given]
 
 
 def is_corner(given: object) -> bool:

@@ -13,8 +13,9 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from inspect import Parameter, signature
 from pathlib import Path
 from typing import Any, TypeAlias, final, get_type_hints
@@ -32,11 +33,13 @@ from ..study.space import Space, around, known_dimension
 from ..study.tolerances import Tolerance, tolerances_of
 from ..units import parse, parse_span
 from .criterion import criterion_of
-from .names import by_whole_names, entry_as, require_entry, shortened
+from .names import FileTable, Keywords, by_whole_names, entry_as, listed, require_entry, shortened
 from .source import TEXT, Faults, Mistakes, each_of, source
 
 FindMachine: TypeAlias = Callable[[str, Path], type[Mechanism]]
 """What returns the class of a machine by its text and the folder of the file that names it."""
+Settings: TypeAlias = Callable[[type[Mechanism]], Keywords]
+"""What returns dimensions [SI] of a machine's class that stand above those of the file."""
 
 PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
 RANGE_WORDS = 'a range such as "270 to 330 mm", "270 to 330 mm in steps of 5 mm" or "within 60 mm", or a list of choices'
@@ -49,13 +52,13 @@ _AROUND = re.compile(r"\s*(?:within|around|\+-|\+/-|±)\s*(?P<by>.+?)(?:\s+(?:in
 class StudyHead:
     """A study file as it is read: its tables, the mistakes found so far, the machine, and the folder that its paths start from."""
 
-    data: Mapping[str, Any]
+    data: FileTable
     faults: Faults
     machine: Mechanism
     base: Path
     machines: Mapping[str, Mechanism] = field(default_factory=dict)
     """All machines by the file's texts, where it names a list of them."""
-    found: dict[str, Any] = field(default_factory=dict)
+    found: Keywords = field(default_factory=dict)
     """The keywords that are read already, by name, those of the table around among them, and the defaults of the others."""
     section: str = ""
     """The section that is read, "" of what stands above all sections."""
@@ -66,32 +69,37 @@ class StudyHead:
         path: str | os.PathLike[str],
         keys: Sequence[str],
         find: FindMachine,
-        settings: Callable[[type[Mechanism]], Mapping[str, Any]],
+        settings: Settings,
         *,
         several: bool = False,
     ) -> StudyHead:
         """Return the head of a file that may have some keys beside `machine`, `set` and `doc`; FileError where there is no machine.
 
-        `settings` are dimensions [SI] that stand above those of the file. With `several` the machine may be a list of them.
+        With `several` the machine may be a list of them.
         """
         found = source(path)
-        faults, base = Faults(source=found.name, line_of=found.line_of), Path() if found.name == TEXT else Path(path).parent
+        faults, base = found.faults, Path() if found.name == TEXT else Path(path).parent
         known = ("machine", "set", "doc", *keys)
         data = found.data if isinstance(found.data, Mapping) else {}
         for key in data:
             if key not in known:
-                faults.add((str(key),), str(unknown("Key", shortened(key, quote=False), known)))
+                faults.add((str(key),), str(unknown("Key", key, known)))
         given = data.get("machine")
-        listed: list[Any] = given if several and isinstance(given, list) and given else [given]
+        texts = given if several and isinstance(given, list) and given else [given]
         machines: list[Mechanism] = []
-        for text in listed:
-            kind = machine_said(text, faults, find, base)
+        for text in texts:
+            kind = None
+            with faults.at("machine"):
+                if not isinstance(text, str) or not text:
+                    what = "the machine is missing" if text is None else f"{shortened(text)} is no name in quotes"
+                    raise DefinitionError(f'{what}; begin with machine = "three_point_hitch", a name of `hydrolinkage list` or a file.')
+                kind = find(text, base)
             if kind is not None:
                 with faults.at("set"):
-                    made = kind(**settings_said(kind.plan, data.get("set", {}), faults))
-                    machines.append(made.replaced(**settings(kind)))
+                    values = by_dimensions(data.get("set", {}), "set", partial(value_said, kind.plan))
+                    machines.append(kind(**values).replaced(**settings(kind)))
         faults.check()
-        return cls(data, faults, machines[0], base, dict(zip(listed, machines, strict=True)) if isinstance(given, list) else {})
+        return cls(data, faults, machines[0], base, dict(zip(texts, machines, strict=True)) if isinstance(given, list) else {})
 
     @property
     def plan(self) -> Plan:
@@ -104,18 +112,20 @@ Read: TypeAlias = Callable[[StudyHead, Any], Any]
 
 
 def keywords_read(
-    head: StudyHead, function: Callable[..., Any], given: Mapping[str, Any], readers: Mapping[str, Read] | None = None
-) -> dict[str, Any]:
+    head: StudyHead, function: Callable[..., object], given: FileTable, readers: Mapping[str, Read] | None = None
+) -> Keywords:
     """Return the keywords of a function that a table gives, each read as `readers` say, else as its annotation does.
 
     They are read in their order: `head.found` has those above. For what must be given and is not, the message has the annotation's example;
     without one it is read as an empty table. SeveralError with all mistakes, each under its key.
     """
     mistakes, parameters = Mistakes(), signature(function).parameters
-    known = annotated_readers(function) if readers is None else {name: (read,) for name, read in readers.items()}
+    hints = {} if readers is not None else get_type_hints(function, include_extras=True)
+    known = {name: hint.__metadata__ for name, hint in hints.items() if hasattr(hint, "__metadata__")}
+    known |= {name: (read,) for name, read in (readers or {}).items()}
     for key in given:
         if key not in known:
-            mistakes.add((str(key),), str(unknown("Key", shortened(key, quote=False), known)))
+            mistakes.add((str(key),), str(unknown("Key", key, known)))
     defaults = {name: each.default for name, each in parameters.items() if each.default is not Parameter.empty}
     head = replace(head, found=head.found | defaults)
     for name, (read, *example) in known.items():
@@ -128,12 +138,6 @@ def keywords_read(
     return {name: head.found[name] for name in known if name in given}
 
 
-def annotated_readers(function: Callable[..., Any]) -> dict[str, tuple[Any, ...]]:
-    """Return what the annotations of a function say of its keywords: what reads each, and an example of one that must be given."""
-    hints = get_type_hints(function, include_extras=True)
-    return {name: hint.__metadata__ for name, hint in hints.items() if hasattr(hint, "__metadata__")}
-
-
 def file_path(head: StudyHead, given: object) -> Path:
     """Return a path as it is meant: relative to the file's own folder. DefinitionError for anything else."""
     text = entry_as(given, str, "is no path in quotes")
@@ -141,34 +145,14 @@ def file_path(head: StudyHead, given: object) -> Path:
     return head.base / text
 
 
-def machine_said(given: object, faults: Faults, find: FindMachine, base: Path) -> type[Mechanism] | None:
-    """Return the class of the machine that a file names; None, noted, where there is none."""
-    found = None
-    with faults.at("machine"):
-        if not isinstance(given, str) or not given:
-            what = "the machine is missing" if given is None else f"{shortened(given)} is no name in quotes"
-            raise DefinitionError(f'{what}; begin with machine = "three_point_hitch", a name of `hydrolinkage list` or a file.')
-        found = find(given, base)
-    return found
-
-
-def settings_said(plan: Plan, given: object, faults: Faults) -> dict[str, Any]:
-    """Return dimensions [SI] by name; mistakes are noted."""
-    found: dict[str, Any] = {}
-    for name, value in flattened(given, plan, "set"):
-        with faults.at("set", name):
-            found[name] = value_said(value, plan, name)
-    return found
-
-
 # Values: numbers in SI, or texts with a unit that measures what it should.
 
 
-def flattened(given: object, plan: Plan, what: str, words: Sequence[str] = ()) -> Iterator[tuple[str, Any]]:
-    """Yield the entries of a table of dimensions by their whole names."""
+def by_dimensions(given: object, what: str, read: Callable[[str, Any], Any], words: Sequence[str] = ()) -> dict[Any, Any]:
+    """Return what is read of the entries of a table, by the whole names of dimensions; SeveralError, each mistake under its name."""
     if not isinstance(given, Mapping):
         raise DefinitionError(f"{what} = {shortened(given)}: a table by the names of dimensions is expected, such as [{what}] OB = ...")
-    yield from by_whole_names(given, words)
+    return dict(each_of(by_whole_names(given, words), lambda name, value: (name, read(name, value))))
 
 
 def measure_of_name(plan: Plan, name: str) -> str:
@@ -186,7 +170,7 @@ def amount_said(given: object, measures: str) -> float:
     return float(given)
 
 
-def value_said(given: object, plan: Plan, name: str) -> Any:
+def value_said(plan: Plan, name: str, given: object) -> Any:
     """Return the value of a dimension [SI], of a point a pair."""
     measures = measure_of_name(plan, name)
     if isinstance(given, (list, tuple)):
@@ -204,35 +188,35 @@ RANGE_KEYS = ("from", "to", "step", "around", "choices")
 
 def vary_said(head: StudyHead, given: object) -> dict[Any, Any]:
     """Return what varies as `optimise` takes it; SeveralError with all mistakes, each under its name."""
-    entries = list(flattened(given, head.plan, "vary", RANGE_KEYS))
-    if not entries:
-        where = f"{head.section}.vary" if head.section else "vary"
-        raise DefinitionError(f'nothing varies; write [{where}] OB = "270 to 330 mm": {RANGE_WORDS}.')
 
-    def varied(name: str, value: object) -> tuple[Any, Any]:
+    def varied(name: str, value: object) -> dict[Any, Any]:
         names = tuple(part.strip() for part in name.split(","))
         for part in names:
-            known_dimension(head.machine, part) if part not in head.plan.points and not is_side(part) else None
+            if part not in head.plan.points and not is_side(part):
+                known_dimension(head.machine, part)
         said = rows_said(value, head.plan, names) if len(names) > 1 else range_said(value, head.plan, names[0])
         found = {names if len(names) > 1 else names[0]: said}
         Space.of(head.machine, found)
-        return next(iter(found.items()))
+        return found
 
-    return dict(each_of(entries, varied))
+    found = by_dimensions(given, "vary", varied, RANGE_KEYS)
+    if not found:
+        where = f"{head.section}.vary" if head.section else "vary"
+        raise DefinitionError(f'nothing varies; write [{where}] OB = "270 to 330 mm": {RANGE_WORDS}.')
+    return {name: said for part in found.values() for name, said in part.items()}
 
 
 def range_said(given: object, plan: Plan, name: str) -> Any:
     """Return what a dimension ranges over as `optimise` takes it: a tuple, `around(...)`, or a list of choices."""
     measures = measure_of_name(plan, name)
     if isinstance(given, (list, tuple)):
-        return [each if is_side(name) else value_said(each, plan, name) for each in given]
+        return [each if is_side(name) else value_said(plan, name, each) for each in given]
     if isinstance(given, Mapping):
         return range_of_table(given, plan, name, measures)
     text = given if isinstance(given, str) else ""
     near = _AROUND.match(text)
     if near is not None:
-        step = near.group("step")
-        return around(parse(near.group("by"), measures), None if step is None else parse(step, measures))
+        return around(*(parse(each, measures) for each in near.group("by", "step") if each is not None))
     ends = parse_span(text, measures)
     require_entry(ends is not None, given, f"is no range; write {RANGE_WORDS}")
     return ends
@@ -242,15 +226,13 @@ def range_of_table(given: Mapping[str, object], plan: Plan, name: str, measures:
     """Return a range of a table: { from, to, step }, { around, step } or { choices }."""
     for key in given:
         known_name("Key", key, RANGE_KEYS)
-    kinds = [keys for keys in (("from", "to"), ("around",), ("choices",)) if any(key in given for key in keys)]
-    if len(kinds) != 1 or not set(kinds[0]) <= set(given) or ("step" in given and kinds[0] == ("choices",)):
-        raise DefinitionError(f"{shortened(dict(given))}: write {{ from, to, step }}, {{ around, step }} or {{ choices = [...] }}.")
-    if kinds[0] == ("choices",):
-        return range_said(list(given["choices"]) if isinstance(given["choices"], list) else given["choices"], plan, name)
-    step = [amount_said(given["step"], measures)] if "step" in given else []
-    if kinds[0] == ("around",):
-        return around(amount_said(given["around"], measures), *step)
-    return (*(amount_said(given[key], measures) for key in ("from", "to")), *step)
+    keys = given.keys() - {"step"}
+    sound = keys in ({"from", "to"}, {"around"}) or given.keys() == {"choices"}
+    require_entry(sound, dict(given), "write { from, to, step }, { around, step } or { choices = [...] }")
+    if keys == {"choices"}:
+        return range_said(given["choices"], plan, name)
+    values = [amount_said(given[key], measures) for key in ("around", "from", "to", "step") if key in given]
+    return around(*values) if "around" in given else tuple(values)
 
 
 def rows_said(given: object, plan: Plan, names: Sequence[str]) -> list[Any]:
@@ -273,16 +255,15 @@ TOLERANCE_KEYS = ("limits", "law")
 def tolerances_said(key: str) -> Read:
     """Return what reads tolerances by the names of dimensions under a key."""
 
-    def read(head: StudyHead, given: object) -> dict[str, Any]:
-        entries = [*flattened(given, head.plan, key, TOLERANCE_KEYS)]
-        if not entries:
-            raise DefinitionError(f'no tolerance is given; write {key} = {{ OB = "0.1 mm", CD = ["-0.1 mm", "0.2 mm"] }}.')
-
-        def one(name: str, value: object) -> tuple[str, Any]:
+    def read(head: StudyHead, given: object) -> Keywords:
+        def one(name: str, value: object) -> Tolerance:
             tolerances_of(head.plan, {name: 0.0})
-            return name, tolerance_said(value, measure_of_name(head.plan, name))
+            return tolerance_said(value, measure_of_name(head.plan, name))
 
-        return dict(each_of(entries, one))
+        found = by_dimensions(given, key, one, TOLERANCE_KEYS)
+        if not found:
+            raise DefinitionError(f'no tolerance is given; write {key} = {{ OB = "0.1 mm", CD = ["-0.1 mm", "0.2 mm"] }}.')
+        return found
 
     return read
 
@@ -292,81 +273,63 @@ def tolerance_said(given: object, measures: str) -> Tolerance:
     if isinstance(given, Mapping):
         for each in given:
             known_name("Key", each, TOLERANCE_KEYS)
-        if "limits" not in given:
-            raise DefinitionError(f'{shortened(dict(given))}: write {{ limits = "0.1 mm", law = "uniform" }}.')
-        return Tolerance(limits_said(given["limits"], measures), given.get("law", "normal"))
-    return Tolerance(limits_said(given, measures))
-
-
-def limits_said(given: object, measures: str) -> float | tuple[float, float]:
-    """Return how far a dimension may lie from its value [SI]: to either side, or its two limits."""
+        sound = "limits" in given and not isinstance(given["limits"], Mapping)
+        require_entry(sound, dict(given), 'write { limits = "0.1 mm", law = "uniform" }')
+        return replace(tolerance_said(given["limits"], measures), law=given.get("law", "normal"))
     if isinstance(given, list):
         require_entry(len(given) == 2, given, 'two limits are expected, such as ["-0.1 mm", "0.2 mm"]')
-        return amount_said(given[0], measures), amount_said(given[1], measures)
-    return amount_said(given.strip().removeprefix("+-").removeprefix("±") if isinstance(given, str) else given, measures)
+        return Tolerance((amount_said(given[0], measures), amount_said(given[1], measures)))
+    return Tolerance(amount_said(given.strip().removeprefix("+-").removeprefix("±") if isinstance(given, str) else given, measures))
 
 
 # Strokes, load cases, words and numbers.
 
 
-def over_said(head: StudyHead, given: object) -> dict[str, Any]:
+def over_said(head: StudyHead, given: object) -> Keywords:
     """Return the parts of the strokes that are looked at, as `optimise` takes them; SeveralError with all mistakes, each under its stroke.
 
     A text is the name of an `Over` that the machine declares.
     """
+    plan = head.plan
     if isinstance(given, str):
-        return strokes_declared(head, given)
-    if not isinstance(given, Mapping):
-        what = 'a table of strokes is expected, such as over = { S = "0 to 200 mm" }, or the name of an Over that the machine declares.'
-        raise DefinitionError(f"{shortened(given)}: {what}")
+        over = plan.of_kind(Over)[known_name("Over", given, plan.of_kind(Over), where=plan.title)]
+        if over.shape != "box" or over.only or over.cases is not None or over.lost:
+            what = f"{given} = {over} is more than parts of strokes, which is what a search of a file looks at"
+            raise DefinitionError(f'{what}; write them here, over = {{ S = "0 to 200 mm" }}.')
+        return dict(over.strokes)
+    what = 'a table of strokes is expected, such as over = { S = "0 to 200 mm" }, or the name of an Over that the machine declares'
+    given = entry_as(given, Mapping, what)
 
     def part(name: str, value: object) -> tuple[str, Any]:
-        said = part_said(head, known_name("Stroke", name, head.plan.strokes, where=head.plan.title), value)
+        said = part_said(head, known_name("Stroke", name, plan.strokes, where=plan.title), value)
         ranges_of(head.machine, {name: said})
         return name, said
 
     return dict(each_of(by_whole_names(given), part))
 
 
-def strokes_declared(head: StudyHead, name: str) -> dict[str, Any]:
-    """Return the strokes of an `Over` that the machine declares; DefinitionError where there is none, or where strokes do not say it."""
-    over = head.plan.of_kind(Over)[known_name("Over", name, head.plan.of_kind(Over), where=head.plan.title)]
-    if over.shape != "box" or over.only or over.cases is not None or over.lost:
-        what = f"{name} = {over} is more than parts of strokes, which is what a search of a file looks at"
-        raise DefinitionError(f'{what}; write them here, over = {{ S = "0 to 200 mm" }}.')
-    return dict(over.strokes)
-
-
-def part_said(head: StudyHead, stroke: str, given: object) -> Any:
+def part_said(head: StudyHead, stroke: str, given: Any) -> Any:
     """Return a part of a stroke: one value, or two ends, which may be quantities that follow the design."""
     measures = stroke_measure(head.plan, stroke)
     if isinstance(given, Mapping):
-        if set(given) != {"from", "to"}:
-            raise DefinitionError(f'{shortened(dict(given))}: write {{ from = "0 mm", to = "200 mm" }}.')
+        require_entry(set(given) == {"from", "to"}, dict(given), 'write { from = "0 mm", to = "200 mm" }')
         given = [given["from"], given["to"]]
     if isinstance(given, (list, tuple)):
         require_entry(len(given) == 2, given, "two ends are expected")
-        return tuple(end_said(head, each, measures) for each in given)
+        named = [isinstance(each, str) and re.match(r"\s*[^\W\d]", each) is not None for each in given]
+        ends = zip(given, named, strict=True)
+        return tuple(criterion_of(each, head.machine) if is_named else amount_said(each, measures) for each, is_named in ends)
     span = parse_span(given, measures) if isinstance(given, str) else None
     require_entry(span is None or len(span) != 3, given, "a search looks at the whole of a stroke, not at steps of it")
     return amount_said(given, measures) if span is None else span
 
 
-def end_said(head: StudyHead, given: object, measures: str) -> Any:
-    """Return an end of a stroke's part: a number [SI], or a quantity."""
-    if isinstance(given, str) and re.match(r"\s*[^\W\d]", given):
-        return criterion_of(given, head.machine)
-    return amount_said(given, measures)
-
-
 def case_said(head: StudyHead, given: object) -> Any:
     """Return the name of a load case, a list of names, or names with their hours; DefinitionError for an unknown one."""
-    cases = head.plan.of_kind(LoadCase)
-    if isinstance(given, (list, dict)) and given:
-        for each in given:
-            known_name("Load case", each, (PLAIN_CASE, *cases), where=head.plan.title)
-        return given
-    return known_name("Load case", given, (PLAIN_CASE, *cases), where=head.plan.title)
+    cases = (PLAIN_CASE, *head.plan.of_kind(LoadCase))
+    for each in given if isinstance(given, (list, dict)) and given else [given]:
+        known_name("Load case", each, cases, where=head.plan.title)
+    return given
 
 
 def count_from(least: int) -> Read:
@@ -386,7 +349,7 @@ def one_of(words: Sequence[str]) -> Read:
 
 def texts_said(given: object, read: Callable[[object], Any]) -> list[Any]:
     """Return what is read of each text of a list, or of a single one; SeveralError with all mistakes, each under its number."""
-    return each_of(enumerate(given if isinstance(given, list) else [given], 1), lambda number, text: read(text))
+    return each_of(enumerate(listed(given), 1), lambda number, text: read(text))
 
 
 # Where results go.
@@ -397,23 +360,22 @@ def outputs_said(head: StudyHead, kinds: Mapping[str, Sequence[str]]) -> dict[st
 
     `kinds` are the endings that a file's name may have, by what it holds.
     """
+
+    def checked(name: str, value: object) -> tuple[str, tuple[Path, ...]]:
+        suffixes = kinds[known_name("Output", name, kinds)]
+        paths = tuple(file_path(head, each) for each in listed(value))
+        for path in paths:
+            if path.suffix.lower() not in suffixes:
+                raise DefinitionError(f"{path.name}: the file's name ends in one of {', '.join(suffixes)}.")
+            try:
+                check_place(path)
+            except FileError as error:
+                raise DefinitionError(str(error)) from None
+        return name, paths
+
     found: dict[str, tuple[Path, ...]] = {}
     with head.faults.at("outputs"):
         given = head.data.get("outputs", {})
         given = entry_as(given, Mapping, f"a table is expected, such as [outputs] {next(iter(kinds))} = ..")
-        paths = each_of(given.items(), lambda name, value: output_paths(head, value, kinds[known_name("Output", name, kinds)]))
-        found = dict(zip(given, paths, strict=True))
+        found = dict(each_of(given.items(), checked))
     return found
-
-
-def output_paths(head: StudyHead, given: object, suffixes: Sequence[str]) -> tuple[Path, ...]:
-    """Return the files of one kind of result; DefinitionError for another ending and where one cannot be written."""
-    paths = [file_path(head, each) for each in (given if isinstance(given, list) else [given])]
-    for path in paths:
-        if path.suffix.lower() not in suffixes:
-            raise DefinitionError(f"{path.name}: the file's name ends in one of {', '.join(suffixes)}.")
-        try:
-            check_place(path)
-        except FileError as error:
-            raise DefinitionError(str(error)) from None
-    return tuple(paths)

@@ -43,18 +43,19 @@ from ..study.space import Around, coordinates
 from ..study.survey import Progress
 from ..units import display_unit, parse_span, show
 from .criterion import condition_said, criterion_of, measure_said, quantity_said
-from .names import by_whole_names, entry_as, shortened
+from .names import Keywords, by_whole_names, entry_as, require_entry
 from .source import each_of
 from .study_file import (
     PICTURE_SUFFIXES,
     RANGE_KEYS,
     FindMachine,
+    Settings,
     StudyHead,
     amount_said,
+    by_dimensions,
     case_said,
     count_from,
     file_path,
-    flattened,
     keywords_read,
     one_of,
     outputs_said,
@@ -84,59 +85,47 @@ class TaskResult:
 # What reads a key of a section.
 
 
-def box_said(head: StudyHead, given: object) -> dict[str, Any]:
+def box_said(head: StudyHead, given: object) -> Keywords:
     """Return the ranges and choices of `vary`, as a box takes them; SeveralError with all mistakes, each under its name."""
+    machine, table = head.machine, head.plan.table
 
-    def ranges(name: str, value: object) -> dict[str, Any]:
-        if name not in head.plan.table.spellings and f"{name}.x" not in head.plan.table.spellings:
-            raise unknown("Dimension", name, head.plan.table.names(), where=head.plan.title)
-        found = box_range(head.machine, name, range_said(value, head.plan, name))
-        Box.of(head.machine, found)
+    def ranges(name: str, value: object) -> Keywords:
+        if name not in table.spellings and f"{name}.x" not in table.spellings:
+            raise unknown("Dimension", name, table.names(), where=head.plan.title)
+        said = range_said(value, head.plan, name)
+        if isinstance(said, tuple) and len(said) == 3:
+            raise DefinitionError("a study looks between the steps of a range too; leave the step out, or write a list of choices.")
+        found = {} if isinstance(said, Around) else {name: said}
+        for each in coordinates(head.plan, [name]) if isinstance(said, Around) else ():
+            owner, sign = table.spellings[each]
+            now = float(sign * machine.dimensions[owner])
+            found[each] = (now - said.by, now + said.by)
+        Box.of(machine, found)
         return found
 
-    parts = each_of(flattened(given, head.plan, "vary", RANGE_KEYS), ranges)
+    parts = by_dimensions(given, "vary", ranges, RANGE_KEYS).values()
     return {name: value for part in parts for name, value in part.items()}
 
 
-def box_range(machine: Mechanism, name: str, said: object) -> dict[str, Any]:
-    """Return a range as a box takes it; DefinitionError for one in steps."""
-    plan = machine.plan
-    if isinstance(said, Around):
-        found = {}
-        for each in coordinates(plan, [name]):
-            owner, sign = plan.table.spellings[each]
-            now = float(sign * machine.dimensions[owner])
-            found[each] = (now - said.by, now + said.by)
-        return found
-    if isinstance(said, tuple) and len(said) == 3:
-        raise DefinitionError("a study looks between the steps of a range too; leave the step out, or write a list of choices.")
-    return {name: said}
-
-
-def swept_strokes(head: StudyHead, given: object) -> dict[str, Any]:
+def swept_strokes(head: StudyHead, given: object) -> Keywords:
     """Return the strokes that are looked at [SI], arrays or single values; SeveralError with all mistakes, each under its stroke."""
     given = entry_as(given, Mapping, 'a table of strokes is expected, such as strokes = { S = "100 mm" }')
 
     def values(name: str, value: object) -> tuple[str, Any]:
         known_name("Stroke", name, head.plan.strokes, where=head.plan.title)
-        return name, stroke_values_said(value, stroke_measure(head.plan, name), head.found.get("poses", 1))
+        measures = stroke_measure(head.plan, name)
+        if isinstance(value, list):
+            return name, np.array([amount_said(each, measures) for each in value])
+        span = parse_span(value, measures) if isinstance(value, str) else None
+        if span is None:
+            return name, amount_said(value, measures)
+        low, high, *step = span
+        return name, np.arange(low, high + 0.5 * step[0], step[0]) if step else np.linspace(low, high, head.found.get("poses", 1))
 
     return dict(each_of(by_whole_names(given), values))
 
 
-def stroke_values_said(given: object, measures: str, poses: int) -> Any:
-    """Return values of a stroke [SI]: one, those of a list, or so many over a range."""
-    if isinstance(given, list):
-        return np.array([amount_said(each, measures) for each in given])
-    span = parse_span(given, measures) if isinstance(given, str) else None
-    if span is None:
-        return amount_said(given, measures)
-    if len(span) == 3:
-        return np.arange(span[0], span[1] + 0.5 * span[2], span[2])
-    return np.linspace(span[0], span[1], poses)
-
-
-def pose_said(head: StudyHead, given: object) -> dict[str, Any]:
+def pose_said(head: StudyHead, given: object) -> Keywords:
     """Return the value of every stroke at a pose [SI]."""
     found = swept_strokes(head, given)
     missing = [name for name in head.plan.strokes if name not in found]
@@ -147,8 +136,8 @@ def pose_said(head: StudyHead, given: object) -> dict[str, Any]:
 
 def measures_said(head: StudyHead, given: object) -> dict[str, tuple[str, str]]:
     """Return the texts of measures and conditions by name, each with its unit; SeveralError with all mistakes, each under its name."""
-    if not isinstance(given, (Mapping, list)) or not given:
-        raise DefinitionError(f"{shortened(given)}: a table of measures by names of your own is expected, or a list of them.")
+    sound = isinstance(given, (Mapping, list)) and given
+    require_entry(sound, given, "a table of measures by names of your own is expected, or a list of them")
 
     def measured(name: str, text: object) -> tuple[str, tuple[str, str]]:
         text = entry_as(text, str, 'is no text in quotes, such as "least(tilt)"')
@@ -162,23 +151,17 @@ def pose_quantity(head: StudyHead, given: object) -> Any:
     return quantity_said(given, head.machine)
 
 
-def quantities_said(head: StudyHead, given: object) -> dict[str, Any]:
+def quantities_said(head: StudyHead, given: object) -> Keywords:
     """Return quantities and measures by name, in the load case that is looked at; SeveralError with all mistakes, each under its name."""
-    texts = named_measures(given if isinstance(given, (list, Mapping)) else [given])
-    return dict(each_of(texts.items(), lambda name, text: (name, with_case(quantity_or_measure(text, head.machine), head.found["case"]))))
+    case = head.found["case"]
 
+    def one(name: str, text: object) -> tuple[str, Any]:
+        if isinstance(criterion_of(text, head.machine), Measure):
+            return name, in_case(measure_said(text, head.machine), case)
+        quantity = quantity_said(text, head.machine)
+        return name, quantity.under(Acting(case=case), keep=True) if case is not None and isinstance(quantity, Request) else quantity
 
-def with_case(quantity: Any, case: Any) -> Any:
-    """Return a quantity or a measure with the forces of a load case, where it is of forces."""
-    if isinstance(quantity, Measure):
-        return in_case(quantity, case)
-    return quantity.under(Acting(case=case), keep=True) if case is not None and isinstance(quantity, Request) else quantity
-
-
-def quantity_or_measure(text: object, machine: Mechanism) -> Any:
-    """Return the quantity over poses that a text says, or a measure; DefinitionError for what is neither."""
-    found = criterion_of(text, machine)
-    return measure_said(text, machine) if isinstance(found, Measure) else quantity_said(text, machine)
+    return dict(each_of(named_measures(given if isinstance(given, (list, Mapping)) else [given]).items(), one))
 
 
 def condition_limits(head: StudyHead, given: object) -> list[Constraint]:
@@ -193,32 +176,31 @@ def condition_limits(head: StudyHead, given: object) -> list[Constraint]:
 
 def one_case(head: StudyHead, given: object) -> str:
     """Return the name of a load case; DefinitionError for several."""
-    found = case_said(head, given)
-    if isinstance(found, (list, dict)):
+    if isinstance(case_said(head, given), (list, dict)):
         raise DefinitionError("a study of tolerances is of one load case.")
-    return str(found)
+    return str(given)
 
 
-def percentile_list(head: StudyHead, given: object) -> tuple[float, ...]:
+def percentile_list(head: StudyHead, given: Any) -> tuple[float, ...]:
     """Return percentages from 0 to 100."""
-    if not isinstance(given, list) or not all(is_number(each) and 0.0 <= each <= 100.0 for each in given):
-        raise DefinitionError(f"{shortened(given)}: percentages from 0 to 100 are expected, such as [5, 50, 95].")
+    sound = isinstance(given, list) and all(is_number(each) and 0.0 <= each <= 100.0 for each in given)
+    require_entry(sound, given, "percentages from 0 to 100 are expected, such as [5, 50, 95]")
     return tuple(map(float, given))
 
 
 def targets_said(head: StudyHead, given: object) -> list[Target]:
     """Return the targets of texts such as `at(tilt, S=100 mm) == 0 deg`; SeveralError with all mistakes, each under its number."""
-    return texts_said(given, lambda text: target_of(condition_said(text, head.machine), head.plan))
 
+    def target(text: object) -> Target:
+        condition = condition_said(text, head.machine)
+        if isinstance(condition, Constraint) and condition.symbol == "==":
+            for one, other in ((condition.left, condition.right), (condition.right, condition.left)):
+                if isinstance(one, At) and isinstance(other, Given):
+                    quantity: Any = one.quantity
+                    return Target(quantity, other.value, unit=unit_of_quantity(head.plan, quantity), **one.strokes)
+        raise DefinitionError(f"{condition} is no target; write at(tilt, S=100 mm) == 0 deg.")
 
-def target_of(condition: object, plan: Plan) -> Target:
-    """Return the target that a condition says; DefinitionError for any but `at(...) == number`."""
-    if isinstance(condition, Constraint) and condition.symbol == "==":
-        for one, other in ((condition.left, condition.right), (condition.right, condition.left)):
-            if isinstance(one, At) and isinstance(other, Given):
-                quantity: Any = one.quantity
-                return Target(quantity, other.value, unit=unit_of_quantity(plan, quantity), **one.strokes)
-    raise DefinitionError(f"{condition} is no target; write at(tilt, S=100 mm) == 0 deg.")
+    return texts_said(given, target)
 
 
 # The studies: what their sections may have, and what comes of them.
@@ -227,8 +209,8 @@ def target_of(condition: object, plan: Plan) -> Target:
 def survey_task(
     machine: Mechanism,
     *,
-    vary: Annotated[dict[str, Any], box_said, 'vary = { OB = "270 to 330 mm" }'],
-    over: Annotated[dict[str, Any] | None, over_said] = None,
+    vary: Annotated[Keywords, box_said, 'vary = { OB = "270 to 330 mm" }'],
+    over: Annotated[Keywords | None, over_said] = None,
     measure: Annotated[dict[str, tuple[str, str]], measures_said, 'measure = { travel = "most(G_y) - least(G_y)" }'],
     count: Annotated[int, count_from(1)] = 1024,
     method: Annotated[str, one_of(SAMPLE_METHODS)] = "sobol",
@@ -244,9 +226,11 @@ def survey_task(
     found = survey(machine, designs, measures, folder=folder, progress=progress, piece=piece or None)
     parts = [pair for name, value in designs.items() for pair in setting_parts(name, value)]
     columns = [Column(each, part, unit_of(machine.plan, each)) for each, part in parts]
-    columns += [Column(name, np.asarray(found[name], float), unit) for name, (_, unit) in measure.items()]
     lines = [f"{machine.plan.title}: {count} designs."]
-    lines += [f"  {summary_of(name, found[name], unit)}" for name, (_, unit) in measure.items()]
+    for name, (_, unit) in measure.items():
+        values = np.asarray(found[name])
+        columns.append(Column(name, values.astype(float), unit))
+        lines.append(f"  {name}: {summary_of(values, unit)}")
     return TaskResult("\n".join(lines), tuple(columns), found)
 
 
@@ -255,25 +239,25 @@ def setting_parts(name: str, value: Any) -> list[tuple[str, Any]]:
     return [*zip((f"{name}.x", f"{name}.y"), value, strict=True)] if isinstance(value, tuple) else [(name, value)]
 
 
-def summary_of(name: str, values: Any, unit: str) -> str:
+def summary_of(values: Any, unit: str) -> str:
     """Return what a survey found of a measure, in words."""
-    if np.asarray(values).dtype.kind == "b":
-        return f"{name}: {100.0 * float(np.mean(values)):.1f} % keep it"
-    known = np.asarray(values)[np.isfinite(values)]
+    if values.dtype.kind == "b":
+        return f"{100.0 * float(np.mean(values)):.1f} % keep it"
+    known = values[np.isfinite(values)]
     if not known.size:
-        return f"{name}: none has a value"
-    said = f"{name}: {show(float(known.min()), unit)} to {show(float(known.max()), unit)}, half below {show(float(np.median(known)), unit)}"
-    lost = np.size(values) - known.size
-    return said + (f"; {lost} have none" if lost else "")
+        return "none has a value"
+    least, most, half = (show(float(of(known)), unit) for of in (np.min, np.max, np.median))
+    lost = values.size - known.size
+    return f"{least} to {most}, half below {half}" + (f"; {lost} have none" if lost else "")
 
 
 def zone_task(
     machine: Mechanism,
     *,
     quantity: Annotated[Any, pose_quantity, 'quantity = "tilt"'],
-    vary: Annotated[dict[str, Any], box_said, 'vary = { OB = "270 to 330 mm" }'],
+    vary: Annotated[Keywords, box_said, 'vary = { OB = "270 to 330 mm" }'],
     poses: Annotated[int, count_from(2)] = 51,
-    strokes: Annotated[dict[str, Any] | None, swept_strokes] = None,
+    strokes: Annotated[Keywords | None, swept_strokes] = None,
 ) -> TaskResult:
     """Look for the extremes of a quantity at every stroke over a box."""
     found = zone(machine, quantity, vary, **strokes or whole_stroke(machine, poses))
@@ -310,15 +294,15 @@ def tolerance_task(
     machine: Mechanism,
     *,
     case: Annotated[str | None, one_case] = None,
-    of: Annotated[dict[str, Any], quantities_said, 'of = ["tilt"]'],
-    tolerances: Annotated[dict[str, Any], tolerances_said("tolerances")],
+    of: Annotated[Keywords, quantities_said, 'of = ["tilt"]'],
+    tolerances: Annotated[Keywords, tolerances_said("tolerances")],
     subject_to: Annotated[Sequence[Constraint], condition_limits] = (),
     count: Annotated[int, count_from(1)] = 1 << 14,
     seed: Annotated[int, count_from(0)] = 0,
     method: Annotated[str, one_of(SAMPLE_METHODS)] = "sobol",
     percentiles: Annotated[tuple[float, ...], percentile_list] = (5.0, 50.0, 95.0),
     poses: Annotated[int, count_from(2)] = 21,
-    strokes: Annotated[dict[str, Any] | None, swept_strokes] = None,
+    strokes: Annotated[Keywords | None, swept_strokes] = None,
 ) -> TaskResult:
     """Vary dimensions within their tolerances at random: bands, the worst case, and the share of good machines."""
     found = monte_carlo(
@@ -341,8 +325,8 @@ def tornado_task(
     machine: Mechanism,
     *,
     quantity: Annotated[Any, pose_quantity, 'quantity = "tilt"'],
-    tolerances: Annotated[dict[str, Any], tolerances_said("tolerances")],
-    strokes: Annotated[dict[str, Any], pose_said],
+    tolerances: Annotated[Keywords, tolerances_said("tolerances")],
+    strokes: Annotated[Keywords, pose_said],
 ) -> TaskResult:
     """Look for the tolerance that matters most for a quantity at one pose."""
     unit = unit_of_quantity(machine.plan, quantity)
@@ -357,7 +341,7 @@ def tornado_task(
 def settings_task(
     machine: Mechanism,
     *,
-    vary: Annotated[dict[str, Any], box_said, 'vary = { OB = "270 to 330 mm" }'],
+    vary: Annotated[Keywords, box_said, 'vary = { OB = "270 to 330 mm" }'],
     targets: Annotated[list[Target], targets_said, 'targets = ["at(tilt, S=100 mm) == 0 deg"]'],
 ) -> TaskResult:
     """Look for the settings of a box that give wanted values."""
@@ -388,33 +372,31 @@ class StudyFile:
     """The studies that a file asks for, each with its keywords, the folder that the survey is kept in, and the files of their results."""
 
     machine: Mechanism
-    tasks: Mapping[str, Mapping[str, Any]]
+    tasks: Mapping[str, Keywords]
     folder: Path | None
     outputs: Mapping[str, tuple[Path, ...]]
 
     def run(self, section: str, folder: Path | None = None, progress: bool | Progress = False) -> TaskResult:
         """Return what the study of a section comes to; `folder` stands above the file's own."""
-        kept: dict[str, Any] = {"folder": folder or self.folder, "progress": progress} if section == "survey" else {}
+        kept: Keywords = {"folder": folder or self.folder, "progress": progress} if section == "survey" else {}
         return TASKS[section](self.machine, **self.tasks[section], **kept)
 
 
-def read_study(
-    path: str | os.PathLike[str], find: FindMachine, settings: Callable[[type[Mechanism]], Mapping[str, Any]] = lambda machine: {}
-) -> StudyFile:
+def read_study(path: str | os.PathLike[str], find: FindMachine, settings: Settings = lambda machine: {}) -> StudyFile:
     """Return the studies that a TOML or JSON file asks for; FileError with every mistake, its line and its key; as `read_search`."""
     head = StudyHead.of(path, (*TASKS, "folder", "outputs"), find, settings)
     asked = [section for section in TASKS if head.data.get(section) is not None]
-    tasks: dict[str, dict[str, Any]] = {}
+    tasks: dict[str, Keywords] = {}
     for section in asked:
-        given = head.data[section]
         with head.faults.at(section):
-            given = entry_as(given, Mapping, f"a table is expected, [{section}]")
+            given = entry_as(head.data[section], Mapping, f"a table is expected, [{section}]")
             tasks[section] = keywords_read(head, TASKS[section], given)
     if not asked:
         head.faults.add((), f"there is no study; begin one with {' or '.join(f'[{each}]' for each in TASKS)}.")
     folder = None
-    with head.faults.at("folder"):
-        folder = file_path(head, head.data["folder"]) if "folder" in head.data else None
+    if "folder" in head.data:
+        with head.faults.at("folder"):
+            folder = file_path(head, head.data["folder"])
     outputs = outputs_said(head, TASK_OUTPUTS)
     for name in outputs:
         if name not in head.data:

@@ -48,17 +48,21 @@ class TextMeasures:
         count = max(np.size(value) for value in machine.dimensions.values())
         found: dict[str, Any] = {}
         for name, each in said.items():
+            leaves = each.leaves if isinstance(each, Measure) else [leaf for one in each for leaf in one.margin.leaves]
+            sound = look.whole & ~np.any([np.zeros(count, bool), *(look.rows[leaf].lost for leaf in leaves)], axis=0)
             if isinstance(each, Measure):
-                lost = np.any([np.zeros(count, bool), *(look.rows[leaf].lost for leaf in each.leaves)], axis=0)
-                found[name] = np.where(look.whole & ~lost, design_values(each, numbers, count), np.nan)
+                found[name] = np.where(sound, design_values(each, numbers, count), np.nan)
             else:
-                lost = np.any([np.zeros(count, bool), *(look.rows[leaf].lost for one in each for leaf in one.margin.leaves)], axis=0)
-                found[name] = look.whole & keeps(each, numbers, count) & ~lost
+                found[name] = sound & keeps(each, numbers, count)
         return found
 
     def said(self, machine: Mechanism) -> dict[str, Measure | list[Constraint]]:
         """Return the measures, and the constraints of the conditions, by name; DefinitionError for a text that says none."""
-        return {name: measure_or_constraints(text, machine) for name, text in self.texts.items()}
+        found = {name: criterion_of(text, machine) for name, text in self.texts.items()}
+        return {
+            name: [*each.constraints(machine)] if isinstance(each, Condition) else measure_or_constant(each, machine)
+            for name, each in found.items()
+        }
 
     def problem(self, machine: Mechanism, said: Mapping[str, Measure | list[Constraint]]) -> Problem:
         """Return what looks at them; DefinitionError where they ask for what a machine has not."""
@@ -74,12 +78,6 @@ class TextMeasures:
         return {name: unit_of_measure(machine.plan, each) if isinstance(each, Measure) else "" for name, each in said.items()}
 
 
-def measure_or_constraints(text: str, machine: Mechanism) -> Measure | list[Constraint]:
-    """Return the measure that a text says, or the constraints of the condition; DefinitionError for anything else."""
-    found = criterion_of(text, machine)
-    return [*found.constraints(machine)] if isinstance(found, Condition) else measure_or_constant(found, machine)
-
-
 def design_values(measure: Measure, numbers: Mapping[Leaf, FloatArray], count: int) -> FloatArray:
     """Return a measure of designs, shape (count,), from the numbers of its leaves."""
     with np.errstate(all="ignore"):
@@ -89,12 +87,11 @@ def design_values(measure: Measure, numbers: Mapping[Leaf, FloatArray], count: i
 def keeps(constraints: list[Constraint], numbers: Mapping[Leaf, FloatArray], count: int) -> Any:
     """Return which designs keep all of some constraints, shape (count,)."""
     with np.errstate(all="ignore"):
-        sizes = [np.maximum(*(np.abs(design_values(side, numbers, count)) for side in (each.left, each.right))) for each in constraints]
-        kept = [
-            np.broadcast_to(missed(each, numbers, 1.0) <= MET_TO_ROUNDING * size, (count,))
-            for each, size in zip(constraints, sizes, strict=True)
-        ]
-    return np.all(kept, axis=0) if kept else np.ones(count, bool)
+        kept = np.ones(count, bool)
+        for each in constraints:
+            size = np.maximum(*(np.abs(design_values(side, numbers, count)) for side in (each.left, each.right)))
+            kept &= missed(each, numbers, 1.0) <= MET_TO_ROUNDING * size
+    return kept
 
 
 def named_measures(given: Any) -> dict[str, str]:

@@ -19,22 +19,22 @@ from dataclasses import replace
 from typing import Annotated, Any, TypeAlias
 
 from ..errors import DefinitionError, known_name
-from ..mechanism import Mechanism
 from ..motion import stroke_measure
 from ..motion.kinds import measure_of
 from ..motion.measures import words_of
 from ..study.problem import is_still, ranges_of
 from ..synthesis import FunctionTask, PathTask, PoseTask
 from ..synthesis.task_search import synthesise
-from .criterion import measure_said, quantity_said
-from .names import entry_as, require_entry, shortened
+from .criterion import quantity_said
+from .names import Keywords, entry_as, require_entry, shortened
 from .points import PointColumn, points_said, units_said
-from .search_file import SearchFile, conditions_said, regions_said, rounding_said
+from .search_file import SearchFile, conditions_said, objective_said, regions_said, rounding_said
 from .source import Mistakes
 from .study_file import (
     PICTURE_SUFFIXES,
     FindMachine,
     Read,
+    Settings,
     StudyHead,
     amount_said,
     case_said,
@@ -55,26 +55,20 @@ SYNTHESIS_OUTPUTS: Mapping[str, tuple[str, ...]] = {
 }
 
 
-def read_synthesis(
-    path: str | os.PathLike[str], find: FindMachine, settings: Callable[[type[Mechanism]], Mapping[str, Any]] = lambda machine: {}
-) -> SearchFile:
-    """Return the synthesis that a TOML or JSON file asks for; FileError with every mistake, its line and its key.
-
-    `find` returns a class by the machine's text; `settings` are dimensions that stand above those of the file.
-    """
+def read_synthesis(path: str | os.PathLike[str], find: FindMachine, settings: Settings = lambda machine: {}) -> SearchFile:
+    """Return the synthesis that a TOML or JSON file asks for; FileError with every mistake, its line and its key; as `read_search`."""
     head = replace(StudyHead.of(path, (SECTION, "outputs"), find, settings, several=True), section=SECTION)
     faults, given = head.faults, head.data.get(SECTION)
-    arguments: dict[str, Any] = {}
+    arguments: Keywords = {}
     with faults.at(SECTION):
         if not isinstance(given, Mapping):
             raise DefinitionError('a table is expected, [synthesis] with path = { of = "P", points = "points.csv" } and vary = { ... }.')
-        given = given if head.machines else {"vary": {}, **given}
-        arguments = keywords_read(head, synthesise, given, SYNTHESIS)
+        named = [name for name in SYNTHESIS_TASKS if name in given]
+        if len(named) != 1:
+            words = f"{' and '.join(named)} are several tasks" if named else "there is no task"
+            faults.add((SECTION,), f'{words}; write one, path = {{ of = "P", points = "points.csv" }}, function = ... or motion = ...')
+        arguments = keywords_read(head, synthesise, given if head.machines else {"vary": {}, **given}, SYNTHESIS)
         arguments = {key: value for key, value in arguments.items() if not head.machines or value != {}}
-    named = [name for name in SYNTHESIS_TASKS if isinstance(given, Mapping) and name in given]
-    if isinstance(given, Mapping) and len(named) != 1:
-        words = f"{' and '.join(named)} are several tasks" if named else "there is no task"
-        faults.add((SECTION,), f'{words}; write one, path = {{ of = "P", points = "points.csv" }}, function = ... or motion = ...')
     outputs = outputs_said(head, SYNTHESIS_OUTPUTS)
     faults.check()
     rounding = arguments.pop("round", None)
@@ -84,21 +78,18 @@ def read_synthesis(
 # What reads a key of a synthesis.
 
 
-def by_machine(head: StudyHead, given: object, *, is_of_points: bool = False) -> Mapping[Any, Any]:
-    """Return what is said by the machines' names, the same of each where it is no table, or one by points with another name in it."""
-    if not isinstance(given, Mapping) or (is_of_points and not set(given) <= set(head.machines)):
-        return dict.fromkeys(head.machines, given)
-    return given
-
-
 def by_class(read: Read, *, is_of_points: bool = False) -> Read:
-    """Return what reads one thing of a machine; of several the same by class, from a table by their names or from one thing for all."""
+    """Return what reads one thing of a machine; of several the same by class, from a table by their names or from one thing for all.
+
+    What is read by points is one thing where another name than a machine's stands in the table.
+    """
 
     def read_each(head: StudyHead, given: object) -> Any:
         if not head.machines:
             return read(head, given)
+        is_table = isinstance(given, Mapping) and not (is_of_points and not set(given) <= set(head.machines))
         found, mistakes = {}, Mistakes()
-        for name, said in by_machine(head, given, is_of_points=is_of_points).items():
+        for name, said in (given if is_table else dict.fromkeys(head.machines, given)).items():
             with mistakes.at():
                 machine = head.machines[known_name("Machine", name, head.machines)]
                 found[type(machine)] = read(replace(head, machine=machine), said)
@@ -108,9 +99,9 @@ def by_class(read: Read, *, is_of_points: bool = False) -> Read:
     return read_each
 
 
-def timed_said(head: StudyHead, given: object) -> Any:
+def timed_said(head: StudyHead, given: object) -> object:
     """Return how the points are timed: true, false or "steps"."""
-    require_entry(given is True or given is False or given == "steps", given, 'true, false or "steps" is expected')
+    require_entry(isinstance(given, bool) or given == "steps", given, 'true, false or "steps" is expected')
     return given
 
 
@@ -154,7 +145,7 @@ def whose(name: str) -> Read:
 def wanted_points(name: str) -> Read:
     """Return what reads the points of a task; the column of the stroke goes by its own name or `at`."""
 
-    def read(head: StudyHead, given: object) -> dict[str, Any]:
+    def read(head: StudyHead, given: object) -> Keywords:
         if "of" not in head.found:
             return {}  # which is told
         of = head.found["of"]
@@ -180,7 +171,7 @@ def path_task(
     *,
     of: Annotated[Any, whose("path"), OF["path"]],
     unit: Units = None,
-    points: Annotated[dict[str, Any], wanted_points("path"), POINTS],
+    points: Annotated[Keywords, wanted_points("path"), POINTS],
     in_order: Annotated[bool, switch_said("in_order")] = True,
     closed: Annotated[bool | None, switch_said("closed")] = None,
 ) -> PathTask:
@@ -192,7 +183,7 @@ def function_task(
     *,
     of: Annotated[Any, whose("function"), OF["function"]],
     unit: Units = None,
-    points: Annotated[dict[str, Any], wanted_points("function"), POINTS],
+    points: Annotated[Keywords, wanted_points("function"), POINTS],
 ) -> FunctionTask:
     """Return the task of a function of the stroke."""
     return FunctionTask(points["at"], points["value"], of)
@@ -202,7 +193,7 @@ def motion_task(
     *,
     of: Annotated[Any, whose("motion"), OF["motion"]],
     unit: Units = None,
-    points: Annotated[dict[str, Any], wanted_points("motion"), POINTS],
+    points: Annotated[Keywords, wanted_points("motion"), POINTS],
     in_order: Annotated[bool, switch_said("in_order")] = True,
     length: Annotated[float | None, lambda head, given: amount_said(given, "length")] = None,
 ) -> PoseTask:
@@ -231,7 +222,7 @@ SYNTHESIS: Mapping[str, Read] = {
     "subject_to": by_class(conditions_said),
     "regions": by_class(regions_said, is_of_points=True),
     "timed": timed_said,
-    "rank": by_class(lambda head, given: measure_said(given, head.machine, head.found["over"])),
+    "rank": by_class(objective_said),
     "case": case_said,
     "starts": lambda head, given: given if given == "catalogue" else count_from(1)(head, given),
     "seed": count_from(0),

@@ -246,6 +246,11 @@ def written_carrier(value: Any, design: Design, name: str) -> str | None:
     return " ".join(map(name_of, value)) if value else None
 
 
+def written_pair(value: Any, design: Design, name: str) -> list[Any]:
+    """Return the numbers of a pair; DefinitionError for lists in it."""
+    return [option(each) for each in value]
+
+
 # -- the kinds ---------------------------------------------------------------------------------------------
 
 
@@ -295,9 +300,9 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "load list": Kind(loads_listed),
         "load factors": Kind(factors_of),
         "origin": Kind(point_or(place_of), written_origin),
-        "place": Kind(place_of),
-        "pair": Kind(pair_of),
-        "gravity": Kind(gravity_of),
+        "place": Kind(place_of, written_pair),
+        "pair": Kind(pair_of, written_pair),
+        "gravity": Kind(gravity_of, written_pair),
         "force vector": Kind(force_of, written_force),
         "corner": Kind(coordinates_of),
         "corners": Kind(corners_of, refers=True),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from pathlib import Path
 from typing import Any, final
 
 import numpy as np
@@ -16,8 +15,7 @@ from ..motion.kinds import measure_of
 from ..units import parse, parse_span
 from .command import PICTURES, Command, lined_up, machine_arguments, picture, repeatable
 from .follow import strokes_said
-from .machines import find
-from .settings import design, pair, parsed_over, si_value
+from .settings import machine_of, pair, parsed_over, si_value
 
 PAGE = ".html"
 SUFFIXES = (*PICTURES, ".csv", ".xlsx", PAGE)
@@ -56,9 +54,8 @@ class ChartCommand(Command):
     def run(self, options: Namespace) -> int:
         from ..study import working_field
 
-        found = find(options.machine)
-        path = None if options.output is None else picture(options.output, found, options.machine, SUFFIXES)
-        machine = design(found, options.settings)
+        machine = machine_of(options)
+        path = None if options.output is None else picture(options, machine, SUFFIXES)
         along: Any = tuple(si_value(part, "", "--along") for part in options.along.split(","))
         limits = {}
         for text in options.limits:
@@ -67,13 +64,24 @@ class ChartCommand(Command):
         field = working_field(
             machine, options.point, axis_said("--x", options.x), axis_said("--y", options.y), along=along,
             hold=strokes_said(machine, "--hold", options.hold), over=parsed_over(machine, options.over) if options.over else None,
-            keep=[target_said(machine, text) for text in options.keep], lifts=options.lift or None, rule=options.rule, case=options.case,
+            keep=[kept_target(machine, text) for text in options.keep], lifts=options.lift or None, rule=options.rule, case=options.case,
             without=options.without, limits=limits,
         )  # fmt: skip
         if path is None:
             print_chart(field)
             return 0
-        write_chart(field, path, options.language)
+        if path.suffix.lower() == PAGE:
+            from ..pictures import page
+
+            page(field, path, language=options.language)  # in the language that it begins with
+        elif path.suffix.lower() in PICTURES:
+            from ..pictures import plot
+
+            plot(field).savefig(path)
+        else:
+            from ..exports.export import export
+
+            export(field, path)
         print(path)
         return 0
 
@@ -97,7 +105,7 @@ def axis_said(option: str, text: str) -> Any:
     return first + step[0] * np.arange(int(count + 1e-9) + 1)
 
 
-def target_said(machine: Mechanism, text: str) -> Target:
+def kept_target(machine: Mechanism, text: str) -> Target:
     """Return a value that is kept, `tilt=0deg`."""
     name, value = pair(text, "--keep", "tilt=0deg")
     asked = quantity_said(name, machine)
@@ -115,23 +123,4 @@ def print_chart(field: Any) -> None:
         cells = (f"{text.load(float(field.load[k, n]))} {text.letters.get(str(field.limiter[k, n]), '')}".strip() for n in across)
         rows.append([text.length(float(field.y[k])), *(cell or "-" for cell in cells)])
     print(text.title)
-    for line in lined_up(rows):
-        print(line)
-    print(*text.legend(), sep="\n")
-
-
-def write_chart(field: Any, path: Path, language: str) -> None:
-    """Write a chart into a file, a page in the language that it begins with."""
-    if path.suffix.lower() == PAGE:
-        from ..pictures import page
-
-        page(field, path, language=language)
-        return
-    if path.suffix.lower() in PICTURES:
-        from ..pictures import plot
-
-        plot(field).savefig(path)
-        return
-    from ..exports.export import export
-
-    export(field, path)
+    print(*lined_up(rows), *text.legend(), sep="\n")

@@ -129,28 +129,28 @@ def picture_argument(parser: _ActionsContainer, what: str) -> None:
     parser.add_argument("-o", "--output", metavar="FILE", help=f"{', '.join(PICTURES)} ({what})")
 
 
-def picture(given: str | None, machine: type[Mechanism], text: str, suffixes: Sequence[str] = PICTURES) -> Path:
-    """Return the path of a picture; by default the machine's name with the first suffix, in this folder.
+def picture(options: Namespace, machine: Mechanism, suffixes: Sequence[str] = PICTURES, name: str = "") -> Path:
+    """Return the path of a picture; by default a name or the machine's with the first suffix, in this folder.
 
     Raises DefinitionError for a suffix that is not among them, FileError for a place that cannot be written.
     """
-    path = Path(given) if given is not None else default_path(machine, text, suffixes[0])
+    path = Path(default_name(options, machine, name) + suffixes[0] if options.output is None else options.output)
     if path.suffix.lower() not in suffixes:
         raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(suffixes)}, which chooses the format.")
     check_place(path)
     return path
 
 
-def default_path(machine: type[Mechanism], text: str, suffix: str) -> Path:
-    """Return the path of a file that is not named: the machine's name, in this folder."""
-    return Path((text if text.isidentifier() else machine.__name__) + suffix)
+def default_name(options: Namespace, machine: Mechanism, name: str = "") -> str:
+    """Return the name of a file that is not named, without its suffix: the machine's, unless another one is given."""
+    name = name or options.machine
+    return name if name.isidentifier() else type(machine).__name__
 
 
-def figure_path(options: Namespace, machine: type[Mechanism], command: str) -> Path | None:
+def figure_path(options: Namespace, machine: Mechanism, command: str) -> Path | None:
     """Return where a command's figure goes, checked before the work is done; None where neither a file nor a figure is asked for."""
-    if options.output is None and options.figure is None:
-        return None
-    return picture(options.output, machine, f"{command}_{options.figure}")
+    asked = options.output is not None or options.figure is not None
+    return picture(options, machine, name=f"{command}_{options.figure}") if asked else None
 
 
 # What is said beside the results, on stderr, so that they can go into a pipe.

@@ -7,8 +7,8 @@ import re
 import sys
 import warnings
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
+from contextlib import redirect_stdout
 from importlib.metadata import EntryPoint, PackageNotFoundError, version
 from typing import Any, NoReturn, TextIO, cast, final
 
@@ -57,7 +57,13 @@ def commands_for(arguments: Sequence[str]) -> list[Command]:
         return [load_command(added[word])]
     if word:
         raise unknown("Command", word, [*BUILT_IN, *added])
-    return [*map(load_command, BUILT_IN.values()), *working(added.values())]
+    commands = [*map(load_command, BUILT_IN.values())]
+    for entry in added.values():
+        try:
+            commands.append(load_command(entry))
+        except DefinitionError as error:  # the others are there
+            print(f"hydrolinkage: warning: {error}", file=sys.stderr)
+    return commands
 
 
 def load_command(entry: EntryPoint) -> Command:
@@ -67,17 +73,6 @@ def load_command(entry: EntryPoint) -> Command:
     if not (isinstance(found, type) and issubclass(found, Command)):
         raise DefinitionError(f"{title} is no subclass of linkage.cli.Command.")
     return found()
-
-
-def working(entries: Iterable[EntryPoint]) -> list[Command]:
-    """Return the commands that can be loaded; of the others say on stderr why not."""
-    commands = []
-    for entry in entries:
-        try:
-            commands.append(load_command(entry))
-        except DefinitionError as error:
-            print(f"hydrolinkage: warning: {error}", file=sys.stderr)
-    return commands
 
 
 PROGRAM = "hydrolinkage"
@@ -99,16 +94,11 @@ def main(argv: Sequence[str] | None = None) -> int:
             warnings.simplefilter("default", SingularWarning)
             warnings.showwarning = say_warning
             return execute(list(sys.argv[1:] if argv is None else argv))
-    except FileError as error:
-        if isinstance(error.__cause__, BrokenPipeError):
+    except (LinkageError, BrokenPipeError) as error:
+        if isinstance(error, BrokenPipeError) or isinstance(error.__cause__, BrokenPipeError):
             close_stdout()
             return PIPE_CLOSED
-        return fail(*str(error).splitlines())
-    except LinkageError as error:
-        return fail(str(error))
-    except BrokenPipeError:
-        close_stdout()
-        return PIPE_CLOSED
+        return fail(*(str(error).splitlines() if isinstance(error, FileError) else [str(error)]))
     except KeyboardInterrupt:
         return INTERRUPTED
     except OSError as error:
@@ -121,18 +111,27 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def execute(arguments: list[str]) -> int:
     """Return the exit code of the command that the arguments name."""
-    arguments = with_negatives(behind_command(arguments))
+    arguments = rearranged(arguments)
     commands = commands_for(arguments)
     if arguments and not arguments[0].startswith("-"):
         (command,) = commands
         options = parsed(command, arguments[1:])
-        check_table(options)
-        with lasting_output(names_file(options)) as output, unit_system(options.units), language(options.language):
+        files = {name: getattr(options, name, None) for name in FILES}
+        if files["csv"] not in (None, "-"):
+            check_place(files["csv"])  # before the work, of which nothing would be left
+        output = LastingOutput(sys.stdout, lasts=any(each not in (None, "-") for each in files.values()))
+        with redirect_stdout(cast(TextIO, output)), unit_system(options.units), language(options.language):
             code = int(command.run(options))
-            return PIPE_CLOSED if output.broken else code
+            code = PIPE_CLOSED if output.broken else code
+            output.flush()
+            return code
     what = "Planar linkages moved by cylinders: numbers, equations and pictures."
     parser = OneLineParser(prog=PROGRAM, description=what, allow_abbrev=False)
-    parser.add_argument("--version", action="version", version=f"{PROGRAM} {installed_version()}")
+    try:
+        installed = version(PROGRAM)
+    except PackageNotFoundError:
+        installed = "(not installed)"
+    parser.add_argument("--version", action="version", version=f"{PROGRAM} {installed}")
     subparsers = parser.add_subparsers(metavar="COMMAND", dest="command")
     for command in commands:
         subparsers.add_parser(command.name, help=command.help)
@@ -144,20 +143,18 @@ def execute(arguments: list[str]) -> int:
 COMMON = ("--units", "--language")
 
 
-def behind_command(arguments: list[str]) -> list[str]:
-    """Return arguments with those of every command, where they stand first, behind the command."""
+def rearranged(arguments: list[str]) -> list[str]:
+    """Return arguments with those of every command, where they stand first, behind the command.
+
+    A value that begins with a minus sign is joined to its option, `--y -1:2` as `--y=-1:2`: it is no option.
+    """
     first: list[str] = []
     rest = arguments
     while rest and rest[0].partition("=")[0] in COMMON:
         count = 1 if "=" in rest[0] else 2
         first, rest = [*first, *rest[:count]], rest[count:]
-    return [*rest[:1], *first, *rest[1:]] if rest and not rest[0].startswith("-") else arguments
-
-
-def with_negatives(arguments: list[str]) -> list[str]:
-    """Return arguments with a value that begins with a minus sign joined to its option, `--y -1:2` as `--y=-1:2`: it is no option."""
     found: list[str] = []
-    for each in arguments:
+    for each in [*rest[:1], *first, *rest[1:]] if rest and not rest[0].startswith("-") else arguments:
         if found and re.fullmatch(r"--\w[\w-]*", found[-1]) and re.match(r"-[\d.]", each):
             found[-1] += f"={each}"
         else:
@@ -165,18 +162,13 @@ def with_negatives(arguments: list[str]) -> list[str]:
     return found
 
 
-def common_arguments(parser: ArgumentParser) -> None:
-    """Declare the arguments that every command has."""
+def parsed(command: Command, arguments: list[str]) -> Namespace:
+    """Return a command's arguments by name, options and others in any order; those of every command stand behind its own."""
+    parser = OneLineParser(prog=f"{PROGRAM} {command.name}", description=command.help, allow_abbrev=False)
+    command.add(parser)
     group = parser.add_argument_group("of every command")
     group.add_argument("--units", choices=SYSTEMS, help="show everything in one system of units (default: each number in its own)")
     group.add_argument("--language", choices=languages(), default=ENGLISH, help="the language of sentences and headings")
-
-
-def parsed(command: Command, arguments: list[str]) -> Namespace:
-    """Return a command's arguments by name, options and others in any order."""
-    parser = OneLineParser(prog=f"{PROGRAM} {command.name}", description=command.help, allow_abbrev=False)
-    command.add(parser)
-    common_arguments(parser)
     try:
         return parser.parse_intermixed_args(arguments)
     except TypeError:  # a command with commands of its own takes them as they stand
@@ -187,18 +179,6 @@ def parsed(command: Command, arguments: list[str]) -> Namespace:
 
 FILES = ("output", "csv", "folder", "file", "pictures")
 """Arguments that name a file which a command writes, or one that says which it writes."""
-
-
-def names_file(options: Namespace) -> bool:
-    """Return whether a command writes into files beside what it says."""
-    return any(getattr(options, name, None) not in (None, "-") for name in FILES)
-
-
-def check_table(options: Namespace) -> None:
-    """Raise FileError where the table that a command writes cannot go: before the work, of which nothing would be left."""
-    csv = getattr(options, "csv", None)
-    if csv not in (None, "-"):
-        check_place(csv)
 
 
 @final
@@ -231,27 +211,6 @@ class LastingOutput:
             self.broken = True
             close_stdout()
             return None
-
-
-@contextmanager
-def lasting_output(lasts: bool) -> Iterator[LastingOutput]:
-    """Yield standard output, put in its place, as one that lasts."""
-    own = sys.stdout
-    output = LastingOutput(own, lasts=lasts)
-    sys.stdout = cast(TextIO, output)
-    try:
-        yield output
-        output.flush()
-    finally:
-        sys.stdout = own
-
-
-def installed_version() -> str:
-    """Return the installed version; the checkout's where nothing is installed."""
-    try:
-        return version(PROGRAM)
-    except PackageNotFoundError:
-        return "(not installed)"
 
 
 def fail(*messages: str) -> int:

@@ -10,9 +10,8 @@ import numpy as np
 
 from .. import plugins
 from ..disk import check_place
-from .command import Command, default_path, machine_arguments, repeatable, whole_number
-from .machines import find
-from .settings import design, strokes_given, tell_gaps
+from .command import Command, default_name, machine_arguments, repeatable, whole_number
+from .settings import machine_of, strokes_given, tell_gaps
 
 OWN_FORMATS = ("xlsx", "csv", "dxf", "svg")
 
@@ -39,13 +38,12 @@ class ExportCommand(Command):
         repeatable(parser, "--path", "G", "draw this point's path; repeatable")
 
     def run(self, options: Namespace) -> int:
-        found = find(options.machine)
+        machine = machine_of(options)
         from ..exports import ExportJob, export, exporter_of
 
         exporter = exporter_of(Path(options.output or "x.xlsx"), options.format)
-        path = Path(options.output) if options.output is not None else default_path(found, options.machine, exporter.suffix)
+        path = Path(default_name(options, machine) + exporter.suffix if options.output is None else options.output)
         check_place(path)
-        machine = design(found, options.settings)
         at = strokes_given(machine, options)
         if options.poses is not None:
             first = next((name for name in machine.strokes if name not in at), None)

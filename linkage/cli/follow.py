@@ -21,8 +21,7 @@ from ..motion.kinds import measure_of
 from ..quantities import x, y
 from ..units import UNITS, parse, units_of
 from .command import Command, machine_arguments, picture, progress_bar, repeatable
-from .machines import find
-from .settings import acting_of, columns_picked, design, force_arguments, pair, plain_value, si_value
+from .settings import acting_of, columns_picked, force_arguments, machine_of, pair, plain_value, si_value
 from .table import COLUMNS, csv_argument, write_table
 
 FILMS = (".gif", ".mp4")
@@ -62,9 +61,8 @@ class FollowCommand(Command):
         force_arguments(parser)
 
     def run(self, options: Namespace) -> int:
-        found = find(options.machine)
-        path = None if options.output is None else picture(options.output, found, options.machine, PICTURES)
-        machine = design(found, options.settings)
+        machine = machine_of(options)
+        path = None if options.output is None else picture(options, machine, PICTURES)
         acting = acting_of(machine, options)
         targets = path_targets(machine, options.path)
         held, begun = (strokes_said(machine, option, texts) for option, texts in (("--hold", options.hold), ("--start", options.start)))
@@ -88,21 +86,20 @@ def path_targets(machine: Mechanism, file: str) -> dict[str, Target]:
     first = text.partition("\n")[0]
     delimiter = max(";\t,", key=first.count)
     rows = [row for row in csv.reader(io.StringIO(text), delimiter=delimiter) if any(cell.strip() for cell in row)]
-    if len(rows) < 2:
+    headings, *places = rows or [[]]
+    if not 0 < len(places) <= MOST_PLACES:
         example = "a first line such as M_x [mm];M_y [mm] and a row for each place are expected"
-        raise FileError(f"{file}: {example}.")
-    if len(rows) - 1 > MOST_PLACES:
-        raise FileError(f"{file}: {len(rows) - 1} places are too many; up to {MOST_PLACES} are followed.")
-    headings, values = rows[0], np.empty((len(rows[0]), len(rows) - 1))
+        raise FileError(f"{file}: {f'{len(places)} places are too many; up to {MOST_PLACES} are followed' if places else example}.")
     asked = [heading_quantity(machine, file, heading) for heading in headings]
-    for number, row in enumerate(rows[1:]):
+    kinds = [measure_of(machine.plan, quantity) for _, quantity, _ in asked]
+    values = np.empty((len(headings), len(places)))
+    for number, row in enumerate(places):
         if len(row) != len(headings):
             what = f"{len(row)} values for {len(headings)} headings; a heading with a comma has quotes"
             raise FileError(f"{file}, place {number + 1}: {what}.")
-        for column, (cell, (_, quantity, unit)) in enumerate(zip(row, asked, strict=True)):
-            kind = measure_of(machine.plan, quantity)
+        for column, cell in enumerate(row):
             try:
-                values[column, number] = parse(f"{cell.strip()} {unit}".strip(), kind)
+                values[column, number] = parse(f"{cell.strip()} {asked[column][2]}".strip(), kinds[column])
             except DefinitionError as error:
                 raise FileError(f"{file}, place {number + 1}, {headings[column].strip()}: {error}") from None
     return {name: Target(quantity, value, unit=unit) for (name, quantity, unit), value in zip(asked, values, strict=True)}

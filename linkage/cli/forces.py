@@ -9,26 +9,11 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, limits_over
+from ..motion import Column, Over, columns_of, geometry_verdicts, limits_over
 from ..reports import force_columns, is_loaded
 from ..statics import PinForces
+from . import settings
 from .command import Command, every_argument, machine_arguments, motion_arguments, repeatable
-from .machines import find
-from .settings import (
-    POSES,
-    Acting,
-    acting_of,
-    check_argument,
-    design,
-    force_arguments,
-    judged_over,
-    motion_at,
-    over_argument,
-    overs_of,
-    plain_value,
-    poses_at,
-    print_verdicts,
-)
 from .table import csv_argument, pins_of, worst_pins, write_table
 
 
@@ -44,20 +29,27 @@ class ForcesCommand(Command):
         csv_argument(parser)
         motion_arguments(parser, 11)
         every_argument(parser)
-        force_arguments(parser)
-        over_argument(parser)
+        settings.force_arguments(parser)
+        settings.over_argument(parser)
         parser.add_argument("--poses", action="store_true", help="the force of every pin at every pose too")
         parser.add_argument("--on", metavar="BODY", help="all forces on this body at every pose, which balance, instead: for FEM")
-        check_argument(parser)
+        settings.check_argument(parser)
 
     def run(self, options: Namespace) -> int:
-        machine = design(find(options.machine), options.settings)
-        acting, motion, over = acting_of(machine, options), motion_at(machine, options), judged_over(machine, options)
+        machine = settings.machine_of(options)
+        acting, motion = settings.acting_of(machine, options), settings.motion_at(machine, options)
+        over, plain = settings.judged_over(machine, options), settings.plain_value(acting)
         if not is_loaded(motion):
             what = f"{machine.plan.title} declares no load, so that there is no force; declare one, load = Weight(G, mass=100)"
             raise DefinitionError(f'{what}, or in a file: load = {{ Weight = "G", mass = 100 }}.')
-        pins = pins_of(motion, plain_value(acting))
-        columns = list(force_table(motion, pins, plain_value(acting), options))
+        pins = pins_of(motion, plain)
+        columns = [column for column in columns_of(motion) if column.name in motion.strokes]
+        if options.on is None:
+            columns += force_columns(motion, plain.case, plain.direction)
+            columns += joint_columns(pins) if options.poses else []
+        else:
+            forces = pins.on_body(options.on).items()
+            columns += [Column(f"{point}_{axis}", part, "kN", 3) for point, force in forces for axis, part in zip("xy", force, strict=True)]
         if options.csv != "-":
             signs = "Drive forces are positive the way the stroke grows, thrusts in a push."
             print(f"{machine.plan.title}, {pins.case}, {pins.direction}. {signs}\n")
@@ -66,23 +58,15 @@ class ForcesCommand(Command):
             return 0
         print(f"\n{worst_pins(machine, over, acting)}\n")
         print(f"residual of equilibrium {pins.residual:.0e}", *pins.remarks, sep="\n")
-        return print_verdicts(machine.verdicts(over=over), options) if options.check else 0
+        return settings.print_verdicts(machine.verdicts(over=over), options) if options.check else 0
 
 
-def force_table(motion: Motion, pins: PinForces, acting: Acting, options: Namespace) -> Iterator[Column]:
-    """Yield the strokes, and the forces over them that are asked for."""
-    yield from (column for column in columns_of(motion) if column.name in motion.strokes)
-    if options.on is not None:
-        for point, (x, y) in pins.on_body(options.on).items():
-            yield Column(f"{point}_x", x, "kN", 3)
-            yield Column(f"{point}_y", y, "kN", 3)
-        return
-    yield from force_columns(motion, acting.case, acting.direction)
-    if options.poses:
-        points = [joint.point for joint in pins.joints]
-        for joint in pins.joints:
-            name = joint.point if points.count(joint.point) == 1 else f"{joint.point} on {joint.on} from {joint.by}"
-            yield Column(name, joint.size, "kN", 3) if joint.has_force else Column(f"{name} couple", np.asarray(joint.couple), "Nm", 3)
+def joint_columns(pins: PinForces) -> Iterator[Column]:
+    """Yield the force, or the couple, of every joint."""
+    points = [joint.point for joint in pins.joints]
+    for joint in pins.joints:
+        name = joint.point if points.count(joint.point) == 1 else f"{joint.point} on {joint.on} from {joint.by}"
+        yield Column(name, joint.size, "kN", 3) if joint.has_force else Column(f"{name} couple", np.asarray(joint.couple), "Nm", 3)
 
 
 @final
@@ -95,17 +79,15 @@ class LimitsCommand(Command):
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
         repeatable(parser, "--at", "S=0.6", "where other strokes are held; repeatable", "strokes")
-        over_argument(parser)
-        check_argument(parser)
+        settings.over_argument(parser)
+        settings.check_argument(parser)
 
     def run(self, options: Namespace) -> int:
-        machine = design(find(options.machine), options.settings)
+        machine = settings.machine_of(options)
         if not machine.strokes:
             raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")
-        motion = machine.at(unreachable="nan", **poses_at(machine, options, POSES))
-        over = judged_over(machine, options)
-        print(limits_over(motion, overs_of(machine, options.over) or [Over()]))
-        print(f"mobility {machine.mobility}; Gruebler count {machine.gruebler}")
-        for each in machine.four_bars:
-            print(each)
-        return print_verdicts(geometry_verdicts(machine.judge(over)), options) if options.check else 0
+        motion = machine.at(unreachable="nan", **settings.poses_at(machine, options, settings.POSES))
+        over = settings.judged_over(machine, options)
+        print(limits_over(motion, settings.overs_of(machine, options.over) or [Over()]))
+        print(f"mobility {machine.mobility}; Gruebler count {machine.gruebler}", *machine.four_bars, sep="\n")
+        return settings.print_verdicts(geometry_verdicts(machine.judge(over)), options) if options.check else 0

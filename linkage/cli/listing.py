@@ -7,7 +7,7 @@ import re
 import sys
 from argparse import ArgumentParser, Namespace
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from functools import lru_cache
 from importlib.machinery import PathFinder
 from importlib.metadata import EntryPoint
@@ -59,8 +59,11 @@ class ListCommand(Command):
                 groups.setdefault(title, []).append(row)
         if not groups:
             raise DefinitionError(f"No machine is installed; install the package (pip install -e .). {OWN}")
-        for title, rows in (groups | {"Commands": list(commands())}).items():
-            print(title, *hanging(rows), "", sep="\n")
+        commands = {**BUILT_IN, **plugins.entry_points(plugins.COMMANDS)}
+        says = {name: attribute(entry.module, entry.attr, "help") or "" for name, entry in commands.items()}  # none of them is loaded
+        for title, rows in (groups | {"Commands": [*says.items()]}).items():
+            size = max(len(name) for name, _ in rows)
+            print(title, *(line for name, text in rows for line in wrapped(text, f"  {name.ljust(size)}  ")), "", sep="\n")
         print(*wrapped(OWN, ""), sep="\n")
         return 0
 
@@ -84,19 +87,6 @@ def group_title(entry: EntryPoint, package: str) -> str:
     title = re.split(r"[,:.]", says)[0].strip() or package
     whose = entry.dist.metadata["Name"] if entry.dist is not None else PROGRAM
     return title if whose == PROGRAM else f"{title} ({whose})"
-
-
-def commands() -> Iterator[tuple[str, str]]:
-    """Yield the commands by name, with what they say of themselves; none of them is loaded."""
-    for name, entry in {**BUILT_IN, **plugins.entry_points(plugins.COMMANDS)}.items():
-        yield name, attribute(entry.module, entry.attr, "help") or ""
-
-
-def hanging(rows: Sequence[tuple[str, str]]) -> Iterator[str]:
-    """Yield names and what is said of them as lines, which on a terminal are no wider than that."""
-    size = max(len(name) for name, _ in rows)
-    for name, text in rows:
-        yield from wrapped(text, f"  {name.ljust(size)}  ")
 
 
 def wrapped(text: str, start: str) -> list[str]:
@@ -192,4 +182,3 @@ def source_file(module: str) -> Path | None:
     except (ImportError, ValueError):
         return None
     return Path(spec.origin) if spec and spec.origin and spec.origin.endswith(".py") else None
-

@@ -14,7 +14,6 @@ from ..errors import DefinitionError, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism, declared
 from ..plugins import guarded
-from ..quantities import Member
 from ..surroundings import Outline
 from .listing import OWN, registered
 
@@ -66,14 +65,13 @@ def lacking(found: type[Mechanism], base: type[Mechanism]) -> list[str]:
 
     A member stands for another of its kind, a force element for one of its class; what is only drawn may be missing.
     """
-    other = declared(found)
-
-    def is_there(name: str, member: Member) -> bool:
-        own = other.get(name)
-        return own is not None and own.kind == member.kind and (type(own) is type(member) or not isinstance(member, ForceElement))
-
-    members = [name for name, member in declared(base).items() if member.kind != Outline.kind and not is_there(name, member)]
-    return members + [name for name in base.plan.defaults if name not in found.plan.defaults and name not in members]
+    missing = []
+    for name, member in declared(base).items():
+        own = declared(found).get(name)
+        fits = own is not None and own.kind == member.kind and (type(own) is type(member) or not isinstance(member, ForceElement))
+        if member.kind != Outline.kind and not fits:
+            missing.append(name)
+    return missing + [name for name in base.plan.defaults if name not in found.plan.defaults and name not in missing]
 
 
 def split(text: str) -> tuple[str, str]:

@@ -6,8 +6,9 @@ import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -15,11 +16,11 @@ from ..errors import DefinitionError, StudyError, unknown
 from ..files import save
 from ..files.read import load
 from ..files.search_file import SearchFile, read_search
+from ..files.study_file import FindMachine, Settings
 from ..mechanism import Mechanism
 from ..motion import Column
-from ..study import Front, Optimum
+from ..study import Front
 from ..study.checks import unit_of
-from ..study.optimum import Rounded
 from ..study.result_tables import tried_names
 from ..study.space import Space
 from ..study.survey import Progress as ProgressLike
@@ -44,7 +45,7 @@ def study_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--progress", action="store_true", help="say how far it is where stderr is no terminal, too")
 
 
-def finder(trust: list[str]) -> Callable[[str, Path], type[Mechanism]]:
+def finder(trust: list[str]) -> FindMachine:
     """Return what finds a study file's machine: an installed one, a file beside it, or a class of what is trusted."""
 
     def find_machine(text: str, base: Path) -> type[Mechanism]:
@@ -53,25 +54,18 @@ def finder(trust: list[str]) -> Callable[[str, Path], type[Mechanism]]:
             return find(text)
         if text.endswith((".toml", ".json")):
             return machine(load(base / text, trust), text)
-        if place.endswith(".py"):
-            require_trust(place, place in trust)
-            return find(str(base / place) + (f":{name}" if name else ""))
-        if name:
-            require_trust(place, any(place == each or place.startswith(f"{each}.") for each in trust))
-            return find(text)
-        raise DefinitionError(f"{unknown('Machine', text, registered())} {OWN}")
+        is_file = place.endswith(".py")
+        if not is_file and not name:
+            raise DefinitionError(f"{unknown('Machine', text, registered())} {OWN}")
+        if place not in trust and (is_file or not any(place.startswith(f"{each}.") for each in trust)):
+            word = place if is_file else place.partition(".")[0]
+            raise DefinitionError(f"{place} is code, and a file runs none unasked; say --trust {word} if you trust it.")
+        return find(f"{base / text}" if is_file else text)
 
     return find_machine
 
 
-def require_trust(place: str, is_trusted: bool) -> None:
-    """Raise DefinitionError for code that nobody allowed a file to run."""
-    if not is_trusted:
-        word = place if place.endswith(".py") else place.partition(".")[0]
-        raise DefinitionError(f"{place} is code, and a file runs none unasked; say --trust {word} if you trust it.")
-
-
-def settings_of(texts: list[str]) -> Callable[[type[Mechanism]], Mapping[str, Any]]:
+def settings_of(texts: list[str]) -> Settings:
     """Return what reads settings such as `OB=180mm` for a machine."""
     return lambda found: dict(parsed_setting(found.plan, text) for text in texts)
 
@@ -108,18 +102,23 @@ class OptimiseCommand(Command):
             return NOT_FEASIBLE
         print(found)
         if isinstance(found, Front):
-            write_front(search, found)
-        else:
-            tell_optimum(search, found)
+            write_results(search.outputs, {"designs": partial(write_columns, front_columns(search, found))})
+            return 0
+        rounded = None if search.rounding is None else found.rounded(**search.rounding)
+        if rounded is not None:
+            print(f"Rounded: {rounded}")
+        best = rounded.machine if rounded is not None and rounded.feasible else found.machine
+        from ..pictures import draw, plot
+
+        writers: dict[str, Callable[[Path], object]] = {
+            "table": lambda path: found.csv(path, rounded),
+            "designs": lambda path: found.designs_csv(path) if path.suffix.lower() == ".csv" else found.designs_jsonl(path),
+            "drawing": lambda path: draw(found).savefig(path),
+            "curves": lambda path: plot(found).savefig(path),
+            "machine": lambda path: save(best, path),
+        }
+        write_results(search.outputs, writers)
         return 0
-
-
-def tell_optimum(search: SearchFile, found: Optimum) -> None:
-    """Print the rounded design, and write the files that are asked for."""
-    rounded = None if search.rounding is None else found.rounded(**search.rounding)
-    if rounded is not None:
-        print(f"Rounded: {rounded}")
-    write_results(search.outputs, optimum_writers(found, rounded))
 
 
 def write_results(outputs: Mapping[str, Sequence[Path]], writers: Mapping[str, Callable[[Path], object]]) -> None:
@@ -130,28 +129,12 @@ def write_results(outputs: Mapping[str, Sequence[Path]], writers: Mapping[str, C
             print(path)
 
 
-def optimum_writers(found: Optimum, rounded: Rounded | None) -> Mapping[str, Callable[[Path], object]]:
-    """Return what writes each kind of result."""
-    from ..pictures import draw, plot
-
-    best = rounded.machine if rounded is not None and rounded.feasible else found.machine
-    return {
-        "table": lambda path: found.csv(path, rounded),
-        "designs": lambda path: found.designs_csv(path) if path.suffix.lower() == ".csv" else found.designs_jsonl(path),
-        "drawing": lambda path: draw(found).savefig(path),
-        "curves": lambda path: plot(found).savefig(path),
-        "machine": lambda path: save(best, path),
-    }
-
-
-def write_front(search: SearchFile, found: Front) -> None:
-    """Write the designs of a front: their objectives and what varied, in CSV with units, in JSON lines in SI."""
+def front_columns(search: SearchFile, found: Front) -> list[Column]:
+    """Return the designs of a front: their objectives and what varied."""
     plan = search.machine.plan
     objectives = zip(map(str, found.objectives), found.units, zip(*(each.values for each in found.points), strict=True), strict=True)
     columns = [Column(name, np.array(values, float), unit) for name, unit, values in objectives]
     for name in tried_names(Space.of(search.machine, search.arguments["vary"])):
         owner, sign = plan.table.spellings[name]
         columns.append(Column(name, np.array([sign * float(each.machine.dimensions[owner]) for each in found.points]), unit_of(plan, name)))
-    for path in search.outputs.get("designs", ()):
-        write_columns(columns, path)
-        print(path)
+    return columns

@@ -8,10 +8,7 @@ from typing import final
 from ..errors import DefinitionError
 from ..plan import Plan, plan_measure
 from .command import Command, machine_arguments, picture, repeatable, run_arguments
-from .machines import find
-from .settings import design, motion_along, over_argument, overs_of, si_value, strokes_given, with_overs
-
-SUFFIXES = (".html",)
+from .settings import machine_of, motion_along, over_argument, overs_of, si_value, strokes_given, with_overs
 
 
 @final
@@ -32,9 +29,8 @@ class PageCommand(Command):
         run_arguments(parser, 101, "poses of the curve")
 
     def run(self, options: Namespace) -> int:
-        found = find(options.machine)
-        path = picture(options.output, found, options.machine, SUFFIXES)
-        machine = design(found, options.settings)
+        machine = machine_of(options)
+        path = picture(options, machine, (".html",))
         machine = with_overs(machine, overs_of(machine, options.over))
         at = strokes_given(machine, options)
         motion_along(machine, options.count, at)

@@ -8,35 +8,9 @@ from typing import Any, final
 
 from ..errors import DefinitionError
 from ..mechanism import Mechanism
-from ..motion import Column
 from ..reports import results, stroke_middles
-from .command import (
-    Command,
-    machine_arguments,
-    motion_arguments,
-    path_argument,
-    picture,
-    picture_argument,
-    progress_bar,
-    repeatable,
-    run_arguments,
-    whole_number,
-)
-from .machines import find
-from .settings import (
-    acting_of,
-    columns_picked,
-    design,
-    force_arguments,
-    limit_argument,
-    motion_along,
-    motion_at,
-    parse_limit,
-    plain_value,
-    strokes_given,
-    traced_points,
-    with_gaps,
-)
+from . import command, settings
+from .command import Command, machine_arguments, picture, progress_bar, repeatable, whole_number
 
 
 @final
@@ -48,27 +22,37 @@ class DrawCommand(Command):
 
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
-        picture_argument(parser, "default: NAME.png")
+        command.picture_argument(parser, "default: NAME.png")
         what = "at these values of a stroke, the last one bold (default: both ends of the first stroke); repeatable"
         repeatable(parser, "--at", "S=0.6,650mm", what, "strokes")
-        path_argument(parser)
+        command.path_argument(parser)
         parser.add_argument("--count", metavar="N", type=whole_number, default=101, help="poses along a path (default 101)")
         forces = parser.add_argument_group("over the machine, at one pose")
         forces.add_argument("--forces", action="store_true", help="the forces in all pins, and the loads")
         forces.add_argument("--on", metavar="BODY", help="all forces on this body, drawn alone, and their polygon")
         forces.add_argument("--poles", action="store_true", help="the instant centre of each body")
         forces.add_argument("--clearance", action="store_true", help="where what `Planes` keep apart comes nearest")
-        force_arguments(parser)
+        settings.force_arguments(parser)
 
     def run(self, options: Namespace) -> int:
-        found = find(options.machine)
-        path = picture(options.output, found, options.machine)
-        machine = design(found, options.settings)
+        machine = settings.machine_of(options)
+        path = picture(options, machine)
         if (options.case or options.direction) and not (options.forces or options.on):
             raise DefinitionError("--case and --direction are of forces; say --forces too, or --on BODY.")
         if options.forces and options.on:
             raise DefinitionError("--forces are those of all pins, --on those of one body; give one of them.")
-        poses(machine, options).savefig(path)
+        at, acting = settings.strokes_given(machine, options), settings.acting_of(machine, options)
+        if at:
+            settings.with_gaps(machine, stroke_middles(machine) | at)
+        else:
+            settings.motion_along(machine, options.count)
+        from ..pictures import draw
+
+        draw(
+            machine, at or None, traced_points(machine, options.path), options.count, forces=options.on or options.forces,
+            case=settings.plain_value(acting).case, direction=options.direction or "frictionless", drive=options.drive,
+            pole=options.poles, clearance=options.clearance,
+        ).savefig(path)  # fmt: skip
         print(path)
         return 0
 
@@ -83,56 +67,39 @@ class PlotCommand(Command):
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
         parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help="these columns of `table`")
-        picture_argument(parser, "default: NAME.png")
-        motion_arguments(parser, 101)
-        force_arguments(parser)
-        limit_argument(parser)
+        command.picture_argument(parser, "default: NAME.png")
+        command.motion_arguments(parser, 101)
+        settings.force_arguments(parser)
+        settings.limit_argument(parser)
 
     def run(self, options: Namespace) -> int:
-        found = find(options.machine)
-        path = picture(options.output, found, options.machine)
-        machine = design(found, options.settings)
+        machine = settings.machine_of(options)
+        path = picture(options, machine)
         if not options.columns and (options.limits or options.case or options.direction):
             raise DefinitionError("--limit, --case and --direction go with curves; name their columns, such as plot NAME pressure.")
-        curves(machine, options).savefig(path)
+        at = settings.strokes_given(machine, options)
+        from ..pictures import plot
+
+        if not options.columns:
+            settings.motion_along(machine, options.count, at)
+            figure = plot(machine, at=at, count=options.count)
+        else:
+            many = any(len(values) > 1 for values in at.values())
+            over = settings.motion_at(machine, options) if many else settings.motion_along(machine, options.count, at)
+            acting = settings.plain_value(settings.acting_of(machine, options))
+            columns = settings.columns_picked(machine, over, options.columns, [], acting)
+            names = [column.name for column in columns]
+            limits: dict[str, Sequence[Any]] = {name: limit for name, limit in machine.featured().limits.items() if name in names}
+            limits |= dict(settings.parse_limit(text, columns) for text in options.limits)
+            figure = plot(over, columns, limits=limits)
+        figure.savefig(path)
         print(path)
         return 0
 
 
-def curves(machine: Mechanism, options: Namespace) -> Any:
-    """Return the figure of the columns named, else of what the machine is about, along one stroke."""
-    given = strokes_given(machine, options)
-    if not options.columns:
-        from ..pictures import plot
-
-        motion_along(machine, options.count, given)
-        return plot(machine, at=given, count=options.count)
-    many = [name for name, values in given.items() if len(values) > 1]
-    over = motion_at(machine, options) if many else motion_along(machine, options.count, given)
-    columns = columns_picked(machine, over, options.columns, [], plain_value(acting_of(machine, options)))
-    names = [column.name for column in columns]
-    limits: dict[str, Sequence[Any]] = {name: limit for name, limit in machine.featured().limits.items() if name in names}
-    limits |= dict(parse_limit(text, columns) for text in options.limits)
-    from ..pictures import plot
-
-    return plot(over, columns, limits=limits)
-
-
-def poses(machine: Mechanism, options: Namespace) -> Any:
-    """Return the figure of the machine at the strokes chosen, else at its ends."""
-    at = strokes_given(machine, options)
-    if at:
-        with_gaps(machine, stroke_middles(machine) | at)
-    else:
-        motion_along(machine, options.count)
-    from ..pictures import draw
-
-    acting = acting_of(machine, options)
-    return draw(
-        machine, at or None, traced_points(machine, options.path), options.count, forces=options.on or options.forces,
-        case=plain_value(acting).case, direction=options.direction or "frictionless", drive=options.drive, pole=options.poles,
-        clearance=options.clearance,
-    )  # fmt: skip
+def traced_points(machine: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:
+    """Return the points whose paths are drawn: those named, else those the machine is about, else the last one built."""
+    return tuple(machine.featured().path) or machine.plan.moving[-1:] if names is None else tuple(names)
 
 
 # `hydrolinkage animate NAME -o FILE`: a machine over its stroke, with the live curve of a result.
@@ -151,32 +118,28 @@ class AnimateCommand(Command):
         machine_arguments(parser)
         parser.add_argument("-o", "--output", metavar="FILE", required=True, help=f"{', '.join(SUFFIXES)}")
         parser.add_argument("--column", metavar="I", help="the column of `table` whose curve runs along (default: what it is about)")
-        path_argument(parser)
-        limit_argument(parser)
-        run_arguments(parser, 60, "poses over the stroke")
+        command.path_argument(parser)
+        settings.limit_argument(parser)
+        command.run_arguments(parser, 60, "poses over the stroke")
 
     def run(self, options: Namespace) -> int:
-        found = find(options.machine)
-        path = picture(options.output, found, options.machine, SUFFIXES)
-        machine = design(found, options.settings)
-        at, trace = strokes_given(machine, options), traced_points(machine, options.path)
-        over = motion_along(machine, options.count, at)
-        column, limit = curve_and_limit(results(machine, over), options)
+        machine = settings.machine_of(options)
+        path = picture(options, machine, SUFFIXES)
+        at, trace = settings.strokes_given(machine, options), traced_points(machine, options.path)
+        columns = results(machine, settings.motion_along(machine, options.count, at))
+        column: str | None = options.column
+        limit: Sequence[Any] | None = None
+        if len(options.limits) > 1:
+            raise DefinitionError("one curve runs along an animation, with one limit; give one --limit.")
+        for text in options.limits:
+            column, limit = settings.parse_limit(text, columns)
+            if options.column not in (None, column):
+                raise DefinitionError(
+                    f"--limit is of {column}, and the curve that runs along is of {options.column}; name the same column."
+                )
         from ..pictures import animate
 
         with progress_bar(f"drawing {path.name}") as progress:
             animate(machine, path, count=options.count, column=column, trace=trace, limit=limit, at=at, progress=progress)
         print(path)
         return 0
-
-
-def curve_and_limit(columns: Sequence[Column], options: Namespace) -> tuple[str | None, Sequence[Any] | None]:
-    """Return the column whose curve runs along, that of a limit unless one is named, and its limit."""
-    if not options.limits:
-        return options.column, None
-    if len(options.limits) > 1:
-        raise DefinitionError("one curve runs along an animation, with one limit; give one --limit.")
-    name, limit = parse_limit(options.limits[0], columns)
-    if options.column not in (None, name):
-        raise DefinitionError(f"--limit is of {name}, and the curve that runs along is of {options.column}; name the same column.")
-    return name, limit

@@ -9,8 +9,7 @@ from typing import final
 from ..disk import check_place
 from ..errors import DefinitionError
 from .command import Command, machine_arguments, motion_arguments, path_argument, repeatable, whole_number
-from .machines import find
-from .settings import design, over_argument, overs_of, pair, strokes_given
+from .settings import machine_of, over_argument, overs_of, pair, strokes_given
 
 KINDS = (".html", ".pdf", ".md")
 TITLE = {
@@ -43,12 +42,11 @@ class ReportCommand(Command):
     def run(self, options: Namespace) -> int:
         from ..documents import report
 
-        cls = find(options.machine)
-        path = Path(options.output or f"{cls.__name__}.html")
+        machine = machine_of(options)
+        path = Path(options.output or f"{type(machine).__name__}.html")
         if path.suffix.lower() not in KINDS:
             raise DefinitionError(f"-o {path}: a report's name ends in one of {', '.join(KINDS)}, which chooses the format.")
         check_place(path)
-        machine = design(cls, options.settings)
         at = strokes_given(machine, options)
         rows = dict(pair(text, "--row", '"Order=4711"') for text in options.rows)
         print(report(

@@ -19,11 +19,12 @@ from ..motion import Column, Motion, Over, Request, columns_of, out_of_reach, st
 from ..plan import Plan, plan_measure
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
-from ..reports import NOTHING, At, Run, force_columns, results, run_along, run_of, stroke_middles
+from ..reports import NOTHING, At, force_columns, results, run_along, run_of, stroke_middles
 from ..steps import Point
 from ..units import UNITS, parse, parse_span
 from ..verdict import Verdict
 from .command import MOST, repeatable, say_remark
+from .machines import find
 
 FAILED = 1
 """The exit code of `--check` where a verdict fails."""
@@ -52,6 +53,11 @@ def over_argument(parser: ArgumentParser) -> None:
     repeatable(parser, "--over", '"phi=15deg:80deg,t=0"', what)
 
 
+def machine_of(options: Namespace) -> Mechanism:
+    """Return the machine that a command is on, with its settings; DefinitionError as `find` and `design` raise it."""
+    return design(find(options.machine), options.settings)
+
+
 def overs_of(machine: Mechanism, texts: Sequence[str]) -> list[Over] | None:
     """Return where `--over` says that is looked, None where it is not given; DefinitionError for anything but an Over of the machine."""
     return [parsed_over(machine, text) for text in texts] or None
@@ -71,19 +77,16 @@ def parsed_over(machine: Mechanism, text: str) -> Over:
         known_name("Stroke", name, machine.strokes, where=f"--over {text}")
         if name in strokes:
             raise DefinitionError(f"--over {text}: {name} stands twice; give it two ends, {name}=LOW:HIGH.")
-        strokes[name] = parsed_ends(machine.plan, name, given)
+        kind, ends = stroke_measure(machine.plan, name), [end.strip() for end in given.split(":")]
+        if len(ends) == 1:
+            strokes[name] = si_value(given, kind, f"--over {name}")
+            continue
+        # a unit behind the second end holds for the first too, as in `15:80deg`
+        span = parse_span(" to ".join(ends), kind) if len(ends) == 2 and all(ends) else None
+        if span is None or len(span) != 2:
+            raise DefinitionError(f"--over {name}={given}: one value or two ends are expected, such as {name}=15deg:80deg.")
+        strokes[name] = span[0], span[1]
     return Over(**strokes)  # type: ignore[arg-type]
-
-
-def parsed_ends(plan: Plan, name: str, text: str) -> float | tuple[float, float]:
-    """Return one value of a stroke, or two ends [m or rad]; a unit behind the second holds for the first too, as in `15:80deg`."""
-    kind, parts = stroke_measure(plan, name), [part.strip() for part in text.split(":")]
-    if len(parts) == 1:
-        return si_value(parts[0], kind, f"--over {name}")
-    span = parse_span(" to ".join(parts), kind) if len(parts) == 2 and all(parts) else None
-    if span is None or len(span) != 2:
-        raise DefinitionError(f"--over {name}={text}: one value or two ends are expected, such as {name}=15deg:80deg.")
-    return span[0], span[1]
 
 
 def with_overs(machine: Mechanism, overs: Sequence[Over] | None) -> Mechanism:
@@ -147,20 +150,15 @@ def parsed_setting(plan: Plan, text: str) -> tuple[str, Any]:
     if name in plan.table.spellings:
         return name, si_value(value, plan_measure(plan, plan.table.spellings[name][0]), f"--set {name}")
     if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
-        return name, point_setting(name, value)
+        parts = value.split(",")
+        if len(parts) != 2:
+            example = f"{name}=0.22,950mm; decimals are written with a point"
+            raise DefinitionError(f"--set {name}={value}: a point takes two coordinates, such as {example}.")
+        return name, tuple(si_value(part, "length", f"--set {name}") for part in parts)
     if name in plan.strokes:
         raise DefinitionError(f"--set {text}: {name} is a stroke of {plan.title}, not a dimension; `table` takes --at {text}.")
     plan.table.settings({name: 0.0})
     raise unknown("Dimension", name, plan.table.names(), where=plan.title)
-
-
-def point_setting(name: str, text: str) -> tuple[float, ...]:
-    """Return a point's two coordinates [m]."""
-    parts = text.split(",")
-    if len(parts) != 2:
-        example = f"{name}=0.22,950mm; decimals are written with a point"
-        raise DefinitionError(f"--set {name}={text}: a point takes two coordinates, such as {example}.")
-    return tuple(si_value(part, "length", f"--set {name}") for part in parts)
 
 
 def pair(text: str, option: str, example: str) -> tuple[str, str]:
@@ -186,29 +184,22 @@ def motion_at(machine: Mechanism, options: Namespace) -> Motion:
     its start to its end, at steps of `--every` if given. Strokes that are not given are at mid-stroke. Several that are given more than one
     value make a grid. Places that cannot be assembled are gaps, and one remark says so.
     """
-    given, count, every = strokes_given(machine, options), options.count, getattr(options, "every", None)
-    along = None if given else declared_path(machine, overs_of(machine, getattr(options, "over", ())))
-    if along is not None:
+    given, every = strokes_given(machine, options), getattr(options, "every", None)
+    overs = overs_of(machine, getattr(options, "over", ()))
+    paths = [over for over in (machine.overs if overs is None else overs) if isinstance(over, Over) and over.shape == "path"]
+    places = machine.judge(paths).places if len(paths) == 1 and not given else []
+    if places and places[0].running:  # the only path among what is looked at, through all its places
         if every is not None:
             raise DefinitionError(f"--every {every}: steps are of one stroke, and the rows run along a path; give --count.")
-        return with_gaps(machine, along.divided(count))
+        return with_gaps(machine, run_along(places[0].motion)[0].divided(options.count))
     runs = next((name for name in machine.strokes if name not in given), None)
     if runs is None or any(len(values) > 1 for values in given.values()):
         if every is not None:
             raise DefinitionError(f"--every {every}: no stroke runs from end to end here; leave it out, or hold the others, --at S=0.6.")
     else:
-        given[runs] = stroke_steps(machine, runs, count, every)
+        given[runs] = stroke_steps(machine, runs, options.count, every)
     held = {name: np.array([value]) for name, value in stroke_middles(machine).items() if name not in given}
     return with_gaps(machine, stroke_grid(machine, given | held))
-
-
-def declared_path(machine: Mechanism, overs: Sequence[Over] | None) -> Run | None:
-    """Return the run along the only path among what is looked at, through all its places; None where there is none."""
-    paths = [over for over in (machine.overs if overs is None else overs) if isinstance(over, Over) and over.shape == "path"]
-    if len(paths) != 1:
-        return None
-    places = machine.judge(paths).places
-    return run_along(places[0].motion)[0] if places[0].running else None
 
 
 def stroke_steps(machine: Mechanism, name: str, count: int, every: str | None) -> FloatArray:
@@ -272,14 +263,12 @@ def motion_along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
 
 def strokes_given(machine: Mechanism, options: Namespace) -> dict[str, Any]:
     """Return the strokes that `--at` gives, each an array of values, shape (n,) [m or rad]."""
-    return dict(stroke_values(machine.plan, text) for text in options.strokes)
-
-
-def stroke_values(plan: Plan, text: str) -> tuple[str, Any]:
-    """Return a stroke's name and its values, shape (n,) [m or rad]."""
-    name, values = pair(text, "--at", "S=0.6,650mm")
-    known_name("Stroke", name, plan.strokes, where=plan.title)
-    return name, np.array([si_value(value, stroke_measure(plan, name), f"--at {name}") for value in values.split(",")])
+    found, plan = {}, machine.plan
+    for text in options.strokes:
+        name, values = pair(text, "--at", "S=0.6,650mm")
+        known_name("Stroke", name, plan.strokes, where=plan.title)
+        found[name] = np.array([si_value(value, stroke_measure(plan, name), f"--at {name}") for value in values.split(",")])
+    return found
 
 
 # -- columns -----------------------------------------------------------------------------------------------
@@ -290,18 +279,13 @@ def acting_of(machine: Mechanism, options: Namespace) -> Acting:
 
     In a judgement a case or a direction that is not given means all that occur.
     """
-    check_case(machine, options.case)
-    if options.drive is not None:
-        known_name("Stroke", options.drive, machine.strokes, where=machine.plan.title)
-    return Acting(case=options.case, direction=options.direction, drive=options.drive)
-
-
-def check_case(machine: Mechanism, case: str | None) -> None:
-    """Raise DefinitionError for a load case that is not there."""
-    cases = machine.plan.of_kind(LoadCase)
+    case, title, cases = options.case, machine.plan.title, machine.plan.of_kind(LoadCase)
     if case not in (None, PLAIN_CASE, *cases):
-        remedy = "" if cases else f" {machine.plan.title} declares none; write {case} = LoadCase({case!r}, scale=...)."
-        raise DefinitionError(f"{unknown('Load case', case, [PLAIN_CASE, *cases], where=machine.plan.title)}{remedy}")
+        remedy = "" if cases else f" {title} declares none; write {case} = LoadCase({case!r}, scale=...)."
+        raise DefinitionError(f"{unknown('Load case', case, [PLAIN_CASE, *cases], where=title)}{remedy}")
+    if options.drive is not None:
+        known_name("Stroke", options.drive, machine.strokes, where=title)
+    return Acting(case=case, direction=options.direction, drive=options.drive)
 
 
 def plain_value(acting: Acting) -> Acting:
@@ -393,8 +377,3 @@ def parse_limit(text: str, columns: Sequence[Column]) -> tuple[str, tuple[float,
     if not unit and value[-1].isalpha():
         raise DefinitionError(f"--limit {name}: {value!r} has a unit, and the column has none; give a number alone.")
     return name, (limit, f"{words} {value}", side)
-
-
-def traced_points(machine: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:
-    """Return the points whose paths are drawn: those named, else those the machine is about, else the last one built."""
-    return tuple(machine.featured().path) or machine.plan.moving[-1:] if names is None else tuple(names)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from inspect import cleandoc
 from pathlib import Path
 from typing import TYPE_CHECKING, final
@@ -14,11 +14,11 @@ from ..plan import strokes_text, written_out
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
 from .command import Command, lined_up, machine_arguments, picture, picture_argument, repeatable, whole_number
-from .machines import find
-from .settings import check_argument, design, judged_code, over_argument, overs_of, stroke_values
+from .settings import check_argument, judged_code, machine_of, over_argument, overs_of, strokes_given
 
 if TYPE_CHECKING:
     from ..formulas import Equations
+
 
 @final
 class ShowCommand(Command):
@@ -46,18 +46,21 @@ class ShowCommand(Command):
 
     def run(self, options: Namespace) -> int:
         check_asked(options)
-        machine = design(find(options.machine), options.settings)
-        over = overs_of(machine, options.over)
+        machine = machine_of(options)
+        over, given = overs_of(machine, options.over), strokes_given(machine, options)
+        for text in options.strokes:
+            if "," in text:
+                raise DefinitionError(f"--at {text}: numbers are filled in at one pose; give one value.")
+        at = {name: float(values[0]) for name, values in given.items()}
         if options.modes:
-            path = None if options.output is None else picture(options.output, type(machine), options.machine)
-            return show_modes(machine, dict(value_at(machine, text) for text in options.strokes), path)
+            return show_modes(machine, at, None if options.output is None else picture(options, machine))
         if options.latex:
-            print(listed(machine, options).latex())
+            print(listed(machine, options, at).latex())
             return 0
         for title, lines in sections(machine):
             print_section(title, lines)
         if options.equations:
-            print_section("Equations", str(listed(machine, options)).splitlines())
+            print_section("Equations", str(listed(machine, options, at)).splitlines())
         verdicts = machine.verdicts(over=over)
         print_section("Verdict", verdicts)
         return judged_code(verdicts, options)
@@ -98,23 +101,14 @@ def show_modes(machine: Mechanism, at: dict[str, float], path: Path | None) -> i
     return 0
 
 
-def listed(machine: Mechanism, options: Namespace) -> Equations:
+def listed(machine: Mechanism, options: Namespace, at: Mapping[str, float]) -> Equations:
     """Return the equations as they are asked for."""
     from ..formulas import equations
 
-    at = dict(value_at(machine, text) for text in options.strokes)
     return equations(
-        machine, start=1 if options.start is None else options.start, ratio=options.ratio or (), wrt=options.wrt, forces=options.forces,
-        numbers=options.numbers, at=at or None,
+        machine, start=options.start or 1, ratio=options.ratio or (), wrt=options.wrt, forces=options.forces, numbers=options.numbers,
+        at=at or None,
     )  # fmt: skip
-
-
-def value_at(machine: Mechanism, text: str) -> tuple[str, float]:
-    """Return a stroke's name and its one value [m or rad]."""
-    name, values = stroke_values(machine.plan, text)
-    if len(values) != 1:
-        raise DefinitionError(f"--at {text}: numbers are filled in at one pose; give one value.")
-    return name, float(values[0])
 
 
 def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
@@ -122,24 +116,14 @@ def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
     yield type(machine).__name__, cleandoc(type(machine).__doc__ or "").splitlines()
     yield "Strokes", lined_up(list(stroke_rows(machine)))
     yield "Design variables", lined_up(list(design_rows(machine)))
-    yield "Bodies", body_lines(machine)
-    yield "Construction, in order", construction(machine)
-
-
-def body_lines(machine: Mechanism) -> Iterator[str]:
-    """Yield the rigid bodies, the cylinders, and the count of freedoms."""
-    cylinders = machine.plan.cylinders
-    yield from map(str, machine.links)
-    yield from (f"cylinder {bar.P} {bar.Q}" for bar in cylinders)
-    strokes = len(machine.strokes)
-    yield f"Gruebler count {machine.gruebler} (a cylinder is two bodies on a slide), {strokes} stroke{'s' if strokes != 1 else ''}"
-
-
-def construction(machine: Mechanism) -> Iterator[str]:
-    """Yield the members in the order they are worked out, as this design has them, without the dimensions listed already."""
+    count = f"{len(machine.strokes)} stroke{'s' if len(machine.strokes) != 1 else ''}"
+    cylinders = [f"cylinder {bar.P} {bar.Q}" for bar in machine.plan.cylinders]
+    freedoms = f"Gruebler count {machine.gruebler} (a cylinder is two bodies on a slide), {count}"
+    yield "Bodies", [*map(str, machine.links), *cylinders, freedoms]
     dimensions, defaults = machine.plan.of_kind(Dimension), machine.plan.defaults
     changed = {name: value for name, value in machine.dimensions.items() if value != defaults[name]}
-    yield from (f"{name} = {text}" for name, text in written_out(machine.plan, changed).items() if name not in dimensions)
+    written = written_out(machine.plan, changed)  # as this design has the members, without the dimensions listed already
+    yield "Construction, in order", [f"{name} = {text}" for name, text in written.items() if name not in dimensions]
 
 
 def print_section(title: str, lines: Iterable[str]) -> None:
@@ -166,7 +150,7 @@ class SaveCommand(Command):
     def run(self, options: Namespace) -> int:
         from ..files import left_out, save
 
-        machine = design(find(options.machine), options.settings)
+        machine = machine_of(options)
         save(machine, options.file)
         lost = ", ".join(left_out(machine))
         print(f"{options.file}: the linkage with {len(machine.plan.members)} members.")

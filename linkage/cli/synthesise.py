@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, final
+from typing import final
 
 from ..disk import check_place, in_words
 from ..errors import DefinitionError
 from ..files import save
 from ..files.synthesis_file import read_synthesis
-from ..synthesis import Synthesis
 from ..units import deg, mm
 from .command import Command, whole_number
 from .optimise import NOT_FEASIBLE, finder, settings_of, study_arguments, study_progress, write_results
@@ -50,7 +49,15 @@ class SynthesiseCommand(Command):
         if rounded is not None:
             print(f"Rounded: {rounded}")
         best = found.machine if rounded is None else rounded.machine
-        write_results(outputs, synthesis_writers(found, best, options.answers))
+        from ..pictures import draw, page
+
+        writers: dict[str, Callable[[Path], object]] = {
+            "table": found.csv,
+            "drawing": lambda path: draw(found, answers=options.answers).savefig(path),
+            "page": lambda path: page(found, path),
+            "machine": lambda path: save(best, path),
+        }
+        write_results(outputs, writers)
         return 0
 
 
@@ -71,15 +78,3 @@ def outputs_asked(options: Namespace) -> dict[str, Path]:
     for path in found.values():
         check_place(path)
     return found
-
-
-def synthesis_writers(found: Synthesis, best: Any, answers: int) -> Mapping[str, Callable[[Path], object]]:
-    """Return what writes each kind of result."""
-    from ..pictures import draw, page
-
-    return {
-        "table": found.csv,
-        "drawing": lambda path: draw(found, answers=answers).savefig(path),
-        "page": lambda path: page(found, path),
-        "machine": lambda path: save(best, path),
-    }

@@ -9,34 +9,22 @@ import re
 import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from shutil import get_terminal_size
-from typing import TextIO, final
+from typing import final
 
 import numpy as np
 
 from ..disk import replacing_text
 from ..errors import DefinitionError, cited
+from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over
 from ..reports import is_loaded, rich_tables, text_table, write_csv
 from ..statics import PinForces, max_table, pin_forces, table_text
+from . import settings
 from .command import Command, every_argument, machine_arguments, motion_arguments, progress_bar, repeatable
-from .machines import find
-from .settings import (
-    Acting,
-    acting_of,
-    check_argument,
-    columns_picked,
-    design,
-    force_arguments,
-    judged_over,
-    motion_at,
-    over_argument,
-    plain_value,
-    print_verdicts,
-    ratio_columns,
-)
 
 COLUMNS = "only these columns (default: all), or what is asked for in words: 'pressure(lift)', 'ratio(G.y)'"
 RICH_ROWS = 500  # a longer table is printed plain, which takes no time
@@ -58,37 +46,34 @@ class TableCommand(Command):
         every_argument(parser)
         repeatable(parser, "--ratio", "G", "the derivatives of a point or an output; repeatable")
         parser.add_argument("--wrt", metavar="S", help="the stroke of these derivatives (default: each)")
-        force_arguments(parser)
-        over_argument(parser)
+        settings.force_arguments(parser)
+        settings.over_argument(parser)
         parser.add_argument("--pins", action="store_true", help="the largest force of every pin too, its load case, direction and pose")
         parser.add_argument("--limits", action="store_true", help="how far each stroke goes too, dead points, transmission angles")
-        check_argument(parser)
+        settings.check_argument(parser)
 
     def run(self, options: Namespace) -> int:
         if options.csv == "-" and (options.pins or options.limits):
             raise DefinitionError("--pins and --limits do not go into CSV; leave them out, or write it into a file, --csv table.csv.")
-        machine = design(find(options.machine), options.settings)
-        acting, poses, over = acting_of(machine, options), motion_at(machine, options), judged_over(machine, options)
-        strokes = list(poses.strokes)
-        asked = [*options.columns, *(name for text in options.listed for name in column_names(text))]
-        names = asked or (strokes if options.ratio else [])  # ratios alone stand beside their strokes
-        columns = columns_picked(machine, poses, names, strokes, plain_value(acting))
-        columns += ratio_columns(machine, poses, options.ratio, options.wrt)
+        machine = settings.machine_of(options)
+        acting, poses = settings.acting_of(machine, options), settings.motion_at(machine, options)
+        over, strokes, names = settings.judged_over(machine, options), list(poses.strokes), list(options.columns)
+        for text in options.listed:  # a comma between parentheses belongs to its name, `reserve(lift, share=0.9)`
+            listed = [name.strip() for name in re.split(r",(?![^()]*\))", text) if name.strip()]
+            if not listed:
+                raise DefinitionError(f"--columns {cited(text)}: name at least one column, such as --columns thrust,pressure.")
+            names += listed
+        if options.ratio and not names:
+            names = strokes  # ratios alone stand beside their strokes
+        columns = settings.columns_picked(machine, poses, names, strokes, settings.plain_value(acting))
+        columns += settings.ratio_columns(machine, poses, options.ratio, options.wrt)
         pins = worst_pins(machine, over, acting) if options.pins else ""
         write_table(columns, poses.reached.size, options.csv)
         if pins:
             print(f"\n{pins}")
         if options.limits:
             print(f"\n{poses.limits()}")
-        return print_verdicts(machine.verdicts(over=over), options) if options.check else 0
-
-
-def column_names(text: str) -> list[str]:
-    """Return the names that commas separate; one between parentheses belongs to its name, `reserve(lift, share=0.9)`."""
-    names = [name.strip() for name in re.split(r",(?![^()]*\))", text) if name.strip()]
-    if not names:
-        raise DefinitionError(f"--columns {cited(text)}: name at least one column, such as --columns thrust,pressure.")
-    return names
+        return settings.print_verdicts(machine.verdicts(over=over), options) if options.check else 0
 
 
 def worst_pins(machine: Mechanism, over: Sequence[Over | Motion] | None, acting: Acting) -> str:
@@ -116,28 +101,20 @@ def write_table(columns: Sequence[Column], rows: int, file: str | None) -> None:
     """Print a table, or write it as CSV where a file is named, "-" being stdout."""
     if file is None:
         print_table(columns, rows)
-    elif file == "-":
-        if isinstance(sys.stdout, io.TextIOWrapper):
-            sys.stdout.reconfigure(newline="")  # CR LF stays CR LF where the system would turn LF into that itself
-        write_with_progress(columns, sys.stdout)
-    else:
-        with replacing_text(file) as stream:
-            write_with_progress(columns, stream)
-        print(f"{file}: {rows} rows")
-
-
-def write_with_progress(columns: Sequence[Column], stream: TextIO) -> None:
-    """Write CSV, with a progress bar."""
-    with progress_bar("writing CSV") as progress:
+        return
+    if isinstance(sys.stdout, io.TextIOWrapper) and file == "-":
+        sys.stdout.reconfigure(newline="")  # CR LF stays CR LF where the system would turn LF into that itself
+    with nullcontext(sys.stdout) if file == "-" else replacing_text(file) as stream, progress_bar("writing CSV") as progress:
         write_csv(columns, stream, progress)
+    if file != "-":
+        print(f"{file}: {rows} rows")
 
 
 def print_table(columns: Sequence[Column], rows: int) -> None:
     """Print a table: in blocks as wide as a terminal there, else whole and plain."""
     width = get_terminal_size().columns if sys.stdout.isatty() else None
     if width is None or rows > RICH_ROWS:
-        for line in text_table(columns, width):
-            print(line)
+        print(*text_table(columns, width), sep="\n")
         return
     from rich.console import Console
 

@@ -48,7 +48,7 @@ class Gripping(Command):
 
     def run(self, options: Namespace) -> int:
         machine = named_grapple(options) if options.design is None else designed_grapple(options)
-        path = figure_path(options, type(machine), self.name)
+        path = figure_path(options, machine, self.name)
         motion, over = motion_at(machine, options), judged_over(machine, options)
         columns = machine.columns(motion)
         print(f"{layout_words(motion)}\n{LEGEND}\n")

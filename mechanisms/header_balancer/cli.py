@@ -47,7 +47,7 @@ class Balance(Command):
 
     def run(self, options: Namespace) -> int:
         machine = header_of(options)
-        path, over, code = figure_path(options, type(machine), self.name), overs_of(machine, options.over), 0
+        path, over, code = figure_path(options, machine, self.name), overs_of(machine, options.over), 0
         motion = machine.at(h=machine.strokes["h"].start)
         compared = deviations(motion, read_measured(options.measured)) if options.measured else []
         if options.table:

@@ -43,7 +43,7 @@ class Hitch(Command):
 
     def run(self, options: Namespace) -> int:
         machine = hitch_of(options)
-        path = figure_path(options, type(machine), self.name)
+        path = figure_path(options, machine, self.name)
         motion, over = motion_at(machine, options), judged_over(machine, options)
         if options.category:
             print(f"{CATEGORIES[options.category]}.\n")

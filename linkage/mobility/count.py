@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from cmath import exp, phase
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import final
@@ -37,23 +38,13 @@ class ConstraintRows:
         """Return the rows that do not come from one source."""
         return self.matrix[[each != owner for each in self.owners]]
 
-    def of(self, owner: str) -> FloatArray:
-        """Return the rows of one source."""
-        return self.matrix[[each == owner for each in self.owners]]
-
-
-def loose_trace(plan: Plan, points: tuple[str, ...]) -> Trace:
-    """Return a trace whose points are inputs: `@B.x`, `@B.y`."""
-    levels = dict.fromkeys((*plan.strokes, *plan.solved), Level.POSE) | dict.fromkeys(plan.table.entries, Level.DESIGN)
-    trace = Trace(plan.members, plan.table.lengths, levels)
-    for name in points:
-        trace.positions[name] = Vec(trace.graph.input(f"@{name}.x", Level.POSE), trace.graph.input(f"@{name}.y", Level.POSE))
-    return trace
-
 
 def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Numbers]) -> ConstraintRows:
     """Return the rows of the steps' own constraints at a pose; points that no body holds are left out."""
-    trace = loose_trace(plan, tuple(plan.points))
+    levels = dict.fromkeys((*plan.strokes, *plan.solved), Level.POSE) | dict.fromkeys(plan.table.entries, Level.DESIGN)
+    trace = Trace(plan.members, plan.table.lengths, levels)
+    for name in plan.points:  # which are inputs: `@B.x`, `@B.y`
+        trace.positions[name] = Vec(trace.graph.input(f"@{name}.x", Level.POSE), trace.graph.input(f"@{name}.y", Level.POSE))
     residuals: dict[str, tuple[Scalar, ...]] = {}
     found_with = {pin for group in plan.groups.values() for pin in group.pins[1:]}
     for name, member in plan.holding.items():
@@ -175,10 +166,9 @@ def mobility(plan: Plan) -> Mobility:
     Where branches cross the rank is too small, and where a stroke starts at rest its own part of it is missing. Where a group is drawn in
     a dead point it is that of the drawing. AssemblyError where the mechanism cannot be assembled at the sketch, nor there.
     """
-    shares = [{name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()} for share in ASIDE]
     found: list[Mobility] = []
     lost: list[AssemblyError] = []
-    for strokes in (plan.sketch_strokes, *shares):
+    for strokes in (plan.sketch_strokes, *(strokes_at(plan, share) for share in ASIDE)):
         try:
             found.append(mobility_at(plan, *places_at(plan, strokes)))
         except SingularError as error:
@@ -262,22 +252,18 @@ def check(plan: Plan) -> None:
     by_hand = any(point.hangs_from for point in plan.points.values())
     if found.rank < found.strokes or (found.rank > found.strokes and not by_hand):
         bodies = ", ".join(body.name for body in plan.links)
+        remedy = "A link, a slide or a stroke is missing: declare all links that hold the points."
+        if found.rank < found.strokes:
+            remedy = "A link or a slide is too much: take it out."
+        if found.locking:
+            remedy = f"The link {found.locking[0]} locks the linkage: take it out, or give it the length it needs all over the stroke."
         raise DefinitionError(
             f"{plan.title}: the mobility is {found.rank}, the strokes are {found.strokes} ({', '.join(plan.strokes) or 'none'}). "
-            f"Gruebler count {found.gruebler} of the bodies {bodies}. {mobility_remedy(found)}",
+            f"Gruebler count {found.gruebler} of the bodies {bodies}. {remedy}",
             member=next(iter(plan.strokes), ""),
         )
     check_lengths(plan)
     check_slides(plan)
-
-
-def mobility_remedy(found: Mobility) -> str:
-    """Return what to do about a mobility that is not the number of strokes."""
-    if found.locking:
-        return f"The link {found.locking[0]} locks the linkage: take it out, or give it the length it needs all over the stroke."
-    if found.rank < found.strokes:
-        return "A link or a slide is too much: take it out."
-    return "A link, a slide or a stroke is missing: declare all links that hold the points."
 
 
 def check_lengths(plan: Plan) -> None:
@@ -326,16 +312,14 @@ def check_labels(plan: Plan, name: str, link: Link, places: Mapping[str, tuple[f
 def check_slides(plan: Plan) -> None:
     """Raise DefinitionError where a point does not lie on the guide it is said to slide on."""
     for share in (0.0, 0.37, 0.88):
-        strokes = {name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()}
-        try:
-            inputs = places_at(plan, strokes)[1]
-        except AssemblyError:
+        found = sample(plan, share)
+        if found is None:
             continue
-        reading = Reading(plan.members, plan.table.lengths, inputs)
+        reading = Reading(plan.members, plan.table.lengths, found[1])
         for name, slide in plan.sliding.items():
             (point, *_), off = (joint.point for joint in slide.joints()), max(abs(float(each)) for each in slide.constraints(reading))
             if off > 1e-9 * max(1.0, abs(float(reading.at(point).x)), abs(float(reading.at(point).y))):
-                where = strokes_text(plan, strokes)
+                where = strokes_text(plan, strokes_at(plan, share))
                 raise DefinitionError(
                     f"{plan.title}: {name} = {slide}: {point} is {off / mm:.3g} mm off the guide at {where}. "
                     "Take the slide out, or let it place the point: declare the point as a Pin.",
@@ -345,7 +329,11 @@ def check_slides(plan: Plan) -> None:
 
 def sample(plan: Plan, share: float) -> tuple[dict[str, tuple[float, float]], dict[str, Numbers]] | None:
     """Return the places of all points at a share of every stroke, and the inputs there; None where it cannot be assembled."""
-    try:
-        return places_at(plan, {name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()})
-    except AssemblyError:
-        return None
+    with suppress(AssemblyError):
+        return places_at(plan, strokes_at(plan, share))
+    return None
+
+
+def strokes_at(plan: Plan, share: float) -> dict[str, float]:
+    """Return a share of every stroke [m or rad]."""
+    return {name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()}

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, product
 from typing import TypeAlias
 
 import numpy as np
@@ -29,9 +29,15 @@ def chain_forms(links: int) -> tuple[Form, ...]:
         grown: set[Form] = set()
         for form in known:
             sizes = [links - len(form)] if number == loops else [*range(links - len(form) + 1)]
-            for a, b in combinations(range(len(form)), 2):
-                more = [with_string(form, a, b, size) for size in sizes if size or not form[a] >> b & 1]
-                grown |= {canonical(each) for each in more if not is_degenerate(each)}
+            for (a, b), size in product(combinations(range(len(form)), 2), sizes):
+                if not size and form[a] >> b & 1:
+                    continue
+                rows = [*form, *([0] * size)]  # with a string of so many new links from one to another; of none the two are jointed
+                for one, other in pairwise((a, *range(len(form), len(rows)), b)):
+                    rows[one] |= 1 << other
+                    rows[other] |= 1 << one
+                if not is_degenerate(tuple(rows)):
+                    grown.add(canonical(tuple(rows)))
         known = grown
     return tuple(sorted(known, key=lambda form: (sorted(each.bit_count() for each in form)[::-1], form)))
 
@@ -39,15 +45,6 @@ def chain_forms(links: int) -> tuple[Form, ...]:
 def loop(size: int) -> Form:
     """Return a closed loop of links."""
     return tuple(1 << (place + 1) % size | 1 << (place - 1) % size for place in range(size))
-
-
-def with_string(form: Form, a: int, b: int, size: int) -> Form:
-    """Return a chain with a string of so many new links from one of its links to another; of none the two are jointed."""
-    rows = [*form, *([0] * size)]
-    for one, other in pairwise((a, *range(len(form), len(rows)), b)):
-        rows[one] |= 1 << other
-        rows[other] |= 1 << one
-    return tuple(rows)
 
 
 def is_degenerate(form: Form) -> bool:
@@ -73,7 +70,11 @@ def canonical(form: Form, marked: Sequence[int] = ()) -> Form:
     found: list[Form] = []
 
     def search(colours: list[int]) -> None:
-        colours = told_apart(near, colours)
+        finer, colours = colours, []
+        while len(set(finer)) != len(set(colours)):  # as fine as the colours of neighbours make them
+            colours = finer
+            finer = ranked([(colours[link], *sorted(colours[other] for other in each)) for link, each in enumerate(near)])
+        colours = finer
         alike: dict[int, list[int]] = {}
         for link, colour in enumerate(colours):
             alike.setdefault(colour, []).append(link)
@@ -87,15 +88,6 @@ def canonical(form: Form, marked: Sequence[int] = ()) -> Form:
     place = {link: number - len(marked) for number, link in enumerate(marked)}
     search(ranked([(place.get(link, 0), -len(each)) for link, each in enumerate(near)]))
     return min(found)
-
-
-def told_apart(near: Sequence[Sequence[int]], colours: list[int]) -> list[int]:
-    """Return colours of links, from 0 on, as fine as those of their neighbours make them."""
-    while True:
-        finer = ranked([(colours[link], *sorted(colours[other] for other in each)) for link, each in enumerate(near)])
-        if len(set(finer)) == len(set(colours)):
-            return finer
-        colours = finer
 
 
 def ranked(keys: Sequence[tuple[int, ...]]) -> list[int]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..plan import ChainBody, Plan, Reading
+from ..plan import Plan
 from ..quantities import joined_names, spelled
 from ..steps import Link
 from ..vectors import Numbers
@@ -32,15 +32,11 @@ def chain_graph(plan: Plan, inputs: Mapping[str, Numbers]) -> nx.MultiGraph:
     graph = nx.MultiGraph(name=plan.title)
     for body in chain.bodies:
         link = next((name for name, points in links.items() if body.kind in ("body", "arm") and points <= set(body.points)), "")
-        graph.add_node(body.name, kind=body.kind, points=body.points, link=link, dimensions=distances(body, reading))
+        with np.errstate(all="ignore"):
+            far = {joined_names(P, Q): np.asarray(reading.link_length(P, Q), float) for P, Q in combinations(body.points, 2)}
+        dimensions = {name: length if length.ndim else float(length) for name, length in far.items()}  # an array of a batch of designs
+        graph.add_node(body.name, kind=body.kind, points=body.points, link=link, dimensions=dimensions)
     for pair in chain.pairs:
         driven = {} if pair.length is None else {pair.name: spelled(pair.length)}
         graph.add_edge(pair.a, pair.b, key=pair.name, kind=pair.kind, strokes=pair.strokes, dimensions=driven)
     return graph
-
-
-def distances(body: ChainBody, reading: Reading) -> dict[str, Numbers]:
-    """Return the distances of a body's points [m], by their names joined: a float, or an array of a batch of designs."""
-    with np.errstate(all="ignore"):
-        found = {joined_names(P, Q): np.asarray(reading.link_length(P, Q), float) for P, Q in combinations(body.points, 2)}
-    return {name: length if length.ndim else float(length) for name, length in found.items()}

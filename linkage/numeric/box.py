@@ -281,9 +281,7 @@ def snapped(unit: FloatArray) -> FloatArray:
     return np.asarray(np.where(unit > 1.0 - 1e-14, 1.0, unit))
 
 
-def after_round(
-    climbs: Climbs, seen: FloatArray, k: int, least: FloatArray, places: FloatArray | None = None
-) -> tuple[Climbs, Mask, Mask]:
+def after_round(climbs: Climbs, seen: FloatArray, k: int, least: FloatArray, places: FloatArray | None = None) -> tuple[Climbs, Mask, Mask]:
     """Return the searches after a round, which have come to their top, and which are not smooth. Less than `least` (r,) is no gain.
 
     What they have `seen` is at `places` (r, n, k), where these are not those of the stencil.
@@ -333,15 +331,6 @@ def moved_on(climbs: Climbs, model: Quadratic, u: FloatArray, good: Mask, inside
     return replace(climbs, centre=middle, half=new, expected=np.where(known, model.at(step), np.nan))
 
 
-def at_stencils(box: SeenBox, climbs: Climbs, offsets: FloatArray) -> FloatArray:
-    """Return what searches (r,) see at their centres plus offsets (n, k) times their halves, shape (r, n): equal stencils are one."""
-    keys = np.column_stack([climbs.design, climbs.centre, climbs.half])
-    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    places = snapped(climbs.centre[first, None, :] + climbs.half[first, None, None] * offsets)
-    seen, _ = box.at(climbs.design[first], places)
-    return np.asarray(seen[climbs.function, inverse.reshape(-1)])
-
-
 def climbed(box: SeenBox) -> tuple[Climbs, Climbs, FloatArray]:
     """Return the searches that came to a smooth top, those that did not, and the least gain (K, D)."""
     D = box.seen.shape[1]
@@ -362,7 +351,10 @@ def climbed(box: SeenBox) -> tuple[Climbs, Climbs, FloatArray]:
         going = going.subset(~done & ~stuck & ((going.bound >= best) | (going.value >= best)))
         if not len(going.value):
             break
-        seen = at_stencils(box, going, stencil_of(box.k))
+        keys = np.column_stack([going.design, going.centre, going.half])  # equal stencils are looked at once
+        _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+        places = snapped(going.centre[first, None, :] + going.half[first, None, None] * stencil_of(box.k))
+        seen = box.at(going.design[first], places)[0][going.function, inverse.reshape(-1)]
     rough.append(going)
     return Climbs.concatenated(tops), Climbs.concatenated(rough), least
 
@@ -611,14 +603,6 @@ def border_stencil(k: int, axis: Index) -> tuple[FloatArray, Index]:
     return np.array([offsets for offsets, _ in found])[axis], np.array([index.reshape(-1) for _, index in found])[axis]
 
 
-def along_next_stroke(climbs: Climbs, lost: Mask, half: FloatArray) -> Climbs:
-    """Return searches that follow the border along the next stroke where it is `lost` along this one, as wide as before for each stroke."""
-    k = climbs.unit.shape[1]
-    axis = np.where(lost, (climbs.axis + 1) % k, climbs.axis)
-    width = np.where(lost & (axis > 0), half, climbs.half)
-    return replace(climbs, axis=axis, half=width, expected=np.where(lost, np.nan, climbs.expected))
-
-
 def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[Climbs, Climbs, Climbs]:
     """Return the searches along borders that came to a smooth top, the others, and places next to which a function is unbounded.
 
@@ -645,7 +629,10 @@ def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[C
         going, done, stuck = after_round(going, values, box.k, least[going.function, going.design], places)
         beaten = going.value <= (known + least)[going.function, going.design]
         stuck = (going.half < FINE) | (beaten & (going.idle > 2 * PATIENCE))
-        going = along_next_stroke(going, np.asarray(~np.isfinite(values).all(axis=-1)), half)
+        lost = ~np.isfinite(values).all(axis=-1)  # where the border is lost it is followed along the next stroke, each as wide as before
+        axis = np.where(lost, (going.axis + 1) % box.k, going.axis)
+        width = np.where(lost & (axis > 0), half, going.half)
+        going = replace(going, axis=axis, half=width, expected=np.where(lost, np.nan, going.expected))
         tops.append(going.subset(done))
         ended.append(going.subset(stuck & ~done))
         best = Climbs.concatenated([*tops, *ended, going]).best(box.seen.shape[1])[-len(going.value) :]

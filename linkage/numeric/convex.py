@@ -47,7 +47,15 @@ def convex_pieces(corners: Corners) -> tuple[tuple[int, ...], ...]:
         del order[ear]
     if len(order) == 3 and turn(corners, *order) > FLAT * squared_extent(corners):
         triangles.append((order[0], order[1], order[2]))
-    return joined_pieces(corners, triangles)
+    found = list(triangles)
+    while True:  # neighbours are joined across an edge where both together are convex
+        shared = [(i, j, *across_edge(found[i], found[j])) for j in range(len(found)) for i in range(j)]
+        pairs = [(squared_length(corners, *edge), i, j, both) for i, j, both, edge in shared if both and is_convex(corners, both)]
+        if not pairs:
+            return tuple(found)
+        _, i, j, both = max(pairs, key=lambda each: each[0])
+        del found[j], found[i]
+        found.append(both)
 
 
 def squared_length(corners: Corners, a: int, b: int) -> float:
@@ -75,19 +83,6 @@ def within(corners: Corners, place: int, triangle: tuple[int, int, int]) -> bool
     if any(np.array_equal(corners[place], corners[each]) for each in triangle):
         return False
     return all(turn(corners, start, end, place) >= 0.0 for start, end in ((a, b), (b, c), (c, a)))
-
-
-def joined_pieces(corners: Corners, pieces: list[tuple[int, ...]]) -> tuple[tuple[int, ...], ...]:
-    """Return convex pieces, neighbours joined across an edge where both together are convex."""
-    found = list(pieces)
-    while True:
-        shared = [(i, j, *across_edge(found[i], found[j])) for j in range(len(found)) for i in range(j)]
-        pairs = [(squared_length(corners, *edge), i, j, both) for i, j, both, edge in shared if both and is_convex(corners, both)]
-        if not pairs:
-            return tuple(found)
-        _, i, j, both = max(pairs, key=lambda each: each[0])
-        del found[j], found[i]
-        found.append(both)
 
 
 def across_edge(one: tuple[int, ...], other: tuple[int, ...]) -> tuple[tuple[int, ...], tuple[int, int]]:

@@ -123,3 +123,16 @@ class DampedSystem:
 def damped_solution(matrix: FloatArray, right: FloatArray) -> FloatArray:
     """Return the solutions (m, k) of linear equations, matrices (m, k, k) that are damped."""
     return np.asarray(np.linalg.solve(matrix, right[:, :, None])[:, :, 0], float)
+
+
+def refined(state: FloatArray, step: Callable[[FloatArray], FloatArray]) -> FloatArray | None:
+    """Return a state made exact by Newton's method, of which `step` is the next change; None where it has none."""
+    for _ in range(12):
+        try:
+            change = step(state)
+        except np.linalg.LinAlgError:
+            return None
+        state = state + change
+        if abs(change).max() < 1e-15 * max(abs(state).max(), 1.0):
+            break
+    return state

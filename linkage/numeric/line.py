@@ -15,7 +15,7 @@ A line is made of legs, a place on it is a leg and a share t of it, 0 to 1. Noth
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias, final
 
 import numpy as np
@@ -103,7 +103,13 @@ def highest(look: Look, counts: Sequence[int]) -> Highest:
         tops = narrowed(look, tops.best(MANY if rounds < PATIENCE else LAST))
         rounds += 1
     ends = tops if edges is None else tops.concatenated(edges)
-    return best_of_rows(ends, grows_along_leg(look, ends), np.asarray(np.isnan(seen).all(axis=-1)))
+    unbounded = grows_along_leg(look, ends)
+    any_unbounded = np.asarray(unbounded.any(axis=-1))
+    score = np.where(any_unbounded[..., None] & ~unbounded, -np.inf, ends.value)
+    place = np.argmax(score, axis=-1)[..., None]
+    value, leg, t = (np.take_along_axis(each, place, axis=-1)[..., 0] for each in (ends.value, ends.leg, ends.t))
+    value = np.where(any_unbounded, np.inf, np.where(value <= LOWEST, -np.inf, value))
+    return Highest(np.where(np.isnan(seen).all(axis=-1), np.nan, value), leg, t, any_unbounded)
 
 
 def missing_lowest(values: FloatArray) -> FloatArray:
@@ -136,15 +142,6 @@ def shifted(values: FloatArray, by: int, missing: float) -> FloatArray:
     return found
 
 
-def are_peaks(values: FloatArray, leg: Index) -> Mask:
-    """Return which samples (K, D, n) are as high as their neighbours, the first one of a level part. A corner stands twice among them."""
-    starts, ends = np.diff(leg, prepend=-1) > 0, np.diff(leg, append=leg[-1] + 1) > 0
-    before, after = (shifted(values, by, -np.inf) for by in (-1, 1))
-    before = np.where(starts, np.maximum(before, shifted(values, -2, -np.inf)), before)
-    after = np.where(ends, np.maximum(after, shifted(values, 2, -np.inf)), after)
-    return np.asarray(((values > before) | (starts & (values == before))) & (values >= after))
-
-
 def peaks(values: FloatArray, leg: Index, t: FloatArray, counts: Sequence[int], among: Mask | None = None) -> Tops:
     """Return the samples (K, D, n) that rise above their neighbours by more than noise: some of a mask (n,), else also the highest."""
     finite = np.where(values > LOWEST, values, np.nan)
@@ -153,7 +150,12 @@ def peaks(values: FloatArray, leg: Index, t: FloatArray, counts: Sequence[int], 
         rise = np.fmax(rise, finite - shifted(finite, by, np.nan))
     size = np.nanmax(np.abs(finite), axis=-1, initial=0.0, keepdims=True)
     span = np.nanmax(finite, axis=-1, initial=-np.inf, keepdims=True) - np.nanmin(finite, axis=-1, initial=np.inf, keepdims=True)
-    hopeful = are_peaks(values, leg) & (rise > NOISE * span + ROUNDED * size)
+    # Those as high as their neighbours, the first one of a level part; a corner stands twice among them.
+    starts, ends = np.diff(leg, prepend=-1) > 0, np.diff(leg, append=leg[-1] + 1) > 0
+    before, after = (shifted(values, by, -np.inf) for by in (-1, 1))
+    before = np.where(starts, np.maximum(before, shifted(values, -2, -np.inf)), before)
+    after = np.where(ends, np.maximum(after, shifted(values, 2, -np.inf)), after)
+    hopeful = ((values > before) | (starts & (values == before))) & (values >= after) & (rise > NOISE * span + ROUNDED * size)
     rank = np.where(hopeful, values + rise, -np.inf)
     if among is None:
         np.put_along_axis(rank, np.argmax(values, axis=-1)[..., None], np.inf, axis=-1)
@@ -179,25 +181,18 @@ def zoomed(look: Look, tops: Tops) -> Tops:
 def narrowed(look: Look, tops: Tops) -> Tops:
     """Return tops in narrower brackets: those at the ends of legs at once, by the places that halve the bracket again and again.
 
-    Whatever rises from an end is higher than the end at one of them; where none is, the end itself is the top.
+    Whatever rises from an end is higher than the end at one of them, by more than rounding; where none is, the end itself is the top.
     """
-    tops = from_ends(look, tops)
+    at_end = ((tops.t == 0.0) | (tops.t == 1.0)) & (tops.half > CLOSE)
+    if at_end.any():
+        inwards = np.where(at_end, np.where(tops.t == 0.0, tops.half, -tops.half), 0.0)
+        found = steps_to_borders(look, replace(tops, half=inwards))
+        with np.errstate(invalid="ignore"):
+            is_top = at_end & (found.value - tops.value <= ROUNDED * np.abs(tops.value))
+        settled, rises = replace(tops, half=np.where(is_top, 0.0, tops.half)), at_end & ~is_top
+        tops = Tops(*(np.where(rises, getattr(found, name), getattr(settled, name)) for name in tops.__dataclass_fields__))
     at_end = (tops.t == 0.0) | (tops.t == 1.0)
     return tops if (at_end & (tops.half <= CLOSE)).all() else zoomed(look, tops)
-
-
-def from_ends(look: Look, tops: Tops) -> Tops:
-    """Return tops, of which those at the ends of legs are narrowed; an end that nothing near it exceeds but by rounding is the top."""
-    at_end = ((tops.t == 0.0) | (tops.t == 1.0)) & (tops.half > CLOSE)
-    if not at_end.any():
-        return tops
-    inwards = np.where(at_end, np.where(tops.t == 0.0, tops.half, -tops.half), 0.0)
-    found = steps_to_borders(look, Tops(tops.leg, tops.t, tops.value, inwards, tops.bound))
-    with np.errstate(invalid="ignore"):
-        is_top = at_end & (found.value - tops.value <= ROUNDED * np.abs(tops.value))
-    settled = Tops(tops.leg, tops.t, tops.value, np.where(is_top, 0.0, tops.half), tops.bound)
-    rises = at_end & ~is_top
-    return Tops(*(np.where(rises, getattr(found, name), getattr(settled, name)) for name in tops.__dataclass_fields__))
 
 
 def best_seen(tops: Tops, t: FloatArray, seen: FloatArray, half: FloatArray) -> Tops:
@@ -334,14 +329,3 @@ def is_pole(value: FloatArray, seen: FloatArray, reached: Mask, far: FloatArray,
     width = np.where(np.logical_and.accumulate(gone, axis=-1), far[least::-1], 0.0).max(axis=-1)
     bound = (refused & ((x0 <= REFUSED) | ((x0 <= 2.0 * width) & (x0 >= width / 8.0)))) | (noisy & (x0 <= REFUSED))
     return np.asarray(found.any(axis=-1) & much & ((x0 <= near) | bound))
-
-
-def best_of_rows(tops: Tops, unbounded: Mask, missing: Mask) -> Highest:
-    """Return the best place of every row; one without bounds goes first."""
-    any_unbounded = np.asarray(unbounded.any(axis=-1))
-    score = np.where(any_unbounded[..., None] & ~unbounded, -np.inf, tops.value)
-    place = np.argmax(score, axis=-1)[..., None]
-    value = np.take_along_axis(tops.value, place, axis=-1)[..., 0]
-    value = np.where(any_unbounded, np.inf, np.where(value <= LOWEST, -np.inf, value))
-    leg, t = np.take_along_axis(tops.leg, place, axis=-1)[..., 0], np.take_along_axis(tops.t, place, axis=-1)[..., 0]
-    return Highest(np.where(missing, np.nan, value), leg, t, any_unbounded)

@@ -172,6 +172,11 @@ class Inversion(Shown):
         """Return the links that are jointed to one, all from 0 on."""
         return [other for other in range(self.chain.links) if self.chain.form[link] >> other & 1]
 
+    @property
+    def floating(self) -> list[int]:
+        """The links that are not on the frame, from 0 on."""
+        return [link for link in range(self.chain.links) if link not in (self.frame - 1, *self._on(self.frame - 1))]
+
     def machine(self, crank: int | None = None, coupler: int | None = None) -> Mechanism:
         """Return a machine of it: a crank that turns fully, and a point P of a coupler; each of its dimensions may be set, or vary.
 
@@ -179,16 +184,14 @@ class Inversion(Shown):
         is the link that carries P, by default the link farthest from the crank that is not on the frame. The sizes are those of a drawing
         that was looked for at random, with a short crank, and is far from any dead point. DefinitionError for a link that cannot be either.
         """
-        form, frame = self.chain.form, self.frame - 1
-        on_frame = self._on(frame)
+        form, on_frame = self.chain.form, self._on(self.frame - 1)
         driven = next((each for each in self.cranks if self.has_dyads_only(each)), self.cranks[0]) if crank is None else crank
         if driven - 1 not in on_frame:
             known = ", ".join(str(each + 1) for each in on_frame)
             raise DefinitionError(f"{self.name}: crank={cited(crank)}: a link on the frame is expected, one of {known}.")
-        floating = [link for link in range(self.chain.links) if link != frame and link not in on_frame]
-        carrying = farthest(form, driven - 1, floating) + 1 if coupler is None else coupler
-        if carrying - 1 not in floating:
-            known = ", ".join(str(each + 1) for each in floating)
+        carrying = farthest(form, driven - 1, self.floating) + 1 if coupler is None else coupler
+        if carrying - 1 not in self.floating:
+            known = ", ".join(str(each + 1) for each in self.floating)
             raise DefinitionError(f"{self.name}: coupler={cited(coupler)}: a link that is not on the frame is expected, one of {known}.")
         return machine_class(self, driven, carrying)()
 
@@ -301,8 +304,7 @@ class Joints:
 
 def drawing(joints: Joints) -> Places:
     """Return places of all joints [m] from which the crank turns fully, far from any dead point: the best of many at random."""
-    random = np.random.default_rng(0)
-    every = random.uniform(0.0, 1.0, (DRAWINGS, len(joints.names), 2))
+    every = np.random.default_rng(0).uniform(0.0, 1.0, (DRAWINGS, len(joints.names), 2))
     O = joints.names.index("O")
     every -= every[:, [O]]
     turning = [joints.names.index(name) for name in joints.turning]
@@ -361,22 +363,13 @@ def machine_class(inversion: Inversion, crank: int, coupler: int) -> type[Mechan
     said = f"crank {' '.join(joints.links[crank])} drives the links {moving}"
     doc = f"The {inversion.name}: {said}; {COUPLER} is a point of {' '.join(joints.links[coupler])}."
     own: dict[str, Any] = {"__module__": __name__, "__doc__": doc, "featured": lambda self: Featured("", [COUPLER], coupler=COUPLER)}
+    chain = inversion.chain  # the class is `StephensonIII`, `Links8No3Frame2Crank4`; a coupler that is not the usual one behind
+    title = {4: "FourBar", 6: inversion.name.replace(" ", "")}.get(chain.links, "")
+    title = title or f"Links{chain.links}Kind{''.join(map(str, chain.assortment))}No{chain.number}Frame{inversion.frame}"
+    title += f"Crank{crank}" if len(inversion.cranks) > 1 else ""
+    title += f"Coupler{coupler}" if coupler - 1 != farthest(chain.form, crank - 1, inversion.floating) else ""
     with unwarned():
-        return type(class_name(inversion, crank, coupler), (Mechanism,), {**own, **members})
-
-
-def class_name(inversion: Inversion, crank: int, coupler: int) -> str:
-    """Return the name of the class of a machine: `StephensonIII`, `Links8No3Frame2Crank4`; a coupler that is not the usual one behind."""
-    form = inversion.chain.form
-    if inversion.chain.links < 8:
-        name = "FourBar" if inversion.chain.links == 4 else inversion.name.replace(" ", "")
-    else:
-        kinds = "".join(map(str, inversion.chain.assortment))
-        name = f"Links{inversion.chain.links}Kind{kinds}No{inversion.chain.number}Frame{inversion.frame}"
-    frame = inversion.frame - 1
-    floating = [link for link in range(len(form)) if link != frame and not form[frame] >> link & 1]
-    name += f"Crank{crank}" if len(inversion.cranks) > 1 else ""
-    return name + (f"Coupler{coupler}" if coupler - 1 != farthest(form, crank - 1, floating) else "")
+        return type(title, (Mechanism,), {**own, **members})
 
 
 def bodies(inversion: Inversion) -> tuple[Body, ...]:

@@ -129,13 +129,13 @@ def laid_onto(
 
     The size's factor stays between `sizes` (2, m).
     """
-    both = [_one_sense(curves, onto, sizes, (shift, turn, scale), backward=backward) for backward in (False, True)]
+    both = [laid_in_sense(curves, onto, sizes, (shift, turn, scale), backward=backward) for backward in (False, True)]
     back = both[1].error < both[0].error
     chosen = [np.where(back, getattr(both[1], name), getattr(both[0], name)) for name in ("factor", "by", "start", "backward", "error")]
     return Laying(*chosen)
 
 
-def _one_sense(curves: ClosedCurves, onto: ClosedCurves, sizes: FloatArray, free: tuple[bool, bool, bool], *, backward: bool) -> Laying:
+def laid_in_sense(curves: ClosedCurves, onto: ClosedCurves, sizes: FloatArray, free: tuple[bool, bool, bool], *, backward: bool) -> Laying:
     """Return how curves lie best on one, all of them passed forward or backward."""
     shift, turn, scale = free
     h = min(curves.harmonics, onto.harmonics)

@@ -87,21 +87,21 @@ class CurveClass:
         if more or abs(abs(one.end - one.start) - TURN) > 1e-9:
             raise DefinitionError(f"{title}: a catalogue is of machines that one crank moves over a turn, {stroke} = Stroke(0, 2 * pi).")
         used = {str(node.value) for node in curve_kernel(plan, of).plan.design_inputs}
-        held = used.intersection(held_angles(machine, hold))
+        names = [*hold] if isinstance(hold, (tuple, list, set, frozenset)) else [hold]
+        held = [plan.table.spellings[each][0] for each in names if isinstance(each, str) and each in plan.table.spellings]
+        if len(held) < len(names) or any(entries[each].kind != "angle" for each in held):
+            angles = ", ".join(name for name, entry in entries.items() if entry.kind == "angle") or "none"
+            raise DefinitionError(f"{title}: hold={cited(hold)}: angles of the machine are expected; they are {angles}.")
         coordinates = {name for name, entry in entries.items() if entry.kind == "coordinate"}
         points = [name[:-2] for name in entries if name.endswith(".x") and {name, f"{name[:-2]}.y"} <= coordinates & used]
         fixed = {f"{point}.{axis}": at for point, place in zip(points, (0.0, 1.0), strict=False) for axis, at in (("x", place), ("y", 0.0))}
         variables: list[ShapeVariable] = []
         for name in entries:
-            if name not in used or name in fixed or name in held:
-                continue
-            if entries[name].kind == "length":
-                variables.append(ShapeVariable(name, entries[name].kind, *LENGTHS))
-            elif entries[name].kind == "angle":
-                variables.append(ShapeVariable(name, entries[name].kind, -np.pi, np.pi))
-            elif name[:-2] in points:
-                middle = 0.5 if name.endswith(".x") else 0.0
-                variables.append(ShapeVariable(name, entries[name].kind, middle - ABOUT, middle + ABOUT))
+            middle = 0.5 if name.endswith(".x") else 0.0
+            ranges = {"length": LENGTHS, "angle": (-np.pi, np.pi), "coordinate": (middle - ABOUT, middle + ABOUT)}
+            kind = entries[name].kind
+            if name in used - {*fixed, *held} and kind in ranges and (kind != "coordinate" or name[:-2] in points):
+                variables.append(ShapeVariable(name, kind, *ranges[kind]))
         if not variables:
             raise DefinitionError(f"{title}: nothing that {of} hangs on can vary; give its links lengths as numbers.")
         return cls(machine.replaced(**fixed), of, stroke, tuple(variables), fixed)
@@ -168,17 +168,6 @@ class CurveClass:
         return float(self.machine.plan.strokes[self.stroke].end) - self.start
 
 
-def held_angles(machine: Mechanism, hold: object) -> list[str]:
-    """Return the owners of the angles that stay as they are; DefinitionError for anything else."""
-    entries, spellings = machine.plan.table.entries, machine.plan.table.spellings
-    names = [*hold] if isinstance(hold, (tuple, list, set, frozenset)) else [hold]
-    known = [spellings[each][0] for each in names if isinstance(each, str) and each in spellings]
-    if len(known) < len(names) or any(entries[each].kind != "angle" for each in known):
-        angles = ", ".join(name for name, entry in entries.items() if entry.kind == "angle") or "none"
-        raise DefinitionError(f"{machine.plan.title}: hold={cited(hold)}: angles of the machine are expected; they are {angles}.")
-    return known
-
-
 # What is measured of a design.
 
 
@@ -238,15 +227,11 @@ class CurveMeasure:
             size = np.abs(path).max(axis=1)
             runs &= np.abs(path[:, -1] - path[:, 0]) <= SAME_PLACE * size  # of groups that are followed, not of dyads
             for margin in found[3:, :, :-1]:
-                low = margin if poses == FIRST else margin - round_bends(margin) / 6.0
+                bend = np.abs(np.roll(margin, 1, axis=1) - 2.0 * margin + np.roll(margin, -1, axis=1))
+                bend = np.maximum(bend, np.maximum(np.roll(bend, 1, axis=1), np.roll(bend, -1, axis=1)))  # the greatest beside as well
+                low = margin if poses == FIRST else margin - bend / 6.0
                 runs &= low.min(axis=1) > EDGE
         return path[:, :-1], runs
-
-
-def round_bends(values: FloatArray) -> FloatArray:
-    """Return the sizes of the second differences of values round a turn (m, n): at each the greatest of its own and its neighbours'."""
-    own = np.abs(np.roll(values, 1, axis=1) - 2.0 * values + np.roll(values, -1, axis=1))
-    return np.asarray(np.maximum(own, np.maximum(np.roll(own, 1, axis=1), np.roll(own, -1, axis=1))))
 
 
 def amplitude_names() -> list[str]:

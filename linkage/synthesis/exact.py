@@ -292,7 +292,11 @@ def driven(crank: Pivoted, follower: Pivoted, asked: CouplerTask) -> ExactMachin
     lifted = np.array([each.lifted(driven_angles) for each in ways]).reshape(len(ways), -1)
     inside = np.array([each.holds(row) for each, row in zip(ways, lifted, strict=True)]).reshape(len(ways), -1)
     number = np.where(inside.any(axis=0), inside.argmax(axis=0), 0)
-    left = follower_sides(crank, follower) > 0.0
+    rod = follower.places - crank.places
+    if follower.slides:
+        left = (rod * np.exp(-1j * follower.direction)).real <= 0.0
+    else:
+        left = (np.conj(follower.centre - crank.places) * rod).imag > 0.0
     fully = bool(ways) and ways[0].fully
     circuit = left.astype(int) if fully else number
     strokes, turn = strokes_at_points(ways, number, driven_angles, asked)
@@ -304,24 +308,18 @@ def driven(crank: Pivoted, follower: Pivoted, asked: CouplerTask) -> ExactMachin
     why = why_not(parts, circuit, asked, ordered=ordered)
     strokes = np.where(here, strokes, np.nan)
     low, high = stroke_ends(piece, strokes, asked)
-    rod = follower.places - crank.places
     share = (asked.points - crank.places) / rod  # of one place of the coupler it is the same at all points
     off = float(abs(share - share[0]).max() * abs(rod[0]))
     error = max(crank.error, follower.error, float(np.ptp([*abs(rod), coupler])), off)
     side = LEFT if most[1] else RIGHT
     members, dimensions = variant_of(crank, follower, coupler, (low, high), asked)
-    kind = class_words(crank, follower, coupler)
     name = "slider_crank" if follower.slides else "four_bar"
+    if follower.slides:
+        kind = said("slider-crank, its crank turns fully") if fully else said("slider-crank, its crank rocks")
+    else:
+        kind = grashof(abs(follower.centre - crank.centre), crank.length, coupler, follower.length)
     least = least_angle_at_follower(crank, follower, coupler, np.array([low, high]), piece)
     return ExactMachine(name, read_only(strokes), error, least, kind, why, ordered, fully, side, members, dimensions)
-
-
-def follower_sides(crank: Pivoted, follower: Pivoted) -> FloatArray:
-    """Return on which side the follower's pin stands (n,): 1 LEFT, -1 RIGHT, as the dyad's `side` says it."""
-    rod = follower.places - crank.places
-    if follower.slides:
-        return np.where((rod * np.exp(-1j * follower.direction)).real > 0.0, -1.0, 1.0)
-    return np.where((np.conj(follower.centre - crank.places) * rod).imag > 0.0, 1.0, -1.0)
 
 
 def crank_pieces(crank: Pivoted, follower: Pivoted, coupler: float) -> list[DrivenPiece]:
@@ -376,14 +374,6 @@ def why_not(parts: Sequence[tuple[int, bool, int]], circuit: npt.NDArray[np.int_
         some, others = (point_ranges([k for k, each in enumerate(parts, 1) if each == branch]) for branch in branches[:2])
         return said("a dead point stands between points {some} and {others}", some=some, others=others)
     return said("it comes to the points in another order") if asked.in_order and not ordered else ""
-
-
-def class_words(crank: Pivoted, follower: Pivoted, coupler: float) -> str:
-    """Return the Grashof class in words; of a slider-crank whether its crank turns fully."""
-    if follower.slides:
-        fully = any(each.fully for each in crank_pieces(crank, follower, coupler))
-        return said("slider-crank, its crank turns fully") if fully else said("slider-crank, its crank rocks")
-    return grashof(abs(follower.centre - crank.centre), crank.length, coupler, follower.length)
 
 
 def least_angle_at_follower(crank: Pivoted, follower: Pivoted, coupler: float, ends: FloatArray, piece: DrivenPiece) -> float:

@@ -12,6 +12,7 @@ import numpy as np
 from ..checks import require, require_number
 from ..errors import DefinitionError, StudyError
 from ..language import said
+from ..numeric.descent import refined
 from ..program import FloatArray
 from .exact import ComplexArray, CouplerTask, ExactMachine, ExactSynthesis, Pivoted, exact_synthesis, is_without_links, judged_machine
 from .tasks import check_radians, table_of
@@ -112,15 +113,19 @@ def exact_links(u: complex, v: complex, p: ComplexArray, s: ComplexArray, free_u
     """Return crank and follower made exact by Newton's method; None where they are no solution."""
     own = [0, *([1] if free_u else []), 2, *([3] if free_v else [])]
     state = np.array([u.real, u.imag if free_u else 0.0, v.real, v.imag if free_v else 0.0])
-    for _ in range(8):
+
+    def step(state: FloatArray) -> FloatArray:
         rod = 1.0 + complex(*state[2:]) * s - complex(*state[:2]) * p
         values = 0.5 * (abs(rod) ** 2)
         by = np.stack([-(rod.conj() * p).real, (rod.conj() * p).imag, (rod.conj() * s).real, -(rod.conj() * s).imag], axis=1)
-        off = values[1:] - values[0]
-        change = np.linalg.lstsq((by[1:] - by[0])[:, own], -off, rcond=None)[0]
-        state[own] += change
-        if abs(change).max() < 1e-15 * abs(state).max():
-            break
+        change = np.zeros(4)
+        change[own] = np.linalg.lstsq((by[1:] - by[0])[:, own], values[0] - values[1:], rcond=None)[0]
+        return change
+
+    found = refined(state, step)
+    if found is None:
+        return None
+    state = found
     far: FloatArray = np.abs(1.0 + complex(*state[2:]) * s - complex(*state[:2]) * p)
     exact = np.ptp(far) < 1e-11 * max(far.max(), abs(state).max())
     return (complex(*state[:2]), complex(*state[2:])) if exact else None

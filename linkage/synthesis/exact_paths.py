@@ -17,6 +17,7 @@ import numpy.typing as npt
 from ..checks import require
 from ..errors import DefinitionError, StudyError
 from ..language import said
+from ..numeric.descent import refined
 from ..program import FloatArray
 from ..units import require_measure
 from .exact import ComplexArray, CouplerTask, ExactMachine, ExactSynthesis, Pivoted, exact_synthesis, is_without_links, judged_machine
@@ -57,9 +58,10 @@ def five_point(pivots: object, points: object, *, in_order: bool = True) -> Exac
             raise DefinitionError(f"five_point: the points lie on a circle about the pivot {where}: one crank does it; move one of them.")
     every = solutions_of(own, own.conj())
     found: list[ExactMachine] = []
-    for z in real_ones(every, own):
-        A, B = (each * (b - a) + a for each in pin_places(z, own))
-        one, other = Pivoted(A, a), Pivoted(B, b)
+    for exact in real_ones(every, own):
+        turned = np.concatenate([[1.0], turnings(*exact, own)])
+        turned = turned / abs(turned)
+        one, other = (Pivoted((own + turned * z) * (b - a) + a, pivot) for z, pivot in zip(exact, ends, strict=True))
         if not is_without_links(one, other, abs(b - a)):
             found.append(judged_machine(one, other, CouplerTask(targets, in_order=bool(in_order))))
     title = said("Four-bars on two pivots through five points")
@@ -87,37 +89,27 @@ def complex_rows(name: str, given: object, count: int) -> ComplexArray:
 # two in x, X and in y, Y. Both are homogeneous, with a first coordinate of their own.
 
 
-@final
-@dataclass(frozen=True)
-class DyadTerms:
-    """What one pivot gives to the equations: values (m, 4) of e, of q x and of p X, and their derivatives by the homogeneous three."""
+def dyad_terms(z: ComplexArray, p: ComplexArray, q: ComplexArray) -> tuple[tuple[ComplexArray, ...], tuple[ComplexArray, ...]]:
+    """Return what one pivot gives to the equations at places (m, 3), of points (m, 5).
 
-    e: ComplexArray
-    turned: ComplexArray
-    back: ComplexArray
-    slopes: tuple[ComplexArray, ComplexArray, ComplexArray]
-
-    @classmethod
-    def of(cls, z: ComplexArray, p: ComplexArray, q: ComplexArray) -> DyadTerms:
-        """Return it at places (m, 3), of points (m, 5)."""
-        constant = p[:, 1:] * q[:, 1:] - p[:, :1] * q[:, :1]
-        one, none = np.ones_like(constant), np.zeros_like(constant)
-        e = q[:, :1] * z[:, 1:2] + p[:, :1] * z[:, 2:] - constant * z[:, :1]
-        by_e = np.stack([-constant, q[:, :1] * one, p[:, :1] * one], axis=2)
-        by_turned, by_back = np.stack([none, q[:, 1:], none], axis=2), np.stack([none, none, p[:, 1:]], axis=2)
-        return cls(e, q[:, 1:] * z[:, 1:2], p[:, 1:] * z[:, 2:], (by_e, by_turned, by_back))
+    These are the values (m, 4) of e, of q x and of p X, and their derivatives by the homogeneous three (m, 4, 3).
+    """
+    constant = p[:, 1:] * q[:, 1:] - p[:, :1] * q[:, :1]
+    one, none = np.ones_like(constant), np.zeros_like(constant)
+    e = q[:, :1] * z[:, 1:2] + p[:, :1] * z[:, 2:] - constant * z[:, :1]
+    by_e = np.stack([-constant, q[:, :1] * one, p[:, :1] * one], axis=2)
+    by_turned, by_back = np.stack([none, q[:, 1:], none], axis=2), np.stack([none, none, p[:, 1:]], axis=2)
+    return (e, q[:, 1:] * z[:, 1:2], p[:, 1:] * z[:, 2:]), (by_e, by_turned, by_back)
 
 
 def equations_at(z: ComplexArray, p: ComplexArray, q: ComplexArray) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
     """Return the values (m, 4) of the equations at places (m, 6), their derivatives (m, 4, 6), and D (m, 4)."""
-    one, other = DyadTerms.of(z[:, :3], p, q), DyadTerms.of(z[:, 3:], p - 1.0, q - 1.0)
-    D = one.turned * other.back - one.back * other.turned
-    N = one.e * other.back - other.e * one.back
-    U = one.turned * other.e - other.turned * one.e
-    (e, turned, back), (f, turning, backing) = one.slopes, other.slopes
-    by_D = both(turned * wide(other.back) - back * wide(other.turned), wide(one.turned) * backing - wide(one.back) * turning)
-    by_N = both(e * wide(other.back) - wide(other.e) * back, wide(one.e) * backing - f * wide(one.back))
-    by_U = both(turned * wide(other.e) - wide(other.turned) * e, wide(one.turned) * f - turning * wide(one.e))
+    (e, t, b), (by_e, by_t, by_b) = dyad_terms(z[:, :3], p, q)
+    (f, u, c), (by_f, by_u, by_c) = dyad_terms(z[:, 3:], p - 1.0, q - 1.0)
+    D, N, U = t * c - b * u, e * c - f * b, t * f - u * e
+    by_D = both(by_t * wide(c) - by_b * wide(u), wide(t) * by_c - wide(b) * by_u)
+    by_N = both(by_e * wide(c) - wide(f) * by_b, wide(e) * by_c - by_f * wide(b))
+    by_U = both(by_t * wide(f) - wide(u) * by_e, wide(t) * by_f - by_u * wide(e))
     return N * U - D * D, by_N * wide(U) + wide(N) * by_U - 2.0 * wide(D) * by_D, D
 
 
@@ -301,14 +293,8 @@ def is_closed(z: ComplexArray) -> bool:
 
 def real_ones(z: ComplexArray, own: ComplexArray) -> list[tuple[complex, complex]]:
     """Return the real ones of solutions (n, 4), x and y, made exact by Newton's method."""
-    found: list[tuple[complex, complex]] = []
-    for x, X, y, Y in z:
-        if abs(X - np.conj(x)) + abs(Y - np.conj(y)) > REAL * max(abs(x), abs(y), 1.0):
-            continue
-        exact = exact_pins(x, y, own)
-        if exact is not None:
-            found.append(exact)
-    return found
+    real = [(x, y) for x, X, y, Y in z if abs(X - np.conj(x)) + abs(Y - np.conj(y)) <= REAL * max(abs(x), abs(y), 1.0)]
+    return [exact for exact in (exact_pins(x, y, own) for x, y in real) if exact is not None]
 
 
 def exact_pins(x: complex, y: complex, own: ComplexArray) -> tuple[complex, complex] | None:
@@ -316,16 +302,14 @@ def exact_pins(x: complex, y: complex, own: ComplexArray) -> tuple[complex, comp
     turned = turnings(x, y, own)
     if not np.isfinite(turned).all() or abs(abs(turned) - 1.0).max() > 1e-4:
         return None
-    state = np.array([x.real, x.imag, y.real, y.imag, *np.angle(turned)])
-    for _ in range(8):
+
+    def step(state: FloatArray) -> FloatArray:
         values, slopes = residuals(state, own)
-        try:
-            change = np.linalg.solve(slopes, -values)
-        except np.linalg.LinAlgError:
-            return None
-        state = state + change
-        if abs(change).max() < 1e-15 * max(abs(state).max(), 1.0):
-            break
+        return np.asarray(np.linalg.solve(slopes, -values))
+
+    state = refined(np.array([x.real, x.imag, y.real, y.imag, *np.angle(turned)]), step)
+    if state is None:
+        return None
     values, _ = residuals(state, own)
     scale = max(abs(own).max(), abs(state[:4]).max(), 1.0) ** 2
     return (complex(*state[:2]), complex(*state[2:4])) if abs(values).max() < POLISHED * scale else None
@@ -351,10 +335,3 @@ def residuals(state: FloatArray, own: ComplexArray) -> tuple[FloatArray, FloatAr
         slopes[4 * k : 4 * k + 4, 2 * k], slopes[4 * k : 4 * k + 4, 2 * k + 1] = by_z.real, -by_z.imag
         slopes[4 * k : 4 * k + 4, 4:] = np.diag((there.conj() * 1j * turned * z).real)
     return values, slopes
-
-
-def pin_places(z: tuple[complex, complex], own: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
-    """Return the places (5,) of both pins in the pivots' axes."""
-    turned = np.concatenate([[1.0], turnings(*z, own)])
-    turned = turned / abs(turned)
-    return own + turned * z[0], own + turned * z[1]

@@ -22,6 +22,7 @@ from ..frozen import read_only
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion.regions import Disc, Region, region_of
+from ..numeric.descent import refined
 from ..program import FloatArray
 from ..shown import Shown
 from ..units import show
@@ -94,12 +95,7 @@ def checked_poses(poses: object) -> FloatArray:
             raise DefinitionError(f"burmester: poses {one + 1} and {other + 1} are the same; give poses that differ.")
     if abs(turned - turned[0]).max() < 1e-9:
         raise DefinitionError("burmester: the poses do not turn, so that every point of the body moves alike; let the angles differ.")
-    check_pole(places, turned / turned[0])
-    return rows
-
-
-def check_pole(places: ComplexArray, turned: ComplexArray) -> None:
-    """Raise DefinitionError where one pin guides a body through all its places (n,), of directions from the first one (n,)."""
+    turned = turned / turned[0]
     far = int(np.argmax(abs(turned - 1.0)))
     pole = (places[far] - turned[far] * places[0]) / (1.0 - turned[far])
     off = abs(places - pole - turned * (places[0] - pole)).max()
@@ -107,6 +103,7 @@ def check_pole(places: ComplexArray, turned: ComplexArray) -> None:
         size = max(abs(places[0] - pole), abs(pole))
         x, y = (show(round(each / size, 9) * size if size else each, "mm", 4) for each in (pole.real, pole.imag))
         raise DefinitionError(f"burmester: the poses turn about one place, ({x}, {y}): a pin there guides the body; move one of them.")
+    return rows
 
 
 @final
@@ -177,7 +174,13 @@ class Burmester(Shown):
     @cached_property
     def synthesis(self) -> ExactSynthesis:
         """The machines of all pairs of links."""
-        return pair_machines(self.body, self.links, in_order=self.in_order)
+        found = [
+            machine_of(self.body, one, other, in_order=self.in_order)
+            for one, other in combinations(self.links, 2)
+            if not ((one.slides and other.slides) or is_without_links(one.pivoted, other.pivoted, self.body.size))
+        ]
+        title = said("Four-bars and slider-cranks through {count} poses", count=len(self.poses))
+        return exact_synthesis(title, found, len(found))
 
     @property
     def solutions(self) -> tuple[ExactMachine, ...]:
@@ -231,19 +234,15 @@ class Burmester(Shown):
         if len(self.poses) == 3:
             return self.body.link_at(place) if centre is None else self.body.link_about(place)
         if len(self.poses) == 4:
-            return self.nearest_on_curve(place, 0 if centre is None else 1)
+            loops = self.body.loops()
+            ends = [loop.nearest(place, 0 if centre is None else 1) for loop in loops]
+            k = int(np.argmin([far for far, _ in ends]))
+            (on_circle,), (on_centre,) = loops[k].at(np.array([ends[k][1]]))
+            return GuidingLink.of(self.body.places_of(complex(on_circle)), complex(on_centre))
         if not self.links:
             raise StudyError("burmester: these five poses have no link that guides the body through them.")
         places = [each.point if centre is None else each.centre for each in self.links]
         return self.links[int(np.argmin([abs(complex(*each) - place) for each in places]))]
-
-    def nearest_on_curve(self, place: complex, which: int) -> GuidingLink:
-        """Return the link of the circle point (0) or centre point (1) on the curves that is nearest to a place."""
-        loops = self.body.loops()
-        ends = [loop.nearest(place, which) for loop in loops]
-        k = int(np.argmin([far for far, _ in ends]))
-        point, centre = loops[k].at(np.array([ends[k][1]]))
-        return GuidingLink.of(self.body.places_of(complex(point[0])), complex(centre[0]))
 
     def four_bar(self, one: GuidingLink, other: GuidingLink) -> ExactMachine:
         """Return the machine of two links, judged; the one that takes it through all poses drives it, else the first."""
@@ -298,12 +297,6 @@ class PosedBody:
         if not np.isfinite(point):
             raise StudyError("burmester: the circle point of this centre is at infinity; choose another centre.")
         return GuidingLink.of(self.places_of(point + self.z[0]), centre)
-
-    def link_or_none(self, centre: complex) -> GuidingLink | None:
-        """Return the link of a centre point of three poses; None where its circle point is at infinity."""
-        with suppress(StudyError):
-            return self.link_about(centre)
-        return None
 
     # -- four poses --
 
@@ -393,14 +386,17 @@ class PosedBody:
         ], axis=1)  # fmt: skip
         basis = np.linalg.svd(rows[1:] - rows[0])[2][-3:].T
         found: list[GuidingLink] = []
-        for share in conics_meet(conics_of(basis)):
+        w, m, product, one = basis[0:2], basis[2:4], basis[4:6], basis[6]
+        real = np.outer(product[0], one) - np.outer(w[0], m[0]) - np.outer(w[1], m[1])
+        imaginary = np.outer(product[1], one) - np.outer(w[1], m[0]) + np.outer(w[0], m[1])
+        for share in conics_meet([0.5 * (each + each.T) for each in (real, imaginary)]):
             with np.errstate(all="ignore"):
                 value = basis @ share
                 state = value[:4] / value[6]
             exact = exact_link(state, z, T) if np.isfinite(state).all() else None
             if exact is not None:
-                w, m = exact
-                link = GuidingLink.of(self.z + T * w * self.size, m * self.size + self.z.mean())
+                arm, centre = exact
+                link = GuidingLink.of(self.z + T * arm * self.size, centre * self.size + self.z.mean())
                 if all(abs(complex(*link.point) - complex(*each.point)) > 1e-7 * self.size for each in found):
                     found.append(link)
         return found
@@ -409,14 +405,6 @@ class PosedBody:
 def factors_of_parts(factor: ComplexArray) -> tuple[FloatArray, FloatArray]:
     """Return the factors of a number's real and imaginary part in Re(factor * number)."""
     return factor.real, -factor.imag
-
-
-def conics_of(basis: FloatArray) -> list[FloatArray]:
-    """Return the two conics (3, 3) of the combinations of a basis (7, 3) in which w m* is what it should be."""
-    w, m, product, one = basis[0:2], basis[2:4], basis[4:6], basis[6]
-    real = np.outer(product[0], one) - np.outer(w[0], m[0]) - np.outer(w[1], m[1])
-    imaginary = np.outer(product[1], one) - np.outer(w[1], m[0]) + np.outer(w[0], m[1])
-    return [0.5 * (each + each.T) for each in (real, imaginary)]
 
 
 def conics_meet(conics: Sequence[FloatArray]) -> list[FloatArray]:
@@ -440,18 +428,17 @@ def conics_meet(conics: Sequence[FloatArray]) -> list[FloatArray]:
 
 def exact_link(state: FloatArray, z: ComplexArray, T: ComplexArray) -> tuple[complex, complex] | None:
     """Return w and m from the four real parts, made exact by Newton's method; None where they are no solution."""
-    state = np.array(state)
-    for _ in range(12):
+
+    def step(state: FloatArray) -> FloatArray:
         arm = z + T * complex(*state[:2]) - complex(*state[2:])
         values = 0.5 * abs(arm) ** 2
         by = np.stack([(arm.conj() * T).real, (arm.conj() * 1j * T).real, -arm.real, -arm.imag], axis=1)
-        try:
-            change = np.linalg.solve(by[1:] - by[0], values[0] - values[1:])
-        except np.linalg.LinAlgError:
-            return None
-        state = state + change
-        if abs(change).max() < 1e-15 * max(abs(state).max(), 1.0):
-            break
+        return np.asarray(np.linalg.solve(by[1:] - by[0], values[0] - values[1:]))
+
+    found = refined(state, step)
+    if found is None:
+        return None
+    state = found
     w, m = complex(*state[:2]), complex(*state[2:])
     far: FloatArray = np.abs(z + T * w - m)
     return (w, m) if abs(state).max() < FARTHEST and np.ptp(far) < FIVE * 1e-3 * max(far.max(), 1.0) else None
@@ -478,8 +465,14 @@ class CurveLoop:
         else:
             middle, half = 0.5 * (self.way.start + self.way.end), 0.5 * (self.way.end - self.way.start)
             driven, side = middle - half * np.cos(s), np.where(np.sin(s) < 0.0, -1.0, 1.0)
+        left = minors.sum() - minors[0] * np.exp(1j * driven)
+        two, three, far = abs(minors[1]), abs(minors[2]), abs(left)
+        with np.errstate(all="ignore"):
+            inner = np.arccos(np.clip((far**2 + two**2 - three**2) / (2.0 * far * two), -1.0, 1.0))
+            second = np.angle(left) - np.angle(minors[1]) + side * inner
+            third = np.angle(left - minors[1] * np.exp(1j * second)) - np.angle(minors[2])
         beta = np.empty((3, *np.shape(s)))
-        beta[order] = closed_angles(minors, -minors.sum(), driven, side)
+        beta[order] = driven, second, third
         point, centre = self.body.dyads(beta)
         turned = np.exp(1j * (self.seen.rows[0, 2] - self.body.rows[0, 2]))
         return self.seen.z[0] + (point - self.body.z[0]) * turned, centre
@@ -507,17 +500,6 @@ class CurveLoop:
 STEPS_OF_LOOP = TURN * (np.arange(LOOP) + 0.5) / LOOP
 
 
-def closed_angles(minors: ComplexArray, fixed: complex, driven: FloatArray, side: FloatArray) -> FloatArray:
-    """Return all three angles (3, m) [rad] of the compatibility linkage, of those of its driven link and the side of the other two."""
-    left = -(fixed + minors[0] * np.exp(1j * driven))
-    two, three, far = abs(minors[1]), abs(minors[2]), abs(left)
-    with np.errstate(all="ignore"):
-        inner = np.arccos(np.clip((far**2 + two**2 - three**2) / (2.0 * far * two), -1.0, 1.0))
-        second = np.angle(left) - np.angle(minors[1]) + side * inner
-        third = np.angle(left - minors[1] * np.exp(1j * second)) - np.angle(minors[2])
-    return np.stack([driven, second, third])
-
-
 def centre_through(places: ComplexArray, size: float) -> complex:
     """Return the centre of the circle through three places [m]; NaN where they lie on a line."""
     one, other = places[1] - places[0], places[2] - places[0]
@@ -542,9 +524,7 @@ def as_points(places: ComplexArray) -> FloatArray:
 # -- what is picked, and the machines of it --------------------------------------------------------------------
 
 
-def links_picked(
-    body: PosedBody, curves: Sequence[tuple[ComplexArray, ComplexArray]], region: Region | None
-) -> list[GuidingLink]:
+def links_picked(body: PosedBody, curves: Sequence[tuple[ComplexArray, ComplexArray]], region: Region | None) -> list[GuidingLink]:
     """Return the links: of five poses all, of four along the curves, of three on a grid, those with their centre in the region."""
     count = len(body.rows)
     slider = None if count == 3 else body.slider()
@@ -553,17 +533,16 @@ def links_picked(
         every = body.burmester_points()
         every = [each for each in every if region is None or lies_within(np.array([each.pivoted.centre]), region)[0]]
         return [*every, *sliding]
-    if count == 3:
-        centres = () if region is None else grid_in(region, around_poses(body))
-        return [link for link in (body.link_or_none(complex(each)) for each in centres) if link is not None]
-    border = around_poses(body) if region is None else region
-    return [*(GuidingLink.of(body.places_of(point), centre) for point, centre in places_along(curves, border, body.size)), *sliding]
-
-
-def around_poses(body: PosedBody) -> Region:
-    """Return a circle about the poses."""
     middle = body.z.mean()
-    return Region((Disc(middle.real, middle.imag, AROUND * body.size),), ())
+    about = Region((Disc(middle.real, middle.imag, AROUND * body.size),), ())
+    if count == 3:
+        found = []
+        for each in [] if region is None else grid_in(region, about).tolist():
+            with suppress(StudyError):  # a circle point at infinity
+                found.append(body.link_about(each))
+        return found
+    border = about if region is None else region
+    return [*(GuidingLink.of(body.places_of(point), centre) for point, centre in places_along(curves, border, body.size)), *sliding]
 
 
 def places_along(curves: Sequence[tuple[ComplexArray, ComplexArray]], region: Region, size: float) -> list[tuple[complex, complex]]:
@@ -591,17 +570,6 @@ def grid_in(region: Region, about: Region) -> ComplexArray:
 def lies_within(places: ComplexArray, region: Region) -> npt.NDArray[np.bool_]:
     """Return whether complex places (m,) lie in a region."""
     return np.asarray(region.depths(as_points(places).T) >= 0.0)
-
-
-def pair_machines(body: PosedBody, links: Sequence[GuidingLink], *, in_order: bool) -> ExactSynthesis:
-    """Return the machines of all pairs of links."""
-    found = [
-        machine_of(body, one, other, in_order=in_order)
-        for one, other in combinations(links, 2)
-        if not ((one.slides and other.slides) or is_without_links(one.pivoted, other.pivoted, body.size))
-    ]
-    title = said("Four-bars and slider-cranks through {count} poses", count=len(body.rows))
-    return exact_synthesis(title, found, len(found))
 
 
 def machine_of(body: PosedBody, one: GuidingLink, other: GuidingLink, *, in_order: bool) -> ExactMachine:

@@ -36,7 +36,7 @@ from ..vectors import Side
 from .defects import TOLD, change_point_words, in_order, order_words
 from .exact import REGISTERED
 from .fit import Fit
-from .task_error import squares_near
+from .task_error import squares_near, summed
 from .tasks import PathTask, PoseTask, Task, TaskRows, of_class, task_named_in, task_of
 
 MOST_ROUNDINGS = 1024
@@ -159,20 +159,22 @@ class Synthesis(Shown):
     @property
     def sentence(self) -> str:
         """The answers in words, the best of them and the count; or what misses least, and why."""
-        if self.classes:
-            return sentence_of_classes(self)
         title, found, searched = self.problem.plan.title, self.solutions, self.searched
+        if self.classes:
+            title = said_of(len(self.classes), "{n} class", "{n} classes")
         if found:
-            lines = [
-                said_of(
-                    len(found), "{title}: {n} machine that runs; {searched}",
-                    "{title}: {n} different machines that run, the best first; {searched}", title=title, searched=searched,
-                )
-            ]  # fmt: skip
-            lines += [f"  {place}. {each}" for place, each in enumerate(found[:TOLD], 1)]
-            return "\n".join(lines)
-        lines = [said("{title}: no machine that runs was found for it; {searched}", title=title, searched=searched)]
-        return "\n".join([*lines, *(f"  {each}" for each in self.misses[:TOLD])])
+            opening = said_of(
+                len(found), "{title}: {n} machine that runs; {searched}",
+                "{title}: {n} different machines that run, the best first; {searched}", title=title, searched=searched,
+            )  # fmt: skip
+        else:
+            opening = said("{title}: no machine that runs was found for it; {searched}", title=title, searched=searched)
+        if self.classes:
+            best = [f"  {place}. {each.machine.plan.title}: {each}" for place, each in enumerate(found[:TOLD], 1)]
+            without = [f"  {each.problem.plan.title}: {each.misses[0]}" for each in self.classes if each.misses and not each.solutions]
+            return "\n".join([opening, *best, *without, "", self.table])
+        misses = [] if found else [f"  {each}" for each in self.misses[:TOLD]]
+        return "\n".join([opening, *(f"  {place}. {each}" for place, each in enumerate(found[:TOLD], 1)), *misses])
 
     @property
     def searched(self) -> str:
@@ -188,7 +190,23 @@ class Synthesis(Shown):
     @property
     def table(self) -> str:
         """What each class can, a line for each: its links, the error, the size and the least transmission angle of its best machine."""
-        return table_of_classes(self.classes or (self,))
+        classes = self.classes or (self,)
+        unit = miss_unit(classes[0].fits[0])
+        headings = [
+            said("class"), said("links"), said("error"), with_unit(said("rms"), unit), with_unit(said("size"), "mm"),
+            with_unit(said("least transmission angle"), "deg"), said("machines"), said("searches"),
+        ]  # fmt: skip
+        cells = [headings]
+        for each in classes:
+            numbers = ["-"] * 4
+            for best in each.solutions[:1]:
+                size = swept_size(each.fit_of(best), best.machine)
+                by = factor(shown_in(unit)) if unit else 1.0
+                numbers = [f"{best.error:.3g}", f"{best.rms / by:.4g}", f"{size / mm:.4g}", f"{best.transmission / deg:.3g}"]
+            cells.append([each.problem.plan.title, str(links_of(each.start)), *numbers, str(len(each.solutions)), str(each.starts)])
+        sizes = [max(len(row[place]) for row in cells) for place in range(len(headings))]
+        aligned = ([row[0].ljust(sizes[0]), *(each.rjust(size) for each, size in zip(row[1:], sizes[1:], strict=True))] for row in cells)
+        return "\n".join("  ".join(row) for row in aligned)
 
     @property
     def exact(self) -> float:
@@ -214,10 +232,7 @@ class Synthesis(Shown):
 
         It is that of this answer and of machines near it: an untimed point counts by its distance from the path there.
         """
-        total, *others = self.point_measures(place)
-        for each in others:
-            total = total + each
-        return total
+        return summed(self.point_measures(place))
 
     def point_measures(self, place: int = 0) -> tuple[Measure, ...]:
         """Return the square of what an answer misses at each point as a measure [SI^2]; `each**0.5 <= 0.5 * mm` is a condition."""
@@ -251,20 +266,27 @@ class Synthesis(Shown):
 
     def header(self) -> list[str]:
         """Return the headings of the answers' table, with units."""
-        if self.classes:
-            return header_of_classes(self.classes)
+        if self.classes:  # a column for every name that one of them has
+            return ["rank", "class", "links", "size, mm", *dict.fromkeys(name for each in self.classes for name in each.header()[1:])]
         plan, fit = self.problem.plan, self.fits[0]
         names = [heading_with_unit((name, unit_of(plan, name))) for name in tried_names(self.problem.space)]
         stroke = fit.timing.stroke
         unit = stroke_display_unit(plan, stroke, "mm")
-        strokes = [heading_with_unit((f"{stroke} {place}", unit)) for place in range(1, fit.rows.count + 1)]
+        strokes = [with_unit(f"{stroke} {place}", unit) for place in range(1, fit.rows.count + 1)]
         missed = [with_unit(each, miss_unit(fit)) for each in ("rms", "most")]
-        return ["rank", "error", *missed, "worst", heading_with_unit(("transmission", "deg")), *names, *strokes]
+        return ["rank", "error", *missed, "worst", with_unit("transmission", "deg"), *names, *strokes]
 
     def table_rows(self) -> list[list[str]]:
-        """Return the rows of the answers' table, `error` in SI, full precision."""
+        """Return the rows of the answers' table, `error` in SI, full precision; of several classes empty where one has no such column."""
         if self.classes:
-            return rows_of_classes(self)
+            cells: dict[int, dict[str, str]] = {}
+            for own in self.classes:
+                for each, row in zip(own.solutions, own.table_rows(), strict=True):
+                    head = {"class": own.problem.plan.title, "links": str(links_of(each.machine))}
+                    size = {"size, mm": repr(swept_size(own.fit_of(each), each.machine) / mm)}
+                    cells[id(each)] = dict(zip(own.header(), row, strict=True)) | head | size
+            ranked = [cells[id(each)] | {"rank": str(rank)} for rank, each in enumerate(self.solutions, 1)]
+            return [[row.get(name, "") for name in self.header()] for row in ranked]
         plan, space = self.problem.plan, self.problem.space
         by, unit = factor(shown_in(stroke_display_unit(plan, self.fits[0].timing.stroke, "mm"))), miss_unit(self.fits[0])
         missed = factor(shown_in(unit)) if unit else 1.0
@@ -276,14 +298,14 @@ class Synthesis(Shown):
                 for name in tried_names(space)
             ]
             off = [each.error, each.rms / missed, each.most / missed, each.worst]
-            numbers = [*off, each.transmission / deg, *values, *(each.strokes / by)]
-            rows.append([str(rank), *map(answer_cell, numbers)])
+            row = [str(rank)]
+            for value in (*off, each.transmission / deg, *values, *(each.strokes / by)):  # a number to its last digit, a side by its word
+                text = str(value) if isinstance(value, (Side, int)) else repr(float(value))
+                row.append(text if value == value else "")
+            rows.append(row)
         return rows
 
 
-def answer_cell(value: Any) -> str:
-    """Return what stands in a cell: a number to its last digit, nothing for none, a side by its word."""
-    return str(value) if isinstance(value, (Side, int)) else "" if value != value else repr(float(value))
 # Which answers are one, and which is the better one.
 
 
@@ -292,9 +314,7 @@ def exact_error(rows: TaskRows) -> float:
     return rows.count * (EXACT * rows.size) ** 2
 
 
-def is_one_design(
-    one: FloatArray, other: FloatArray, error: FloatArray | float, known: FloatArray | float, exact: float
-) -> Mask:
+def is_one_design(one: FloatArray, other: FloatArray, error: FloatArray | float, known: FloatArray | float, exact: float) -> Mask:
     """Return whether two designs (..., n) in unit coordinates, with their errors (...), are one."""
     far, worse = np.abs(one - other).max(axis=-1, initial=0.0), np.maximum(error, known)
     alike = (np.abs(error - known) <= ALIKE * np.maximum(worse, exact)) & (worse > exact)
@@ -307,43 +327,6 @@ def told_error(error: float, exact: float) -> float:
 
 
 # What several classes can.
-
-
-def sentence_of_classes(found: Synthesis) -> str:
-    """Return what was found of several classes, in words and as a table."""
-    title = said_of(len(found.classes), "{n} class", "{n} classes")
-    if found.solutions:
-        count = len(found.solutions)
-        opening = said_of(
-            count, "{title}: {n} machine that runs; {searched}",
-            "{title}: {n} different machines that run, the best first; {searched}", title=title, searched=found.searched,
-        )  # fmt: skip
-    else:
-        opening = said("{title}: no machine that runs was found for it; {searched}", title=title, searched=found.searched)
-    best = [f"  {place}. {each.machine.plan.title}: {each}" for place, each in enumerate(found.solutions[:TOLD], 1)]
-    without = [f"  {each.problem.plan.title}: {each.misses[0]}" for each in found.classes if each.misses and not each.solutions]
-    return "\n".join([opening, *best, *without, "", found.table])
-
-
-def table_of_classes(classes: Sequence[Synthesis]) -> str:
-    """Return a line for each class: links, error, root mean square, size and least transmission angle of its best machine."""
-    unit = miss_unit(classes[0].fits[0])
-    headings = [
-        said("class"), said("links"), said("error"), with_unit(said("rms"), unit), with_unit(said("size"), "mm"),
-        with_unit(said("least transmission angle"), "deg"), said("machines"), said("searches"),
-    ]  # fmt: skip
-    cells = [headings]
-    for each in classes:
-        best = each.solutions[0] if each.solutions else None
-        numbers = ["-"] * 4
-        if best is not None:
-            size = swept_size(each.fit_of(best), best.machine)
-            by = factor(shown_in(unit)) if unit else 1.0
-            numbers = [f"{best.error:.3g}", f"{best.rms / by:.4g}", f"{size / mm:.4g}", f"{best.transmission / deg:.3g}"]
-        cells.append([each.problem.plan.title, str(links_of(each.start)), *numbers, str(len(each.solutions)), str(each.starts)])
-    sizes = [max(len(row[place]) for row in cells) for place in range(len(headings))]
-    aligned = ([row[0].ljust(sizes[0]), *(each.rjust(size) for each, size in zip(row[1:], sizes[1:], strict=True))] for row in cells)
-    return "\n".join("  ".join(row) for row in aligned)
 
 
 def with_unit(heading: str, unit: str) -> str:
@@ -364,26 +347,6 @@ def swept_size(fit: Fit, machine: Mechanism) -> float:
     return float(np.ptp(places, axis=1).max())
 
 
-def header_of_classes(classes: Sequence[Synthesis]) -> list[str]:
-    """Return the headings of the answers of several classes: a column for every name that one of them has."""
-    return ["rank", "class", "links", "size, mm", *dict.fromkeys(name for each in classes for name in each.header()[1:])]
-
-
-def rows_of_classes(found: Synthesis) -> list[list[str]]:
-    """Return the rows of the answers of several classes, errors in SI, full precision; empty where a class has no such column."""
-    headings = header_of_classes(found.classes)
-    cells: dict[int, dict[str, str]] = {}
-    for own in found.classes:
-        heading = own.header()
-        cells |= {id(each): dict(zip(heading, row, strict=True)) for each, row in zip(own.solutions, own.table_rows(), strict=True)}
-    rows = []
-    for rank, each in enumerate(found.solutions, 1):
-        head = {"rank": str(rank), "class": each.machine.plan.title, "links": str(links_of(each.machine))}
-        size = repr(swept_size(found.fit_of(each), each.machine) / mm)
-        rows.append([{**cells[id(each)], **head, "size, mm": size}.get(name, "") for name in headings])
-    return rows
-
-
 def synthesised_classes(
     one: Callable[..., Synthesis],
     machines: Any,
@@ -399,7 +362,12 @@ def synthesised_classes(
 
     `by_class` are what may be said class by class; `options` go to each search as they are.
     """
-    designs = designs_of_classes(machines)
+    given = shipped_machines() if machines is None else machines
+    if not given:
+        raise DefinitionError(f"synthesise({cited(machines)}): a design or a list of classes is expected, such as [FourBar, SliderCrank].")
+    designs = [each() if isinstance(each, type) and issubclass(each, Mechanism) else each for each in given]
+    for each in designs:
+        check_one_design(each)
     check_counts("synthesise", 1 if starts == "catalogue" else starts, seed, limit)
     check_progress(progress)
     searches = [search_of_class(each, asked, by_class) for each in designs]
@@ -432,20 +400,6 @@ def search_of_class(
     return machine, {**options, keyword: task}
 
 
-def designs_of_classes(given: object) -> list[Mechanism]:
-    """Return the designs of classes, of those that are installed where none are given; DefinitionError for anything else."""
-    if given is None:
-        return shipped_machines()
-    if not isinstance(given, (list, tuple)) or not given:
-        raise DefinitionError(f"synthesise({cited(given)}): a design or a list of classes is expected, such as [FourBar, SliderCrank].")
-    found: list[Mechanism] = []
-    for each in given:
-        made = each() if isinstance(each, type) and issubclass(each, Mechanism) else each
-        check_one_design(made)
-        found.append(made)
-    return found
-
-
 def shipped_machines() -> list[Mechanism]:
     """Return the designs of the installed machines that name a point of a coupler and need no iteration, those of few links first."""
     found: dict[type[Mechanism], Mechanism] = {}
@@ -459,15 +413,16 @@ def shipped_machines() -> list[Mechanism]:
     return sorted(found.values(), key=lambda each: (links_of(each), each.plan.title))
 
 
-def ranking(each: SynthesisedMachine, exact: float) -> tuple[float, float]:
-    """Return by what answers are ranked: the error to three digits, then what is asked."""
-    return told_error(each.error, exact), 0.0 if np.isnan(each.ranked) else each.ranked
-
-
 def compared(found: list[Synthesis], limit: int | None) -> Synthesis:
     """Return what was found of all classes, ranked over all; of answers of the same error the one of fewer links first."""
-    every = [(own, answer) for own in found for answer in own.solutions]
-    every.sort(key=lambda one: (*ranking(one[1], one[0].exact), links_of(one[1].machine), one[1].error))
+
+    def rank(one: tuple[Synthesis, SynthesisedMachine]) -> tuple[float, ...]:
+        """Return by what answers are ranked: the error to three digits, then what is asked."""
+        own, answer = one
+        ranked = 0.0 if np.isnan(answer.ranked) else answer.ranked
+        return told_error(answer.error, own.exact), ranked, links_of(answer.machine), answer.error
+
+    every = sorted(((own, answer) for own in found for answer in own.solutions), key=rank)
     order = {id(own): place for place, (own, _) in reversed([*enumerate(every)])}
     found.sort(key=lambda own: (order.get(id(own), len(every)), min([miss.error for miss in own.misses], default=np.inf)))
     misses = sorted((miss for own in found for miss in own.misses), key=lambda miss: miss.error)
@@ -531,9 +486,16 @@ def default_box(machine: Mechanism, task: Task) -> dict[str, tuple[float, float]
         large, middle = max(lengths, default=1.0), np.zeros(2)
     else:
         large, middle = size_of_places(where), where.mean(axis=1)
+    before = run_of_task(machine, task)
     found: dict[str, tuple[float, float]] = {}
     for name, entry in entries.items():
-        if entry.kind not in ("length", "coordinate", "angle") or not depends_on(machine, task, name):
+        if entry.kind not in ("length", "coordinate", "angle"):
+            continue
+        now = float(machine.dimensions[name])
+        step = CHANGE * (abs(now) or size_of_machine(machine))
+        with np.errstate(all="ignore"):
+            change = np.abs(run_of_task(machine.replaced(**{name: now + step}), task) - before)
+        if not np.nanmax(change, initial=0.0) > 1e-9 * step:
             continue
         if entry.kind == "length":
             found[name] = (SHORTEST * large, LONGEST * large)
@@ -545,16 +507,6 @@ def default_box(machine: Mechanism, task: Task) -> dict[str, tuple[float, float]
     if not found:
         raise DefinitionError(f"{machine.plan.title}: no length, angle or fixed point of it moves what the task is of; say vary={{...}}.")
     return found
-
-
-def depends_on(machine: Mechanism, task: Task, name: str) -> bool:
-    """Return whether what a task is of changes with a dimension."""
-    now = float(machine.dimensions[name])
-    step = CHANGE * (abs(now) or size_of_machine(machine))
-    before, after = run_of_task(machine, task), run_of_task(machine.replaced(**{name: now + step}), task)
-    with np.errstate(all="ignore"):
-        change = np.abs(after - before)
-    return bool(np.nanmax(change, initial=0.0) > 1e-9 * step)
 
 
 # What is said of a machine.
@@ -579,9 +531,7 @@ def poorest_transmission(machine: Mechanism, over: Any) -> tuple[float, str]:
     return value, name
 
 
-def machine_words(
-    fit: Fit, machine: Mechanism, at: FloatArray, base: FloatArray, far: FloatArray, angle: float, joint: str
-) -> str:
+def machine_words(fit: Fit, machine: Mechanism, at: FloatArray, base: FloatArray, far: FloatArray, angle: float, joint: str) -> str:
     """Return an answer in words: its misses, order, circuit, Grashof class, least transmission angle, and how near to a change point."""
     unit = miss_unit(fit)
     error, rms, worst = float(np.sum(far**2)), float(np.sqrt(np.mean(far**2))), int(np.argmax(far))
@@ -606,20 +556,14 @@ def machine_words(
     if np.isfinite(angle):
         parts.append(said("least transmission angle {angle}, of {joint}", angle=show(angle, "deg", 3), joint=joint))
     parts += change_point_words(angle, four_bars)
-    if error > exact_error(fit.rows):
-        parts += end_of_box_words(fit, at)
-    return "; ".join(parts) + "."
-
-
-def end_of_box_words(fit: Fit, at: FloatArray) -> list[str]:
-    """Return which dimensions of a design stand at an end of the box; none where none does."""
     unit = at[: fit.n]
-    ends = np.flatnonzero(np.minimum(unit, 1.0 - unit) <= END).tolist()
-    values = fit.space.values(unit)
-    named = ", ".join(f"{fit.space.variables[k].name} = {fit.space.variables[k].show(values[k])}" for k in ends)
-    if len(ends) == 1:
-        return [said("{setting} is at its end of the box", setting=named)]
-    return [said("{settings} are at their ends of the box", settings=named)] if ends else []
+    settings = zip(fit.space.variables, fit.space.values(unit), np.minimum(unit, 1.0 - unit), strict=True)
+    ends = [f"{each.name} = {each.show(value)}" for each, value, left in settings if left <= END]
+    if ends and error > exact_error(fit.rows):
+        named = ", ".join(ends)
+        one = said("{setting} is at its end of the box", setting=named)
+        parts.append(one if len(ends) == 1 else said("{settings} are at their ends of the box", settings=named))
+    return "; ".join(parts) + "."
 
 
 def miss_unit(fit: Fit) -> str:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import operator
+from collections.abc import Mapping, Sequence
+from functools import reduce
 from itertools import combinations
 from typing import Any, TypeAlias
 
@@ -33,11 +35,7 @@ def task_error(
     counts by its distance from the path there, as studies of tolerances take it. `timed=True`: it counts at these strokes. `over` holds
     other strokes. Raises DefinitionError where several strokes move.
     """
-    squares = point_errors(machine, task, strokes, timed=timed, over=over)
-    total = squares[0]
-    for each in squares[1:]:
-        total = total + each
-    return total
+    return summed(point_errors(machine, task, strokes, timed=timed, over=over))
 
 
 def point_errors(
@@ -65,12 +63,11 @@ def point_errors(
 def moving_stroke(plan: Plan, ranges: Mapping[str, Range]) -> str:
     """Return the one stroke that moves, of the ranges of all; DefinitionError where several move."""
     moving = [name for name, one in ranges.items() if not is_still(one)]
-    if not moving:
-        known = ", ".join(ranges)
-        raise DefinitionError(f"{plan.title}: a task runs along one stroke, and over={{...}} holds all of them; leave one of {known} out.")
     if len(moving) != 1:
-        held = ", ".join(f'"{name}": value' for name in moving[1:]) or "..."
-        raise DefinitionError(f"{plan.title}: a task runs along one stroke; hold the others, over={{{held}}}.")
+        held = ", ".join(f'"{name}": value' for name in moving[1:])
+        all_held = f", and over={{...}} holds all of them; leave one of {', '.join(ranges)} out"
+        what = f"; hold the others, over={{{held}}}" if moving else all_held
+        raise DefinitionError(f"{plan.title}: a task runs along one stroke{what}.")
     return moving[0]
 
 
@@ -85,12 +82,14 @@ def misses_at(machine: Mechanism, rows: TaskRows, place: int) -> list[Any]:
     return found
 
 
-def squared_sum(parts: list[Any]) -> Any:
+def summed(parts: Sequence[Any]) -> Any:
+    """Return the sum of quantities or measures, of one at least."""
+    return reduce(operator.add, parts)
+
+
+def squared_sum(parts: Sequence[Any]) -> Any:
     """Return the sum of the squares of quantities."""
-    first, *others = (each * each for each in parts)
-    for each in others:
-        first = first + each
-    return first
+    return summed([each * each for each in parts])
 
 
 def squares_near(

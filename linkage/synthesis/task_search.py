@@ -150,11 +150,9 @@ def synthesise(
     constraints = pieces_in_cases(asked, cases, machine.judge(over))
     problem = Problem(machine, [Given(0.0)], constraints, space, 1.0, over)
     problem.count.limit = limit
-    timing = Timing.of(problem, searched_stroke(problem), timed, rows.count)
-    check_unit_of_points(machine, rows, space)
-    check_moved(problem, rows, timing.stroke)
-    if timing.stroke not in fitted.travels:  # rows of cylinders have ranges of their own
-        check_timed(problem, timing, task.at if timed is True else None)
+    timing = Timing.of(problem, searched_stroke(problem, rows), timed, rows.count)
+    if timing.stroke not in fitted.travels and timed is True and task.at is not None:  # rows of cylinders have ranges of their own
+        check_timed(problem, timing, task.at)
     catalogue = catalogue_for(problem, task, timing, timed, starts, executor, progress) if catalogued else None
     many = starts if isinstance(starts, int) else STARTS
     search = TaskSearch(problem, task, rows, timing, timed, ranks, held, over, many, seed, catalogue)
@@ -205,33 +203,31 @@ def catalogue_for(
     return curve_catalogue(machine, task.of, hold=hold, executor=executor, progress=progress)
 
 
-def check_unit_of_points(machine: Mechanism, rows: TaskRows, space: Space) -> None:
-    """Raise DefinitionError for points so far away that they are of another unit."""
-    lengths = [measure_of(machine.plan, each) == "length" for each in rows.quantities]
-    if not any(lengths):
-        return
-    ends = [abs(end) for each in space.variables if each.unit == "mm" for end in (each.low, each.high)]
-    far, size = float(np.nanmax(np.abs(rows.wanted[lengths]))), max([size_of_machine(machine), *ends])
+def searched_stroke(problem: Problem, rows: TaskRows) -> str:
+    """Return the one stroke along which a task runs; DefinitionError where several move, or its ends follow the design.
+
+    Points so far away that they are of another unit are refused as well, and a quantity that stands still.
+    """
+    plan, stroke = problem.plan, moving_stroke(problem.plan, problem.ranges)
+    if problem.ranges[stroke].follows and not problem.ranges[stroke].is_travel:
+        raise DefinitionError(f"{plan.title}: over={{{stroke!r}: ...}}: a synthesis looks at a range of numbers.")
+    lengths = [measure_of(plan, each) == "length" for each in rows.quantities]
+    ends = [abs(end) for each in problem.space.variables if each.unit == "mm" for end in (each.low, each.high)]
+    far, size = float(np.nanmax(np.abs(rows.wanted[lengths]), initial=0.0)), max([size_of_machine(problem.machine), *ends])
     if far > 5.0 * FAR * size:  # a path may be out of reach, and is told so
         told = f"lengths as far as {far:.6g} m from zero, where no length is above {size:.6g} m"
-        raise DefinitionError(f"{machine.plan.title}: {told}; they are in m, write np.array(...) * mm if these are millimetres.")
-
-
-def check_moved(problem: Problem, rows: TaskRows, stroke: str) -> None:
-    """Raise DefinitionError for a quantity that stands still while the stroke runs."""
-    plan = problem.plan
+        raise DefinitionError(f"{plan.title}: {told}; they are in m, write np.array(...) * mm if these are millimetres.")
     for each in rows.quantities:
-        names = traced_number(plan, each).names(plan)
-        if stroke not in plan.reaches(*names):
+        if stroke not in plan.reaches(*traced_number(plan, each).names(plan)):
             told = f"{words_of(each)} does not move with {stroke}, the stroke of this task"
             raise DefinitionError(f"{plan.title}: {told}; ask for what moves, or let another stroke run, over={{...}}.")
+    return stroke
 
 
-def check_timed(problem: Problem, timing: Timing, at: FloatArray | None) -> None:
+def check_timed(problem: Problem, timing: Timing, at: FloatArray) -> None:
     """Raise DefinitionError for timed points outside the part of the stroke that is looked at; a crank goes round."""
-    if at is not None and timing.turn:
+    if timing.turn:
         check_radians(problem.plan.title, f"the strokes of {timing.stroke}", at)
-    if at is None or timing.turn:
         return
     low, high = sorted((timing.start, timing.start + timing.span))
     outside = np.flatnonzero((at < low - 1e-9 * (high - low)) | (at > high + 1e-9 * (high - low)))
@@ -240,14 +236,6 @@ def check_timed(problem: Problem, timing: Timing, at: FloatArray | None) -> None
         told, least, most = (show(float(each), unit, 4) for each in (at[outside[0]], low, high))
         where = f"point {outside[0] + 1} is timed at {timing.stroke} = {told}, outside the stroke from {least} to {most}"
         raise DefinitionError(f"{problem.plan.title}: {where}; give a stroke within it, or another over={{...}}.")
-
-
-def searched_stroke(problem: Problem) -> str:
-    """Return the one stroke along which a task runs; DefinitionError where several move, or its ends follow the design."""
-    moving = moving_stroke(problem.plan, problem.ranges)
-    if problem.ranges[moving].follows and not problem.ranges[moving].is_travel:
-        raise DefinitionError(f"{problem.plan.title}: over={{{moving!r}: ...}}: a synthesis looks at a range of numbers.")
-    return moving
 
 
 @final
@@ -326,6 +314,10 @@ class TaskSearch:
         """What all fits have in common."""
         return self.problem, self.rows, self.timing, self.task.at
 
+    def fit(self, combination: Combination) -> Fit:
+        """Return the fit of a combination of choices."""
+        return Fit(self.problem.on_branch(combination), self.rows, self.timing, combination, self.task.at)
+
     def most(self, searches: int) -> float:
         """Return how many designs each of some searches may look at."""
         limit = self.problem.count.limit
@@ -338,24 +330,23 @@ class TaskSearch:
         space, chosen = self.problem.space, self.combinations
         unit = space.unit(space.present(self.problem.machine))[None]
         if self.population and self.catalogue is not None:
-            fit = Fit(self.problem.on_branch(chosen[0]), self.rows, self.timing, chosen[0], self.task.at)
-            unit = self.catalogue.population(fit, self.population)
+            unit = self.catalogue.population(self.fit(chosen[0]), self.population)
         elif self.population:
             unit = np.concatenate([unit, unit_points(self.population, len(space.variables), "sobol", self.seed)])
         unit = space.drawn(unit, self.problem.plan.title, self.seed)
         rows = SearchRows.joined([(each, {"unit": unit}) for each in chosen])
         seen = stages.done("look", LookWork(*self.shared, self.timed), rows, told=self.population * len(chosen))
-        fits = [Fit(self.problem.on_branch(each), self.rows, self.timing, each, self.task.at) for each in chosen]
+        fits = [self.fit(each) for each in chosen]
         likeness: dict[Combination, Likeness] = {}
         parts = []
         whole, somewhere = (seen[name].reshape(len(chosen), -1) for name in ("whole", "somewhere"))
         with self.problem.count.without_limit():
             for fit, runs, reached in zip(fits, whole, somewhere, strict=True):
-                kept = runs if is_enough(runs) else reached
+                kept = runs if int(runs.sum()) >= WHOLE_ENOUGH else reached
                 likeness[fit.combination] = Likeness.of(fit, unit[runs][:3], timed=self.timed is True)
                 parts.append((fit.combination, {"unit": unit[kept]}))
         rows = SearchRows.joined(parts)
-        running = frozenset(each for each, runs in zip(chosen, whole, strict=True) if is_enough(runs))
+        running = frozenset(each for each, runs in zip(chosen, whole, strict=True) if int(runs.sum()) >= WHOLE_ENOUGH)
         laid = stages.done("lay", LayWork(*self.shared, self.timed, likeness, running), rows)
         found = []
         for (_, own), each, fit, runs in zip(parts, found_of_parts(laid, parts), fits, whole, strict=True):
@@ -390,18 +381,16 @@ class TaskSearch:
 
     def searched(self, stages: Stages, first: Sequence[Starts]) -> list[Ends]:
         """Return what the local searches come to, then those that go on with the conditions."""
-        told = self.many * len(first)
-        free = [self.ends_of(each.fit, at, each.base) for each, at in zip(first, self.descended(stages, "free", first, told), strict=True)]
+        free = self.descended(stages, "free", first, self.many * len(first))
         found = [[each] for each in free]
         if not self.problem.count.is_spent:  # again, through machines that run
             again = [self.that_run_first(each, ends) for each, ends in zip(first, free, strict=True)]
-            for each, begun, at in zip(found, again, self.descended(stages, "running", again), strict=True):
-                each.append(self.ends_of(begun.fit, at, begun.base))
+            for each, ends in zip(found, self.descended(stages, "running", again), strict=True):
+                each.append(ends)
         keeping = [each.keeping for each in first if each.keeping is not None and len(each.keeping.at)]
         kept = dict[Fit, Ends]()
         if keeping and not self.problem.count.is_spent:  # and through machines that keep the conditions
-            for begun, at in zip(keeping, self.descended(stages, "keeping", keeping), strict=True):
-                kept[begun.fit] = self.ends_of(begun.fit, at, begun.base)
+            kept = {ends.fit: ends for ends in self.descended(stages, "keeping", keeping)}
             for each in found:
                 each += [kept[each[0].fit]] if each[0].fit in kept else []
         self.hop(stages, found)
@@ -425,8 +414,8 @@ class TaskSearch:
             if self.problem.count.is_spent:
                 break
             again = [self.about_best(own, wave) for own in found]
-            for own, begun, at in zip(found, again, self.descended(stages, "free", again, name=f"hop {wave}"), strict=True):
-                own.append(self.ends_of(begun.fit, at, begun.base))
+            for own, ends in zip(found, self.descended(stages, "free", again, name=f"hop {wave}"), strict=True):
+                own.append(ends)
             best, before = self.best_of(found), best
 
     def best_of(self, found: Sequence[Sequence[Ends]]) -> float:
@@ -462,14 +451,15 @@ class TaskSearch:
             away = away[first.fit.whole(first.at[away])] if len(away) else away
         return Starts(first.fit, first.at[away], first.base[away])
 
-    def descended(self, stages: Stages, through: Through, first: Sequence[Starts], told: int = 0, *, name: str = "") -> list[FloatArray]:
+    def descended(self, stages: Stages, through: Through, first: Sequence[Starts], told: int = 0, *, name: str = "") -> list[Ends]:
         """Return where local searches end, or where they stand when the limit is reached; `name` is the stage's where it is another."""
-        if self.problem.count.is_spent:
-            return [each.at for each in first]
-        parts = [(each.fit.combination, {"at": each.at, "base": each.base}) for each in first]
-        rows = SearchRows.joined(parts)
-        found = stages.done(name or through, DescentWork(*self.shared, through, self.most(rows.count)), rows, told=told)
-        return [each["at"] for each in found_of_parts(found, parts)]
+        reached = [each.at for each in first]
+        if not self.problem.count.is_spent:
+            parts = [(each.fit.combination, {"at": each.at, "base": each.base}) for each in first]
+            rows = SearchRows.joined(parts)
+            found = stages.done(name or through, DescentWork(*self.shared, through, self.most(rows.count)), rows, told=told)
+            reached = [each["at"] for each in found_of_parts(found, parts)]
+        return [self.ends_of(each.fit, at, each.base) for each, at in zip(first, reached, strict=True)]
 
     def polished(self, stages: Stages, wave: int, ways: Sequence[Polishing]) -> None:
         """Search from the next designs with all conditions, of all combinations together."""
@@ -538,18 +528,13 @@ class TaskSearch:
                 misses.append(Miss(machine, error, f"error {error:.6g}: {why}."))
             elif not why:
                 solutions.append(self.answer(machine, each, k))
-        return tuple(self.with_branches(sorted(solutions, key=self.order))), tuple(misses)
-
-    def with_branches(self, solutions: Sequence[SynthesisedMachine]) -> list[SynthesisedMachine]:
-        """Return answers, the best of them with the points that lie on another branch where it misses some by far."""
-        found = [*solutions]
-        for best in found[:1]:
-            fit = Fit(self.problem.on_branch(best.combination), self.rows, self.timing, best.combination, self.task.at)
-            far = misses_of(fit, best.at, best.base)[2]
-            words = branch_words(fit, best.machine, best.at, best.base, far)
+        solutions.sort(key=self.order)
+        for best in solutions[:1]:  # with the points that lie on another branch where it misses some by far
+            fit = self.fit(best.combination)
+            words = branch_words(fit, best.machine, best.at, best.base, misses_of(fit, best.at, best.base)[2])
             if words:
-                found[0] = replace(best, sentence=f"{best.sentence.removesuffix('.')}; {words}.")
-        return found
+                solutions[0] = replace(best, sentence=f"{best.sentence.removesuffix('.')}; {words}.")
+        return tuple(solutions), tuple(misses)
 
     def is_same(self, one: tuple[float, Ends, int], other: tuple[float, Ends, int], moving: Mask) -> bool:
         """Return whether two ends are one design, by the variables (n,) that move anything."""
@@ -582,12 +567,9 @@ class TaskSearch:
     def why_not(self, machine: Mechanism, ends: Ends, k: int) -> str:
         """Return why a design is no answer, in words; "" for one that is, by the judge."""
         fit, at, base = ends.fit, ends.at[k], ends.base[k]
-        circuits = circuit_words(fit, at, base)
-        if circuits:
-            return circuits
-        beyond = beyond_travel_words(fit, at, base)
-        if beyond:
-            return beyond
+        told = circuit_words(fit, at, base) or beyond_travel_words(fit, at, base)
+        if told:
+            return told
         if self.ordered and not in_order(fit, at, base):
             return said("it comes to the points in the order {order}", order=order_words(fit, at, base))
         try:
@@ -662,11 +644,6 @@ class Polishing:
         ends = self.search.ends_of(self.fit, at, base)
         self.ends.append(ends)
         self.best = min([self.best, *ends.error[self.search.good_in_order(ends)].tolist()])
-
-
-def is_enough(whole: Mask) -> bool:
-    """Return whether so many designs run that no others are taken."""
-    return int(whole.sum()) >= WHOLE_ENOUGH
 
 
 def found_of_parts(found: Mapping[str, Array], parts: Sequence[tuple[Combination, Mapping[str, Array]]]) -> list[dict[str, Array]]:

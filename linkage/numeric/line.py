@@ -123,7 +123,8 @@ def at_own_legs(look: Look, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask
     A place that several functions ask for, as at a border that they share, is looked at once.
     """
     K, D = t.shape[:2]
-    legs, places = (np.moveaxis(np.broadcast_to(each, t.shape), 0, 1).reshape(D, -1) for each in (leg[..., None], t))
+    legs = np.moveaxis(np.broadcast_to(leg[..., None], t.shape), 0, 1).reshape(D, -1)
+    places = np.moveaxis(t, 0, 1).reshape(D, -1)
     _, first, back = np.unique(np.concatenate([legs, places]), axis=1, return_index=True, return_inverse=True)
     values, reached = look(legs[:, first], places[:, first])
     own = back.reshape(K, -1)  # of each function its columns among those looked at

@@ -62,14 +62,15 @@ def in_words(path: Place) -> Iterator[None]:
 
 def check_name(path: Place) -> None:
     """Raise FileError for anything but a name, and for a name that no file can have."""
-    if not isinstance(path, (str, os.PathLike)):
-        raise FileError(f"{cited(path)} is no path of a file; give its name as text, or a pathlib.Path.")
+    fault = "" if isinstance(path, (str, os.PathLike)) else f"{cited(path)} is no path of a file; give its name as text, or a pathlib.Path"
     try:
-        is_none = b"\0" in os.fsencode(path)
+        is_none = not fault and b"\0" in os.fsencode(path)
     except UnicodeEncodeError:
         is_none = True
     if is_none:
-        raise FileError(f"{spoken(path)}: the name holds characters that no file's name can have; choose another one.")
+        fault = f"{spoken(path)}: the name holds characters that no file's name can have; choose another one"
+    if fault:
+        raise FileError(f"{fault}.")
 
 
 def read(path: Place, most: int = -1) -> bytes:
@@ -111,13 +112,23 @@ def replacing(path: Place) -> Iterator[BinaryIO]:
                     stream.close()
                 raise
             stream.close()
-            keep_rights(file, fresh)
+            if file.exists():  # what replaces it has its permissions, and its owner as far as that is allowed
+                was = os.stat(file)
+                if hasattr(os, "chown"):
+                    with suppress(PermissionError):
+                        os.chown(fresh, was.st_uid, was.st_gid)
+                os.chmod(fresh, stat.S_IMODE(was.st_mode))
             os.replace(fresh, file)
         except BaseException:
             with suppress(OSError):
                 fresh.unlink()
             raise
-    bring_name(file.parent)
+    with suppress(OSError):  # the folder's new name goes to the disk, where the system can bring it there
+        handle = os.open(file.parent, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
 
 
 @contextmanager
@@ -135,21 +146,22 @@ def target(path: Place) -> Path | None:
             found = os.stat(path)
         except FileNotFoundError:
             found = None
+        file, fault = Path(os.path.realpath(path)), 0
         if found is not None and stat.S_ISDIR(found.st_mode):
-            raise IsADirectoryError(errno.EISDIR, "")
-        if found is not None and (not stat.S_ISREG(found.st_mode) or own_stream(found) is not None or is_stream(Path(path))):
+            fault = errno.EISDIR
+        elif found is not None and (not stat.S_ISREG(found.st_mode) or own_stream(found) is not None or is_stream(Path(path))):
             return None
-        file = Path(os.path.realpath(path))
-        if not os.path.isdir(file.parent):
-            if not os.path.lexists(file.parent):
-                folder = spoken(file.parent if os.path.islink(path) else Path(path).parent)
-                raise FileError(f"{spoken(path)}: the folder {folder} is not there; make it first or choose another.")
-            raise NotADirectoryError(errno.ENOTDIR, "")
-        if found is not None and not os.access(file, os.W_OK):
-            raise PermissionError(errno.EACCES, "")
-        if not os.access(file.parent, os.W_OK | os.X_OK):
-            is_read_only = hasattr(os, "statvfs") and os.statvfs(file.parent).f_flag & os.ST_RDONLY
-            raise PermissionError(errno.EROFS if is_read_only else errno.EACCES, "")
+        elif not os.path.lexists(file.parent):
+            folder = spoken(file.parent if os.path.islink(path) else Path(path).parent)
+            raise FileError(f"{spoken(path)}: the folder {folder} is not there; make it first or choose another.")
+        elif not os.path.isdir(file.parent):
+            fault = errno.ENOTDIR
+        elif found is not None and not os.access(file, os.W_OK):
+            fault = errno.EACCES
+        elif not os.access(file.parent, os.W_OK | os.X_OK):
+            fault = errno.EROFS if hasattr(os, "statvfs") and os.statvfs(file.parent).f_flag & os.ST_RDONLY else errno.EACCES
+        if fault:
+            raise OSError(fault, "")
         return file
 
 
@@ -183,24 +195,3 @@ def straight(path: Place) -> BinaryIO:
             said.flush()
     return open(os.dup(own), "wb")
 
-
-def keep_rights(old: Path, fresh: Path) -> None:
-    """Give a new file the permissions of the one it replaces, and its owner as far as that is allowed."""
-    try:
-        was = os.stat(old)
-    except FileNotFoundError:
-        return
-    if hasattr(os, "chown"):
-        with suppress(PermissionError):
-            os.chown(fresh, was.st_uid, was.st_gid)
-    os.chmod(fresh, stat.S_IMODE(was.st_mode))
-
-
-def bring_name(folder: Path) -> None:
-    """Bring a folder's new name to the disk, where the system can."""
-    with suppress(OSError):
-        handle = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)

@@ -153,6 +153,11 @@ def known_name(kind: str, name: object, names: Collection[str], where: str = "")
     return name
 
 
+def article(word: str) -> str:
+    """Return the article that goes with a word."""
+    return "an" if word[0] in "aeiou" else "a"
+
+
 def quoted(word: str) -> str:
     """Return a word in the quotes that it is written with."""
     return f'"{word}"'

@@ -605,12 +605,12 @@ def check_no_member(title: str, name: str, value: object) -> None:
     """Raise DefinitionError for what was meant as a member and is none: its class, or members in a list or behind a comma too many."""
     if isinstance(value, type) and issubclass(value, Member):
         raise DefinitionError(f"{title}.{name} = {value.__name__} is the class, no member; write {name} = {value.__name__}(...).")
-    if isinstance(value, type) and issubclass(value, Mechanism) and name != value.__name__:
-        text = f"{title}.{name} = {value.__name__} is a class of mechanisms and no member"
-        raise DefinitionError(f"{text}; as a part of the machine it is {name} = Part({value.__name__}).", member=name)
-    if isinstance(value, Mechanism):
-        text = f"{title}.{name} = {type(value).__name__}(...) is a design, which stays numbers"
-        raise DefinitionError(f"{text}; as a part of the machine it is {name} = Part({type(value).__name__}).", member=name)
+    machine = value if isinstance(value, type) else type(value)
+    if issubclass(machine, Mechanism) and name != getattr(value, "__name__", ""):
+        is_class = f"{machine.__name__} is a class of mechanisms and no member"
+        what = is_class if machine is value else f"{machine.__name__}(...) is a design, which stays numbers"
+        remedy = f"as a part of the machine it is {name} = Part({machine.__name__})"
+        raise DefinitionError(f"{title}.{name} = {what}; {remedy}.", member=name)
     parts = value.values() if isinstance(value, dict) else value if isinstance(value, (list, tuple, set, frozenset)) else ()
     lost = [each for each in parts if isinstance(each, Member) and not each.name]
     if lost:

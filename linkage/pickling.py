@@ -21,20 +21,20 @@ class InnerFunction:
     module: str
     outer: str
     place: tuple[int, ...]
-    defaults: tuple[Any, ...] | None
-    by_name: dict[str, Any] | None
-    cells: tuple[Any, ...]
+    defaults: tuple[object, ...] | None
+    by_name: dict[str, object] | None
+    cells: tuple[object, ...]
 
     def __call__(self, *given: object, **named: object) -> Any:
         """Return what the function gives."""
         return function_again(*vars(self).values())(*given, **named)
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         return function_again, tuple(vars(self).values())
 
 
 def function_again(
-    module: str, outer: str, place: tuple[int, ...], defaults: Any, by_name: dict[str, Any] | None, cells: tuple[Any, ...]
+    module: str, outer: str, place: tuple[int, ...], defaults: Any, by_name: dict[str, Any] | None, cells: tuple[object, ...]
 ) -> FunctionType:
     """Return a function that is nested in a function of a module."""
     code = code_of(module, outer)
@@ -46,13 +46,14 @@ def function_again(
     return found
 
 
-def code_of(module: str, outer: str) -> Any:
+def code_of(module: str, outer: str) -> CodeType:
     """Return the code of a function of a module by its name there; AttributeError where there is none."""
     found: Any = import_module(module)
     for name in outer.split("."):
         found = vars(found)[name] if name in vars(found) else getattr(found, name)
         found = getattr(found, "fget", None) or getattr(found, "func", None) or getattr(found, "__func__", None) or found
-    return unwrap(found).__code__
+    code: CodeType = unwrap(found).__code__
+    return code
 
 
 def picklable(value: object) -> Any:
@@ -81,7 +82,7 @@ def inner_codes(code: CodeType, path: tuple[int, ...] = ()) -> Iterator[tuple[tu
             yield from inner_codes(each, (*path, place))
 
 
-def object_of(kind: type, values: dict[str, Any]) -> Any:
+def object_of(kind: type, values: dict[str, object]) -> Any:
     """Return an object of a class with these attributes."""
     found: Any = object.__new__(kind)
     vars(found).update(values)

@@ -22,7 +22,7 @@ from contextvars import ContextVar
 from types import MappingProxyType
 from typing import Any, Self
 
-from .errors import DefinitionError, cited, known_name, unknown
+from .errors import DefinitionError, article, cited, known_name, unknown
 from .language import noted, translated
 from .star import declare_public
 
@@ -140,17 +140,19 @@ def add_unit(name: str, factor: float, measures: str, systems: Iterable[str] = (
     where = f"add_unit({cited(name)}, {cited(factor)}, {cited(measures)})"
     is_word = isinstance(name, str) and name.isprintable() and not {*name}.intersection(",;()\"'")
     match = _QUANTITY.fullmatch(f"1 {name}") if is_word else None
+    fault = ""
     if match is None or match[2] != name:
-        raise DefinitionError(f"{where}: a unit is one or two words without digits in front and without commas, such as 'N s/m'.")
-    if not isinstance(measures, str) or not measures.strip() or not measures.isprintable():
-        raise DefinitionError(f"{where}: what it measures is expected in a word, such as 'damping'.")
-    if not isinstance(factor, (int, float)) or isinstance(factor, bool) or not 0.0 < factor < math.inf:
-        raise DefinitionError(f"{where}: its value in SI is expected, a number above zero.")
-    if UNITS.get(name, (factor, measures)) != (factor, measures):
-        known = UNITS[name]
-        raise DefinitionError(f"{where}: {name} is known already, as {known[0]:.9g} of SI for {known[1]}; choose another name.")
-    if measures not in SI and factor != 1.0:
-        raise DefinitionError(f"{where}: the first unit of {measures} is that of SI, with the factor 1; add it before.")
+        fault = "a unit is one or two words without digits in front and without commas, such as 'N s/m'"
+    elif not isinstance(measures, str) or not measures.strip() or not measures.isprintable():
+        fault = "what it measures is expected in a word, such as 'damping'"
+    elif not isinstance(factor, (int, float)) or isinstance(factor, bool) or not 0.0 < factor < math.inf:
+        fault = "its value in SI is expected, a number above zero"
+    elif UNITS.get(name, (factor, measures)) != (factor, measures):
+        fault = f"{name} is known already, as {UNITS[name][0]:.9g} of SI for {UNITS[name][1]}; choose another name"
+    elif measures not in SI and factor != 1.0:
+        fault = f"the first unit of {measures} is that of SI, with the factor 1; add it before"
+    if fault:
+        raise DefinitionError(f"{where}: {fault}.")
     chosen = [known_name("System of units", each, SYSTEMS, where=where) for each in systems]
     SI.setdefault(measures, name)
     UNITS[name] = UnitFactor(factor, measures), measures
@@ -183,9 +185,9 @@ def require_measure(value: object, unit: str, what: str) -> None:
     wanted = unit if unit in SI else UNITS[unit][1] if unit in UNITS else ""
     for each in amounts_in(value):
         if each.measures != wanted and (wanted in EXAMPLES or each.measures != "force"):
-            article = "an" if each.measures[0] in "aeiou" else "a"
             expected = f"value of {wanted}, such as {EXAMPLES[wanted]}" if wanted in EXAMPLES else "number in SI, without a unit"
-            raise DefinitionError(f"{what}={float(each):.6g} was given as {article} {each.measures}; expected is a {expected}.")
+            given = f"{article(each.measures)} {each.measures}"
+            raise DefinitionError(f"{what}={float(each):.6g} was given as {given}; expected is a {expected}.")
 
 
 def amounts_in(value: object) -> Iterator[Amount]:
@@ -233,21 +235,21 @@ def parse(text: str, kind: str = "") -> float:
     if not isinstance(text, str) or not isinstance(kind, str):
         raise DefinitionError(f"{cited(text if isinstance(kind, str) else kind)} is no text; write a number and a unit in quotes, '180mm'.")
     match = _QUANTITY.match(text)
-    if _COMMA.match(text):
-        raise DefinitionError(f"{text!r}: decimals are written with a point, {text.replace(',', '.')!r}.")
-    if match is None:
-        raise DefinitionError(f"{text!r} is not a value; write a number and a unit, such as 180mm or -75deg.")
+    if match is None or _COMMA.match(text):
+        decimal = f": decimals are written with a point, {text.replace(',', '.')!r}"
+        other = " is not a value; write a number and a unit, such as 180mm or -75deg"
+        raise DefinitionError(f"{text!r}{decimal if _COMMA.match(text) else other}.")
     number, unit = match.groups()
-    if unit is None:
-        return finite_value(float(number), text)
-    if unit not in UNITS:
+    if unit is not None and unit not in UNITS:
         raise unknown("Unit", unit, UNITS, where=repr(text))
-    factor, measured = UNITS[unit]
+    factor, measured = (1.0, kind) if unit is None else UNITS[unit]
     if kind and measured != kind:
         valid = ", ".join(units_of(kind))
-        article = "an" if measured[0] in "aeiou" else "a"
-        raise DefinitionError(f"{text!r} is {article} {measured} where a value of kind {kind} is wanted; use one of: {valid}.")
-    return finite_value(float(float(number) * factor), text)
+        raise DefinitionError(f"{text!r} is {article(measured)} {measured} where a value of kind {kind} is wanted; use one of: {valid}.")
+    value = float(float(number) * factor)
+    if not math.isfinite(value):
+        raise DefinitionError(f"{text!r} is not a finite number.")
+    return value
 
 
 def parse_span(text: str, kind: str = "") -> tuple[float, ...] | None:
@@ -267,13 +269,6 @@ def parse_span(text: str, kind: str = "") -> tuple[float, ...] | None:
     )
 
 
-def finite_value(value: float, text: str) -> float:
-    """Return the value; raise DefinitionError if it overflowed or is not a number."""
-    if not math.isfinite(value):
-        raise DefinitionError(f"{text!r} is not a finite number.")
-    return value
-
-
 def unit_or_none(unit: object, where: str, among: Collection[str] = UNITS) -> str:
     """Return a unit, or "" for none; DefinitionError, with the units there are, for anything else."""
     return "" if isinstance(unit, str) and not unit else known_name("Unit", unit, among, where=where)
@@ -281,19 +276,14 @@ def unit_or_none(unit: object, where: str, among: Collection[str] = UNITS) -> st
 
 # -- one system of units for all that is shown -------------------------------------------------------------
 
+METRIC = {
+    "length": "mm", "angle": "deg", "mass": "kg", "force": "kN", "moment": "kNm", "pressure": "MPa", "volume": "l", "area": "cm2",
+    "flow": "l/min", "stiffness": "N/mm", "power": "kW", "speed": "mm/s",
+}  # fmt: skip
 SYSTEMS: Mapping[str, dict[str, str]] = MappingProxyType({
-    "si": {
-        "length": "mm", "angle": "deg", "mass": "kg", "force": "kN", "moment": "kNm", "pressure": "MPa", "volume": "l", "area": "cm2",
-        "flow": "l/min", "stiffness": "N/mm", "power": "kW", "speed": "mm/s",
-    },
-    "bar-mm": {
-        "length": "mm", "angle": "deg", "mass": "kg", "force": "kN", "moment": "kNm", "pressure": "bar", "volume": "l", "area": "cm2",
-        "flow": "l/min", "stiffness": "N/mm", "power": "kW", "speed": "mm/s",
-    },
-    "kgf": {
-        "length": "mm", "angle": "deg", "mass": "kg", "force": "kgf", "moment": "kgf m", "pressure": "kgf/cm2", "volume": "l",
-        "area": "cm2", "flow": "l/min", "stiffness": "kgf/mm", "power": "kW", "speed": "mm/s",
-    },
+    "si": {**METRIC},
+    "bar-mm": {**METRIC, "pressure": "bar"},
+    "kgf": {**METRIC, "force": "kgf", "moment": "kgf m", "pressure": "kgf/cm2", "stiffness": "kgf/mm"},
     "us": {
         "length": "in", "angle": "deg", "mass": "lb", "force": "lbf", "moment": "lbf ft", "pressure": "psi", "volume": "gal",
         "area": "in2", "flow": "gal/min", "stiffness": "lbf/in", "power": "hp", "speed": "in/s",

@@ -93,18 +93,10 @@ class Reading(Where):
         """Return a stroke, a dimension or a coordinate of a ground point."""
         return self.inputs[name]
 
-    def root(self, radicand: Scalar, scale: Scalar, size: Scalar, most: Scalar | None = None) -> Scalar:
-        """Return the square root that closes a loop."""
-        return np.sqrt(radicand)
-
-    def margin(self, sine: Scalar) -> Scalar:
-        """Return the sine of the angle between a loop's two members."""
-        return sine
-
     def at_pose(self, quantity: Reference, strokes: Mapping[str, float]) -> Scalar:
         """Return what a quantity is at one pose of the strokes; DefinitionError where that takes a group to be solved."""
         behind = self.behind(quantity)
-        groups = [name for name in behind if isinstance(self.members[name], Group)]
+        groups = [name for name in of_kind(self.members, Group) if name in behind]
         if groups:
             what = f"{quantity} at one pose hangs on {groups[0]}, whose pins are found together and have no closed form"
             raise DefinitionError(f"{what}; give the length itself, filled=dict(...).")
@@ -121,14 +113,6 @@ class Reading(Where):
         found: Line = self._once("line", guide, "line")
         return found
 
-    def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
-        """Return what a table gives for x, or its derivative of that order; NaN outside it."""
-        return curve.value(x, order)
-
-    def angle_of(self, vector: Vec) -> Scalar:
-        """Return a vector's direction [rad]."""
-        return np.arctan2(vector.y, vector.x)
-
     def followed(self, angle: str, vector: Vec) -> Scalar | None:
         """Return the direction of a vector [rad] counted from the reference that the angle's input gives; None without such an input.
 
@@ -140,10 +124,6 @@ class Reading(Where):
         reference = self.inputs[angle]
         cos, sin = np.cos(reference), np.sin(reference)
         return reference + np.arctan2(vector.y * cos - vector.x * sin, vector.x * cos + vector.y * sin)
-
-    def apart(self, square: Scalar) -> Scalar:
-        """Return the square of a vector whose direction is taken [m2], noted as its distance from a pose where that is lost."""
-        return square
 
     def direction(self, P: str, Q: str) -> Vec:
         """Return the vector from one point to another [m], noted as one whose direction is taken."""
@@ -167,7 +147,12 @@ class Reading(Where):
     @cached_property
     def extent(self) -> Scalar:
         """The square of the machine's size [m2]: the longest length that follows no stroke, or the distance of two fixed points."""
-        return self.sizing().longest([each for each in self.lengths.values() if not self.follows_place(each)])
+
+        def follows_place(length: Quantity) -> bool:
+            behind = (self.members[name] for name in self.behind(length))
+            return any(isinstance(member, Point) and not member.is_fixed for member in behind)
+
+        return self.sizing().longest([each for each in self.lengths.values() if not follows_place(each)])
 
     def longest(self, lengths: Iterable[Quantity]) -> Scalar:
         """Return the square of the longest of some lengths that follow no stroke, or of the distance of two fixed points [m2]."""
@@ -181,18 +166,9 @@ class Reading(Where):
         """Return the reading that tells the machine's size, whose own directions do not ask for it."""
         return self
 
-    def follows_place(self, quantity: Quantity) -> bool:
-        """Return whether a quantity is built from the place of a point that moves."""
-        found = (self.members[name] for name in self.behind(quantity))
-        return any(isinstance(member, Point) and not member.is_fixed for member in found)
-
     def stays(self, value: Scalar) -> bool:
         """Return whether a value is known to follow no stroke."""
         return True
-
-    def close_angle(self, cos: Scalar, sin: Scalar) -> Turning:
-        """Return an angle that closes a loop, as its cosine and sine."""
-        return cos, sin
 
 
 @final

@@ -164,11 +164,13 @@ def value_in_range(entry: DesignVariable, value: Numbers) -> Numbers:
     require(np.all(np.isfinite(values)), f"{entry.where}: {entry.name}", value, "is not a finite number; give a value in SI")
     least, far = float(values.min()), float(values[np.argmax(np.abs(values))])
     if entry.kind == "not negative":
-        raise DefinitionError(f"{entry.where}: {entry.name}={least:.6g} is negative; give zero or more.")
-    if entry.kind == "angle":
+        fault = f"{entry.name}={least:.6g} is negative; give zero or more"
+    elif entry.kind == "angle":
         said = f"the angle {entry.name}={far:.6g} rad ({far / deg:.6g} deg) is more than a full turn"
-        raise DefinitionError(f"{entry.where}: {said}; write {far:.6g} * deg if these are degrees, or take whole turns off.")
-    if abs(far) > FARTHEST:
-        raise DefinitionError(f"{entry.where}: {entry.name}={far:.6g} m is farther than the sun; give it in m.")
-    what = "has no length, its points stand at one place; use one pin for both, or" if least >= 0.0 else "is negative;"
-    raise DefinitionError(f"{entry.where}: the length {entry.name}={least:.6g} m {what} give a positive one.")
+        fault = f"{said}; write {far:.6g} * deg if these are degrees, or take whole turns off"
+    elif abs(far) > FARTHEST:
+        fault = f"{entry.name}={far:.6g} m is farther than the sun; give it in m"
+    else:
+        what = "has no length, its points stand at one place; use one pin for both, or" if least >= 0.0 else "is negative;"
+        fault = f"the length {entry.name}={least:.6g} m {what} give a positive one"
+    raise DefinitionError(f"{entry.where}: {fault}.")

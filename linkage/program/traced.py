@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, final
+from typing import final
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from ..errors import DefinitionError
+from ..vectors import Scalar
 from .node import Node
 from .operations import OPERATIONS
 
@@ -29,7 +30,7 @@ def valueless(what: str) -> DefinitionError:
     return DefinitionError(f"{what} needs a number's value, which a traced law does not have; {REMEDY}.")
 
 
-def method(ufunc: Any) -> Callable[..., Any]:
+def method(ufunc: np.ufunc) -> Callable[..., Scalar]:
     """Return the method by which NumPy applies a function to each number of an array."""
     return lambda self, *others: ufunc(self, *others)
 
@@ -71,7 +72,7 @@ class Traced(NDArrayOperatorsMixin):
     def __init__(self, node: Node, notes: Notes) -> None:
         self.node, self.notes = node, notes
 
-    def __array_ufunc__(self, ufunc: Any, kind: str, *inputs: Any, **options: Any) -> Any:
+    def __array_ufunc__(self, ufunc: np.ufunc, kind: str, *inputs: object, **options: Scalar) -> Scalar:
         out = options.pop("out", None)
         if kind != "__call__" or options:
             raise valueless(f"np.{ufunc.__name__}.{kind} with {', '.join(options) or 'a number'}")
@@ -81,7 +82,7 @@ class Traced(NDArrayOperatorsMixin):
         out[0][...] = found
         return out[0]
 
-    def _applied(self, ufunc: Any, numbers: tuple[Any, ...]) -> Any:
+    def _applied(self, ufunc: np.ufunc, numbers: tuple[Scalar, ...]) -> Scalar:
         name, nodes = ufunc.__name__, [node_of(each) for each in numbers]
         if all(node is number for node, number in zip(nodes, numbers, strict=True)):
             return ufunc(*numbers)
@@ -93,7 +94,7 @@ class Traced(NDArrayOperatorsMixin):
             raise DefinitionError(f"np.{name} is not among what can be traced: {', '.join(sorted(DIRECT | RULES.keys()))}.")
         return Traced(ufunc(*nodes), self.notes)
 
-    def __array_function__(self, function: Any, types: Any, args: Any, options: Any) -> Any:
+    def __array_function__(self, function: Callable[..., Scalar], types: object, args: Scalar, options: Mapping[str, Scalar]) -> Scalar:
         if function in FUNCTIONS:
             return FUNCTIONS[function](*args, **options)
         if function not in SHAPING:
@@ -160,15 +161,15 @@ class Comparison:
         if self.truth.op != "constant" or not self.truth.value > 0.0:
             self.notes.gaps[self.truth] = self.notes.owner
 
-    def choose(self, x: object, y: object) -> Any:
+    def choose(self, x: object, y: object) -> Scalar:
         """Return x where it is true, else y."""
         for truth in [self.truth] * self.thin + [-self.truth] * self.slit:
             self.notes.switches[truth] = self.notes.owner
         graph = self.truth.graph
         return elementwise(lambda a, b: Traced(graph.pick(0.0, self.truth, node_of(a), node_of(b)), self.notes), (x, y))
 
-    def __array_function__(self, function: Any, types: Any, args: Any, options: Any) -> Any:
-        known: dict[Any, Callable[..., Any]] = {np.any: Comparison.any, np.all: Comparison.all, np.where: Comparison.choose}
+    def __array_function__(self, function: Callable[..., Scalar], types: object, args: Scalar, options: Mapping[str, Scalar]) -> Scalar:
+        known: dict[Scalar, Callable[..., Scalar]] = {np.any: Comparison.any, np.all: Comparison.all, np.where: Comparison.choose}
         if function not in known or options or not isinstance(args[0], Comparison):
             raise valueless(f"np.{function.__name__} of a comparison")
         return known[function](*args)
@@ -177,7 +178,7 @@ class Comparison:
         raise valueless("A comparison in an `if`, a loop, or Python's min and max")
 
 
-def claim(value: Any, name: str) -> None:
+def claim(value: Scalar, name: str) -> None:
     """Give to a name the gaps that were noted while a traced number was made; nothing for any other number."""
     found = np.asarray(value, object).flat[0] if np.size(value) == 1 else None
     if isinstance(found, Traced):
@@ -189,7 +190,7 @@ def is_traced(value: object) -> bool:
     return isinstance(value, Traced)
 
 
-def elementwise(rule: Callable[..., Any], inputs: tuple[Any, ...]) -> Any:
+def elementwise(rule: Callable[..., Scalar], inputs: tuple[object, ...]) -> Scalar:
     """Return a rule's result for numbers, or number by number for arrays."""
     if not any(isinstance(each, np.ndarray) for each in inputs):
         return rule(*inputs)
@@ -200,17 +201,17 @@ def elementwise(rule: Callable[..., Any], inputs: tuple[Any, ...]) -> Any:
     return found[()]
 
 
-def arrayed(value: object) -> Any:
+def arrayed(value: object) -> Scalar:
     """Return a value, and each of a list of them, as an array of numbers that may be traced."""
     return [arrayed(each) for each in value] if isinstance(value, (list, tuple)) else np.asarray(value, object)
 
 
-def node_of(number: object) -> Any:
+def node_of(number: object) -> Scalar:
     """Return a traced number's node; any other number as it is."""
     return number.node if isinstance(number, Traced) else number
 
 
-def hyperbolic_tangent(a: Any) -> Any:
+def hyperbolic_tangent(a: Scalar) -> Scalar:
     """Return tanh; beyond 300 it is 1 to the last digit, and the exponential keeps its value."""
     e = np.exp(-2.0 * np.minimum(np.maximum(a, -300.0), 300.0))
     return (1.0 - e) / (1.0 + e)
@@ -232,7 +233,7 @@ TRUTHS: Mapping[str, Callable[..., Node]] = MappingProxyType(
     }
 )
 #: Functions made of those that a program has.
-RULES: Mapping[str, Callable[..., Any]] = MappingProxyType(
+RULES: Mapping[str, Callable[..., Scalar]] = MappingProxyType(
     {
         "positive": lambda a: a,
         "arctan": lambda a: np.arctan2(a, 1.0),
@@ -244,7 +245,7 @@ RULES: Mapping[str, Callable[..., Any]] = MappingProxyType(
     }
 )
 #: Functions of NumPy that are more than one operation on each number.
-FUNCTIONS: Mapping[Any, Callable[..., Any]] = MappingProxyType(
+FUNCTIONS: Mapping[Callable[..., Scalar], Callable[..., Scalar]] = MappingProxyType(
     {
         np.where: lambda chosen, x, y: elementwise(lambda each, a, b: a if each else b, (chosen, x, y)),
         np.clip: lambda a, low, high: np.minimum(np.maximum(a, low), high),

@@ -47,17 +47,19 @@ class Curve:
 
     def __init__(self, xs: npt.ArrayLike, ys: npt.ArrayLike, *, period: float | None = None, name: str = "curve") -> None:
         self.__dict__.update(xs=column("xs", xs), ys=column("ys", ys), period=period, name=name)
+        fault = ""
         if len(self.xs) != len(self.ys) or len(self.xs) < 2:
-            raise DefinitionError(f"Curve: {len(self.xs)} values of x and {len(self.ys)} of y; a table has two rows or more.")
-        if np.any(np.diff(self.xs) <= 0.0):
+            fault = f"{len(self.xs)} values of x and {len(self.ys)} of y; a table has two rows or more"
+        elif np.any(np.diff(self.xs) <= 0.0):
             row = int(np.argmax(np.diff(self.xs) <= 0.0)) + 1
-            raise DefinitionError(f"Curve: x must grow from row to row; {self.xs[row]:.6g} follows {self.xs[row - 1]:.6g}.")
-        if self.period is not None:
+            fault = f"x must grow from row to row; {self.xs[row]:.6g} follows {self.xs[row - 1]:.6g}"
+        elif self.period is not None:
             period = require_number("Curve: period", self.period, "a positive number is expected, such as 2 * pi", above=0.0)
             if abs(self.xs[-1] - self.xs[0] - period) > 1e-9 * period or abs(self.ys[-1] - self.ys[0]) > 1e-9 * np.ptp(self.ys):
-                what = "the last row must lie one period after the first, with the same value"
                 ends = f"from ({self.xs[0]:.6g}, {self.ys[0]:.6g}) to ({self.xs[-1]:.6g}, {self.ys[-1]:.6g})"
-                raise DefinitionError(f"Curve: {what}; the table goes {ends}.")
+                fault = f"the last row must lie one period after the first, with the same value; the table goes {ends}"
+        if fault:
+            raise DefinitionError(f"Curve: {fault}.")
 
     def __call__(self, x: Any, order: int = 0) -> Any:
         """Return the curve of a quantity as a quantity, of numbers as numbers; or its derivative of that order.

@@ -8,11 +8,13 @@ from inspect import Parameter, Signature, signature
 from keyword import iskeyword
 from math import inf
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeGuard, TypeVar
 from unicodedata import normalize
 from weakref import WeakKeyDictionary
 
-from ..errors import DefinitionError, cited
+import numpy as np
+
+from ..errors import DefinitionError, article, cited
 from ..frozen import FrozenDict
 from ..vectors import Line, Scalar, Vec
 
@@ -160,8 +162,7 @@ class Member:
 
 
     def _no_arithmetic(self, *others: object) -> NoReturn:
-        kind = "an" if self.kind[0] in "aeiou" else "a"
-        says = f"{type(self).__name__}: {kind} {self.kind} does not add or multiply"
+        says = f"{type(self).__name__}: {article(self.kind)} {self.kind} does not add or multiply"
         raise DefinitionError(f"{says}; take distance(P, Q), angle(P, Q), x(P), y(P), or Vector(P, Q) of points.")
 
     if not TYPE_CHECKING:  # a checker of types is to complain of it by itself; quantities have operators of their own
@@ -203,7 +204,7 @@ def is_name(name: object) -> bool:
     return isinstance(name, str) and name.isidentifier() and not iskeyword(name) and normalize("NFKC", name) == name
 
 
-def is_reference(text: object) -> bool:
+def is_reference(text: object) -> TypeGuard[str]:
     """Return whether a text may be the name of a member, or of one of a part: `B`, `lower.B`."""
     return isinstance(text, str) and all(map(str.isidentifier, text.split(".")))
 
@@ -326,7 +327,10 @@ class Tabulated(Protocol):
 
 
 class Where(Protocol):
-    """A reading of the mechanism: it knows where the points are and what the quantities amount to."""
+    """A reading of the mechanism: it knows where the points are and what the quantities amount to.
+
+    What a reading only notes is here as it is worked out by itself.
+    """
 
     def at(self, point: Reference) -> Vec:
         """Return a point's position [m]."""
@@ -349,9 +353,11 @@ class Where(Protocol):
         NaN where the radicand is negative by more than rounding, which is measured against `size`; `most` is what that is never above,
         where the links alone say it.
         """
+        return np.sqrt(radicand)
 
     def margin(self, sine: Scalar) -> Scalar:
         """Return the sine of the angle between a loop's two members, noted as its distance from a singular pose."""
+        return sine
 
     def line(self, guide: Reference) -> Line:
         """Return a guide's line."""
@@ -361,18 +367,21 @@ class Where(Protocol):
 
     def angle_of(self, vector: Vec) -> Scalar:
         """Return a vector's direction [rad]."""
+        return np.arctan2(vector.y, vector.x)
 
     def followed(self, angle: str, vector: Vec) -> Scalar | None:
         """Return the direction of a vector [rad] where that angle is followed from the sketch; None where it is not."""
 
     def apart(self, square: Scalar) -> Scalar:
         """Return the square of a vector whose direction is taken [m2], noted as its distance from a pose where that is lost."""
+        return square
 
     def direction(self, P: str, Q: str) -> Vec:
         """Return the vector from one point to another [m], noted as one whose direction is taken."""
 
     def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
         """Return what a table gives for x, or its derivative of that order; NaN outside it."""
+        return curve.value(x, order)
 
     def link_length(self, P: str, Q: str) -> Scalar:
         """Return the distance of two points [m]; the link's own length where one body holds both."""
@@ -382,6 +391,7 @@ class Where(Protocol):
 
     def close_angle(self, cos: Scalar, sin: Scalar) -> Turning:
         """Return an angle that closes a loop, as its cosine and sine."""
+        return cos, sin
 
 
 # What the arguments of a class of members are, as the class says it.

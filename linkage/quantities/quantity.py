@@ -231,15 +231,15 @@ def quantity(value: Operand) -> Quantity:
     """Return a value as a quantity: a number, a quantity, or the name of one."""
     if isinstance(value, Quantity):
         return value
-    if isinstance(value, str) and not is_reference(value):
-        raise DefinitionError(f"{value!r} stands where a number, a quantity or its name is expected; write a number without quotes.")
-    if isinstance(value, str):
-        return ref(value)
     if is_number(value):
         return Number(amount_or_float(value))
-    if isinstance(value, (float, int)) and not isinstance(value, bool):
-        raise DefinitionError(f"{cited(value)} is not a finite number; give a value in SI.")
-    raise DefinitionError(f"{cited(value)} stands where a number, a quantity or its name is expected.")
+    if is_reference(value):
+        return Ref(value)
+    fault = "stands where a number, a quantity or its name is expected"
+    if isinstance(value, str):
+        raise DefinitionError(f"{value!r} {fault}; write a number without quotes.")
+    is_endless = isinstance(value, (float, int)) and not isinstance(value, bool)
+    raise DefinitionError(f"{cited(value)} {'is not a finite number; give a value in SI' if is_endless else fault}.")
 
 
 @refuses_changes

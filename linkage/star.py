@@ -11,10 +11,9 @@ def declare_public(door: dict[str, object]) -> None:
     Type checkers do not run it: they find the names by themselves.
     """
     root = str(door["__name__"]).partition(".")[0]
-
-    def is_foreign(each: object) -> bool:
-        return isinstance(each, (type, FunctionType)) and each.__module__.partition(".")[0] != root
-
     hidden = ("annotations", "TYPE_CHECKING", declare_public.__name__)
-    named = {name: each for name, each in door.items() if name[0] != "_" and name not in hidden}
-    door["__all__"] = [name for name, each in named.items() if not isinstance(each, ModuleType) and not is_foreign(each)]
+    named = {name: each for name, each in door.items() if name[0] != "_" and name not in hidden and not isinstance(each, ModuleType)}
+    foreign = {
+        name for name, each in named.items() if isinstance(each, (type, FunctionType)) and each.__module__.partition(".")[0] != root
+    }
+    door["__all__"] = [name for name in named if name not in foreign]

@@ -71,9 +71,11 @@ def link_equations(parts: Parts, name: str, title: str) -> list[PinEquation]:
     measured = None if length is None else (first, second, length)
     rows = [PinEquation(loose(first, second), length=measured, fault=fault, link=name)] if loose(first, second) else []
     for pin, step in attachments(points, shape, f"{title}: the shape of {name} = {link}", parts.one_place):
-        fault = undrawn(parts, name, pin, step)
-        if not fault:
-            step = as_sketched(parts, pin, step, f"{title}: {name} = {link}", shape)
+        rough = [name_of(parent) for parent in step.parents if step.drawn_at and shape.drawn(name_of(parent)) is None]
+        if rough:
+            fault = f"{pin} of {name} = {link} cannot be measured from {' '.join(rough)}; draw them at=(x, y) too, or give the lengths."
+        else:
+            fault, step = "", as_sketched(parts, pin, step, f"{title}: {name} = {link}", shape)
         held = (*map(name_of, step.parents), pin)
         rows += [PinEquation(loose(*held), attached=(pin, step), half=half, fault=fault, link=name) for half in (0, 1)]
     return rows
@@ -90,14 +92,6 @@ def attachments(points: list[str], shape: Shape, what: str, one_place: Callable[
         yield pin, step
         known.append(pin)
         left.remove(pin)
-
-
-def undrawn(parts: Parts, name: str, pin: str, step: OnLink) -> str:
-    """Return what keeps a rigid point drawn at=(x, y) from being measured: a parent with only a rough place; else nothing."""
-    rough = [name_of(parent) for parent in step.parents if step.drawn_at and parts.shapes[name].drawn(name_of(parent)) is None]
-    if not rough:
-        return ""
-    return f"{pin} of {name} = {parts.links[name]} cannot be measured from {' '.join(rough)}; draw them at=(x, y) too, or give the lengths."
 
 
 def as_sketched(parts: Parts, pin: str, step: OnLink, what: str, shape: Shape) -> OnLink:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import final
+from typing import TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -52,15 +52,15 @@ def solve_groups(plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[st
     newtons = [Newton(plan, group) for group in plan.groups.values()]
     if all(np.size(value) == 1 for value in designs.values()):
         designs = {name: float(np.ravel(value)[0]) if np.ndim(value) else value for name, value in designs.items()}
-    kept = known(plan, newtons, designs)
+    start, tracks = known(plan, newtons, designs)
     n = max((np.size(value) for value in strokes.values()), default=1)
-    shape = (kept.start[0].shape[1], n)
+    shape = (start[0].shape[1], n)
     if len(strokes) == 1:
         ((name, values),) = strokes.items()
-        solved = along_one(plan, newtons, kept, designs, name, values)
+        solved = along_one(plan, newtons, (start, tracks), designs, name, values)
     else:
         ways = {name: (plan.sketch_strokes[name], np.asarray(value) - plan.sketch_strokes[name]) for name, value in strokes.items()}
-        solved = along_many(newtons, kept.start, InputRoute(designs, ways, n), shape[0] * n)
+        solved = along_many(newtons, start, InputRoute(designs, ways, n), shape[0] * n)
     found, crossed, stops = solved
     inputs: dict[str, FloatArray] = {}
     for newton, u in zip(newtons, found, strict=True):
@@ -70,24 +70,19 @@ def solve_groups(plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[st
     return GroupSolution(inputs, np.broadcast_to(crossed.reshape(shape), shape), stops)
 
 
-@final
-@dataclass
-class Known:
-    """What is known of some designs: their groups' pins at the sketch, and the tracks along a stroke, by its name and sense."""
-
-    start: list[FloatArray]
-    tracks: dict[tuple[str, float], list[GroupPath]]
+Known: TypeAlias = tuple[list[FloatArray], dict[tuple[str, float], list[GroupPath]]]
+"""What is known of some designs: their groups' pins at the sketch, and the tracks along a stroke, by its name and sense."""
 
 
 def known(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Numbers]) -> Known:
     """Return what is known of some designs; of a single one it is kept, the last ones of a plan."""
     if any(map(np.ndim, designs.values())):
-        return Known(designed(plan, newtons, designs), {})
+        return designed(plan, newtons, designs), {}
     every: dict[tuple[float, ...], Known] = plan.made("tracks", lambda _: {})
     key = tuple(float(designs[name]) for name in plan.defaults)
     found = every.get(key)
     if found is None:
-        found = every[key] = Known(designed(plan, newtons, designs), {})
+        found = every[key] = designed(plan, newtons, designs), {}
         for old in list(every)[:-KEPT]:
             every.pop(old, None)
     return found
@@ -150,7 +145,8 @@ def along_one(
     plan: Plan, newtons: Sequence[Newton], known: Known, designs: Mapping[str, Numbers], name: str, values: FloatArray
 ) -> Found:
     """Return the pins of every group over one stroke, shape (coordinates, m * n), what crossed, and where a single design's ways end."""
-    start, m, values = known.start, known.start[0].shape[1], np.ravel(values)
+    (start, tracks), values = known, np.ravel(values)
+    m = start[0].shape[1]
     u = [np.empty((len(each), m, len(values))) for each in start]
     crossed = np.zeros((m, len(values)), int)
     stops: list[float] = []
@@ -161,9 +157,9 @@ def along_one(
         side = slice(poses[0], poses[-1] + 1) if poses[-1] - poses[0] + 1 == poses.size else poses
         sketch, largest = plan.sketch_strokes[name], largest_step(plan, name)
         route, place = InputRoute(designs, {name: (sketch, sense)}), np.abs(values[side] - sketch)
-        begun = known.tracks.get((name, sense), ())
+        begun = tracks.get((name, sense), ())
         found = group_paths(newtons, route, start, np.full(m, float(place.max())), largest, exact=False, begun=begun)
-        known.tracks[name, sense] = found
+        tracks[name, sense] = found
         lane, at = np.repeat(np.arange(m), len(place)), np.tile(place, m)
         for number, track in enumerate(found):
             u[number][:, :, side] = track.at(lane, at).reshape(-1, m, len(place))

@@ -118,12 +118,14 @@ def chain_of(plan: Members) -> KinematicChain:
         ]
     for name, points in arms.items():
         enter_arm(chain, plan, name, points)
-    halves = half_joints(plan)
+    found = [(name, joint) for name, point in plan.points.items() if name not in plan.resting for joint in point.joints()]
+    found += [(slide.name, joint) for group in plan.groups.values() for slide in group.slides for joint in slide.joints()]
+    halves = [(name, joint) for name, joint in found if joint.is_half]
     for _, joint in halves:
         for side in (joint.on, joint.by):
             if side.role == "slider" and not chain.block(side.points):
                 chain.add(f"{side.points[0]} (slider)", "block", side.points)
-    blocks = [(name, joint, moved_side(chain, name, joint)) for name, joint in halves]
+    blocks = [(name, joint, moved_side(chain, joint)) for name, joint in halves]
     for name, joint, block in blocks:
         has_slot = joint.on.role == "slider" and joint.point not in joint.on.points
         line = guided_by(chain, plan, joint.on if has_slot else joint.by)
@@ -149,14 +151,7 @@ def strokes_alone(quantity: Quantity, members: Mapping[str, Member]) -> tuple[st
     return tuple(name for name in of_kind(members, Stroke) if name in found)
 
 
-def half_joints(plan: Members) -> list[tuple[str, Joint]]:
-    """Return the joints that take one freedom, a pin's on a guide or in a slot, each with its member's name."""
-    found = [(name, joint) for name, point in plan.points.items() if name not in plan.resting for joint in point.joints()]
-    found += [(slide.name, joint) for group in plan.groups.values() for slide in group.slides for joint in slide.joints()]
-    return [(name, joint) for name, joint in found if joint.is_half]
-
-
-def moved_side(chain: KinematicChain, name: str, joint: Joint) -> str:
+def moved_side(chain: KinematicChain, joint: Joint) -> str:
     """Return the body that slides: the one that moves without turning where the joint names it, else a block at its point."""
     if joint.on.role == "slider" and joint.point in joint.on.points:
         return chain.block(joint.on.points)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass
 from types import MappingProxyType
@@ -517,7 +517,10 @@ class Unaliased(Renaming):
 
     def member(self, given: Member) -> Member:
         """Return a member that refers to what the names stand for; itself, where it uses none of them."""
-        if not any(each in self.names for each in referred(given)):
+        try:
+            if not any(each in self.names for each in needs(given)):
+                return given
+        except DefinitionError:  # its names are not all known yet: those behind the first are not asked for
             return given
         words = word_arguments(type(given))
         changes = {}
@@ -531,10 +534,3 @@ class Unaliased(Renaming):
     def named_member(self, given: Member) -> Any:
         return given if given.name and not isinstance(given, Group) else self.member(given)
 
-
-def referred(member: Member) -> Iterator[str]:
-    """Yield the names that a member refers to, as far as they are known yet."""
-    try:
-        yield from needs(member)
-    except DefinitionError:
-        return

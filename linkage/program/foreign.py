@@ -64,11 +64,11 @@ class Language(ABC):
     def text(self, outputs: Sequence[Node], name: str = "poses", design: Mapping[str, float] = NOTHING) -> str:
         """Return the text of a function of some nodes; a comment in it names the inputs, with the values of a design."""
         plan = schedule(expanded(outputs))
-        inside = loop_text(plan, self.dialect)
+        lines, results, _ = loop_text(plan, self.dialect)
         names = NodeNames(self.dialect, {node: self.element("d", place) for place, node in enumerate(plan.design_inputs)})
         before = names.assign(plan.design, "w")
         before += [self.dialect.assignment.format(each, names.read(node)) for node, each in lettered("c", plan.passed).items()]
-        program = ProgramText(name, inputs_text(plan, design), tuple(before), len(plan.pose_inputs), inside.lines, inside.outputs)
+        program = ProgramText(name, inputs_text(plan, design), tuple(before), len(plan.pose_inputs), tuple(lines), tuple(results))
         return "\n".join(self.function(program)) + "\n"
 
 

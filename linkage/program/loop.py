@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import final
 
 from .node import Node
 from .schedule import Schedule, ancestors
@@ -97,22 +95,14 @@ NUMBA = Dialect(
 )
 
 
-@final
-@dataclass(frozen=True)
-class LoopText:
-    """The inside of a loop: one line an operation, and what the results are called."""
+def loop_text(plan: Schedule, dialect: Dialect) -> tuple[list[str], list[str], list[str]]:
+    """Return the pose part in a language, a line an operation, and what outputs and guards are called.
 
-    lines: tuple[str, ...]
-    outputs: tuple[str, ...]
-    guards: tuple[str, ...]
-
-
-def loop_text(plan: Schedule, dialect: Dialect) -> LoopText:
-    """Return the pose part in a language; constants are called c0, c1, ..., inputs i0, i1, ..."""
-    given = lettered("c", plan.passed) | lettered("i", plan.pose_inputs)
-    names = NodeNames(dialect, given)
+    Constants are called c0, c1, ..., inputs i0, i1, ...
+    """
+    names = NodeNames(dialect, lettered("c", plan.passed) | lettered("i", plan.pose_inputs))
     lines = names.assign(plan.economical, "v")
-    return LoopText(tuple(lines), tuple(map(names.read, plan.outputs)), tuple(map(names.read, plan.guards)))
+    return lines, list(map(names.read, plan.outputs)), list(map(names.read, plan.guards))
 
 
 def lettered(letter: str, nodes: Sequence[Node]) -> dict[Node, str]:
@@ -134,35 +124,34 @@ def numba_text(plan: Schedule, turned: bool) -> str:
     poses where a guard is not above zero.
     """
     inside = along_designs if turned else along_poses if len(plan.outputs) <= OPEN else along_poses_in_parts
-    lines = inside(plan)
-    return HEAD + "\n".join(["def poses(c, i, o, bad, strides, shape):", *lines]) + "\n"
+    return HEAD + "\n".join(["def poses(c, i, o, bad, strides, shape):", *inside(plan)]) + "\n"
 
 
 def along_poses(plan: Schedule) -> list[str]:
     """Return the function's inside for few outputs: one loop a design."""
-    inside = loop_text(plan, NUMBA)
+    lines, outputs, guards = loop_text(plan, NUMBA)
     return [
         *indented(1, *SIZES, "for row in range(rows):"),
         *indented(2, *of_design(plan), *(f"x{k} = i[{k}, across]" for k in range(len(plan.pose_inputs)))),
         *indented(2, *(f"o{k} = o[{k} * layer + row * line:{k} * layer + row * line + columns]" for k in range(len(plan.outputs)))),
         *indented(2, *(f"missed{k} = 0" for k in range(len(plan.guards))), "for b in range(columns):"),
-        *indented(3, *(f"i{k} = x{k}[b]" for k in range(len(plan.pose_inputs))), *inside.lines),
-        *indented(3, *(f"o{k}[b] = {name}" for k, name in enumerate(inside.outputs)), *guard_counts(inside)),
+        *indented(3, *(f"i{k} = x{k}[b]" for k in range(len(plan.pose_inputs))), *lines),
+        *indented(3, *(f"o{k}[b] = {name}" for k, name in enumerate(outputs)), *guard_counts(guards)),
         *indented(2, *(f"bad[{k}] += missed{k}" for k in range(len(plan.guards)))),
     ]
 
 
 def along_poses_in_parts(plan: Schedule) -> list[str]:
     """Return the function's inside for many outputs: a design's poses some hundred at a time, their results copied out."""
-    inside, width = loop_text(plan, NUMBA), part_of(len(plan.outputs))
+    (lines, outputs, guards), width = loop_text(plan, NUMBA), part_of(len(plan.outputs))
     return [
         *indented(1, *SIZES, f"s = np.empty({len(plan.outputs) * width})", "for row in range(rows):"),
         *indented(2, *of_design(plan), f"for start in range(0, columns, {width}):"),
         *indented(3, f"count = min({width}, columns - start)"),
         *indented(3, *(f"x{k} = i[{k}, across, start:start + count]" for k in range(len(plan.pose_inputs)))),
         *indented(3, *(f"missed{k} = 0" for k in range(len(plan.guards))), "for b in range(count):"),
-        *indented(4, *(f"i{k} = x{k}[b]" for k in range(len(plan.pose_inputs))), *inside.lines),
-        *indented(4, *(f"s[{k * width} + b] = {name}" for k, name in enumerate(inside.outputs)), *guard_counts(inside)),
+        *indented(4, *(f"i{k} = x{k}[b]" for k in range(len(plan.pose_inputs))), *lines),
+        *indented(4, *(f"s[{k * width} + b] = {name}" for k, name in enumerate(outputs)), *guard_counts(guards)),
         *indented(3, *(f"bad[{k}] += missed{k}" for k in range(len(plan.guards)))),
         *(line for k in range(len(plan.outputs)) for line in copied_out(3, k, k * width)),
     ]
@@ -170,7 +159,7 @@ def along_poses_in_parts(plan: Schedule) -> list[str]:
 
 def along_designs(plan: Schedule) -> list[str]:
     """Return the function's inside for many designs of few poses: designs some hundred at a time, constants copied in."""
-    inside, count = loop_text(plan, NUMBA), len(plan.passed)
+    (lines, outputs, guards), count = loop_text(plan, NUMBA), len(plan.passed)
     width = part_of(count + len(plan.outputs))
     return [
         *indented(1, *SIZES, f"s = np.empty({(count + len(plan.outputs)) * width})", f"for start in range(0, columns, {width}):"),
@@ -178,8 +167,8 @@ def along_designs(plan: Schedule) -> list[str]:
         *indented(2, *(f"s[{k * width}:{k * width} + count] = c[{k}, start:start + count]" for k in range(count))),
         *indented(2, "for row in range(rows):", *(f"    i{k} = i[{k}, row, 0]" for k in range(len(plan.pose_inputs)))),
         *indented(3, *(f"missed{k} = 0" for k in range(len(plan.guards))), "for b in range(count):"),
-        *indented(4, *(f"c{k} = s[{k * width} + b]" for k in range(count)), *inside.lines),
-        *indented(4, *(f"s[{(count + k) * width} + b] = {name}" for k, name in enumerate(inside.outputs)), *guard_counts(inside)),
+        *indented(4, *(f"c{k} = s[{k * width} + b]" for k in range(count)), *lines),
+        *indented(4, *(f"s[{(count + k) * width} + b] = {name}" for k, name in enumerate(outputs)), *guard_counts(guards)),
         *indented(3, *(f"bad[{k}] += missed{k}" for k in range(len(plan.guards)))),
         *(line for k in range(len(plan.outputs)) for line in copied_out(3, k, (count + k) * width)),
     ]
@@ -196,9 +185,9 @@ def of_design(plan: Schedule) -> list[str]:
     return ["at = row if c.shape[1] > 1 else 0", *constants, "across = row if i.shape[1] > 1 else 0"]
 
 
-def guard_counts(inside: LoopText) -> list[str]:
+def guard_counts(guards: Sequence[str]) -> list[str]:
     """Return the lines that count the poses where a guard is not above zero."""
-    return [f"missed{k} += 0 if {name} > 0.0 else 1" for k, name in enumerate(inside.guards)]
+    return [f"missed{k} += 0 if {name} > 0.0 else 1" for k, name in enumerate(guards)]
 
 
 def copied_out(depth: int, output: int, place: int) -> list[str]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from threading import local
@@ -36,18 +35,19 @@ class NumpyBlocks:
         self._last: tuple[tuple[float, ...], list[FloatArray]] = (), []
 
     @cached_property
-    def _pose(self) -> Callable[..., None]:
-        pose: Callable[..., None] = compiled(self._code.text, {**ARRAYS, **self._code.numbers})["pose"]
-        return pose
+    def _code(self) -> tuple[str, int, Mapping[str, FloatArray]]:
+        return block_code(self.plan)
 
     @cached_property
-    def _code(self) -> BlockCode:
-        return block_code(self.plan)
+    def _pose(self) -> Callable[..., None]:
+        text, _, numbers = self._code
+        pose: Callable[..., None] = compiled(text, {**ARRAYS, **numbers})["pose"]
+        return pose
 
     @cached_property
     def block(self) -> int:
         """The poses of a block: registers, inputs and outputs, of which half are in use at a time, fill the second-level cache."""
-        rows = self._code.registers + len(self.plan.outputs) + len(self.plan.pose_inputs)
+        rows = self._code[1] + len(self.plan.outputs) + len(self.plan.pose_inputs)
         fits: int = 2 * cache_size() // (8 * max(rows, 1))
         return min(max(1 << (fits.bit_length() - 1), SMALLEST), LARGEST)
 
@@ -85,7 +85,7 @@ class NumpyBlocks:
         m, n = values.shape[1:]
         if m == 1 and n <= self.block and not any(map(is_table, poses)):
             inputs = [np.ascontiguousarray(value, float) if has_many(value) else in_block(value, 0) for value in poses]
-            self._pose(self._constants(design), inputs, POOL.registers(self._code.registers, n), list(values[:, 0]), guards)
+            self._pose(self._constants(design), inputs, registers_of(self._code[1], n), list(values[:, 0]), guards)
             return
         turned = self.turns(m, n)
         target = values.transpose(0, 2, 1) if turned else values
@@ -93,7 +93,7 @@ class NumpyBlocks:
         rows, length = target.shape[1:]
         columns = min(length, self.block)
         height = max(1, min(rows, self.block // columns))
-        pool = POOL.registers(self._code.registers, height * columns)
+        pool = registers_of(self._code[1], height * columns)
         constants = [] if turned else self._constants(design)
         for left in range(0, length, columns):
             part = slice(left, min(left + columns, length))
@@ -167,16 +167,6 @@ def window(value: FloatArray, band: slice, part: slice, shape: tuple[int, ...]) 
 
 
 @final
-@dataclass(frozen=True)
-class BlockCode:
-    """A function `pose(c, i, r, o, g)` as text, how many registers it needs, and the numbers in it."""
-
-    text: str
-    registers: int
-    numbers: Mapping[str, FloatArray]
-
-
-@final
 class Registers:
     """Names for the operands: constants `c`, inputs `i`, outputs `o`, and a reused pool `r`."""
 
@@ -216,8 +206,8 @@ class Registers:
         return self.names[node]
 
 
-def block_code(plan: Schedule) -> BlockCode:
-    """Return the pose part as NumPy calls without temporaries."""
+def block_code(plan: Schedule) -> tuple[str, int, Mapping[str, FloatArray]]:
+    """Return the pose part as NumPy calls without temporaries: the text of a function `pose(c, i, r, o, g)`, its registers, its numbers."""
     registers = Registers(plan)
     watched: dict[Node, list[int]] = {}
     for place, guard in enumerate(plan.guards):
@@ -246,25 +236,20 @@ def block_code(plan: Schedule) -> BlockCode:
     unpacked = [f"{', '.join(f'{kind}{k}' for k in range(count))}, = {kind}" for kind, count in sizes if count]
     body = "\n    ".join([*unpacked, *lines]) or "pass"
     numbers = {name: np.array(value) for value, name in registers.numbers.items()}
-    return BlockCode(f"def pose(c, i, r, o, g):\n    {body}\n", registers.count, numbers)
+    return f"def pose(c, i, r, o, g):\n    {body}\n", registers.count, numbers
 
 
-@final
-class Pool(local):
-    """The registers that a thread worked in last: the next block mostly wants no more of the same size."""
-
-    def __init__(self) -> None:
-        self.size = 0
-        self.rows: list[FloatArray] = []
-
-    def registers(self, count: int, size: int) -> list[FloatArray]:
-        """Return registers whose contents may be anything."""
-        if self.size != size or len(self.rows) < count:
-            self.size, self.rows = size, aligned(count, size)
-        return self.rows[:count]
+POOL = local()
+"""The registers that a thread worked in last: the next block mostly wants no more of the same size."""
 
 
-POOL = Pool()
+def registers_of(count: int, size: int) -> list[FloatArray]:
+    """Return registers whose contents may be anything."""
+    known, rows = getattr(POOL, "last", (0, []))
+    if known != size or len(rows) < count:
+        rows = aligned(count, size)
+        POOL.last = size, rows
+    return rows[:count]
 
 
 @cache

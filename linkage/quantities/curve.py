@@ -94,7 +94,10 @@ class Curve:
         if self.period is not None:
             turn, middle = 2.0 * pi / self.period, 0.5 * float(self.xs[0] + self.xs[-1])
             x = wrap((x - middle) * turn) * (1.0 / turn) + middle
-        start, *powers = (self._chosen(x, row, pick) for row in (self.xs[:-1], *self._derived(order)))
+        derived = self._pieces
+        for _ in range(order):
+            derived = derived[1:] * np.arange(1, len(derived))[:, None] if len(derived) > 1 else np.zeros_like(derived)
+        start, *powers = (self._chosen(x, row, pick) for row in (self.xs[:-1], *derived))
         away, total = x - start, powers[-1]
         for factor in powers[-2::-1]:
             total = total * away + factor
@@ -113,13 +116,6 @@ class Curve:
             return pick(x, float(self.xs[middle]), between(first, middle), between(middle, last))
 
         return between(0, len(row))
-
-    def _derived(self, order: int) -> Floats:
-        """Return the coefficients of the pieces' derivatives of an order, by powers."""
-        found = self._pieces
-        for _ in range(order):
-            found = found[1:] * np.arange(1, len(found))[:, None] if len(found) > 1 else np.zeros_like(found)
-        return found
 
     @cached_property
     def _pieces(self) -> Floats:

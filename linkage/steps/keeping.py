@@ -181,16 +181,12 @@ class Construction:
         if closing is None and drive is None and (X not in self.used or (behind and not self.is_driven(length))):
             return OffsetLinks()  # a pointer, or a place that is worked out: nothing is held by it
         held = self._side(P, X, Length(arrow), self._known(arrow), length, turns)
-        if closing is not None:
-            return self._closed(X, *closing, held)
+        if closing is not None:  # the apex of a triangle keeps the third side, from the far end of its base, as well
+            Q, third = closing[0], closing[1].triangle[2]
+            form = self.forms[frozenset((Q, X))] = self.form(third)
+            other = self._side(Q, X, third, self._plain(third), form, self.moving(self.direction_of(Q, X)))
+            return OffsetLinks(held.groups + other.groups, held.sides + other.sides, held.rods + other.rods, apex=Q)
         return held if drive is None else OffsetLinks(held.groups, held.sides, held.rods, by=drive[1], angle=drive[0], settled=True)
-
-    def _closed(self, X: str, Q: str, corner: CosineAngle, held: OffsetLinks) -> OffsetLinks:
-        """Return what the apex of a triangle keeps beside the side that it hangs from: the third one, from the far end of its base."""
-        third = corner.triangle[2]
-        form = self.forms[frozenset((Q, X))] = self.form(third)
-        other = self._side(Q, X, third, self._plain(third), form, self.moving(self.direction_of(Q, X)))
-        return OffsetLinks(held.groups + other.groups, held.sides + other.sides, held.rods + other.rods, apex=Q)
 
     def _side(self, P: str, X: str, length: Quantity, known: Quantity | None, form: Form, turns: Terms) -> OffsetLinks:
         """Return a two-point member P X: a rod, or a drive's; nothing where its length follows points that move against each other."""

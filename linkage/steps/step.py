@@ -237,8 +237,12 @@ class Step(Point):
         if len(set(names)) < len(names):
             raise DefinitionError(f"{bound.sentence()}: the points {', '.join(names)} must be different.")
         for attribute, (slot, spelling, sign, value) in match(self.labels, bound.fitting(), bound.sentence()).items():
-            if slot.kind == "angle" and self.side is not None:
-                bound.check_sense(spelling, next(iter(slot.spellings)), sign, quantity(value))
+            given, forward = quantity(value), next(iter(slot.spellings))
+            is_negative = isinstance(given, Number) and given.number < 0.0
+            if slot.kind == "angle" and self.side is not None and (sign < 0 or is_negative):  # the side would turn it once more
+                why = f"{spelling} is counted from the other ray, which is -{forward}" if sign < 0 else f"{spelling} is negative"
+                remedy = f"write {forward}= with a positive angle, or leave the side out"
+                raise DefinitionError(f"{bound.sentence()}: {why}, but side={self.side} gives the sense; {remedy}.")
             found = table.dimension(slot, spelling, value, bound.sentence())
             setattr(bound, attribute, found if sign > 0 else -found)
         bound.check()
@@ -246,13 +250,6 @@ class Step(Point):
 
     def having(self, values: Mapping[str, float]) -> Self:
         return self.renewed(labels=relabelled(self.labels, values))
-
-    def check_sense(self, spelling: str, forward: str, sign: int, given: Quantity) -> None:
-        """Raise DefinitionError for an angle whose own sense would be turned once more by the side."""
-        if sign < 0 or (isinstance(given, Number) and given.number < 0.0):
-            why = f"{spelling} is counted from the other ray, which is -{forward}" if sign < 0 else f"{spelling} is negative"
-            remedy = f"write {forward}= with a positive angle, or leave the side out"
-            raise DefinitionError(f"{self.sentence()}: {why}, but side={self.side} gives the sense; {remedy}.")
 
     def missing(self, slot: Slot) -> DefinitionError:
         """Return the error for a label that must be given."""
@@ -310,10 +307,10 @@ def position(value: Position | None, what: str) -> tuple[float, float] | None:
     if value is None:
         return None
     pair = tuple(value) if isinstance(value, (list, tuple)) or (isinstance(value, np.ndarray) and value.ndim == 1) else ()
-    if len(pair) != 2 or not all(isinstance(part, (int, float, np.integer, np.floating)) and not isinstance(part, bool) for part in pair):
-        raise DefinitionError(f"{what}: {cited(value)} is not a position; write (x, y) in m.")
-    if not all(map(is_number, pair)):
-        raise DefinitionError(f"{what}: {cited(value)} is not a finite position.")
+    if len(pair) != 2 or not all(map(is_number, pair)):
+        is_real = [isinstance(part, (int, float, np.integer, np.floating)) and not isinstance(part, bool) for part in pair]
+        fault = "is not a finite position" if len(pair) == 2 and all(is_real) else "is not a position; write (x, y) in m"
+        raise DefinitionError(f"{what}: {cited(value)} {fault}.")
     require_measure(pair, "length", what)
     return float(pair[0]), float(pair[1])
 

@@ -179,21 +179,19 @@ class MechanismType(ABCMeta):
     def __setattr__(cls, name: str, value: object) -> None:
         builder = str(sys._getframe(1).f_globals.get("__name__", ""))
         by_value = builder.startswith("cloudpickle")  # which makes a class of another process empty, then gives it what it has
-        if not by_value and (isinstance(value, Member) or cls._is_made_of(name)):
-            raise cls._unchanging(name, "= ...")
+        if not by_value:
+            cls._check_made(name, "= ...", isinstance(value, Member))
         super().__setattr__(name, value)
 
     def __delattr__(cls, name: str) -> None:
-        if cls._is_made_of(name):
-            raise cls._unchanging(name, "is deleted")
+        cls._check_made(name, "is deleted")
         super().__delattr__(name)
 
-    def _is_made_of(cls, name: str) -> bool:
-        return name == "plan" or isinstance(getattr(cls, name, None), Member) or name in cls.plan.members
-
-    def _unchanging(cls, name: str, what: str) -> DefinitionError:
-        remedy = f"write a subclass, class Other({cls.__name__}): {name} = ..."
-        return DefinitionError(f"{cls.__name__}.{name} {what}: {cls.__name__} is worked out already and would not follow; {remedy}.")
+    def _check_made(cls, name: str, what: str, is_member: bool = False) -> None:
+        """Raise DefinitionError for a change of what the class is made of."""
+        if is_member or name == "plan" or isinstance(getattr(cls, name, None), Member) or name in cls.plan.members:
+            remedy = f"write a subclass, class Other({cls.__name__}): {name} = ..."
+            raise DefinitionError(f"{cls.__name__}.{name} {what}: {cls.__name__} is worked out already and would not follow; {remedy}.")
 
 
 class Mechanism(Shown, metaclass=MechanismType):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from itertools import accumulate
 from typing import Any
 
 from ..plan import Plan
@@ -53,44 +54,31 @@ def group_text(plan: Plan, group: Group, inputs: Inputs) -> str:
 def groups_text(plan: Plan, inputs: Inputs, dimensions: Sequence[str]) -> str:
     """Return what solves the groups of a plan in JavaScript; dimensions by their names in the order of a design."""
     seeds = at_sketch(plan)
-    first = {
-        name: len(plan.strokes) + sum(len(each.inputs) for each in list(plan.groups.values())[:place])
-        for place, name in enumerate(plan.groups)
+    first = accumulate((len(group.inputs) for group in plan.groups.values()), initial=len(plan.strokes))
+    groups = ",".join(f"[{start},{group_text(plan, group, inputs)}]" for start, group in zip(first, plan.groups.values(), strict=False))
+    numbers = {
+        "seeds": [seeds[name][:, 0].tolist() for name in plan.groups],
+        "d0": [plan.defaults[name] for name in dimensions],
+        "LARGEST": largest_step(plan, next(iter(plan.strokes))),
+        **{"ITERATIONS": ITERATIONS, "FIRST": FIRST, "TOUCH": TOUCH, "LINE": LINE},
     }
-    groups = ",".join(f"[{first[name]},{group_text(plan, group, inputs)}]" for name, group in plan.groups.items())
-    largest = [largest_step(plan, name) for name in plan.strokes]
-    constants = {
-        "groups": f"[{groups}]",
-        "seeds": json_of([seeds[name][:, 0].tolist() for name in plan.groups]),
-        "d0": json_of([plan.defaults[name] for name in dimensions]),
-        "LARGEST": json_of(largest[0]),
-        "ITERATIONS": json_of(ITERATIONS),
-        "FIRST": json_of(FIRST),
-        "TOUCH": json_of(TOUCH),
-        "LINE": json_of(LINE),
-    }
-    rules: dict[str, tuple[int, Rule]] = {
-        "ended": (3, newton_ended),
-        "predicted": (8, place_ahead),
-        "judged": (7, step_judged),
-        "goes": (4, goes_on),
-        "between": (11, place_between),
-    }
-    return "".join(f"const {name}={traced_rule(count, rule)};" for name, (count, rule) in rules.items()) + constants_text(constants)
+    constants = {"groups": f"[{groups}]", **{name: json_of(value) for name, value in numbers.items()}}
+    rules: list[tuple[str, int, Rule]] = [
+        ("ended", 3, newton_ended), ("predicted", 8, place_ahead), ("judged", 7, step_judged), ("goes", 4, goes_on),
+        ("between", 11, place_between),
+    ]  # fmt: skip
+    return "".join(f"const {name}={traced_rule(count, rule)};" for name, count, rule in rules) + constants_text(constants)
 
 
 def angles_text(plan: Plan, clipped: Callable[[Plan, Sequence[Node]], Sequence[Node]], inputs: Inputs) -> str:
     """Return what follows the angles of a plan in JavaScript; `clipped` gives nodes that stand at a dead point to rounding."""
     vectors = [arrow_function(clipped(plan, followed_nodes(plan, name)), inputs) for name in plan.followed]
-    constants = {
-        "followed": f"[{','.join(vectors)}]",
-        "FOLLOWED": json_of(len(plan.strokes) + len(plan.grouped)),
-        "units": json_of([piece_length(plan, name) for name in plan.strokes]),
-        "SHORT": json_of(angle_continuation.SHORT),
-        "LEAST": json_of(angle_continuation.LEAST),
-        "STRAIGHT": json_of(angle_continuation.STRAIGHT),
+    numbers = {
+        "FOLLOWED": len(plan.strokes) + len(plan.grouped),
+        "units": [piece_length(plan, name) for name in plan.strokes],
+        **{name: getattr(angle_continuation, name) for name in ("SHORT", "LEAST", "STRAIGHT")},
     }
-    return constants_text(constants)
+    return constants_text({"followed": f"[{','.join(vectors)}]", **{name: json_of(value) for name, value in numbers.items()}})
 
 
 def constants_text(constants: Mapping[str, str]) -> str:

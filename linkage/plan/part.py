@@ -121,32 +121,31 @@ class Part(Member):
     def _check_given(self) -> None:
         plan, title = self.plan, f"Part({self.plan.title})"
         for name, value in self.given.items():
-            member = plan.members.get(name)
-            if name in plan.strokes:
-                if value is None:
-                    raise DefinitionError(f"{title}: the stroke {name} cannot be left out; give it a quantity, {name}=S.")
-                quantity(value)
-            elif isinstance(member, Point):
-                if not member.is_fixed:
-                    said = f"{title}: {name} moves in the part and takes no place"
-                    raise DefinitionError(f"{said}; give its fixed points, {', '.join(self.plan.ground)}, or carry the part by on=.")
-                if value is None:
-                    raise DefinitionError(f"{title}: the fixed point {name} cannot be left out; fuse it with a point or give (x, y).")
-                if not isinstance(value, (str, Member)):
-                    pair_of(value, f"{title}: {name}=")
-            elif value is None and member is not None:
+            member, fault = plan.members.get(name), ""
+            if name in plan.strokes and value is None:
+                fault = f"the stroke {name} cannot be left out; give it a quantity, {name}=S"
+            elif isinstance(member, Point) and not member.is_fixed:
+                remedy = f"give its fixed points, {', '.join(self.plan.ground)}, or carry the part by on="
+                fault = f"{name} moves in the part and takes no place; {remedy}"
+            elif isinstance(member, Point) and value is None:
+                fault = f"the fixed point {name} cannot be left out; fuse it with a point or give (x, y)"
+            elif isinstance(member, Point) and not isinstance(value, (str, Member)):
+                pair_of(value, f"{title}: {name}=")
+            elif isinstance(member, Point) or (value is None and member is not None):
                 continue
-            elif name in plan.table.spellings or isinstance(member, Dimension):
-                if np.ndim(value):
-                    raise DefinitionError(f"{title}: {name} is a batch of {np.size(value)} values; a part is one design.")
+            elif name in plan.strokes or ((name in plan.table.spellings or isinstance(member, Dimension)) and not np.ndim(value)):
                 quantity(value)
+            elif name in plan.table.spellings or isinstance(member, Dimension):
+                fault = f"{name} is a batch of {np.size(value)} values; a part is one design"
             elif name in plan.table.following:
-                raise DefinitionError(f"{title}: {name} follows {plan.table.following[name]}; set what it follows.")
-            elif member is not None:
-                what = f"{title}: {name} is a {member.kind} and takes no value"
-                raise DefinitionError(f"{what}; leave it out by {name}=None, or exchange it in a subclass of {plan.title}.")
-            else:
+                fault = f"{name} follows {plan.table.following[name]}; set what it follows"
+            elif member is None:
                 raise unknown("Name", name, [*plan.members, *plan.table.names()], where=title)
+            else:
+                remedy = f"leave it out by {name}=None, or exchange it in a subclass of {plan.title}"
+                fault = f"{name} is a {member.kind} and takes no value; {remedy}"
+            if fault:
+                raise DefinitionError(f"{title}: {fault}.")
 
     def parts(self) -> tuple[Reference, ...]:
         found: list[Reference] = [self.angle, *self.at]
@@ -250,10 +249,13 @@ class Inner:
 
 def given_text(value: object) -> str:
     """Return what a keyword was given as it is written."""
-    if isinstance(value, (str, Member)):
-        return value.name or written(value) if isinstance(value, Quantity) else label(value)
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return f"({', '.join(written(quantity(each)) for each in value)})"
+    match value:
+        case Quantity():
+            return value.name or written(value)
+        case str() | Member():
+            return label(value)
+        case list() | tuple() | np.ndarray():
+            return f"({', '.join(written(quantity(each)) for each in value)})"
     return repr(value.item() if isinstance(value, np.generic) else value)
 
 

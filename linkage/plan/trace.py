@@ -249,12 +249,13 @@ class Trace(Reading):
 
 def in_fork(value: object, nodes: Sequence[Node]) -> Any:
     """Return what holds nodes of a graph with those that have the same numbers in a fork of it."""
-    if isinstance(value, Node):
-        return nodes[value.number]
-    if isinstance(value, (tuple, list)):
-        return type(value)([in_fork(each, nodes) for each in value])
-    if isinstance(value, dict):
-        return {in_fork(key, nodes) if isinstance(key, Nearness) else key: in_fork(each, nodes) for key, each in value.items()}
-    if isinstance(value, (Vec, Line, Guard, Nearness, Loop)):
-        return type(value)(*[in_fork(getattr(value, part.name), nodes) for part in fields(value)])
+    match value:
+        case Node():
+            return nodes[value.number]
+        case tuple() | list():
+            return type(value)([in_fork(each, nodes) for each in value])
+        case dict():
+            return {in_fork(key, nodes) if isinstance(key, Nearness) else key: in_fork(each, nodes) for key, each in value.items()}
+        case Vec() | Line() | Guard() | Nearness() | Loop():
+            return type(value)(*[in_fork(getattr(value, part.name), nodes) for part in fields(value)])
     return value

@@ -64,7 +64,10 @@ class Tangent:
 
     def _settle(self, node: Node) -> None:
         if node.closure is not None:
-            self._known.update(zip(node.closure.roots, rates(self.graph, node.closure, self), strict=True))
+            loop, graph = node.closure, self.graph  # r_u du = -r_v dv
+            held = Tangent(graph, dict.fromkeys(loop.roots, 0.0), beyond=self, limit=loop.roots[0].number)
+            drive = [-held.of(residual) for residual in loop.residuals]
+            self._known.update(zip(loop.roots, solution(graph, jacobian(graph, loop), drive, loop.determinant), strict=True))
             return
         if node.op == "alias":
             self._known[node] = self._lookup(node.args[1])
@@ -80,13 +83,6 @@ class Tangent:
                 part = change if partials[index] == 1.0 else change * partials[index]
                 total = part if total is self.zero else total + part
         self._known[node] = total
-
-
-def rates(graph: Graph, closure: Closure, along: Tangent) -> Sequence[Node]:
-    """Return the derivatives of a loop's unknowns along a direction: the solution of r_u du = -r_v dv."""
-    held = Tangent(graph, dict.fromkeys(closure.roots, 0.0), beyond=along, limit=closure.roots[0].number)
-    drive = [-held.of(residual) for residual in closure.residuals]
-    return solution(graph, jacobian(graph, closure), drive, closure.determinant)
 
 
 def jacobian(graph: Graph, closure: Closure) -> Sequence[Sequence[Node]]:

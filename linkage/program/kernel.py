@@ -14,6 +14,7 @@ from typing import Protocol, TypeAlias, final
 import numpy as np
 
 from .. import plugins
+from ..checks import require_whole
 from ..errors import DefinitionError, quoted
 from ..plugins import Plugins
 from ..vectors import FloatArray, Numbers
@@ -64,8 +65,7 @@ class RunOptions:
         if self.backend is not None and not is_known and ADDED.given(self.backend) is None:
             *others, last = map(quoted, [*OWN, *ADDED])
             raise DefinitionError(f"backend={self.backend!r}: say {', '.join(others)} or {last}, or nothing for the quickest.")
-        if not isinstance(self.threads, int) or isinstance(self.threads, bool) or self.threads < 1:
-            raise DefinitionError(f"threads={self.threads!r}: a whole number of at least 1 is expected.")
+        require_whole("threads", self.threads, "a whole number of at least 1 is expected", least=1)
 
 
 class Backend(Protocol):

@@ -24,9 +24,8 @@ class Stroke(Quantity):
     needs_name: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
-        for value in (self.start, self.end):
-            if not is_number(value):
-                raise DefinitionError(f"Stroke({cited(self.start)}, {cited(self.end)}): both ends must be finite numbers.")
+        if not (is_number(self.start) and is_number(self.end)):
+            raise DefinitionError(f"Stroke({cited(self.start)}, {cited(self.end)}): both ends must be finite numbers.")
         object.__setattr__(self, "start", plain(self.start))
         object.__setattr__(self, "end", plain(self.end))
         for value in (self.start, self.end):

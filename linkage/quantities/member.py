@@ -53,20 +53,19 @@ class Member:
     """The class that it was declared in, once that is complete: from then on it does not change."""
 
     def __setattr__(self, name: str, value: object) -> None:
-        if self._class:
-            raise self._unchanging(name)
+        self._check_free(name)
         object.__setattr__(self, name, value)
 
     def __delattr__(self, name: str) -> None:
-        if self._class:
-            raise self._unchanging(name)
+        self._check_free(name)
         object.__delattr__(self, name)
 
-    def _unchanging(self, name: str) -> DefinitionError:
-        """Return the error for a change of what a class was made of."""
-        what = f"{self._class}.{self.name}.{name} = ..."
-        remedy = f"write a subclass, class Other({self._class}): {self.name} = ..."
-        return DefinitionError(f"{what}: {self._class} is worked out already and would not follow; {remedy}, or set a dimension.")
+    def _check_free(self, name: str) -> None:
+        """Raise DefinitionError for a change of what a class was made of."""
+        if self._class:
+            what = f"{self._class}.{self.name}.{name} = ..."
+            remedy = f"write a subclass, class Other({self._class}): {self.name} = ..."
+            raise DefinitionError(f"{what}: {self._class} is worked out already and would not follow; {remedy}, or set a dimension.")
 
     def settle(self, title: str) -> None:
         """Let nothing of this member change any more: the class `title` is made of it."""

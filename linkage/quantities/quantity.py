@@ -360,15 +360,16 @@ class Negative(Expression):
 
 def signed_terms(given: Quantity, members: Mapping[str, Member], sign: float = 1.0) -> Iterator[tuple[float, Quantity]]:
     """Yield the terms of a sum with their signs, names looked up among the members of a class."""
-    if isinstance(given, Ref):
-        yield from signed_terms(cast(Quantity, members[given.target]), members, sign)
-    elif isinstance(given, Sum):
-        yield from signed_terms(given.a, members, sign)
-        yield from signed_terms(given.b, members, sign)
-    elif isinstance(given, Negative):
-        yield from signed_terms(given.a, members, -sign)
-    else:
-        yield sign, given
+    match given:
+        case Ref():
+            yield from signed_terms(cast(Quantity, members[given.target]), members, sign)
+        case Sum():
+            yield from signed_terms(given.a, members, sign)
+            yield from signed_terms(given.b, members, sign)
+        case Negative():
+            yield from signed_terms(given.a, members, -sign)
+        case _:
+            yield sign, given
 
 
 @final

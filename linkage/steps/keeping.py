@@ -68,10 +68,6 @@ class Form:
         """Return whether another length is this one."""
         return self.terms == other.terms and isclose(self.number, other.number, rel_tol=SAME)
 
-    def is_direction(self, other: Form) -> bool:
-        """Return whether another direction is this one, whole turns aside."""
-        return self.terms == other.terms and abs(remainder(self.number - other.number, 2.0 * pi)) < SAME
-
 
 @final
 @dataclass
@@ -225,7 +221,8 @@ class Construction:
                 base = way.plus(Form(frozenset({(key, 1.0)})), -times)
                 first, second, _ = (self.form(side) for side in self.corners[key].triangle)
                 for Q in self.placed[:-1]:
-                    if Q != P and self.direction_of(P, Q).is_direction(base):
+                    along = base if Q == P else self.direction_of(P, Q)
+                    if Q != P and along.terms == base.terms and abs(remainder(along.number - base.number, 2.0 * pi)) < SAME:
                         beside = self.pair_length(P, Q)
                         for a, b in ((first, second), (second, first)):
                             if a.is_length(beside) and b.is_length(length):

@@ -39,10 +39,9 @@ class OnLink(Step):
         return Slot("PX", (self.P, self.X)), Slot("QX", (self.Q, self.X)), Slot("QPX", (self.Q, self.P, self.X))
 
     def check(self) -> None:
-        given = [slot for slot in self.slots() if getattr(self, slot.attribute) is not UNBOUND]
         if self.PX is UNBOUND and self.drawn_at is None:
             raise self.missing(self.slots()[0])
-        if len(given) > 2:
+        if UNBOUND not in (self.PX, self.QX, self.QPX):
             raise DefinitionError(f"{self.sentence()}: give the third side or the angle, not both.")
         if self.QX is not UNBOUND and self.side is None and self.near is None and self.drawn_at is None:
             raise self.needs_side("a triangle of three sides lies on either side")

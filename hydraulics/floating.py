@@ -22,7 +22,7 @@ from linkage.checks import require_type
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import refuses_changes
 from linkage.language import said
-from linkage.loads import AT_REST, Acting, Declared, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
+from linkage.loads import AT_REST, Acting, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Answer, Judge, Motion, MotionFunction, least, most
@@ -36,8 +36,9 @@ from .accumulator import AccumulatorBlock, keeps_rule
 from .gas import Polytropic
 from .inputs import Array, all_finite, follows, in_pascals, number_set
 from .line import pressure_range
-from .member import Circuit, Feeds, Ram, chamber_area
-from .standing import shut_verdicts, standing_pressure
+from .member import Circuit, Feeds, Ram, as_in, chamber_area
+from .shut import shut_verdicts
+from .standing import standing_pressure
 
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 
@@ -48,8 +49,15 @@ class GasLine(Circuit):
     charge_pressure: Parameter | None
 
     @abstractmethod
-    def gas_block(self, plan: Declared) -> Block:
-        """Return the accumulators on it."""
+    def gas_block(self) -> Block | None:
+        """Return the accumulators on it; None for none."""
+
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        block = self.gas_block()
+        if block is None:
+            return ()
+        count = len(block.accumulators) if isinstance(block, AccumulatorBlock) else 1
+        return tuple(Glyph("accumulator", cylinder.ends, count) for cylinder in self.members(members))
 
     @abstractmethod
     def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
@@ -75,7 +83,7 @@ class GasLine(Circuit):
     def pressure_under(self, motion: AnyMotion, acting: Acting | None) -> Array:
         """Return the pressure of the gas [Pa gauge], or where a load case shuts the line what the loads make of it."""
         motion = held_in_case(motion, acting)
-        is_shut = acting is not None and self.as_in(motion)._is_shut
+        is_shut = acting is not None and as_in(motion.plan, self)._is_shut
         return standing_pressure(self, motion, cast(Acting, acting)) if is_shut else self.pressure(motion)
 
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
@@ -84,11 +92,12 @@ class GasLine(Circuit):
         return thrust, thrust
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return the verdicts on the gas's pressure wherever it runs, and on that of the line where a load case shuts it."""
-        return [*self.gas_verdicts(judge), *shut_verdicts(self, judge)]
+        """Return the range of the gas's pressure wherever it runs, whether fluid is left everywhere, what its accumulators bear.
 
-    def gas_verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return the range of the line's pressure wherever it runs, whether fluid is left everywhere, and what its accumulators bear."""
+        After that stands the verdict on the line where a load case shuts it.
+        """
+        shut = shut_verdicts(self, judge)
+
         def pressure(motion: Motion) -> Array:
             return self.pressure(motion)
 
@@ -96,18 +105,18 @@ class GasLine(Circuit):
             low, high = judge.answers([each(MotionFunction(pressure, "pressure")) for each in (least, most)])
             block = self.accumulators(judge.motion)
         except DefinitionError as error:
-            return [Verdict("line", False, " ".join(str(error).split()))]
+            return [Verdict("line", False, " ".join(str(error).split())), *shut]
         unit = block.unit or "bar"
         says = pressure_range(low, high, unit)
         if not low.value > 0.0:
             text = says + said(": the line is empty there. Charge it higher, or take larger accumulators.")
-            return [Verdict("line", False, text, answer=low)]
+            return [Verdict("line", False, text, answer=low), *shut]
         charges = partial(self.recharged, judge, block, {"charge": low, "compression": high})
         faults = [each for each in block.checks(low.value, high.value, high.value, recharged=charges) if not each.ok]
         if not faults:
-            return [Verdict("line", True, f"{says}.", answer=low)]
+            return [Verdict("line", True, f"{says}.", answer=low), *shut]
         found = "; ".join(f"{each.heading}: {each.sentence.rstrip('.')}" for each in faults)
-        return [Verdict("line", False, f"{says}; {found}.", answer=high)]
+        return [Verdict("line", False, f"{says}; {found}.", answer=high), *shut]
 
     def recharged(self, judge: Judge, block: AccumulatorBlock, worst: Mapping[str, Answer], number: int, rule: str) -> float:
         """Return the charge of an accumulator next to its own, with which the line keeps a rule [Pa gauge]; NaN for none.
@@ -140,7 +149,8 @@ class GasLine(Circuit):
     def accumulators(self, motion: Poses) -> AccumulatorBlock:
         """Return its block as the motion's designs have it, before a movement: settled at the charge pressure, by its own gas law."""
         require_poses(motion)
-        block = self.gas_block(motion.plan)
+        block = self.gas_block()
+        assert block is not None
         return block(motion) if callable(block) else block.sized(motion)
 
     # -- over the stroke -----------------------------------------------------------------------------------
@@ -176,7 +186,10 @@ class GasLine(Circuit):
         return np.asarray(np.sign(ram.growth(motion, rates)) * friction)
 
     def formulas(self, written: Formulas) -> None:
-        """Write the line's pressure, by the isothermal law or as a given number, and the cylinder's thrust of it. (17)-(33), (36), (37)"""
+        """Write the line's pressure, and the cylinder's thrust of it. (17)-(33), (36), (37)
+
+        It is a formula for an ideal gas that moves slowly, where a label gives the cylinder's length; else a given number.
+        """
         rams = self.members(written.plan.members)
         if len(rams) > 1:
             pressure = written.given(f"p_{self.name}", self.pressure, "bar")
@@ -186,31 +199,19 @@ class GasLine(Circuit):
             return
         (ram,) = rams
         area, _ = ram.sides_written(written, np.ones(()))
-        left = self._withdrawn_written(written, ram, area)
-        pressure = written.given(f"p_{ram.name}", self.pressure, "bar") if left is None else self._pressure_written(written, ram, left)
+        block, sense = self.gas_block(), -1.0 if ram.side == "rod" else 1.0
+        is_ideal = isinstance(block, AccumulatorBlock) and isinstance(block.gas, Polytropic) and not np.any(block.gas.n != 1.0)
+        length = written.plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
+        if is_ideal and ram.keeps_area and length is not None and written.equals(self.number(written, "exponent"), 1.0):
+            charged = length_at(written, ram, self.charged_at(written, ram))
+            left = written.line(f"dV_{ram.name}", (written.distance(ram.A, ram.B) - charged) * area * sense, "l")
+            pressure = self._pressure_written(written, ram, cast(AccumulatorBlock, block), left)
+        else:
+            pressure = written.given(f"p_{ram.name}", self.pressure, "bar")
         written.carry(ram, -pressure * area if ram.side == "rod" else pressure * area)
 
-    def _withdrawn_written(self, written: Formulas, ram: Ram, area: Array) -> Array | None:
-        """Return the fluid that has left the block [m3] as a formula, None where there is none.
-
-        There is one for an ideal gas that moves slowly, where a label gives the cylinder's length.
-        """
-        block, plan = self.gas_block(written.plan), written.plan
-        if not isinstance(block, AccumulatorBlock) or not isinstance(block.gas, Polytropic) or np.any(block.gas.n != 1.0):
-            return None
-        if not ram.keeps_area:
-            return None
-        length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
-        if length is None or not written.equals(self.number(written, "exponent"), 1.0):
-            return None
-        charged = length_at(written, ram, self.charged_at(written, ram))
-        sense = -1.0 if ram.side == "rod" else 1.0
-        return written.line(f"dV_{ram.name}", (written.distance(ram.A, ram.B) - charged) * area * sense, "l")
-
-    def _pressure_written(self, written: Formulas, ram: Ram, left: Array) -> Array:
+    def _pressure_written(self, written: Formulas, ram: Ram, block: AccumulatorBlock, left: Array) -> Array:
         """Write p (V - V_idle) = sum of V_i C_i over the gases that work; one works up to the volume at which its charge C_i is left."""
-        block = self.gas_block(written.plan)
-        assert isinstance(block, AccumulatorBlock)
         atmosphere = number_written(written, block.atmosphere)
         charges = [
             written.line(f"C_{ram.name}_{number}", number_written(written, each.charge) + atmosphere, "bar")
@@ -279,10 +280,14 @@ class FloatCircuit(GasLine):
             said = f"block={cited(self.block)} is no AccumulatorBlock"
             raise DefinitionError(f"FloatCircuit: {said}; write AccumulatorBlock([Accumulator(...)]).")
 
+    @property
+    def scales(self) -> bool:
+        return True
+
     def kind_open(self, members: Mapping[str, Member]) -> str:
         return "given"
 
-    def gas_block(self, plan: Declared) -> Block:
+    def gas_block(self) -> Block:
         return self.block
 
     def on_block(self, block: AccumulatorBlock) -> FloatCircuit:
@@ -305,10 +310,6 @@ class FloatCircuit(GasLine):
     def __str__(self) -> str:
         block = str(self.block) if isinstance(self.block, AccumulatorBlock) else getattr(self.block, "__name__", "block")
         return f"FloatCircuit({', '.join([self.named, block, *self.words()])})"
-
-    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
-        count = len(self.block.accumulators) if isinstance(self.block, AccumulatorBlock) else 1
-        return tuple(Glyph("accumulator", cylinder.ends, count) for cylinder in self.members(members))
 
     def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return () if self._is_shut else self.members(members)
@@ -349,27 +350,17 @@ def length_at(motion: Poses, ram: Ram, at: Mapping[str, Array]) -> Scalar:
     if length is not None:
         return reading.value(length)
     if plan.followed or (plan.reaches(name_of(ram.A)) | plan.reaches(name_of(ram.B))) & set(plan.groups):
-        return length_by_groups(motion, ram, at)
-    with np.errstate(all="ignore"):
-        found = (reading.at(name_of(ram.B)) - reading.at(name_of(ram.A))).length()
+        if not isinstance(motion, Motion) or any(np.size(value) != 1 for value in at.values()):
+            what = f"{ram}: its length follows from a group of links, which has no closed form"
+            raise DefinitionError(f"{what}; give the circuit one charging stroke for all designs, and ask for arrays.")
+        values = {name: float(np.ravel(value)[0]) for name, value in at.items()}
+        strokes = {name: np.asarray(place) for name, place in {**motion.plan.sketch_strokes, **values}.items()}
+        there = Motion(motion.plan, motion.designs, {name: strokes[name] for name in motion.strokes}, "nan")
+        found: Scalar = there.distance(ram.A, ram.B).reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape)))
+    else:
+        with np.errstate(all="ignore"):
+            found = (reading.at(name_of(ram.B)) - reading.at(name_of(ram.A))).length()
     if not np.all(np.isfinite(found)):
-        raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {charging_words(at)}.")
+        where = " and ".join(f"{name} = {np.ravel(value)[0]:.6g}" for name, value in at.items()) or "of the sketch"
+        raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {where}.")
     return found
-
-
-def charging_words(at: Mapping[str, Array]) -> str:
-    """Return where a line is charged: the strokes with their first values, or that it is the sketch."""
-    return " and ".join(f"{name} = {np.ravel(value)[0]:.6g}" for name, value in at.items()) or "of the sketch"
-
-
-def length_by_groups(motion: Poses, ram: Ram, at: Mapping[str, Array]) -> Array:
-    """Return a cylinder's length [m] where its line is charged, its ends found with groups of links; broadcasts against the motion."""
-    if not isinstance(motion, Motion) or any(np.size(value) != 1 for value in at.values()):
-        what = f"{ram}: its length follows from a group of links, which has no closed form"
-        raise DefinitionError(f"{what}; give the circuit one charging stroke for all designs, and ask for arrays.")
-    values = {name: float(np.ravel(value)[0]) for name, value in at.items()}
-    strokes = {name: np.asarray(place) for name, place in {**motion.plan.sketch_strokes, **values}.items()}
-    found = Motion(motion.plan, motion.designs, {name: strokes[name] for name in motion.strokes}, "nan").distance(ram.A, ram.B)
-    if not np.all(np.isfinite(found)):
-        raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {charging_words(at)}.")
-    return np.asarray(found.reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape))))

@@ -23,7 +23,7 @@ from linkage.verdict import Verdict
 
 from .inputs import not_negative, one_number
 from .line import LiftLine, LineValve
-from .member import PISTON, SIDES, AllOf, Ram, carries_loads, one_design, thrust_request
+from .member import PISTON, SIDES, AllOf, Ram, as_in, carries_loads, judge_of, thrust_request
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
 from .requests import going_back_request, pressure_request, reserve_request
 
@@ -44,10 +44,9 @@ def lift_verdicts(
     circuit = the_circuit(circuit, motion)
     not_negative(one_number(resistance, "Return resistance"), "Return resistance")
     known_name("Unit", unit, UNITS, where="lift_verdicts(unit=...)")
-    one_design(motion, "A lift")
+    judge = judge_of(motion, "A lift", given)
     if not motion.reached.any():
         raise DefinitionError(f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge.")
-    judge = Judge(motion.plan, motion.designs, [motion], given).lost_allowed()
     return line_verdicts(circuit, judge, resistance, unit)
 
 
@@ -194,8 +193,7 @@ class LiftingCylinder:
     @property
     def goes_back_by_another(self) -> bool:
         """Whether another held line has its other side, so that its pump drives it back, as is judged there."""
-        own = self.judge.plan.members.get(self.ram.name)
-        return isinstance(own, Ram) and own.side == "both" and self.ram.side != "both"
+        return as_in(self.judge.plan, self.ram).side == "both" and self.ram.side != "both"
 
     def show(self, pressure: Any) -> str:
         """Return a pressure in the unit of the sentences."""

@@ -1,28 +1,67 @@
-"""What lifts by cylinders of one line, as whoever judges it needs it: who is meant, what is to be done, what the line can give.
+"""What lifts by cylinders of one line: who is meant, what is to be done, what the pump can give. Every pressure in this file is gauge [Pa].
 
-Pressures are gauge [Pa]. Forces count in the working direction: the side that works pushes, or pulls, with positive force.
+What a cylinder carries is its own `thrust(motion)`, with the declared friction of the direction it moves in. An efficiency stands for
+what is not declared: the rod carries T / k_m where the load resists and T k_m where it drives, k_m the mechanical efficiency. The
+hydraulic efficiency k_h enters only the supply pressure: p = rod force / (area k_h). Holding takes no efficiency. Where nothing resists
+a capacity or a reserve is "not limited by this cylinder": NaN in an array, words in a verdict. Forces count in the working direction:
+the side that `works` pushes (or, rod side, pulls) with positive force; of "both" it is the side that the load asks for.
+Source: worksheet of the mower lift; Dyuzhev, Kotov, Chuprynin (2008), (28), (29).
 """
 
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Unpack, final
+from functools import partial
+from typing import Any, Unpack, cast, final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from linkage.errors import DefinitionError, UntracedError, one_word, unwarned
 from linkage.frozen import refuses_changes
-from linkage.language import said
-from linkage.loads import Acting, ActingKeywords, Case, Declared, ForceElement, Loads, Poses
-from linkage.motion import Answer, HasVerdicts
+from linkage.language import said, with_and
+from linkage.loads import (
+    Acting,
+    ActingKeywords,
+    Case,
+    Declared,
+    ForceElement,
+    Loads,
+    Parameter,
+    Poses,
+    Share,
+    Tie,
+    require_poses,
+    situation_of,
+)
+from linkage.loads.element import Formulas
+from linkage.motion import Answer, HasVerdicts, Judge, Motion, greatest, lowest
 from linkage.plan import Mask
-from linkage.quantities import Reference
-from linkage.statics import AnyMotion, held_in_case
+from linkage.program import is_traced
+from linkage.quantities import Member, Reference
+from linkage.statics import (
+    PROBE,
+    AnyMotion,
+    direction_at,
+    elements_of,
+    held_in_case,
+    is_steady,
+    member_limits,
+    member_thrust,
+    plan_of,
+    pull_direction,
+    pulling,
+    pump_thrust,
+    same,
+)
 from linkage.units import show
 
 from .cylinder import RamSize
-from .inputs import Array
-from .member import Circuit, Ram, by_other_lines, line_thrust
+from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, not_negative, number_set, only_where, positive, proper_share
+from .member import PISTON, Circuit, OnLines, Ram, Reading, by_other_lines, line_thrust, lines_of, thrust_along
+from .standing import is_blocked, standing_pressure
 
 
 class Choice(ActingKeywords, total=False):
@@ -141,11 +180,8 @@ class WayBack:
         return cls(np.asarray(np.maximum(brings + helps, 0.0) / empties)[()], np.asarray(push)[()], np.asarray(helps / other)[()])
 
 
-class LineValve(ForceElement, HasVerdicts):
+class LineValve(OnLines, HasVerdicts):
     """The base of valves that hold what is in a line; the load then goes down over them."""
-
-    places: ClassVar[tuple[str, ...]] = ()
-    file_section: ClassVar[str] = "hydraulics"
 
     @abstractmethod
     def holds_line(self, line: Circuit) -> bool:
@@ -157,42 +193,434 @@ class LineValve(ForceElement, HasVerdicts):
 
 
 class LiftLine(Circuit):
-    """The base of what lifts by cylinders of one line: pressures [Pa gauge], forces [N] in the working direction, oil [m3], time [s]."""
+    """The base of lines that a pump holds: what `LiftCircuit` and `OilLine` share. A subclass says where its numbers come from."""
 
     @abstractmethod
+    def says(self, name: str, members: Mapping[str, Member]) -> tuple[ForceElement, str] | None:
+        """Return what says a number of the pump, the relief valve or the tank, and by which name; None where nothing does."""
+
+    def number(self, motion: Poses, name: str) -> Array:
+        """Return such a number as a motion's designs have it [SI], the same at all poses: 0 where nothing says it.
+
+        DefinitionError for one that follows a stroke.
+        """
+        require_poses(motion)
+        found = self.says(name, motion.plan.members)
+        return np.zeros(()) if found is None else number_set(found[0], motion, found[1])
+
+    def written(self, written: Formulas, name: str) -> Array:
+        """Return the same for the equations."""
+        found = self.says(name, written.plan.members)
+        return np.zeros(()) if found is None else ForceElement.number(found[0], written, found[1])
+
+    def pump_given(self, plan: Declared, name: str) -> Parameter:
+        """Return a number of the pump, such as its pressure, as it is given; 0 where nothing says it."""
+        found = self.says(name, plan.members)
+        return 0.0 if found is None else cast(Parameter, found[0].given(found[1]))
+
     def relieves(self, plan: Declared) -> bool:
-        """Return whether a relief valve of its own is on it."""
+        return self.says("relief", plan.members) is not None
 
-    @abstractmethod
+    def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
+        return () if self.tie(members) is not None else self.members(members)
+
+    def tie(self, members: Mapping[str, Member]) -> Tie | None:
+        """Return how its pressure acts on its cylinders, where a closed line has another side of one of them."""
+        own = self.members(members)
+        closed = [line for ram in own for line, _ in lines_of(ram, members) if line.kind_in(members) == "closed"]
+        if not closed:
+            return None
+        return Tie(self.name, tuple(Share(ram, ram.working_area) for ram in own), held=True)
+
+    def formulas(self, written: Formulas) -> None:
+        """Write of each of its cylinders, while it lifts against the load: rod force, pressure, greatest rod force and reserve.
+
+        Efficiencies of one and a back pressure of none are left out.
+        """
+        number, members = partial(self.written, written), written.plan.members
+        for ram in self.members(members):
+            thrust = written.thrust(ram)
+            if thrust is None:
+                continue
+            given = [number(f"{kind}_efficiency") for kind in ("mechanical", "hydraulic")]
+            k_m, k_h = (1.0 if written.equals(each, 1.0) else each for each in given)
+            area, other = ram.sides_written(written, thrust)
+            pipes = [line for line, _ in lines_of(ram, members) if isinstance(line, LiftLine)]
+            drained = [line for line in pipes if line.kind_in(members) == "given" and line.is_drained]
+            back = drained[0].written(written, "back_pressure") if drained else number("back_pressure")
+            against: Any = 0.0 if written.equals(back, 0.0) else back * other
+            supply = np.minimum(number("pressure"), number("relief")) if self.relieves(written.plan) else number("pressure")
+            force = written.line(f"F_{ram.name}", thrust_along(ram, thrust) / k_m, "kN")
+            written.line(f"p_{ram.name}", (force + against) / (area * k_h), "bar")
+            most = written.line(f"Fmax_{ram.name}", supply * area * k_h - against, "kN")
+            written.line(f"kz_{ram.name}", most / force)
+
+    # -- what it is made of --------------------------------------------------------------------------------
+
+    def meant(self, motion: Poses, cylinder: Reference | None) -> tuple[Ram, ...]:
+        """Return all its cylinders, or the one named."""
+        return self.rams(motion) if cylinder is None else (self.one(motion, cylinder),)
+
     def supply(self, motion: Poses) -> Array:
-        """Return the highest pressure that lifts."""
+        """Return the highest pressure that lifts [Pa]: the pump's, as far as the relief valve lets it; DefinitionError for none."""
+        require_poses(motion)
+        pump = self._pressure_set(motion, "pressure")
+        return np.minimum(pump, self._pressure_set(motion, "relief")) if self.relieves(motion.plan) else pump
 
-    @abstractmethod
     def held(self, motion: Poses) -> Array:
-        """Return the pressure up to which it holds."""
+        """Return the pressure at which the relief valve opens [Pa], the pump's where none is given."""
+        require_poses(motion)
+        return self._pressure_set(motion, "relief" if self.relieves(motion.plan) else "pressure")
 
-    @abstractmethod
+    def _pressure_set(self, motion: Poses, name: str) -> Array:
+        what = f"{self.name or type(self).__name__}.{name}"
+        return in_pascals(positive(self.number(motion, name), what), what)
+
+    def efficiency(self, motion: Poses, kind: str) -> Array:
+        """Return the "mechanical" or "hydraulic" efficiency; DefinitionError unless it is above 0 and not above 1."""
+        one_word("kind", kind, ("mechanical", "hydraulic"))
+        what = f"{self.name or type(self).__name__}.{kind}_efficiency"
+        return efficient(self.number(motion, f"{kind}_efficiency"), what)
+
+    def back(self, motion: Poses) -> Array:
+        """Return the pressure of the returning oil [Pa]; DefinitionError where it is negative."""
+        value = in_pascals(self.number(motion, "back_pressure"), "Back pressure")
+        if np.any(value < 0.0):
+            raise DefinitionError(f"Back pressure = {np.min(value):.6g} Pa is below zero; give zero or more.")
+        return value
+
+    # -- lifting -------------------------------------------------------------------------------------------
+
     def work(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Work:
         """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
+        cylinder = choice.pop("cylinder", None)
+        return self.work_of(self.one(motion, cylinder), motion, situation_of("work", loads=loads, **choice))
 
-    @abstractmethod
+    def work_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Work:
+        size, k_m = cylinder.sized(motion, acting.direction), self.efficiency(motion, "mechanical")
+        if size.works == "both" and acting.direction is None:
+            ways = (replace(acting, direction=way, rates=None) for way in ("extending", "retracting"))
+            out, back = (line_thrust(cylinder, self, motion, way) for way in ways)
+            pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
+            return Work(np.where(pushes, out, back), np.where(pushes, 1.0, -1.0), size, k_m)
+        way = acting.direction or ("retracting" if size.works == "rod" else "extending")
+        thrust = line_thrust(cylinder, self, motion, replace(acting, direction=way), with_tanks=False)
+        drained = by_other_lines(cylinder, self, held_in_case(motion, acting), None, True)
+        sense = np.sign(thrust) if way == "frictionless" else np.full(np.shape(thrust), 1.0 if way == "extending" else -1.0)
+        return Work(thrust, sense, size, k_m, 0.0 if drained is None else drained)
+
+    def works(self, what: str, motion: AnyMotion, loads: Loads, choice: Choice) -> list[Work]:
+        """Return what the cylinder that is named has to do, or each of them; `what` is the function that is asked."""
+        rams = self.meant(motion, choice.pop("cylinder", None))
+        acting = situation_of(what, loads=loads, **choice)
+        return [self.work_of(ram, motion, acting) for ram in rams]
+
+    def rod_force(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
+        """Return the rod force in the working direction [N], shape (...): T / k_m against a load, T k_m under one that drives."""
+        return self.work(motion, loads, **choice).force
+
+    def pressure_for(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
+        """Return the pressure on the side that works [Pa gauge], shape (...): the pump's while it lifts; 0 where the load drives.
+
+        `choice`: `case=`, `direction=` of the cylinder where it is not its working direction, `cylinder=` of a line of several (else
+        the one that needs most).
+        """
+        rams = self.meant(motion, choice.pop("cylinder", None))
+        acting = situation_of("pressure_for", loads=loads, **choice)
+        return np.asarray(np.max([self.pressure_in(ram, motion, acting) for ram in rams], axis=0))
+
+    def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
+        motion, ram = held_in_case(motion, acting), self.one(motion, cylinder)
+        members = motion.plan.members
+        if is_blocked(ram, members):
+            return np.asarray(np.maximum(standing_pressure(self, motion, acting), 0.0))[()]
+        for valve in (each for each in members.values() if isinstance(each, LineValve)):
+            lowering = valve.pressure_lowering(self, ram, motion, acting)
+            if lowering is not None:
+                return lowering
+        work = self.work_of(ram, motion, acting)
+        back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
+        share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
+        return np.asarray(np.maximum(work.force + back + work.against, 0.0) / (work.area * share))[()]
+
+    def _pushes_out(self, cylinder: Ram, members: Mapping[str, Member]) -> bool:
+        """Return whether its pump pushes a cylinder out: it has the piston side, and no line of the cylinder is shut."""
+        has_piston = any(each.side == PISTON and same(ram, cylinder) for ram, each in self.filling(members))
+        return has_piston and self.kind_open(members) == "held" and not is_blocked(cylinder, members)
+
+    def loses_out(self, cylinder: Ram, plan: Declared) -> bool:
+        given = self.pump_given(plan, "mechanical_efficiency") if self._pushes_out(cylinder, plan.members) else 1.0
+        return follows(given) or given != 1.0
+
+    def efficiency_out(self, cylinder: Ram, motion: AnyMotion) -> Array | float:
+        return self.efficiency(motion, "mechanical") if self._pushes_out(cylinder, motion.plan.members) else 1.0
+
+    def pressure_out(self, cylinder: Ram, motion: AnyMotion) -> Array | None:
+        return self.held(motion) if self._pushes_out(cylinder, motion.plan.members) else None
+
+    def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
+        return self.reserve(motion, cylinder=cylinder, acting=acting)
+
+    def unit_in(self, judge: Judge) -> str:
+        """Return the unit in which its pressures are shown: that of the dimension which its pump's pressure follows, else bar."""
+        pressure = self.pump_given(judge.plan, "pressure")
+        given = judge.plan.members.get(pressure) if isinstance(pressure, str) else pressure
+        return str(getattr(given, "unit", "")) or "bar"
+
+    def gauges_of(self, cylinder: Ram) -> dict[str, Reading]:
+        return {"most": self.supply, "reserve": lambda motion: self.reserve(motion, cylinder=cylinder)}
+
+    def largest(self, motion: AnyMotion, loads: Loads = None, *, share: float = 1.0, **choice: Unpack[Choice]) -> Array:
+        """Return the greatest rod force in the working direction [N]: k_h p area, less the back pressure's share."""
+        proper_share(share)
+        return self.most(motion, self.work(motion, loads, **choice), share)
+
     def most(self, motion: AnyMotion, work: Work, share: float = 1.0) -> Array:
-        """Return the greatest rod force with the areas of a work, at a share of the pressure."""
+        """Return the greatest rod force [N] with the areas of a work, at a share of the pump's pressure."""
+        force = self._given(motion, work, share)
+        if np.any(force <= 0.0):
+            raise DefinitionError(f"{self}: the back pressure eats up the pump's; lower it or raise the pressure.")
+        return force
 
-    @abstractmethod
-    def efficiency(self, motion: Poses, kind: str) -> Array:
-        """Return the "mechanical" or "hydraulic" efficiency."""
+    def _given(self, motion: Poses, work: Work, share: float) -> Array:
+        """Return what the pressures on both sides give with the areas of a work [N], below zero where the back pressure is the stronger."""
+        pushes = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * work.area
+        return np.asarray(pushes - self.back(motion) * work.other_area - work.against)[()]
 
-    @abstractmethod
+    def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
+        """Return between which two thrusts one of its cylinders lifts, at a `share` of the pump's pressure, or holds [N].
+
+        Lifting takes both efficiencies and the back pressure off, and the side that does not work gives nothing; holding takes none of
+        them, and both sides hold oil, each up to the relief valve's pressure.
+        """
+        proper_share(share)
+        ram = self.one(motion, cylinder)
+        size = ram.sized(motion)
+        others = by_other_lines(ram, self, motion, None, None if not lifting else False)  # type: ignore[arg-type]
+        tanks = by_other_lines(ram, self, motion, None, True)  # type: ignore[arg-type]
+        drained = 0.0 if tanks is None else tanks
+        if not lifting:
+            held = self.held(motion)
+            low, high = np.asarray(-held * size.inward_area), np.asarray(held * size.outward_area)
+        else:
+            k_m, nothing = self.efficiency(motion, "mechanical"), np.zeros(())
+            works = (Work(way, way, size, k_m, drained) for way in (np.asarray(-1.0), np.asarray(1.0)))
+            pull, push = (self._given(motion, work, share) * k_m for work in works)
+            low, high = (-pull if size.works in ("rod", "both") else nothing), (nothing if size.works == "rod" else push)
+        return (low, high) if others is None else (low + others, high + others)
+
     def reserve(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
-        """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder."""
+        """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder.
 
-    @abstractmethod
+        Of a line of several cylinders the least, unless one is named.
+        """
+        with np.errstate(invalid="ignore"):
+            works = self.works("reserve", motion, loads, choice)
+            return least_of([self.most(motion, work) / only_where(work.force > 0.0, work.force) for work in works])
+
+    def capacity(
+        self,
+        motion: AnyMotion,
+        point: str,
+        loads: Loads = None,
+        *,
+        along: tuple[Any, Any] = (0.0, 1.0),
+        share: float = 1.0,
+        cylinder: Reference | None = None,
+        case: Case = None,
+        acting: Acting | None = None,
+    ) -> Array:
+        """Return the largest load at a point that the pump lifts beside the machine's own.
+
+        Parameters
+        ----------
+        motion : Motion
+            Poses; designs first, strokes last.
+        point : str
+            Where the load pulls.
+        loads : list, optional
+            The machine's own loads: those declared unless others are given, [] for none.
+        along : tuple, optional
+            The direction (x, y) against which the load pulls, of any length: two numbers, quantities, or arrays that broadcast against
+            the motion. `a = angle(Q, T)` and `along=(-np.sin(a), np.cos(a))` stand square to QT, and turn with it.
+        share : float, optional
+            Share of the pump's pressure.
+        cylinder : str or Cylinder, optional
+            One of several cylinders; by default the one that lifts least counts.
+        case, acting : optional
+            Load case, or what acts in one.
+
+        Returns
+        -------
+        ndarray
+            Loads [N], shape (...). 0 where the machine alone is too heavy, or a member fails without a load, such as a rope that is
+            slack. NaN where the load drives or does nothing and no member limits it.
+
+        Raises
+        ------
+        DefinitionError
+            The load drives the cylinders, or does nothing, at all poses: the direction is the wrong way round.
+
+        Notes
+        -----
+        Members' own conditions limit it, too: a rope that would push, a closed line that runs empty, a holding valve. Declared friction
+        counts with the load's own share. Source: Dyuzhev, Kotov, Chuprynin (2008), (28).
+        """
+        found = self.lifted(motion, point, loads, along=along, share=share, cylinder=cylinder, case=case, acting=acting)
+        if isinstance(motion, Motion) and motion.reached.any() and not np.any(motion.reached & ~np.isnan(found)):
+            way = pull_direction(along)
+            turned = f"write along=({0.0 - way[0]:g}, {0.0 - way[1]:g})" if is_steady(way) else "turn it round"
+            names = with_and(ram.name or str(ram) for ram in self.meant(motion, cylinder))
+            what = f"{motion.plan.title}: {self.name or 'the circuit'}: a load at {point} along that direction drives {names}"
+            raise DefinitionError(f"{what} at every pose, or does not move with it, so that nothing limits it; {turned} for the other way.")
+        return found
+
     def lifted(
         self, motion: AnyMotion, point: str, loads: Loads = None, *, along: tuple[Any, Any] = (0.0, 1.0), share: float = 1.0,
         cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None, limit: int | None = None,
     ) -> Array:  # fmt: skip
         """Return the same, NaN where nothing limits it; by one `limit` alone: the number of a member's condition, else the pump's."""
+        require_poses(motion)
+        proper_share(share)
+        unit = pull_direction(along)
+        unit = direction_at(unit, motion) if isinstance(motion, Motion) and not is_steady(unit) else unit
+        given = situation_of("capacity", acting, loads=loads, case=case)
+        limits = member_limits(plan_of(motion), given.case)
+        chosen = limits if limit is None else limits[limit : limit + 1]
+        if chosen and not isinstance(motion, Motion):
+            raise UntracedError(f"the capacity at {point} is limited by {chosen[0].name}, too")
+        own = [element for _, element in elements_of(motion.plan, given.loads)]
+
+        def beside(load: Array | float) -> Acting:
+            """Return the machine's own loads with a load there."""
+            return replace(given, loads=[*own, pulling(point, unit, load, motion)])
+
+        rams = self.meant(motion, cylinder) if limit is None or limit >= len(limits) else ()
+        most = [self._lifted_by(ram, motion, beside, share, own) for ram in rams]
+        for each in chosen:
+            load = each.greatest_load(cast(Motion, motion), beside)
+            most.append(np.where(np.isfinite(load), load, np.nan))
+        return least_of(most)
+
+    def _lifted_by(self, ram: Ram, motion: AnyMotion, beside: Any, share: float, own: Sequence[ForceElement]) -> Array:
+        """Return the largest load that one cylinder lifts; `beside(load)` is what acts with one."""
+        size = ram.sized(motion)
+        if ram.closed_thrust(motion, beside(0.0)) is None:
+            lever = member_thrust(motion, ram, Acting([beside(1.0).loads[-1]]))  # what one newton there asks of it
+        else:
+            alone, loaded = (pump_thrust(motion, ram, beside(load)) for load in (0.0, PROBE))
+            lever = (loaded - alone) / PROBE
+        sense = np.sign(lever) if size.works == "both" else np.full(np.shape(lever), float(size.sense))
+        lifts, lever = lever * sense > IDLE, lever * sense
+        low, high = self.bounds_of(ram, motion, True, share=share)
+        most = np.where(sense < 0.0, -low, high)
+
+        def carried(load: Array) -> Array:
+            """Return the thrust that the machine and a load there need, in the direction in which it lifts."""
+            ways = [replace(beside(load), direction=way, rates=None) for way in ("extending", "retracting")]
+            out, back = (pump_thrust(motion, ram, way) for way in ways)
+            return np.where(sense > 0.0, out, -back)
+
+        alone, safe = carried(np.zeros(motion.shape)), np.where(lifts, lever, 1.0)
+        found = (most - alone) / safe
+        if any(each.frictions(motion) for each in own):
+            for _ in range(ROUNDS):  # friction grows with the load: a line through two states, again until it stays
+                guess = np.where(lifts & (found > 0.0), found, 1.0)
+                slope = (carried(guess) - alone) / guess
+                found = (most - alone) / np.where(slope > 0.0, slope, safe)
+        return only_where(lifts, np.maximum(found, 0.0))
+
+    # -- oil and time --------------------------------------------------------------------------------------
+
+    def taken(self, motion: Motion) -> Array:
+        """Return the oil [m3] that the working sides take over the motion's range of lengths, between its poses too; one a design.
+
+        Of a cylinder that works with both sides it is that outwards; `size.pull_area` over the same way is that inwards.
+        """
+        found = []
+        for ram in self.rams(motion):
+            ram.travel(motion)  # refuses a motion without a pose
+            low, high = (each.reshape((*each.shape, *(1,) * len(motion._stroke_shape))) for each in ram.extent(motion))
+            found.append(for_designs(motion, ram.taken(motion, low, high)))
+        return np.asarray(sum(found))[()]
+
+    def time(self, motion: Motion) -> Array:
+        """Return the time [s] that the pump's flow takes for it, one value a design; DefinitionError without a flow."""
+        flow = positive(self.number(motion, "flow"), "Flow of the pump", "give it in m3/s, such as flow=60 * litre / minute")
+        in_cubic_metres(flow, "Flow of the pump")
+        return np.asarray(self.taken(motion) / for_designs(motion, flow))[()]
+
+    # -- holding and lowering ------------------------------------------------------------------------------
+
+    def holding(
+        self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None
+    ) -> Holding:
+        """Return the pressures that hold the thrust with the pump off; neither friction nor an efficiency is counted on.
+
+        Of a line of several cylinders the greatest, unless one is named.
+        """
+        given = situation_of("holding", acting, loads=loads, case=case)
+        working, other = [], []
+        for ram in self.meant(motion, cylinder):
+            size, thrust = ram.sized(motion), line_thrust(ram, self, motion, Acting(given.loads, given.case))
+            force = size.sense * thrust
+            working.append(np.maximum(force, 0.0) / size.area)
+            other.append(size.behind(np.maximum(-force, 0.0)))
+        return Holding(np.max(working, axis=0), np.max(other, axis=0))
+
+    def lowering(
+        self, motion: Motion, loads: Loads = None, *, resistance: ArrayLike = 0.0, cylinder: Reference | None = None, case: Case = None,
+        acting: Acting | None = None,
+    ) -> Lowering:  # fmt: skip
+        """Return how it goes back against its working direction, the oil flowing out against a `resistance` [Pa].
+
+        Of a cylinder that works with both sides it is the way that the load drives it, and where the load changes its sense over the
+        motion the harder of both. Of a line of several cylinders it is the one that goes back hardest, unless one is named.
+        """
+        given = situation_of("lowering", acting, loads=loads, case=case)
+        against, k_m = fitted(motion, not_negative(resistance, "Return resistance")), self.efficiency(motion, "mechanical")
+        found = []
+        for ram in self.meant(motion, cylinder):
+            low = high = np.zeros(())
+            if ram.side == "both":
+                plain = partial(member_thrust, member=ram, acting=Acting(given.loads, given.case))
+                with unwarned():
+                    low, high = (np.asarray(ends(motion, plain).value) for ends in (lowest, greatest))
+            found += [WayBack.of(ram, self, motion, given, way, against, k_m) for way in ram.ways_back(low, high)]
+        push = np.max([each.push for each in found], axis=0)
+        needed = np.max([np.where(each.push > 0.0, each.push + each.tank, 0.0) for each in found], axis=0)
+        return Lowering(np.min([each.working for each in found], axis=0), needed, np.asarray(push < 0.0))
+
+
+IDLE = 1e-12
+"""A ratio this small lifts nothing."""
+ROUNDS = 12
+"""How often a capacity with friction is put right; each makes it better by the share of the friction."""
+
+
+def fitted(motion: Motion, value: Array) -> Array:
+    """Return a value over the poses; DefinitionError where it does not fit their shape."""
+    if is_traced(value) or np.ndim(value) == 0:
+        return value
+    try:
+        np.broadcast_to(value, motion.shape)
+    except ValueError:
+        raise DefinitionError(f"resistance of the shape {np.shape(value)} does not fit the poses {motion.shape}.") from None
+    return value
+
+
+def least_of(each: Sequence[Array]) -> Array:
+    """Return the least of what each cylinder allows; NaN where none limits it."""
+    if len(each) == 1:
+        return each[0]
+    least = np.min(np.where(np.isnan(each), np.inf, each), axis=0)
+    return np.where(np.isfinite(least), least, np.nan)
+
+
+def for_designs(motion: Motion, value: ArrayLike) -> Array:
+    """Return a value that broadcasts against the motion and is the same at all poses, as one of each design."""
+    array, tail = np.asarray(value), (1,) * len(motion._stroke_shape)
+    return np.asarray(array.reshape(array.shape[: array.ndim - len(tail)]) if array.ndim else array)
 
 
 def pressure_range(low: Answer, high: Answer, unit: str) -> str:

@@ -232,11 +232,6 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     def inner(self, name: str, members: Mapping[str, Member]) -> Member | None:
         return length_in(self, members) if name == "length" else None
 
-    def as_in(self, motion: Poses) -> Ram:
-        """Return it as the machine of a motion has it."""
-        found = motion.plan.members.get(self.name) if self.name else None
-        return found if isinstance(found, Ram) else self
-
     @property
     def works_both(self) -> bool:
         return self.side == "both"
@@ -257,6 +252,11 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return a number of it as a quantity of its class."""
         given = quantity(self.given(name))
         return Variable(f"{self.name}.{name}") if isinstance(given, Number) else given
+
+    def working_area(self, motion: Poses) -> Array:
+        """Return its thrust at one unit of pressure on the side that works [m2]."""
+        size = self.sized(motion)
+        return np.asarray(size.sense * size.area)[()]
 
     @property
     def stages(self) -> int:
@@ -352,15 +352,6 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         ways = ("retracting",) if pushes > TO_ROUNDING * pulls or not pulls else ()
         return (*ways, "extending") if pulls > TO_ROUNDING * pushes else ways
 
-    def ways_back_in(self, motion: Motion, acting: Acting) -> tuple[str, ...]:
-        """Return the same over all that a motion covers."""
-        if self.side != "both":
-            return self.ways_back(0.0, 0.0)
-        given = Acting(acting.loads, acting.case)
-        with unwarned():
-            low, high = (found(motion, lambda each: member_thrust(each, self, given)).value for found in (lowest, greatest))
-        return self.ways_back(low, high)
-
     def pressure_on(
         self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None, *, below: bool = False
     ) -> Array:
@@ -455,8 +446,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     def checks(self, motion: Motion, loads: Loads = None, *, case: Case = None, acting: Acting | None = None) -> list[Verdict]:
         """Return what can be said of it over a motion of one design: length, standard size, and buckling where it carries something."""
-        one_design(motion, str(self))
-        judge = judge_of(motion, situation_of("checks", acting, loads=loads, case=case))
+        judge = judge_of(motion, str(self), situation_of("checks", acting, loads=loads, case=case))
         return [*self.length_verdicts(judge), *self.size_verdicts(judge), *self.buckling_verdicts(judge)]
 
     def fits(self, motion: Motion) -> list[Verdict]:
@@ -464,10 +454,10 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
         With the stroke alone it is compared with the travel: largest less least distance of its pins.
         """
-        one_design(motion, str(self))
+        judge = judge_of(motion, str(self))
         if not motion.reached.any():
             raise DefinitionError(f"{self}: no pose of this motion can be assembled, so that there is no length to check.")
-        return self.length_verdicts(judge_of(motion))
+        return self.length_verdicts(judge)
 
     def length_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the same over all that a judge looks at."""
@@ -481,7 +471,12 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         if closed is not None:
             opened = closed + stroke if stroke is not None else np.inf
             return [self._reaches(judge, low, high, closed, opened).answered(ends[0] if low - closed < opened - high else ends[1])]
-        return [] if stroke is None else [self._travels(high - low, stroke).answered(ends[1])]
+        assert stroke is not None
+        missing, way, given = high - low - stroke - TOLERANCE, show(high - low, "mm", ".1f"), show(stroke, "mm", ".1f")
+        text = said("{pins} changes by {travel}, the stroke is {stroke}", pins=self._pins, travel=way, stroke=given)
+        if missing > 0.0:
+            text += said("; {missing} are missing: take a longer stroke", missing=show_enough(missing, "mm", ".1f"))
+        return [Verdict("length", missing <= 0.0, f"{text}.", answer=ends[1])]
 
     def is_placed(self, judge: Judge) -> bool:
         """Return whether its pins have a place anywhere that a judge looks at: a fixed one may have none in a design."""
@@ -522,22 +517,13 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         much = show_enough(closed - low - TOLERANCE, "mm", ".1f")
         return [said("it is {much} too long closed: take one with a shorter closed length", much=much)], low
 
-    def _travels(self, travel: float, stroke: float) -> Verdict:
-        way, given = show(travel, "mm", ".1f"), show(stroke, "mm", ".1f")
-        says = said("{pins} changes by {travel}, the stroke is {stroke}", pins=self._pins, travel=way, stroke=given)
-        if travel <= stroke + TOLERANCE:
-            return Verdict("length", True, f"{says}.")
-        short = said("; {missing} are missing: take a longer stroke", missing=show_enough(travel - stroke - TOLERANCE, "mm", ".1f"))
-        return Verdict("length", False, f"{says}{short}.")
-
     def buckling(self, motion: Motion, loads: Loads = None, *, case: Case = None, acting: Acting | None = None) -> list[Verdict]:
         """Return whether a rod buckles at its largest utilisation: over every pose, load case and direction, one design.
 
         `case` names one load case; without it all that the machine declares are looked at, besides the plain one. Nothing where it
         carries nothing among these loads.
         """
-        one_design(motion, str(self))
-        return self.buckling_verdicts(judge_of(motion, situation_of("buckling", acting, loads=loads, case=case)))
+        return self.buckling_verdicts(judge_of(motion, str(self), situation_of("buckling", acting, loads=loads, case=case)))
 
     def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it buckles over all that a judge looks at, and what it does against a stop."""
@@ -549,20 +535,17 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             push, length = float(self.rod_push(place, acting)), float(place.distance(self.A, self.B))
             name, stage, sizes = self.slender_part(place, acting.direction)
             bar = Buckling(float(self.thickness(place, acting.direction)), self.mounting, self.safety)
-        remedy = "" if worst.ok or worst.unbounded else self.thicker_words(judge, bar, name, sizes, length, push)
-        found = bar.judged(length, push, worst.place, bool(worst.unbounded), stage=stage, remedy=remedy)
-        return [found.answered(worst), *self.stopped(judge)]
-
-    def thicker_words(self, judge: Judge, bar: Buckling, name: str, sizes: Sequence[float], length: float, push: float) -> str:
-        """Return the one of some sizes with which it holds wherever the machine runs, in words; at one place a bar tells where to begin."""
-        thicker = [size for size in sizes if size > bar.rod * (1.0 + 1e-9)]
-        if thicker and not can_be_set(judge, self, {name: thicker[0]}):
-            return said("; take a thicker one")
-        enough = bar.thicker(length, push)
-        start = next((place for place, size in enumerate(thicker) if size in enough), len(thicker))
-        tried = [{name: size} for size in thicker]
-        found = smallest(judge, self, tried, start, lambda ram: [most(buckling_request(ram, Acting())) <= 1.0])
-        return bar.remedy_words(None if found is None else found[0][name], is_bore_small=bool(enough), is_stage=name != "rod")
+        remedy, thicker = "", [{name: size} for size in sizes if size > bar.rod * (1.0 + 1e-9)]
+        if not (worst.ok or worst.unbounded) and thicker and not can_be_set(judge, self, thicker[0]):
+            remedy = said("; take a thicker one")
+        elif not (worst.ok or worst.unbounded):  # the one of some sizes that holds wherever it runs; here a bar tells where to begin
+            enough = bar.thicker(length, push)
+            start = next((place for place, size in enumerate(thicker) if size[name] in enough), len(thicker))
+            found = smallest(judge, self, thicker, start, lambda ram: [most(buckling_request(ram, Acting())) <= 1.0])
+            holds = None if found is None else found[0][name]
+            remedy = bar.remedy_words(holds, is_bore_small=bool(enough), is_stage=name != "rod")
+        verdict = bar.judged(length, push, worst.place, bool(worst.unbounded), stage=stage, remedy=remedy)
+        return [verdict.answered(worst), *self.stopped(judge)]
 
     def stopped(self, judge: Judge) -> list[Verdict]:
         """Return with what force a pump pushes it against a stop where it is longest, and how far that is from buckling."""
@@ -712,7 +695,7 @@ class Cylinder(BarrelAndRod, Ram):
     def sized(self, motion: Poses, direction: str | None = None) -> CylinderSize:
         """Return the size that a motion's designs have; bore and rod [m] broadcast against the motion."""
         bore, rod = number_set(self, motion, "bore"), number_set(self, motion, "rod")
-        return CylinderSize(bore[()], rod[()], self.count, self.side if self._on_lines else self.as_in(motion).side)
+        return CylinderSize(bore[()], rod[()], self.count, self.side if self._on_lines else as_in(motion.plan, self).side)
 
     def on_side(self, side: Side) -> Cylinder:
         """Return it as it works with one of its sides, for the line that this has."""
@@ -819,7 +802,17 @@ class Cylinder(BarrelAndRod, Ram):
         return Remark(f"{self.name or said('cylinder')}: {'; '.join([says, *faults])}.")
 
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
-        return [self.standard(judge.motion), *self._side_verdicts(judge)]
+        """Return whether it is of a standard size, and a note where the load is against the side that works, which no line says."""
+        standard = self.standard(judge.motion)
+        found = judge.answer(self.pressed(self)) if self._is_bare(judge) else None
+        if found is None or found.ok or np.isnan(found.value):
+            return [standard]
+        force = said("a force without bounds") if found.unbounded else said("up to {thrust}", thrust=show(abs(found.value), "kN", 4))
+        given = {"name": self.name, "force": force, "where": found.place}
+        text = said('the load pushes {name} with {force}, {where}: its rod side holds no push; say works="both" or "piston".', **given)
+        if self.side == PISTON:
+            text = said('the load pulls {name} with {force}, {where}: its piston side holds no pull; say works="both" or "rod".', **given)
+        return [standard, Verdict("side", None, text, answer=found)]
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return what any ram asks, and whether the load is on the side that works where no line says it."""
@@ -828,21 +821,6 @@ class Cylinder(BarrelAndRod, Ram):
     def _is_bare(self, judge: Judge) -> bool:
         """Return whether it works with one side, carries loads, and no line or circuit has it."""
         return self.side in SIDES and not lines_of(self, judge.plan.members) and self._is_alone(judge)
-
-    def _side_verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return a note where the load is against the side that works, which no line's verdict says; nothing where it is not."""
-        if not self._is_bare(judge):
-            return []
-        found = judge.answer(self.pressed(self))
-        if found.ok or np.isnan(found.value):
-            return []
-        force = said("a force without bounds") if found.unbounded else said("up to {thrust}", thrust=show(abs(found.value), "kN", 4))
-        given = {"name": self.name, "force": force, "where": found.place}
-        if self.side == PISTON:
-            text = said('the load pulls {name} with {force}, {where}: its piston side holds no pull; say works="both" or "rod".', **given)
-        else:
-            text = said('the load pushes {name} with {force}, {where}: its rod side holds no push; say works="both" or "piston".', **given)
-        return [Verdict("side", None, text, answer=found)]
 
     def slender_part(self, motion: Poses, direction: str | None = None) -> tuple[str, int, Sequence[float]]:
         return "rod", 0, standard_rods(self.sized(motion).single.bore)
@@ -866,6 +844,7 @@ class AllOf(Condition):
 
 
 Values = TypeVar("Values")
+Own = TypeVar("Own", bound=ForceElement)
 
 
 def cylinder_request(
@@ -880,27 +859,24 @@ def cylinder_request(
 ) -> LawRequest:
     """Return the request for what a formula gives of one cylinder of a class, in a situation; its directions are the cylinder's own.
 
-    It is written as a function, `word`, of the cylinder, of what stands `before` and `after` the direction, and of the load case.
+    It is written as a function, `word`, of the cylinder, of what stands `before` and `after` the direction, and of the load case. It is
+    in no load case that leaves out the lines of the cylinder, so that this may carry nothing.
     """
     named = cylinder if isinstance(cylinder, str) else cylinder.name or cylinder
+
+    def text(acting: Acting) -> str:
+        given = [str(each) for each in (named, *before, acting.direction, *after) if each is not None]
+        return f"{word}({', '.join([*given, *case_words(acting.case)])})"
+
+    def cases_in(plan: Plan, case: str) -> bool:
+        ram = cylinder_in(named, plan)
+        feeding = {name for name, each in elements_of(plan, None) if any(same(ram, fed) for fed in each.feeds(plan.members))}
+        return not feeding or not feeding.isdisjoint(each.name for each in applied_elements(plan, Acting(case=case)))
+
     return LawRequest(
-        formula=partial(formula_of_cylinder, formula, named), text=partial(cylinder_text, word, (named, *before), after),
-        known=(word, named, before, after), acting=acting, measures=measures, mover=named, examine=partial(cylinder_in, named),
-        cases_in=partial(carries_in, named),
+        formula=partial(formula_of_cylinder, formula, named), text=text, known=(word, named, before, after), acting=acting,
+        measures=measures, mover=named, examine=partial(cylinder_in, named), cases_in=cases_in,
     )  # fmt: skip
-
-
-def carries_in(cylinder: str | Ram, plan: Plan, case: str) -> bool:
-    """Return whether a cylinder may carry something in a load case: not one whose lines the case leaves out."""
-    ram = cylinder_in(cylinder, plan)
-    feeding = {name for name, each in elements_of(plan, None) if any(same(ram, fed) for fed in each.feeds(plan.members))}
-    return not feeding or not feeding.isdisjoint(each.name for each in applied_elements(plan, Acting(case=case)))
-
-
-def cylinder_text(word: str, before: Sequence[Hashable], after: Sequence[Hashable], acting: Acting) -> str:
-    """Return how what is asked of a cylinder in a situation is written."""
-    given = [str(each) for each in (*before, acting.direction, *after) if each is not None]
-    return f"{word}({', '.join([*given, *case_words(acting.case)])})"
 
 
 def formula_of_cylinder(
@@ -916,31 +892,35 @@ def cylinder_in(named: str | Ram, plan: Plan) -> Ram:
 
 
 def thrust_request(cylinder: str | Ram, acting: Acting) -> LawRequest:
-    """Return the request for what a cylinder carries [N]."""
+    """Return the request for what a cylinder carries [N]; that there is no friction goes without saying."""
     found = cylinder_request("thrust", cylinder, acting, member_thrust, measures="force")
-    return replace(found, text=partial(thrust_text, found.mover))
+    written = found.text
 
+    def text(acting: Acting) -> str:
+        plain = replace(acting, direction=None) if acting.direction == FRICTIONLESS else acting
+        return written if isinstance(written, str) else written(plain)
 
-def thrust_text(named: Hashable, acting: Acting) -> str:
-    """Return how the thrust of a cylinder is written: that there is no friction goes without saying."""
-    return cylinder_text("thrust", (named,), (), replace(acting, direction=None if acting.direction == FRICTIONLESS else acting.direction))
+    return replace(found, text=text)
 
 
 def buckling_request(cylinder: str | Ram, acting: Acting, *, below: bool = False) -> LawRequest:
-    """Return the request for how far a cylinder's rod is used against buckling; `below` zero it goes on in a pull."""
-    found = cylinder_request("buckling", cylinder, acting, partial(rod_use, below=below), after=("below zero" if below else None,))
-    return replace(found, pieces_in=partial(buckling_pieces, cylinder), directions=partial(pushed_directions, cylinder))
+    """Return the request for how far a cylinder's rod is used against buckling; `below` zero it goes on in a pull.
 
+    It is judged in the direction in which the rod is pushed hardest where that is known: while a pump pushes it out with losses.
+    """
 
-def pushed_directions(cylinder: str | Ram, plan: Plan) -> tuple[str, ...] | None:
-    """Return the direction in which a rod is pushed hardest, where that is known: while a pump pushes it out with losses; else None."""
-    ram = cylinder_in(cylinder, plan)
-    return ("extending",) if any(each.loses_out(ram, plan) for each in circuits_among(plan.members)) else None
+    def use(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
+        return ram._use(motion, acting, below=True) if below else ram.buckling_use(motion, acting=acting)
 
+    def directions(plan: Plan) -> tuple[str, ...] | None:
+        ram = cylinder_in(cylinder, plan)
+        return ("extending",) if any(each.loses_out(ram, plan) for each in circuits_among(plan.members)) else None
 
-def buckling_pieces(cylinder: str | Ram, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
-    """Return the smooth piece of a rod's use, one a stage: it goes on below zero in a pull."""
-    return in_stages((SmoothPiece(request, below=buckling_request(cylinder, request.situation, below=True)),), cylinder, plan)
+    def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
+        return in_stages((SmoothPiece(request, below=buckling_request(cylinder, request.situation, below=True)),), cylinder, plan)
+
+    found = cylinder_request("buckling", cylinder, acting, use, after=("below zero" if below else None,))
+    return replace(found, pieces_in=pieces, directions=directions)
 
 
 def in_stages(pieces: Sequence[SmoothPiece], cylinder: str | Ram, plan: Plan) -> tuple[SmoothPiece, ...]:
@@ -962,45 +942,22 @@ def in_stages(pieces: Sequence[SmoothPiece], cylinder: str | Ram, plan: Plan) ->
 
 
 def in_stage(request: LawRequest, cylinder: str | Ram, stage: int) -> LawRequest:
-    """Return a request of a telescope where one of its stages moves, with no bound elsewhere."""
-    staged = Staged(request, cylinder, stage)
-    return replace(
-        request, formula=staged.values, text=staged.text, known=None if request.known is None else (request.known, "stage", stage),
-        pieces_in=None, unlimited_in=staged.is_elsewhere,
-    )  # fmt: skip
+    """Return a request of a telescope where one of its stages moves, with no value and no bound elsewhere."""
+    written = request.text
 
+    def values(motion: AnyMotion, acting: Acting) -> Array:
+        there = cylinder_in(cylinder, motion.plan).is_in_stage(motion, stage, acting.direction)
+        return only_where(there, request.formula(motion, acting))
 
-@final
-@dataclass(frozen=True, eq=False)
-class Staged:
-    """A request of a telescope, and the stage in which it is asked."""
+    def text(acting: Acting) -> str:
+        return f"{written if isinstance(written, str) else written(acting)} in stage {stage}"
 
-    request: LawRequest
-    cylinder: str | Ram
-    stage: int
+    def unlimited(motion: Motion, acting: Acting) -> Mask:
+        elsewhere = motion.reached & ~cylinder_in(cylinder, motion.plan).is_in_stage(motion, stage, acting.direction)
+        return np.asarray(elsewhere if request.unlimited_in is None else elsewhere | request.unlimited_in(motion, acting))
 
-    def is_there(self, motion: AnyMotion, acting: Acting) -> Any:
-        """Return where the stage moves, over a motion's poses."""
-        return cylinder_in(self.cylinder, motion.plan).is_in_stage(motion, self.stage, acting.direction)
-
-    def values(self, motion: AnyMotion, acting: Acting) -> Array:
-        """Return the request's values where the stage moves, NaN elsewhere."""
-        return only_where(self.is_there(motion, acting), self.request.formula(motion, acting))
-
-    def text(self, acting: Acting) -> str:
-        """Return how it is written."""
-        whole = self.request.text
-        return f"{whole if isinstance(whole, str) else whole(acting)} in stage {self.stage}"
-
-    def is_elsewhere(self, motion: Motion, acting: Acting) -> Mask:
-        """Return the mask of poses at which another stage moves, or the request has no bound."""
-        elsewhere = np.asarray(motion.reached & ~self.is_there(motion, acting))
-        return elsewhere if self.request.unlimited_in is None else elsewhere | self.request.unlimited_in(motion, acting)
-
-
-def rod_use(motion: AnyMotion, cylinder: Ram, acting: Acting, *, below: bool) -> Array:
-    """Return how far a cylinder's rod is used over a motion's poses, in a pull 0 or `below`."""
-    return cylinder._use(motion, acting, below=True) if below else cylinder.buckling_use(motion, acting=acting)
+    known = None if request.known is None else (request.known, "stage", stage)
+    return replace(request, formula=values, text=text, known=known, pieces_in=None, unlimited_in=unlimited)
 
 
 Reading: TypeAlias = Callable[[AnyMotion], Array]
@@ -1043,8 +1000,7 @@ def circuit_having(cylinder: Ram, plan: Declared, is_needed: bool = True) -> Cir
 
 def circuits_of(cylinder: Ram, plan: Declared) -> list[Circuit]:
     """Return the circuits of a class that have a cylinder's working side, which its lines there may tell."""
-    own = plan.members.get(cylinder.name) if cylinder.name else None
-    cylinder = own if isinstance(own, Ram) else cylinder
+    cylinder = as_in(plan, cylinder)
     found = [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
     other = [line for line, chamber in lines_of(cylinder, plan.members) if chamber.side != cylinder.side and cylinder.side in SIDES]
     return [each for each in found if not any(same(each, line) for line in other)] if other else found
@@ -1054,11 +1010,23 @@ Feeds: TypeAlias = "Reference | Sequence[Reference]"
 """The cylinders of a circuit: one, or a list."""
 
 
-class Circuit(ForceElement, HasVerdicts):
-    """The base of circuits: what feeds cylinders."""
+class OnLines(ForceElement):
+    """The base of lines of oil and of what lies on them: it acts on cylinders, puts no force on points, and no load case multiplies it."""
 
     places: ClassVar[tuple[str, ...]] = ()
     file_section: ClassVar[str] = "hydraulics"
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return []
+
+    @property
+    def scales(self) -> bool:
+        return False
+
+
+class Circuit(OnLines, HasVerdicts):
+    """The base of circuits: what feeds cylinders."""
+
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "load"})
     _is_shut: ClassVar[bool] = False
     """Whether a load case shuts it; told by the case."""
@@ -1082,9 +1050,6 @@ class Circuit(ForceElement, HasVerdicts):
         """Its cylinders as they are written: a name, or a list of names."""
         names = ", ".join(map(label, self.references))
         return f"[{names}]" if len(self.references) > 1 else names
-
-    def loads(self, motion: Poses) -> list[Load]:
-        return []
 
     def tie(self, members: Mapping[str, Member]) -> Tie | None:
         """Return how its pressure acts where it is given by itself, and a load case shuts it."""
@@ -1143,11 +1108,6 @@ class Circuit(ForceElement, HasVerdicts):
 
     def when_shut(self) -> Self:
         return self if self._is_shut else self.renewed(_is_shut=True)
-
-    def as_in(self, motion: Poses) -> Self:
-        """Return it as the machine of a motion has it, such as shut."""
-        found = motion.plan.members.get(self.name) if self.name else None
-        return found if isinstance(found, type(self)) else self
 
     def filling(self, members: Mapping[str, Member]) -> list[tuple[Ram, Chamber]]:
         """Return the chambers on its line with their cylinders, as the class has them: of each the side that works."""
@@ -1219,6 +1179,12 @@ class Circuit(ForceElement, HasVerdicts):
 
 
 # Lines and chambers.
+
+
+def as_in(plan: Declared, each: Own) -> Own:
+    """Return a cylinder or a line as a plan has it, such as shut; itself where it has none of its name."""
+    found = plan.members.get(each.name) if each.name else None
+    return found if isinstance(found, type(each)) else each
 
 
 def lines_of(cylinder: Ram, members: Mapping[str, Member]) -> list[tuple[Circuit, Chamber]]:
@@ -1349,16 +1315,12 @@ def carries_loads(judge: Judge) -> bool:
     return any(each.loads(motion) or each.pushes(motion, AT_REST) for _, each in elements_of(motion.plan, judge.acting.loads))
 
 
-def judge_of(motion: Motion, acting: Acting | None = None) -> Judge:
-    """Return the judge of one motion, of which what is out of reach is left out."""
-    return Judge(motion.plan, motion.designs, [motion], acting).lost_allowed()
-
-
-def one_design(motion: Motion, what: str) -> None:
-    """Raise DefinitionError for a motion of several designs, and for anything but a motion."""
+def judge_of(motion: Motion, what: str, acting: Acting | None = None) -> Judge:
+    """Return the judge of a motion of one design, of which what is out of reach is left out; DefinitionError for several designs."""
     require_motion(motion)
     if motion._design_shape:
         raise DefinitionError(f"{what} is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
+    return Judge(motion.plan, motion.designs, [motion], acting).lost_allowed()
 
 
 def is_named(reference: Reference) -> bool:

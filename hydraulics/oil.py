@@ -12,7 +12,6 @@
 
 from __future__ import annotations
 
-from abc import ABC
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
@@ -31,8 +30,6 @@ from linkage.loads import (
     ActingKeywords,
     Declared,
     ForceElement,
-    Glyph,
-    Load,
     Parameter,
     Poses,
     Tie,
@@ -75,8 +72,10 @@ from .member import (
     AllOf,
     Chamber,
     Circuit,
+    OnLines,
     Ram,
     Side,
+    as_in,
     by_other_lines,
     chamber_area,
     circuits_among,
@@ -87,23 +86,17 @@ from .member import (
     the_cylinder,
 )
 from .names import names_behind
-from .standing import EMPTY, intensified, shut_verdicts, standing_pressure
+from .shut import EMPTY, intensified, shut_verdicts
+from .standing import standing_pressure
 
 
-class Supply(ForceElement, ABC):
-    """The base of what lies on an oil line beside its chambers: it puts no force on the machine by itself."""
+class Supply(OnLines):
+    """The base of what lies on an oil line beside its chambers: a pressure, gauge [Pa], and what a pump has more."""
 
-    places: ClassVar[tuple[str, ...]] = ()
-    file_section: ClassVar[str] = "hydraulics"
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"pressure": "bar"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"pressure"})
     called: ClassVar[str]
     """What it is called in words."""
-
-    def loads(self, motion: Poses) -> list[Load]:
-        return []
-
-    @property
-    def scales(self) -> bool:
-        return False
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -137,8 +130,6 @@ class Relief(Supply):
     """A relief valve, which opens at a gauge pressure [Pa]: `valve = Relief(200 * bar)`; it may lie on any line."""
 
     pressure: Parameter
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"pressure": "bar"})
-    not_negative: ClassVar[frozenset[str]] = frozenset({"pressure"})
     called: ClassVar[str] = "relief valve"
 
 
@@ -149,8 +140,6 @@ class Tank(Supply):
     """A tank, whose line has a given gauge pressure [Pa]: `back = Tank(5 * bar)`, none where it is open."""
 
     pressure: Parameter = 0.0
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"pressure": "bar"})
-    not_negative: ClassVar[frozenset[str]] = frozenset({"pressure"})
     called: ClassVar[str] = "tank"
 
 
@@ -212,7 +201,11 @@ class OilLine(PumpLine, GasLine):
         oil: Parameter = 0.0, make_up: Parameter = 0.0, charge_pressure: Parameter | None = None, seal_friction: Parameter = 0.0,
         exponent: Parameter = 1.0,
     ) -> None:  # fmt: skip
-        self.on = tuple(chamber_named(each) for each in on)
+        found: list[OnLine] = []
+        for each in on:
+            name, _, side = each.rpartition(".") if isinstance(each, str) else ("", "", "")
+            found.append(Chamber(name, CHAMBERS[side]) if name and side in CHAMBERS else each)
+        self.on = tuple(found)
         self.at, self.filled = at, FrozenDict(filled) if isinstance(filled, Mapping) else filled
         self.put_in, self.make_up, self.charge_pressure = oil, make_up, charge_pressure
         self.seal_friction, self.exponent, self.kind_of_line = seal_friction, exponent, ""
@@ -249,10 +242,14 @@ class OilLine(PumpLine, GasLine):
         return self.put_in if name == "oil" else getattr(self, name)
 
     def __str__(self) -> str:
-        said: dict[str, Any] = {name: value for name, value in (("at", self.at), ("filled", self.filled)) if value is not None}
-        more = {name: text for name, text in zip(self.numbers, self.words(), strict=True) if not self._is_usual(name)}
-        words = [f"{name}={option_text(value)}" for name, value in said.items()]
-        return f"OilLine({', '.join([*map(on_line_text, self.on), *words, *more.values()])})"
+        words = []
+        for name, value in (("at", self.at), ("filled", self.filled)):
+            if isinstance(value, Mapping):
+                words.append(f"{name}=dict({', '.join(f'{key}={plain(each)}' for key, each in value.items())})")
+            elif value is not None:
+                words.append(f"{name}={plain(value)!r}")
+        more = [text for name, text in zip(self.numbers, self.words(), strict=True) if not self._is_usual(name)]
+        return f"OilLine({', '.join([*map(on_line_text, self.on), *words, *more])})"
 
     def _is_usual(self, name: str) -> bool:
         given = self.given(name)
@@ -292,6 +289,9 @@ class OilLine(PumpLine, GasLine):
     def block(self) -> Block | None:
         """The accumulators on it; None where there are none."""
         return next((each for each in self.on if not isinstance(each, (Chamber, str, Member))), None)
+
+    def gas_block(self) -> Block | None:
+        return self.block
 
     def kind_open(self, members: Mapping[str, Member]) -> str:
         if self.supplies(members, Pump):
@@ -359,7 +359,12 @@ class OilLine(PumpLine, GasLine):
         self._examine_supplies(members, opening)
         self._examine_others(members, filling, title)
         kind = self.kind_in(members)
-        self._examine_numbers(kind, opening)
+        counting = NUMBERS["closed"] if kind == "closed" else NUMBERS["given"] if self.block is not None else ()
+        said_here = [name for name in self.parameters if self.given(name) is not None and not self._is_usual(name)]
+        idle = next((name for name in said_here if name not in counting), None)
+        if idle is not None:
+            says = {"held": "a pump holds its pressure", "closed": "it is closed", "given": "its pressure is given"}[kind]
+            raise DefinitionError(f"{opening}: {idle}= counts for nothing there, as {says}; leave it out.")
         if kind == "given" and self.block is not None and self.charge_pressure is None:
             raise DefinitionError(f"{opening}: its accumulators are charged to no pressure; say charge_pressure=90 * bar.")
         if isinstance(self.filled, Mapping):
@@ -367,15 +372,6 @@ class OilLine(PumpLine, GasLine):
             lost = next((name for name in self.filled if name not in own), None)
             if lost is not None:
                 raise unknown("Cylinder", lost, own, where=f"{title}.{self.name}, filled")
-
-    def _examine_numbers(self, kind: str, opening: str) -> None:
-        """Raise DefinitionError for a number that does not count on a line of its kind."""
-        counting = NUMBERS["closed"] if kind == "closed" else NUMBERS["given"] if self.block is not None else ()
-        said_here = [name for name in self.parameters if self.given(name) is not None and not self._is_usual(name)]
-        idle = next((name for name in said_here if name not in counting), None)
-        if idle is not None:
-            says = {"held": "a pump holds its pressure", "closed": "it is closed", "given": "its pressure is given"}[kind]
-            raise DefinitionError(f"{opening}: {idle}= counts for nothing there, as {says}; leave it out.")
 
     def _examine_supplies(self, members: Mapping[str, Member], opening: str) -> None:
         pumps, tanks, valves = (self.supplies(members, kind) for kind in (Pump, Tank, Relief))
@@ -416,9 +412,13 @@ class OilLine(PumpLine, GasLine):
     # -- in statics ----------------------------------------------------------------------------------------
 
     def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
-        if self.kind_in(members) != "given":
-            return ()
-        return tuple(ram for ram in self.members(members) if is_fed_wholly(ram, members))
+        """Return its cylinders all of whose lines have a given pressure, one of them on the side that works: their thrust is given."""
+        found: list[Ram] = []
+        for ram in self.members(members) if self.kind_in(members) == "given" else ():
+            on = [(line, each.side) for line in circuits_among(members) for own, each in line.filling(members) if same(ram, own)]
+            works = ram.side not in SIDES or ram.side in [side for _, side in on]
+            found += [ram] if works and all(line.kind_in(members) == "given" for line, _ in on) else []
+        return tuple(found)
 
     def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return PumpLine.joined(self, members) if self.kind_in(members) == "held" else ()
@@ -428,7 +428,9 @@ class OilLine(PumpLine, GasLine):
         kind = self.kind_open(members)
         if kind != "closed":
             return PumpLine.tie(self, members) if kind == "held" else Circuit.tie(self, members)
-        gives = next((f"{ram.name}.length" for ram, _ in self.filling(members) if self._gives(ram, members)), "")
+        giving = [name for name, line in lines_giving(members).items() if same(line, self)]
+        asked = (f"{ram.name}.length" for ram, _ in self.filling(members) if ram.name in giving)
+        gives = next((name for name in asked if isinstance(members.get(name), LineLength)), "")
         added = None if self.oil_given.is_constant else self.oil_given
         return Tie(self.name, self.shares(members), held=False, cut=self.cut if gives else "", gives=gives, added=added)
 
@@ -445,11 +447,6 @@ class OilLine(PumpLine, GasLine):
             return f"{self.name}.oil"
         return oil.name if isinstance(oil, Stroke) and oil.name else f"{self.name}.added"
 
-    def _gives(self, ram: Ram, members: Mapping[str, Member]) -> bool:
-        """Return whether it gives a cylinder its length."""
-        length, giving = members.get(f"{ram.name}.length"), lines_giving(members).get(ram.name)
-        return isinstance(length, LineLength) and giving is not None and same(giving, self)
-
     def link_written(self, pin: str, members: Mapping[str, Member]) -> str:
         for ram in [members.get(name_of(each)) for each in self.references] if self.kind_open(members) == "closed" else ():
             if isinstance(ram, Ram) and pin in map(name_of, ram.ends):
@@ -463,12 +460,6 @@ class OilLine(PumpLine, GasLine):
     @property
     def scales(self) -> bool:
         return self.kind_of_line == "given"
-
-    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
-        if self.block is None:
-            return ()
-        count = len(self.block.accumulators) if isinstance(self.block, AccumulatorBlock) else 1
-        return tuple(Glyph("accumulator", cylinder.ends, count) for cylinder in self.members(members))
 
     # -- where it is filled, and the length that it gives ------------------------------------------------------
 
@@ -506,7 +497,9 @@ class OilLine(PumpLine, GasLine):
         if not self.fills(own.name):
             what = f"{self.name} = {self}: nothing says how long {own.name} is where the line is filled"
             raise DefinitionError(f"{what}; add filled=dict({own.name}=...) in m.")
-        alike = [(ram, each) for ram, each in filling if ram is own or are_beside(ram, own)]
+        pins = {*own.ends}  # rams of one stage stand side by side on the same pins
+        beside = [] if own.is_single_acting else [ram for ram, _ in filling if {*ram.ends} == pins and not ram.is_single_acting]
+        alike = [(ram, each) for ram, each in filling if ram is own or any(ram is one for one in beside)]
         others = [(ram, each) for ram, each in filling if all(ram is not one for one, _ in alike)]
         oil = self.oil_given
         if isinstance(oil, Number):
@@ -549,7 +542,7 @@ class OilLine(PumpLine, GasLine):
         kind = self.kind_open(members)
         if kind == "held":
             return self.pressure_for(motion, acting=asked)
-        if kind == "closed" or self.as_in(motion)._is_shut:
+        if kind == "closed" or as_in(motion.plan, self)._is_shut:
             return standing_pressure(self, motion, asked)
         tanks = self.supplies(members, Tank)
         return in_pascals(number_set(tanks[0], motion, "pressure"), "Pressure of the tank") if tanks else GasLine.pressure(self, motion)
@@ -583,22 +576,17 @@ class OilLine(PumpLine, GasLine):
     def withdrawn(self, motion: Poses) -> Array:
         return np.asarray(super().withdrawn(motion) - self.number(motion, "oil"))
 
-    def gas_block(self, plan: Declared) -> Block:
-        assert self.block is not None
-        return self.block
-
     def on_block(self, block: AccumulatorBlock) -> OilLine:
         return self.renewed(on=tuple(block if each is self.block else each for each in self.on))
 
     # -- the numbers of a pump -------------------------------------------------------------------------------
 
     def number(self, motion: Poses, name: str) -> Array:
-        if name in self.parameters:
-            is_set = name != "oil" and follows(self.given(name))
-            return number_set(self, motion, name) if is_set else ForceElement.number(self, motion, name)
-        return PumpLine.number(self, motion, name)
+        return ForceElement.number(self, motion, name) if name == "oil" else PumpLine.number(self, motion, name)
 
     def says(self, name: str, members: Mapping[str, Member]) -> tuple[ForceElement, str] | None:
+        if name in self.parameters:
+            return self, name
         kinds: Mapping[str, type[Supply]] = {"relief": Relief, "back_pressure": Tank}
         kind = kinds.get(name, Pump)
         return next(((each, name if kind is Pump else "pressure") for each in self.supplies(members, kind)), None)
@@ -662,13 +650,30 @@ class OilLine(PumpLine, GasLine):
         return self.conditions(judge) if self.kind_of_line == "closed" else {}
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return the verdicts on lifting, oil, holding and lowering of a held line, on the pressure of any other."""
+        """Return the verdicts on lifting, oil, holding and lowering of a held line, on the pressure of any other.
+
+        A closed one keeps its oil if it neither runs empty nor opens its relief valve.
+        """
         if self.kind_of_line == "held":
             return PumpLine.verdicts(self, judge)
         if self.block is not None:
             return [*GasLine.verdicts(self, judge), *self._relieved(judge)]
-        kept = [self.kept_verdict(judge)] if self.kind_of_line == "closed" else []
-        return [*kept, *shut_verdicts(self, judge)]
+        shut = shut_verdicts(self, judge)
+        if self.kind_of_line != "closed":
+            return shut
+        try:
+            low, high = judge.answers(self._extremes(judge))
+        except DefinitionError as error:
+            return [Verdict("line", False, " ".join(str(error).split())), *shut]
+        says = pressure_range(replace(low, value=0.0) if abs(low.value) < EMPTY * abs(high.value) else low, high, "bar")
+        make_up = float(np.ravel(self.least(judge.motion))[0])
+        if low.value < make_up - EMPTY * max(abs(float(high.value)), 1.0):
+            text = said(
+                "{says}: below {make_up} it runs empty there, and does not keep the length that it gives.",
+                says=says, make_up=show(make_up, "bar", 4),
+            )  # fmt: skip
+            return [Verdict("line", False, text, answer=low), *shut]
+        return [*(self._relieved(judge) or [Verdict("line", True, f"{says}.", answer=low)]), *shut]
 
     def pressure_request(self, plan: Declared) -> LawRequest:
         """Return the request for its pressure, in all load cases and in the directions of its first cylinder [Pa gauge]."""
@@ -681,22 +686,6 @@ class OilLine(PumpLine, GasLine):
         """Return its least and its greatest pressure as questions."""
         request = self.pressure_request(judge.plan)
         return [least(request), most(request)]
-
-    def kept_verdict(self, judge: Judge) -> Verdict:
-        """Return whether a closed line keeps its oil wherever the machine runs: it neither runs empty nor opens its relief valve."""
-        try:
-            low, high = judge.answers(self._extremes(judge))
-        except DefinitionError as error:
-            return Verdict("line", False, " ".join(str(error).split()))
-        says = pressure_range(replace(low, value=0.0) if abs(low.value) < EMPTY * abs(high.value) else low, high, "bar")
-        make_up = float(np.ravel(self.least(judge.motion))[0])
-        if low.value < make_up - EMPTY * max(abs(float(high.value)), 1.0):
-            text = said(
-                "{says}: below {make_up} it runs empty there, and does not keep the length that it gives.",
-                says=says, make_up=show(make_up, "bar", 4),
-            )  # fmt: skip
-            return Verdict("line", False, text, answer=low)
-        return next(iter(self._relieved(judge)), Verdict("line", True, f"{says}.", answer=low))
 
     def _relieved(self, judge: Judge) -> list[Verdict]:
         """Return the verdict that its relief valve opens, where it does."""
@@ -725,18 +714,8 @@ class OilLine(PumpLine, GasLine):
 USUAL: Mapping[str, float] = MappingProxyType({"oil": 0.0, "make_up": 0.0, "seal_friction": 0.0, "exponent": 1.0})
 
 
-def chamber_named(given: Any) -> Any:
-    """Return a chamber for its name, "lift.rod_side"; anything else as it is."""
-    if isinstance(given, str):
-        name, _, side = given.rpartition(".")
-        if name and side in ("piston_side", "rod_side"):
-            return Chamber(name, PISTON if side == "piston_side" else ROD)
-    return given
-
-
-def are_beside(a: Ram, b: Ram) -> bool:
-    """Return whether two rams of one stage stand side by side on the same pins."""
-    return set(map(name_of, a.ends)) == set(map(name_of, b.ends)) and not (a.is_single_acting or b.is_single_acting)
+CHAMBERS: Mapping[str, Side] = MappingProxyType({"piston_side": PISTON, "rod_side": ROD})
+"""The sides of a cylinder by the names of their chambers."""
 
 
 def put_in_later(members: Mapping[str, Member]) -> tuple[str, ...]:
@@ -752,20 +731,8 @@ def on_line_text(each: Any) -> str:
     return label(each) if isinstance(each, (str, Member)) else getattr(each, "__name__", "block")
 
 
-def option_text(value: Any) -> str:
-    """Return an option as it is written."""
-    if isinstance(value, Mapping):
-        return f"dict({', '.join(f'{name}={plain(each)}' for name, each in value.items())})"
-    return repr(plain(value))
-
-
 def own_side(line: OilLine, ram: Ram, members: Mapping[str, Member]) -> Side:
     """Return the side of a cylinder that a line has."""
     return next(chamber.side for each, chamber in line.filling(members) if same(each, ram))
 
 
-def is_fed_wholly(ram: Ram, members: Mapping[str, Member]) -> bool:
-    """Return whether all lines of a cylinder have a given pressure, one of them on the side that works: its thrust is given, too."""
-    on = [(line, each.side) for line in circuits_among(members) for own, each in line.filling(members) if same(ram, own)]
-    works = ram.side not in SIDES or ram.side in [side for _, side in on]
-    return works and all(line.kind_in(members) == "given" for line, _ in on)

@@ -5,9 +5,10 @@ Each is the cylinder's or the circuit's own method, read pose by pose: `motion[p
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial, reduce
+from types import MappingProxyType
 from typing import Any, TypeAlias, final
 
 import numpy as np
@@ -41,6 +42,7 @@ from .member import (
     buckling_request,
     by_other_lines,
     circuit_having,
+    circuits_among,
     cylinder_in,
     cylinder_request,
     formula_of_cylinder,
@@ -104,12 +106,11 @@ def circuit_request(
     named = circuit if isinstance(circuit, str) else circuit.name or circuit
     shown = (f"circuit={named}" if isinstance(named, str) and named else named) or None
     found = cylinder_request(word, cylinder, acting, formula, (*before, shown), after, measures=measures)
-    return replace(found, examine=partial(examine_circuit, cylinder, circuit, word))
 
+    def examine(plan: Plan) -> None:
+        circuit_with(plan, cylinder_in(cylinder, plan), circuit, word)
 
-def examine_circuit(cylinder: str | Ram, circuit: Circuits, word: str, plan: Plan) -> None:
-    """Raise DefinitionError where a plan has no such cylinder on such a circuit."""
-    circuit_with(plan, cylinder_in(cylinder, plan), circuit, word)
+    return replace(found, examine=examine)
 
 
 # The pressure.
@@ -133,26 +134,61 @@ def pressure(
     if side:
         known_name("Side", side, SIDES)
     given = situation_of("pressure", acting, case=case, direction=direction)
-    return pressure_request(name_of(cylinder), given, circuit_name(circuit), side)
+    return pressure_request(name_of(cylinder), given, "" if circuit is None else name_of(circuit), side)
 
 
 def pressure_request(
     cylinder: str | Ram, acting: Acting, circuit: Circuits = "", side: str = "", *, is_needed: bool = False, below: bool = False
 ) -> LawRequest:
-    """Return the request for the pressure in a cylinder: on the side that works, or on one side.
+    """Return the request for the pressure in a cylinder, on the side that works or on one side; or of a line by its name.
 
-    One that `is_needed` is that of the pump while it drives the cylinder, on the side that does. `below` zero it goes on where the other
-    side holds.
+    One that `is_needed` is that of the pump while it drives the cylinder, on the side that does, and is judged in those directions.
+    `below` zero it goes on where the other side holds: so each side that may hold is a smooth piece.
     """
+
+    def in_cylinder(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
+        line = circuit_with(motion.plan, ram, circuit, "pressure") if circuit else None
+        if side:
+            return ram.pressure_on(side, motion, acting, line, below=below)
+        return ram.pressure(motion, acting=acting) if line is None else line.pressure_in(ram, motion, acting)
+
+    def formula(motion: AnyMotion, acting: Acting) -> Array:
+        line = line_in(cylinder, motion.plan)
+        if line is None:
+            return in_cylinder(motion, cylinder_in(cylinder, motion.plan), acting)
+        if circuit or side:
+            says = f"{motion.plan.title}: pressure({cylinder}): {cylinder} is a line, of one pressure"
+            raise DefinitionError(f"{says}; leave circuit= and side= out.")
+        return line.line_pressure(motion, acting) + np.zeros(motion.shape)
+
+    def examine(plan: Plan) -> None:
+        if line_in(cylinder, plan) is None and circuit:
+            circuit_with(plan, cylinder_in(cylinder, plan), circuit, "pressure")
+        elif line_in(cylinder, plan) is None:
+            circuit_having(cylinder_in(cylinder, plan), plan)
+
+    def directions(plan: Plan) -> tuple[str, ...]:
+        return cylinder_in(cylinder, plan).driven if is_needed and line_in(cylinder, plan) is None else DIRECTIONS
+
+    def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
+        if line_in(cylinder, plan) is not None:
+            return (SmoothPiece(request),)
+        on_side = partial(pressure_request, cylinder, request.situation, circuit, is_needed=is_needed)
+        ram = cylinder_in(cylinder, plan)
+        sides = [side] if side else [DRIVING.get(request.situation.direction or "", "")] if is_needed else ram.own_sides
+        plan = plan_in_case(plan, request.situation)
+        members = plan.members
+        if not side and not is_needed and any(same(ram, one) for each in circuits_among(members) for one in each.feeds(members)):
+            return in_stages((SmoothPiece(request, ram.side),), cylinder, plan)
+        own = circuit_having(ram, plan, False)
+        if not (side or circuit) and own is not None and own.kind_in(members) == "closed":
+            return in_stages((SmoothPiece(request),), cylinder, plan)
+        return in_stages([SmoothPiece(on_side(each), each, below=on_side(each, below=True)) for each in sides], cylinder, plan)
+
     kinds = " ".join(["needed"] * is_needed + ["below zero"] * below) or None
-    formula = partial(pressure_over, circuit=circuit, side=side, below=below)
     options = (side and f"side={side}") or None, kinds
-    return replace(
-        circuit_request("pressure", cylinder, acting, circuit, formula, after=options, measures="pressure"),
-        formula=partial(pressure_of_named, cylinder, formula, bool(circuit or side)),
-        examine=partial(examine_pressure, cylinder, circuit), directions=partial(driven_or_both, cylinder, is_needed),
-        pieces_in=partial(pressure_pieces, cylinder, circuit, side, is_needed),
-    )  # fmt: skip
+    found = circuit_request("pressure", cylinder, acting, circuit, in_cylinder, after=options, measures="pressure")
+    return replace(found, formula=formula, examine=examine, directions=directions, pieces_in=pieces)
 
 
 def line_in(named: str | Ram, plan: Plan) -> Circuit | None:
@@ -161,68 +197,8 @@ def line_in(named: str | Ram, plan: Plan) -> Circuit | None:
     return found if isinstance(found, Circuit) else None
 
 
-def pressure_of_named(
-    named: str | Ram, formula: Callable[[AnyMotion, Ram, Acting], Array], is_told: bool, motion: AnyMotion, acting: Acting
-) -> Array:
-    """Return the pressure of a line or in a cylinder; DefinitionError for a line where a circuit or a side `is_told` beside it."""
-    line = line_in(named, motion.plan)
-    if line is None:
-        return formula_of_cylinder(formula, named, motion, acting)
-    if is_told:
-        raise DefinitionError(f"{motion.plan.title}: pressure({named}): {named} is a line, of one pressure; leave circuit= and side= out.")
-    return line.line_pressure(motion, acting) + np.zeros(motion.shape)
-
-
-def pressure_over(motion: AnyMotion, ram: Ram, acting: Acting, *, circuit: Circuits, side: str, below: bool) -> Array:
-    """Return the pressure in a cylinder over a motion's poses [Pa gauge]."""
-    line = circuit_with(motion.plan, ram, circuit, "pressure") if circuit else None
-    if side:
-        return ram.pressure_on(side, motion, acting, line, below=below)
-    return ram.pressure(motion, acting=acting) if line is None else line.pressure_in(ram, motion, acting)
-
-
-def examine_pressure(cylinder: str | Ram, circuit: Circuits, plan: Plan) -> None:
-    """Raise DefinitionError where it is not plain which circuit, if any, gives a cylinder its pressure."""
-    if line_in(cylinder, plan) is not None:
-        return
-    ram = cylinder_in(cylinder, plan)
-    if circuit:
-        circuit_with(plan, ram, circuit, "pressure")
-    else:
-        circuit_having(ram, plan)
-
-
-def driven_or_both(cylinder: str | Ram, is_needed: bool, plan: Plan) -> tuple[str, ...]:
-    """Return the directions in which a pressure is judged: those in which the pump drives where it is what is needed, else all."""
-    return cylinder_in(cylinder, plan).driven if is_needed and line_in(cylinder, plan) is None else DIRECTIONS
-
-
-def pressure_pieces(
-    cylinder: str | Ram, circuit: Circuits, side: str, is_needed: bool, request: LawRequest, plan: Plan
-) -> tuple[SmoothPiece, ...]:
-    """Return the smooth pieces of a pressure: one a side that may hold, going on below zero where the other one does."""
-    if line_in(cylinder, plan) is not None:
-        return (SmoothPiece(request),)
-    on_side = partial(pressure_request, cylinder, request.situation, circuit, is_needed=is_needed)
-    ram = cylinder_in(cylinder, plan)
-    sides = [side] if side else [driving_side(request.situation.direction)] if is_needed else ram.own_sides
-    plan = plan_in_case(plan, request.situation)
-    if not side and not is_needed and any(same(ram, one) for each in plan.of_kind(Circuit).values() for one in each.feeds(plan.members)):
-        return in_stages((SmoothPiece(request, ram.side),), cylinder, plan)
-    own = circuit_having(ram, plan, False)
-    if not (side or circuit) and own is not None and own.kind_in(plan.members) == "closed":
-        return in_stages((SmoothPiece(request),), cylinder, plan)
-    return in_stages([SmoothPiece(on_side(each), each, below=on_side(each, below=True)) for each in sides], cylinder, plan)
-
-
-def circuit_name(circuit: Reference | None) -> str:
-    """Return the name of a circuit; "" where none is named."""
-    return "" if circuit is None else name_of(circuit)
-
-
-def driving_side(direction: str | None) -> str:
-    """Return the side that drives a cylinder in a direction."""
-    return {"extending": PISTON, "retracting": ROD}.get(direction or "", "")
+DRIVING: Mapping[str, str] = MappingProxyType({"extending": PISTON, "retracting": ROD})
+"""The side that drives a cylinder in a direction."""
 
 
 # The reserve.
@@ -237,71 +213,59 @@ def reserve(
     works with both sides each counts while it moves against the load.
     """
     given = situation_of("reserve", acting, case=case, direction=direction)
-    return reserve_request(name_of(cylinder), given, circuit_name(circuit))
+    return reserve_request(name_of(cylinder), given, "" if circuit is None else name_of(circuit))
 
 
 def reserve_request(
     cylinder: str | Ram, acting: Acting, circuit: Circuits = "", *, is_judged: bool = False
 ) -> LawRequest:
-    """Return the request for the greatest rod force over the needed one; of one that is judged, while it moves against the load."""
-    driving = Driving(circuit, is_judged)
-    return replace(
-        circuit_request("reserve", cylinder, acting, circuit, driving.reserve, after=("against the load" if is_judged else None,)),
-        directions=partial(driven_or_both, cylinder, True), pieces_in=partial(reserve_pieces, cylinder, driving),
-        cases_in=partial(moves_in, cylinder),
-        unlimited_in=partial(formula_of_cylinder, driving.is_driven, cylinder),
-    )  # fmt: skip
+    """Return the request for the greatest rod force over the needed one; of one that is judged, while it moves against the load.
 
+    Its smooth piece is that of the side that drives, whose inverse goes on smoothly where the load drives.
+    """
 
-@final
-@dataclass(frozen=True, eq=False)
-class Driving:
-    """On which circuit a reserve is asked for, and whether while it moves against the load."""
+    def work_of(line: LiftLine, motion: AnyMotion, ram: Ram, acting: Acting) -> tuple[Work, Array]:
+        """Return what the cylinder has to do, and what is above zero where it drives [N]: the thrust in its direction if that is judged."""
+        work = line.work(motion, cylinder=ram, acting=acting)
+        return work, work.thrust * work.sense if is_judged else work.force
 
-    circuit: Circuits
-    is_judged: bool
-
-    def reserve(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
-        """Return the greatest rod force over the needed one at a motion's poses."""
-        circuit = circuit_with(motion.plan, ram, self.circuit, "reserve")
-        if not self.is_judged:
-            return circuit.reserve(motion, cylinder=ram, acting=acting)
-        work = self.work(motion, ram, acting)
+    def over_needed(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
+        line = circuit_with(motion.plan, ram, circuit, "reserve")
+        if not is_judged:
+            return line.reserve(motion, cylinder=ram, acting=acting)
+        work, against = work_of(line, motion, ram, acting)
         with np.errstate(invalid="ignore"):
-            return np.asarray(circuit.most(motion, work) / only_where(self.against(work) > 0.0, work.force))[()]
+            return np.asarray(line.most(motion, work) / only_where(against > 0.0, work.force))[()]
 
-    def against(self, work: Work) -> Array:
-        """Return what is above zero where the cylinder has to drive [N]: the thrust in its direction where that is judged."""
-        return work.thrust * work.sense if self.is_judged else work.force
+    def is_driven(motion: AnyMotion, ram: Ram, acting: Acting) -> Mask:
+        work, against = work_of(circuit_with(motion.plan, ram, circuit, "reserve"), motion, ram, acting)
+        return np.asarray(np.isfinite(work.thrust) & ~(against > 0.0))
 
-    def work(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Work:
-        """Return what the cylinder has to do."""
-        return circuit_with(motion.plan, ram, self.circuit, "reserve").work(motion, cylinder=ram, acting=acting)
-
-    def is_driven(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Mask:
-        """Return the mask of poses at which the load drives, so that the reserve has no bound."""
-        work = self.work(motion, ram, acting)
-        return np.asarray(np.isfinite(work.thrust) & ~(self.against(work) > 0.0))
-
-    def use(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
+    def use(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         """Return one over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
-        circuit, size = circuit_with(motion.plan, ram, self.circuit, "use"), ram.sized(motion, acting.direction)
-        k_m, thrust = circuit.efficiency(motion, "mechanical"), line_thrust(ram, circuit, motion, acting, with_tanks=False)
-        drained = by_other_lines(ram, circuit, motion, None, True)
+        line, size = circuit_with(motion.plan, ram, circuit, "use"), ram.sized(motion, acting.direction)
+        k_m, thrust = line.efficiency(motion, "mechanical"), line_thrust(ram, line, motion, acting, with_tanks=False)
+        drained = by_other_lines(ram, line, motion, None, True)
         sense = 1.0 if acting.direction == "extending" else -1.0
-        most = circuit.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m, 0.0 if drained is None else drained))
+        most = line.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m, 0.0 if drained is None else drained))
         return np.asarray(sense * thrust / (k_m * most))[()]
 
+    def directions(plan: Plan) -> tuple[str, ...]:
+        return cylinder_in(cylinder, plan).driven
 
-def reserve_pieces(cylinder: str | Ram, driving: Driving, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
-    """Return the smooth piece of a reserve: of the side that drives, whose inverse goes on smoothly where the load drives."""
-    acting = request.situation
-    if acting.direction not in cylinder_in(cylinder, plan).driven:
-        return in_stages((SmoothPiece(request),), cylinder, plan)
-    use = circuit_request("use", cylinder, acting, driving.circuit, driving.use)
-    use = replace(use, cases_in=partial(moves_in, cylinder))
-    judged = reserve_request(cylinder, acting, driving.circuit, is_judged=True)
-    return in_stages((SmoothPiece(judged, driving_side(acting.direction), use),), cylinder, plan)
+    def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
+        acting = request.situation
+        if acting.direction not in cylinder_in(cylinder, plan).driven:
+            return whole_in_stages(cylinder, request, plan)
+        inverse = replace(circuit_request("use", cylinder, acting, circuit, use), cases_in=partial(moves_in, cylinder))
+        judged = reserve_request(cylinder, acting, circuit, is_judged=True)
+        return in_stages((SmoothPiece(judged, DRIVING.get(acting.direction or "", ""), inverse),), cylinder, plan)
+
+    return replace(
+        circuit_request("reserve", cylinder, acting, circuit, over_needed, after=("against the load" if is_judged else None,)),
+        directions=directions, pieces_in=pieces, cases_in=partial(moves_in, cylinder),
+        unlimited_in=partial(formula_of_cylinder, is_driven, cylinder),
+    )  # fmt: skip
 
 
 # Going back.
@@ -315,30 +279,22 @@ def going_back_request(
     `way` is "extending" or "retracting"; `tells="load"` asks for what the load alone makes in the side that empties, "whole push" for what
     the other side must give with what a tank has there.
     """
-    formula = partial(going_back_over, circuit=circuit, way=way, resistance=resistance, tells=tells)
-    options = way, resistance, tells
-    found = circuit_request("going back", cylinder, acting, circuit, formula, after=options, measures="pressure")
-    given = partial(one_direction, way), partial(whole_in_stages, cylinder), partial(moves_in, cylinder)
-    return replace(found, directions=given[0], pieces_in=given[1], cases_in=given[2])
+
+    def over(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
+        line = circuit_with(motion.plan, ram, circuit, "going back")
+        found = WayBack.of(ram, line, motion, acting, way, resistance, line.efficiency(motion, "mechanical"))
+        return found.working if tells == "load" else found.push + found.tank if tells == "whole push" else found.push
+
+    def directions(plan: Plan) -> tuple[str, ...]:
+        return (way,)
+
+    found = circuit_request("going back", cylinder, acting, circuit, over, after=(way, resistance, tells), measures="pressure")
+    return replace(found, directions=directions, pieces_in=partial(whole_in_stages, cylinder), cases_in=partial(moves_in, cylinder))
 
 
 def whole_in_stages(cylinder: str | Ram, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
     """Return a request that is smooth, as long as one stage of its cylinder moves, as its pieces."""
     return in_stages((SmoothPiece(request),), cylinder, plan)
-
-
-def one_direction(way: str, plan: Plan) -> tuple[str, ...]:
-    """Return the direction alone in which a cylinder goes back."""
-    return (way,)
-
-
-def going_back_over(
-    motion: AnyMotion, ram: Ram, acting: Acting, *, circuit: Circuits, way: str, resistance: float, tells: str
-) -> Array:
-    """Return what the other side must give, or the load alone makes, at a motion's poses [Pa]."""
-    line = circuit_with(motion.plan, ram, circuit, "going back")
-    found = WayBack.of(ram, line, motion, acting, way, resistance, line.efficiency(motion, "mechanical"))
-    return found.working if tells == "load" else found.push + found.tank if tells == "whole push" else found.push
 
 
 # The capacity.
@@ -361,64 +317,45 @@ def capacity(
     """
     proper_share(share)
     given, unit = situation_of("capacity", acting, case=case), pull_direction(along)
-    return capacity_request(name_of(cylinder), given, circuit_name(circuit), name_of(point), unit, float(share))
+    return capacity_request(name_of(cylinder), given, "" if circuit is None else name_of(circuit), name_of(point), unit, float(share))
 
 
 def capacity_request(
-    cylinder: str | Ram, acting: Acting, circuit: Circuits, point: str, along: Direction, share: float
+    cylinder: str | Ram, acting: Acting, circuit: Circuits, point: str, along: Direction, share: float, limit: int | None = None
 ) -> LawRequest:
-    """Return the request for the largest load at a point that the pump lifts, along a direction of length one."""
-    lifted, words = Lifted(circuit, point, along, share), direction_words(along)
-    options = None if words == "(0, 1)" else f"along={words}", None if share == 1.0 else f"share={share:g}"
-    return replace(
-        circuit_request("capacity", cylinder, acting, circuit, lifted.capacity, (point,), options, measures="force"),
-        directions=no_direction, examine=partial(lifted.examine, cylinder), pieces_in=partial(lifted.pieces, cylinder),
-        unlimited_in=partial(formula_of_cylinder, lifted.is_driven, cylinder),
-    )  # fmt: skip
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class Lifted:
-    """On which circuit, at which point, along which direction and at which share of the pressure a load is lifted.
+    """Return the request for the largest load at a point that the pump lifts, along a direction of length one.
 
     `limit` is the number of the one thing that limits it: of members' conditions in their order, else the pump; None for all of them.
+    What the pump lifts, and what each member's condition leaves, are smooth pieces.
     """
 
-    circuit: Circuits
-    point: str
-    along: Direction
-    share: float
-    limit: int | None = None
+    def lifted(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
+        line = circuit_with(motion.plan, ram, circuit, "capacity")
+        return line.lifted(motion, point, along=along, share=share, cylinder=ram, acting=acting, limit=limit)
 
-    def examine(self, cylinder: str | Ram, plan: Plan) -> None:
-        """Raise DefinitionError where a plan has no such cylinder, circuit or point."""
-        circuit_with(plan, cylinder_in(cylinder, plan), self.circuit, "capacity")
-        known_name("Point", self.point, plan.points, where=plan.title)
-
-    def capacity(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
-        """Return the largest load that is lifted at a motion's poses [N]."""
-        circuit = circuit_with(motion.plan, ram, self.circuit, "capacity")
-        return circuit.lifted(motion, self.point, along=self.along, share=self.share, cylinder=ram, acting=acting, limit=self.limit)
-
-    def pieces(self, cylinder: str | Ram, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
-        """Return its smooth pieces: what the pump lifts, and what each member's condition leaves."""
-        count = len(member_limits(plan, request.situation.case))
-        if not count:
-            return whole_in_stages(cylinder, request, plan)
-
-        def alone(number: int) -> LawRequest:
-            one = replace(self, limit=number)
-            formula = partial(formula_of_cylinder, one.capacity, cylinder)
-            driven = partial(formula_of_cylinder, one.is_driven, cylinder)
-            return replace(request, known=(request.known, number), pieces_in=None, formula=formula, unlimited_in=driven)
-
-        return (*whole_in_stages(cylinder, alone(count), plan), *(SmoothPiece(alone(number)) for number in range(count)))
-
-    def is_driven(self, motion: AnyMotion, ram: Ram, acting: Acting) -> Mask:
+    def is_driven(motion: AnyMotion, ram: Ram, acting: Acting) -> Mask:
         """Return the mask of poses at which the load drives or does nothing, so that the capacity has no bound."""
         thrust = member_thrust(motion, ram, Acting(acting.loads, acting.case))
-        return np.asarray(np.isfinite(thrust) & np.isnan(self.capacity(motion, ram, acting)))
+        return np.asarray(np.isfinite(thrust) & np.isnan(lifted(motion, ram, acting)))
+
+    def examine(plan: Plan) -> None:
+        circuit_with(plan, cylinder_in(cylinder, plan), circuit, "capacity")
+        known_name("Point", point, plan.points, where=plan.title)
+
+    def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
+        count = len(member_limits(plan, request.situation.case))
+        if limit is not None or not count:
+            return whole_in_stages(cylinder, request, plan)
+        alone = [capacity_request(cylinder, request.situation, circuit, point, along, share, number) for number in range(count + 1)]
+        return (*whole_in_stages(cylinder, alone[count], plan), *map(SmoothPiece, alone[:count]))
+
+    words = direction_words(along)
+    options = None if words == "(0, 1)" else f"along={words}", None if share == 1.0 else f"share={share:g}"
+    found = circuit_request("capacity", cylinder, acting, circuit, lifted, (point,), options, measures="force")
+    return replace(
+        found, known=found.known if limit is None else (found.known, limit), directions=no_direction, examine=examine,
+        pieces_in=pieces if limit is None else None, unlimited_in=partial(formula_of_cylinder, is_driven, cylinder),
+    )  # fmt: skip
 
 
 # The use of a rod.

@@ -22,7 +22,6 @@ from linkage.loads import (
     Acting,
     ActingKeywords,
     Case,
-    Load,
     Parameter,
     Poses,
     situation_of,
@@ -82,13 +81,6 @@ class HoldingValve(LineValve):
 
     def options(self) -> dict[str, Any]:
         return {}
-
-    def loads(self, motion: Poses) -> list[Load]:
-        return []
-
-    @property
-    def scales(self) -> bool:
-        return False
 
     def parts(self) -> tuple[Reference, ...]:
         return (self.line, self.pilot, *super().parts())
@@ -290,23 +282,23 @@ def load_pressure(valve: Reference, *, case: Case = None, acting: Acting | None 
 
 
 def valve_request(word: str, valve: str, acting: Acting) -> LawRequest:
-    """Return the request for what a holding valve tells, by the name of its method."""
+    """Return the request for what a holding valve tells, by the name of its method; of lowering where no line of a cylinder is shut."""
+
+    def formula(motion: AnyMotion, acting: Acting) -> Array:
+        found: Array = getattr(valve_in(valve, motion.plan), word)(motion, acting=acting)
+        return found + np.zeros(motion.shape)
+
+    def text(acting: Acting) -> str:
+        return f"{word}({', '.join([valve, *case_words(acting.case)])})"
+
+    def lowers(plan: Plan, case: str) -> bool:
+        line, _ = valve_in(valve, plan).lines(plan.members)
+        return all(moves_in(ram.name, plan, case) for ram in line.members(plan.members))
+
     return LawRequest(
-        formula=partial(over_valve, word, valve), text=partial(valve_text, word, valve), known=(word, valve), acting=acting,
-        measures="pressure", mover=valve, directions=no_direction, examine=partial(valve_in, valve),
-        cases_in=None if word == "load_pressure" else partial(lowers_in, valve),
+        formula=formula, text=text, known=(word, valve), acting=acting, measures="pressure", mover=valve, directions=no_direction,
+        examine=partial(valve_in, valve), cases_in=None if word == "load_pressure" else lowers,
     )  # fmt: skip
-
-
-def valve_text(word: str, valve: str, acting: Acting) -> str:
-    """Return how what is asked of a valve is written."""
-    return f"{word}({', '.join([valve, *case_words(acting.case)])})"
-
-
-def over_valve(word: str, valve: str, motion: AnyMotion, acting: Acting) -> Array:
-    """Return what a valve tells over a motion's poses."""
-    found: Array = getattr(valve_in(valve, motion.plan), word)(motion, acting=acting)
-    return found + np.zeros(motion.shape)
 
 
 def valve_in(valve: str, plan: Plan) -> HoldingValve:
@@ -314,9 +306,3 @@ def valve_in(valve: str, plan: Plan) -> HoldingValve:
     valves = plan.of_kind(HoldingValve)
     known_name("HoldingValve", valve, valves, where=plan.title)
     return valves[valve]
-
-
-def lowers_in(valve: str, plan: Plan, case: str) -> bool:
-    """Return whether a load case lets the load go down: it shuts no line of its cylinders."""
-    line, _ = valve_in(valve, plan).lines(plan.members)
-    return all(moves_in(ram.name, plan, case) for ram in line.members(plan.members))

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
-from functools import cached_property, reduce
+from functools import cached_property, partial, reduce
 from math import isfinite
 from types import MappingProxyType
 from typing import Any, ClassVar, final
@@ -158,21 +158,6 @@ class GasBank:
         return amount, idle
 
 
-def effective(charges: Sequence[Array], vessels: Sequence[Array]) -> tuple[Array, ...]:
-    """Return the charges [Pa], that of an absent vessel exchanged for one of the others: whatever it is, no gas has it.
-
-    A number that is traced keeps its own charge where there can be a gas of it: what a vessel would add has that slope.
-    """
-    other = reduce(np.maximum, (np.where(vessel > 0.0, charge, 0.0) for charge, vessel in zip(charges, vessels, strict=True)))
-    found = []
-    for charge, vessel in zip(charges, vessels, strict=True):
-        absent = vessel <= 0.0
-        if is_traced(vessel):
-            absent = absent & (charge <= 0.0)
-        found.append(np.where(absent, other, charge) if is_traced(vessel) or np.any(absent) else charge)
-    return tuple(found)
-
-
 ROUNDING = 1e-12
 """Relative; a line charged to the lowest gas charge is not below it for a last digit."""
 
@@ -229,19 +214,16 @@ class AccumulatorBlock:
         """Return the block as a motion's designs have it; charges and volumes broadcast against the motion."""
         if not self.following:
             return self
+        charges = following(*(one.charge for one in self.accumulators))
+        names = {name for charge in charges for name in motion.plan.reaches(charge.name or charge)}
+        dimensions = [member for name, member in motion.plan.of_kind(Dimension).items() if name in names]
+        units = [each.unit for each in dimensions if each.unit in units_of("pressure")]
         filled = [
             Accumulator(setting_of_designs(motion, each.volume, VOLUME), setting_of_designs(motion, each.charge, CHARGE))
             for each in self.accumulators
         ]
         atmosphere = one_atmosphere(setting_of_designs(motion, self.atmosphere, "Atmosphere"))[()]
-        return replace(self, accumulators=filled, atmosphere=atmosphere, unit=self.unit or self._followed_unit(motion))
-
-    def _followed_unit(self, motion: Poses) -> str:
-        """Return the unit of pressure of the first dimension that a charge follows; "" where there is none."""
-        charges = following(*(one.charge for one in self.accumulators))
-        names = {name for charge in charges for name in motion.plan.reaches(charge.name or charge)}
-        units = [member.unit for name, member in motion.plan.of_kind(Dimension).items() if name in names]
-        return next((unit for unit in units if unit in units_of("pressure")), "")
+        return replace(self, accumulators=filled, atmosphere=atmosphere, unit=self.unit or next(iter(units), ""))
 
     def __str__(self) -> str:
         vessels = ", ".join(map(str, self.accumulators))
@@ -334,14 +316,56 @@ class AccumulatorBlock:
         unit_or_none(unit, "checks(unit=...)", units_of("pressure"))
         given = (one_number(pressure, "Pressure") for pressure in (p_min, p_max, allowed))
         low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in given)
-        line = WorkingRange(low, high, limit, self.atmosphere, unit or self._unit, recharged)
+        text = partial(show, unit=unit or self._unit, digits=4)
+        if low > high:
+            raise DefinitionError(f"p_min = {text(low)} is above p_max = {text(high)}; exchange them.")
         charges = {number: there(charge, vessel) for number, (charge, vessel) in enumerate(self._bank, 1) if np.any(vessel > 0.0)}
-        return [
-            *(line.charge(number, float(np.max(charge))) for number, charge in charges.items()),
-            *(line.compression(number, float(np.min(charge))) for number, charge in charges.items()),
-            line.exhausted(float(np.min(self.fluid(p_min)))),
-            line.permitted(),
-        ]
+        worst = {"charge": (low + self.atmosphere, np.max), "compression": (high + self.atmosphere, np.min)}
+        found = []
+        for rule, (pressure, ends) in worst.items():
+            found += [self._rule(rule, n, float(ends(charge)), pressure, text, recharged) for n, charge in charges.items()]
+        held = float(np.min(self.fluid(p_min)))
+        says = said("{fluid} of fluid left at the lowest pressure, {low} gauge", fluid=show(held, "cm3", 4), low=text(low))
+        remedy = "" if held > 0.0 else said("; lower a charge, or charge the line higher")
+        found.append(Verdict("exhausted", held > 0.0, f"{says}{remedy}."))
+        says = said("highest pressure {high}, allowed {allowed} (gauge)", high=text(high), allowed=text(limit))
+        remedy = "" if high <= limit else said("; set the relief valve lower or take a stronger accumulator")
+        return [*found, Verdict("allowed pressure", high <= limit, f"{says}{remedy}.")]
+
+    def _rule(
+        self, rule: str, number: int, charge: float, pressure: float, text: Callable[[float], str],
+        recharged: Callable[[int, str], float] | None,
+    ) -> Verdict:  # fmt: skip
+        """Return whether an accumulator's charge stays below the lowest pressure, or bears the highest one [Pa absolute]; by its rule."""
+
+        def gauge(absolute: float) -> str:
+            return said("{pressure} gauge", pressure=text(absolute - self.atmosphere))
+
+        is_low = rule == "charge"
+        if is_low:
+            most, heading = text(CHARGE_SHARE * pressure), said("charge of accumulator {n}", n=number)
+            by = {"charge": text(charge), "most": most, "share": CHARGE_SHARE}
+            says = said("{charge} against {most}, {share:g} of the lowest pressure (absolute)", **by)
+        else:
+            high, heading = text(pressure), said("compression of accumulator {n}", n=number)
+            by = {"high": high, "ratio": pressure / charge, "limit": COMPRESSION}
+            says = said("{high} at most is {ratio:.4g} times the charge, limit {limit:g} (absolute)", **by)
+        if keeps_rule(rule, charge, pressure):
+            return Verdict(f"{rule} of accumulator {number}", True, f"{says}.", heading)
+        possible, own = gauge(charge / CHARGE_SHARE if is_low else COMPRESSION * charge)
+        own = CHARGE_SHARE * pressure if is_low else pressure / COMPRESSION
+        own = own if recharged is None else recharged(number, rule) + self.atmosphere  # in this range, else on its line
+        words = {"possible": possible, "wanted": gauge(own) if isfinite(own) else ""}
+        if is_low and charge >= pressure:
+            says += said("; it is idle there, full of gas")
+        if not words["wanted"]:
+            remedy = said("; raise the lowest pressure to {possible}", **words)
+            remedy = remedy if is_low else said("; lower the highest pressure to {possible}", **words)
+        elif is_low:
+            remedy = said("; lower the charge to {wanted}, or raise the lowest pressure to {possible}", **words)
+        else:
+            remedy = said("; raise the charge to {wanted}, or lower the highest pressure to {possible}", **words)
+        return Verdict(f"{rule} of accumulator {number}", False, f"{says}{remedy}.", heading)
 
     @cached_property
     def _bank(self) -> GasBank:
@@ -350,8 +374,14 @@ class AccumulatorBlock:
         if np.any(reduce(np.add, vessels) <= 0.0):
             raise DefinitionError("Every accumulator of the block has the volume 0, it is absent; give one of them a volume above zero.")
         given = [all_finite(one.charge, CHARGE) + self.atmosphere for one in self.accumulators]
-        charges = tuple(above_vacuum(each, self.atmosphere, CHARGE) for each in effective(given, vessels))
-        return GasBank(self.gas, charges, tuple(vessels))
+        other = reduce(np.maximum, (np.where(vessel > 0.0, charge, 0.0) for charge, vessel in zip(given, vessels, strict=True)))
+        charges = []
+        for charge, vessel in zip(given, vessels, strict=True):
+            absent = vessel <= 0.0  # whatever its charge, no gas has it; what is traced keeps it where there can be a gas of it
+            absent = absent & (charge <= 0.0) if is_traced(vessel) else absent
+            own = np.where(absent, other, charge) if is_traced(vessel) or np.any(absent) else charge
+            charges.append(above_vacuum(own, self.atmosphere, CHARGE))
+        return GasBank(self.gas, tuple(charges), tuple(vessels))
 
     @property
     def _unit(self) -> str:
@@ -434,84 +464,3 @@ COMPRESSION = 4.0
 def keeps_rule(rule: str, charge: Any, pressure: Any) -> Any:
     """Return whether a charge suits the lowest pressure, rule "charge", or the highest one, rule "compression" [Pa absolute]."""
     return charge <= CHARGE_SHARE * pressure if rule == "charge" else pressure <= COMPRESSION * charge
-
-
-@final
-@dataclass(frozen=True)
-class WorkingRange:
-    """A line that works from `p_min` to `p_max` and may reach `allowed`, all gauge [Pa]; `unit` is for the sentences.
-
-    DefinitionError for `p_min` above `p_max`.
-    """
-
-    p_min: float
-    p_max: float
-    allowed: float
-    atmosphere: float
-    unit: str
-    recharged: Callable[[int, str], float] | None = None
-    """The charge [Pa gauge] of an accumulator, by its number, with which a line keeps a rule; NaN for none."""
-
-    def __post_init__(self) -> None:
-        if self.p_min > self.p_max:
-            raise DefinitionError(f"p_min = {self._text(self.p_min)} is above p_max = {self._text(self.p_max)}; exchange them.")
-
-    def charge(self, number: int, charge: float) -> Verdict:
-        """Return whether a charge [Pa absolute] stays below the lowest pressure by the margin."""
-        low = self.p_min + self.atmosphere
-        ok = keeps_rule("charge", charge, low)
-        says = said(
-            "{charge} against {most}, {share:g} of the lowest pressure (absolute)",
-            charge=self._text(charge), most=self._text(CHARGE_SHARE * low), share=CHARGE_SHARE,
-        )  # fmt: skip
-        rule, named = f"charge of accumulator {number}", said("charge of accumulator {n}", n=number)
-        if ok:
-            return Verdict(rule, True, f"{says}.", named)
-        idle = said("; it is idle there, full of gas") if charge >= low else ""
-        possible, wanted = self._gauge(charge / CHARGE_SHARE), self._charge(number, "charge", CHARGE_SHARE * low)
-        remedy = said("; lower the charge to {wanted}, or raise the lowest pressure to {possible}", wanted=wanted, possible=possible)
-        if not wanted:
-            remedy = said("; raise the lowest pressure to {possible}", possible=possible)
-        return Verdict(rule, False, f"{says}{idle}{remedy}.", named)
-
-    def compression(self, number: int, charge: float) -> Verdict:
-        """Return whether the gas of a charge [Pa absolute] is not compressed too far."""
-        high = self.p_max + self.atmosphere
-        ok = keeps_rule("compression", charge, high)
-        says = said(
-            "{high} at most is {ratio:.4g} times the charge, limit {limit:g} (absolute)",
-            high=self._text(high), ratio=high / charge, limit=COMPRESSION,
-        )  # fmt: skip
-        rule, named = f"compression of accumulator {number}", said("compression of accumulator {n}", n=number)
-        if ok:
-            return Verdict(rule, True, f"{says}.", named)
-        possible, wanted = self._gauge(COMPRESSION * charge), self._charge(number, "compression", high / COMPRESSION)
-        remedy = said("; raise the charge to {wanted}, or lower the highest pressure to {possible}", wanted=wanted, possible=possible)
-        if not wanted:
-            remedy = said("; lower the highest pressure to {possible}", possible=possible)
-        return Verdict(rule, False, f"{says}{remedy}.", named)
-
-    def exhausted(self, held: float) -> Verdict:
-        """Return whether the line still holds fluid [m3] at its lowest pressure."""
-        fluid, low = show(held, "cm3", 4), self._text(self.p_min)
-        says = said("{fluid} of fluid left at the lowest pressure, {low} gauge", fluid=fluid, low=low)
-        return Verdict("exhausted", held > 0.0, f"{says}{'' if held > 0.0 else said('; lower a charge, or charge the line higher')}.")
-
-    def permitted(self) -> Verdict:
-        """Return whether the highest pressure is allowed."""
-        ok = self.p_max <= self.allowed
-        high, allowed = self._text(self.p_max), self._text(self.allowed)
-        says = said("highest pressure {high}, allowed {allowed} (gauge)", high=high, allowed=allowed)
-        remedy = said("; set the relief valve lower or take a stronger accumulator")
-        return Verdict("allowed pressure", ok, f"{says}{'' if ok else remedy}.")
-
-    def _text(self, pressure: float) -> str:
-        return show(pressure, self.unit, 4)
-
-    def _charge(self, number: int, rule: str, absolute: float) -> str:
-        """Return the charge of an accumulator that keeps a rule, in words: in this range one [Pa absolute], else its line's; ""."""
-        found = absolute - self.atmosphere if self.recharged is None else self.recharged(number, rule)
-        return self._gauge(found + self.atmosphere) if isfinite(found) else ""
-
-    def _gauge(self, absolute: float) -> str:
-        return said("{pressure} gauge", pressure=self._text(absolute - self.atmosphere))

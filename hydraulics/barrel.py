@@ -6,7 +6,6 @@ left of that way. Both are taken as long as the cylinder is closed: the barrel e
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -151,10 +150,10 @@ class OnCylinder(Point):
     """The base of points on a body of a cylinder: `along` its axis [m] from the body's own pin, `across` to the left of that way [m]."""
 
     expects = (("cylinder", "load"),)
-    what: ClassVar[str] = ""
+    what: ClassVar[str] = "the barrel"
     """The body, in words."""
-    behind: ClassVar[bool] = True
-    """Whether the body goes on behind its pin, as a barrel on trunnions does."""
+    is_on_A: ClassVar[bool] = True
+    """Whether the body's own pin is A: a barrel, which goes on behind that pin where it is on trunnions."""
     ends: tuple[str, ...] = ()
     """The body's own pin and that of the other one, as the class has them."""
     is_mirrored: bool = False
@@ -167,11 +166,6 @@ class OnCylinder(Point):
             if isinstance(value, Number) and not abs(value.number) < float("inf"):
                 raise DefinitionError(f"{self}: along and across are finite numbers [m].")
 
-    @staticmethod
-    @abstractmethod
-    def from_pin(A: str, B: str) -> tuple[str, str]:
-        """Return the body's own pin and the other one, of the pins A and B of its cylinder."""
-
     def among(self, members: Mapping[str, Member]) -> Self:
         called = name_of(self.cylinder)
         if called not in members:
@@ -180,7 +174,7 @@ class OnCylinder(Point):
         found = members[called]
         if not isinstance(found, TwoPoint) or GLAND not in found.inside:
             raise DefinitionError(f"{self.name} = {self}: {called} has no barrel and no rod; name a Cylinder.", member=self.name)
-        return self.renewed(ends=self.from_pin(name_of(found.A), name_of(found.B)))
+        return self.renewed(ends=found.ends if self.is_on_A else found.ends[::-1])
 
     def numbers(self) -> tuple[tuple[str, Quantity], ...]:
         """Return its dimensions with their names: `K.along`, and `K.across` where that is given."""
@@ -206,7 +200,7 @@ class OnCylinder(Point):
         if not isinstance(self.along, Number) or not isinstance(quantity(closed), Number):
             return
         along, long = self.along.number, float(closed)
-        if along > long or along < (-long if self.behind else 0.0):
+        if along > long or along < (-long if self.is_on_A else 0.0):
             beyond = "its pin" if along < 0.0 else f"its end, {long / mm:.6g} mm from there"
             raise DefinitionError(
                 f"{title}: {self.name} = {self}: {along / mm:.6g} mm along {self.what}, counted from {self.ends[0]} towards "
@@ -242,12 +236,6 @@ class OnBarrel(OnCylinder):
     variables, `K.along` and `K.across`.
     """
 
-    what = "the barrel"
-
-    @staticmethod
-    def from_pin(A: str, B: str) -> tuple[str, str]:
-        return A, B
-
 
 @final
 class OnRod(OnCylinder):
@@ -257,8 +245,4 @@ class OnRod(OnCylinder):
     """
 
     what = "the rod"
-    behind = False
-
-    @staticmethod
-    def from_pin(A: str, B: str) -> tuple[str, str]:
-        return B, A
+    is_on_A = False

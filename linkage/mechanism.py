@@ -202,6 +202,8 @@ class Mechanism(Shown, metaclass=MechanismType):
     """
 
     plan: ClassVar[Plan] = Plan({}, "Mechanism")
+    about: ClassVar[Featured] = Featured()
+    """What pictures show where nothing else is asked for; a machine says its own, `about = Featured("tilt", ["G"])`."""
 
     def __init_subclass__(cls, **options: object) -> None:
         super().__init_subclass__(**options)
@@ -474,8 +476,8 @@ class Mechanism(Shown, metaclass=MechanismType):
 
     @of_a_design
     def featured(self) -> Featured:
-        """Return what pictures show of this design where nothing else is asked for. A machine replaces it by its own."""
-        return Featured()
+        """Return what pictures show of this design where nothing else is asked for: `about`, unless a machine says more here."""
+        return self.about
 
     @of_a_design
     def formulas(self, written: Formulas) -> None:

@@ -207,7 +207,7 @@ def class_made(title: str, doc: str | None, featured: Featured, names: Names, fa
     """Return the class with the members that are built; what is wrong with it as a whole comes with the file's name and key."""
     try:
         with np.errstate(all="ignore"):
-            own = {"__module__": __name__, "__doc__": doc, "featured": lambda self: featured}
+            own = {"__module__": __name__, "__doc__": doc, "about": featured}
             machine: type[Mechanism] = type(title, (Mechanism,), {**own, **names.built})
             for name in machine.plan.named():
                 with about(name):

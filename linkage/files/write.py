@@ -78,7 +78,7 @@ def left_out(machine: Machine) -> tuple[str, ...]:
         require_mechanism(cls)
     own = [base for base in cls.__mro__ if issubclass(base, Mechanism) and base is not Mechanism]
     names = {name for base in own for name in vars(base) if name == "__init__" or not name.startswith(("__", "_abc_"))}
-    return tuple(sorted(names - {"featured", "plan", *declared(cls)}))
+    return tuple(sorted(names - {"about", "featured", "plan", *declared(cls)}))
 
 
 def to_toml(machine: Machine) -> str:

@@ -45,9 +45,7 @@ class Axle(Mechanism):
     ground = Outline.line((-1.5, 0.0), (1.5, 0.0))
     frame = Outline([(-0.36, 0.45), (0.36, 0.45), (0.36, 0.90), (0.55, 1.10), (0.55, 1.22), (-0.55, 1.22), (-0.55, 1.10), (-0.36, 0.90)])
 
-    def featured(self) -> Featured:
-        """Return the height of the right tyre, and the paths of both."""
-        return Featured("right.T_y", ["right.T", "left.T"])
+    about = Featured("right.T_y", ["right.T", "left.T"])
 
 
 class CrossedAxle(Axle):

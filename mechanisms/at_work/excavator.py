@@ -121,9 +121,7 @@ class HookExcavator(Mechanism):
     track = Outline([(-1.6, -0.72), (0.1, -0.72), (0.28, -0.56), (0.1, -0.34), (-1.6, -0.34), (-1.78, -0.53)])
     house = Outline([(-1.7, -0.30), (0.2, -0.30), (0.2, 0.05), (-0.1, 0.10), (-0.1, 1.05), (-0.9, 1.05), (-1.0, 0.35), (-1.7, 0.30)])
 
-    def featured(self) -> Featured:
-        """Return the height of the arm's end, and its path."""
-        return Featured("arm.L_y", ["arm.L"])
+    about = Featured("arm.L_y", ["arm.L"])
 
 
 class Excavator(HookExcavator):

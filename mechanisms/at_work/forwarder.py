@@ -45,6 +45,4 @@ class Forwarder(Mechanism):
         phi=15 * deg, psi=15 * deg, t=0.0, swing=0.0, theta=[23.9 * deg, -72.5 * deg], twin=[23.9 * deg, -72.5 * deg], cases=["empty"],
     )  # fmt: skip
 
-    def featured(self) -> Featured:
-        """Return the height of the crane's tip, and its path and that of the lever's end."""
-        return Featured("crane.T_y", ["crane.T", "right.A"])
+    about = Featured("crane.T_y", ["crane.T", "right.A"])

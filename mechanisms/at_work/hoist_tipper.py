@@ -40,5 +40,4 @@ class HoistTipper(Mechanism):
     frame = Outline([(-0.25, -0.10), (5.9, -0.10), (5.9, -0.42), (-0.25, -0.42)])
     skip = Outline([(-0.43, 0.14), (5.45, -1.05), (5.71, 0.23), (-0.17, 1.41)], on=(O, B))
 
-    def featured(self) -> Featured:
-        return Featured("tip", ["G", "B"])
+    about = Featured("tip", ["G", "B"])

@@ -39,6 +39,4 @@ class LevelledTelehandler(Telehandler):
     stacking = Over.path(lift=[0.0, 0.7], extend=0.0, tilt=0.0, cases=["plain"])
     reaching = Over.path(lift=0.3, extend=[0.0, 3.0], tilt=0.0, cases=["far"])
 
-    def featured(self) -> Featured:
-        """Return the forks' angle, and the paths of their heel and of the boom's head."""
-        return Featured("level", ["F", "T"])
+    about = Featured("level", ["F", "T"])

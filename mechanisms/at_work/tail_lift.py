@@ -41,5 +41,4 @@ class TailLift(Mechanism):
     deck = Outline([(-1.5, -0.35), (0.0, -0.35), (0.0, -0.50), (-1.5, -0.50)])
     plate = Outline([(0.0, 0.0), (0.05, 0.05), (1.5, 0.02), (1.5, 0.0)], on=(P, G))
 
-    def featured(self) -> Featured:
-        return Featured("level", ["G", "P"])
+    about = Featured("level", ["G", "P"])

@@ -91,6 +91,4 @@ class Telehandler(Mechanism):
     inner_tube = Outline([(-2.6, -0.10), (0.8, -0.10), (1.05, -0.58), (0.85, -0.58), (0.6, 0.10), (-2.6, 0.10)], on=(Q, T))
     chassis = Outline([(-3.3, 0.55), (0.45, 0.55), (0.45, 0.95), (-2.3, 0.95), (-2.3, 1.75), (-2.9, 1.75), (-3.3, 1.2)])
 
-    def featured(self) -> Featured:
-        """Return the height of the forks' heel, and the paths of heel and head."""
-        return Featured("forks.F_y", ["forks.F", "T"])
+    about = Featured("forks.F_y", ["forks.F", "T"])

@@ -45,6 +45,4 @@ class Tipper(Mechanism):
     frame = Outline([(-0.25, -0.08), (3.9, -0.08), (3.9, -0.26), (-0.25, -0.26)])
     skip = Outline([(-0.3, 0.10), (3.5, -0.02), (3.5, 0.75), (-0.35, 0.90)], on=(O, C))
 
-    def featured(self) -> Featured:
-        """Return the body's angle, and the paths of the load and of the cylinder's pin."""
-        return Featured("tip", ["G", "B"])
+    about = Featured("tip", ["G", "B"])

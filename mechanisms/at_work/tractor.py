@@ -67,9 +67,7 @@ class SpreaderTractor(Mechanism):
     hood = Outline([(-3.35, 0.75), (-0.95, 0.75), (-0.95, 1.75), (-3.15, 1.60), (-3.40, 1.40)])
     cab = Outline([(-0.95, 0.95), (0.10, 1.30), (0.15, 1.60), (-0.05, 2.75), (-1.15, 2.75), (-0.95, 1.60)])
 
-    def featured(self) -> Featured:
-        """Return the height of the lower hitch points, and the paths of the hitch's and of the tool's point."""
-        return Featured("hitch.F_y", ["hitch.F", "tool.P"])
+    about = Featured("hitch.F_y", ["hitch.F", "tool.P"])
 
 
 class PloughTractor(SpreaderTractor):

@@ -58,6 +58,4 @@ class WheelLoader(Mechanism):
     cab = Outline([(-0.95, 1.75), (-0.62, 1.30), (-0.62, 2.55), (-0.85, 3.05), (-1.85, 3.05), (-1.95, 1.68)])
     shell = Outline([(-0.05, -0.06), (1.16, 0.0), (0.78, 0.40), (0.40, 0.85), (0.0, 0.80), (-0.12, 0.30)], on=(N, Z))
 
-    def featured(self) -> Featured:
-        """Return the height of the bucket's pin, and the paths of pin and edge."""
-        return Featured("N_y", ["N", "Z"])
+    about = Featured("N_y", ["N", "Z"])

@@ -25,6 +25,4 @@ class Chebyshev(Mechanism):
     B = Dyad(A, C, AB=0.200, CB=0.500, side=RIGHT)
     P = OnLink(A, B, AP=0.100)
 
-    def featured(self) -> Featured:
-        """Return P_y and the path of P."""
-        return Featured("P_y", ["P"])
+    about = Featured("P_y", ["P"])

@@ -30,9 +30,7 @@ class FourBar(Mechanism):
     psi = angle(C, B)  # rocker
     theta = angle(A, B)  # coupler
 
-    def featured(self) -> Featured:
-        """Return psi and the path of P."""
-        return Featured("psi", ["P"], coupler="P")
+    about = Featured("psi", ["P"], coupler="P")
 
 
 class DragLink(FourBar):

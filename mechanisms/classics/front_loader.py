@@ -72,6 +72,4 @@ class FrontLoader(Mechanism):
     wheel = Outline.circle(at=(0.05, 0.45), radius=0.5)  # the front wheel
     shell = Outline([(0.0, -0.06), (0.9, 0.0), (0.62, 0.16), (0.3, 0.5), (0.1, 0.55), (-0.06, 0.4), (-0.08, 0.1)], on=(B, N))
 
-    def featured(self) -> Featured:
-        """Return boom and the paths of B and N."""
-        return Featured("boom", ["B", "N"])
+    about = Featured("boom", ["B", "N"])

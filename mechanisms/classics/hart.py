@@ -31,6 +31,4 @@ class Hart(Mechanism):
     C = Dyad(B, D, CB=long, CD=short, side=LEFT)  # crossed, not the parallelogram
     Q = OnLink(C, B, CQ=m * long)
 
-    def featured(self) -> Featured:
-        """Return Q_y and the paths of P and Q."""
-        return Featured("Q_y", ["P", "Q"])
+    about = Featured("Q_y", ["P", "Q"])

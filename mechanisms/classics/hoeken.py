@@ -26,6 +26,4 @@ class Hoeken(Mechanism):
     B = Dyad(A, C, AB=0.250, CB=0.250, side=LEFT)
     P = OnLink(A, B, AP=0.500)
 
-    def featured(self) -> Featured:
-        """Return P_y and the path of P."""
-        return Featured("P_y", ["P"])
+    about = Featured("P_y", ["P"])

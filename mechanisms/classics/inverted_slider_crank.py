@@ -31,6 +31,4 @@ class InvertedSliderCrank(Mechanism):
     psi = angle(C, R)  # lever
     ram = x(E)  # m
 
-    def featured(self) -> Featured:
-        """Return ram and the paths of A and R."""
-        return Featured("ram", ["A", "R"], coupler="P")
+    about = Featured("ram", ["A", "R"], coupler="P")

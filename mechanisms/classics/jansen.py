@@ -29,6 +29,4 @@ class Jansen(Mechanism):
     G = Dyad(D, E, DG=0.394, EG=0.367, side=RIGHT)  # f, g
     F = Dyad(G, E, GF=0.657, EF=0.490, side=RIGHT)  # h, i
 
-    def featured(self) -> Featured:
-        """Return F_y and the path of F."""
-        return Featured("F_y", ["F"])
+    about = Featured("F_y", ["F"])

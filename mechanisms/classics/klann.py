@@ -35,6 +35,4 @@ class Klann(Mechanism):
     upper = Link("N H")
     leg = Link("K H F")
 
-    def featured(self) -> Featured:
-        """Return F_y and the path of F."""
-        return Featured("F_y", ["F"])
+    about = Featured("F_y", ["F"])

@@ -32,6 +32,4 @@ class Pantograph(Mechanism):
     D = Dyad(C, Q, CD=bar, QD=(k - 1.0) * arm, side=LEFT)
     R = OnLink(C, D, CR=k * bar)  # pen
 
-    def featured(self) -> Featured:
-        """Return R_x and the paths of Q and R."""
-        return Featured("R_x", ["Q", "R"])
+    about = Featured("R_x", ["Q", "R"])

@@ -27,6 +27,4 @@ class Peaucellier(Mechanism):
     D = Dyad(O, A, OD=arm, AD=side, side=RIGHT)
     P = Dyad(B, D, BP=side, DP=side, side=LEFT)  # the rhombus's other corner
 
-    def featured(self) -> Featured:
-        """Return P_y and the paths of A and P."""
-        return Featured("P_y", ["A", "P"])
+    about = Featured("P_y", ["A", "P"])

@@ -25,6 +25,4 @@ class Roberts(Mechanism):
     D = Dyad(C, B, CD=0.500, BD=arm, side=LEFT)
     P = OnLink(C, D, CP=arm, DP=arm, side=RIGHT)
 
-    def featured(self) -> Featured:
-        """Return P_y and the path of P."""
-        return Featured("P_y", ["P"])
+    about = Featured("P_y", ["P"])

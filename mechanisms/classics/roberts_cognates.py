@@ -48,6 +48,4 @@ class RobertsCognates(Mechanism):
     F = Dyad(E, V, EF=h * rocker, VF=h * coupler, side=RIGHT)
     R = OnLink(E, F, ER=k * rocker, FER=delta + epsilon - pi)
 
-    def featured(self) -> Featured:
-        """Return P_y and the path of P."""
-        return Featured("P_y", ["P"])
+    about = Featured("P_y", ["P"])

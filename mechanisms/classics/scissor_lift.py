@@ -62,6 +62,4 @@ class ScissorLift(Mechanism):
     ground = Outline.line((-3.0, -0.12), (5.0, -0.12))  # what stands around is drawn only; its figures are illustrative
     platform = Outline([(-0.1, 0.04), (1.7, 0.04), (1.7, 0.12), (-0.1, 0.12)], on=(D, E))
 
-    def featured(self) -> Featured:
-        """Return h and the paths of A and D."""
-        return Featured("h", ["A", "D"])
+    about = Featured("h", ["A", "D"])

@@ -22,6 +22,4 @@ class ScotchYoke(Mechanism):
     X = YokeDyad(A, rail)
     travel = x(X)  # m
 
-    def featured(self) -> Featured:
-        """Return travel and the path of A."""
-        return Featured("travel", ["A"])
+    about = Featured("travel", ["A"])

@@ -27,6 +27,4 @@ class SliderCrank(Mechanism):
     P = OnLink(A, B, AP=0.060, BAP=30 * deg)  # a point of the rod
     d = x(B)  # slider, m
 
-    def featured(self) -> Featured:
-        """Return d and the path of A."""
-        return Featured("d", ["A"], coupler="P")
+    about = Featured("d", ["A"], coupler="P")

@@ -27,6 +27,4 @@ class StephensonOne(Mechanism):
     P = OnLink(D, F, DP=0.070, FDP=30 * deg)  # a point of the rod DF
     reach = angle(O, F)
 
-    def featured(self) -> Featured:
-        """Return reach and the path of F."""
-        return Featured("reach", ["F"], coupler="P")
+    about = Featured("reach", ["F"], coupler="P")

@@ -31,9 +31,7 @@ class StephensonThree(Mechanism):
     P = OnLink(D, F, DP=0.050, FDP=30 * deg)  # a point of the rod
     psi = angle(E, F)
 
-    def featured(self) -> Featured:
-        """Return psi and the path of D."""
-        return Featured("psi", ["D"], coupler="P")
+    about = Featured("psi", ["D"], coupler="P")
 
 
 class StephensonThreeFar(Mechanism):
@@ -59,6 +57,4 @@ class StephensonThreeFar(Mechanism):
     D = Pin(near=(-0.038, 0.096))
     phi = angle(O, A)
 
-    def featured(self) -> Featured:
-        """Return phi and the path of D."""
-        return Featured("phi", ["D"], coupler="D")
+    about = Featured("phi", ["D"], coupler="D")

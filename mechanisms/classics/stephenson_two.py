@@ -28,9 +28,7 @@ class StephensonTwo(Mechanism):
     G = Pin(near=(0.207, 0.110))
     psi = angle(E, G)
 
-    def featured(self) -> Featured:
-        """Return psi and the paths of B and F."""
-        return Featured("psi", ["B", "F"], coupler="F")
+    about = Featured("psi", ["B", "F"], coupler="F")
 
 
 class StephensonTwoFar(Mechanism):
@@ -56,6 +54,4 @@ class StephensonTwoFar(Mechanism):
     F = Pin(near=(0.078, 0.091))
     phi = angle(O, A)
 
-    def featured(self) -> Featured:
-        """Return phi and the paths of B and F."""
-        return Featured("phi", ["B", "F"], coupler="F")
+    about = Featured("phi", ["B", "F"], coupler="F")

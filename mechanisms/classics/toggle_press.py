@@ -33,6 +33,4 @@ class TogglePress(Mechanism):
     push = Cylinder("C", "A", bore=63 * mm, rod=36 * mm, closed=0.450, stroke=0.150)
     line = LiftCircuit(push, pressure=160 * bar, flow=12 * litre / minute)
 
-    def featured(self) -> Featured:
-        """Return travel and the path of A."""
-        return Featured("travel", ["A"])
+    about = Featured("travel", ["A"])

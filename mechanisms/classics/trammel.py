@@ -20,6 +20,4 @@ class Trammel(Mechanism):
     Y = SliderDyad(X, post, XY=0.100, side=RIGHT)  # above the rail
     P = OnLink(X, Y, XP=0.160)
 
-    def featured(self) -> Featured:
-        """Return P_y and the path of P."""
-        return Featured("P_y", ["P"])
+    about = Featured("P_y", ["P"])

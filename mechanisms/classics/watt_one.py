@@ -27,6 +27,4 @@ class WattOne(Mechanism):
     P = OnLink(M, F, MP=0.200 * 0.400 / 0.720)  # the air pump's rod
     G = Dyad(E, F, EG=0.200, FG=0.320, side=LEFT)  # the piston's rod
 
-    def featured(self) -> Featured:
-        """Return G_x and the paths of P and G."""
-        return Featured("G_x", ["P", "G"], coupler="G")
+    about = Featured("G_x", ["P", "G"], coupler="G")

@@ -27,6 +27,4 @@ class WattTwo(Mechanism):
     middle = angle(C, B)
     psi = angle(E, F)
 
-    def featured(self) -> Featured:
-        """Return psi and the path of D."""
-        return Featured("psi", ["D"], coupler="P")
+    about = Featured("psi", ["D"], coupler="P")

@@ -79,9 +79,7 @@ class Crane(CraneSkeleton):
     )  # fmt: skip
     transport = Over.path(phi=[phi_0, 90 * deg], psi="psi_0", t=0.0, cases=["lifting", "side_slope"])  # positions 3 and 4
 
-    def featured(self) -> Featured:
-        """Return the height of the telescope's end T, and its path and that of the arm's end K."""
-        return Featured("T_y", ["K", "T"])
+    about = Featured("T_y", ["K", "T"])
 
 
 class BellCrankCrane(Crane):

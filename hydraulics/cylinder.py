@@ -24,6 +24,7 @@ from typing import Literal, NamedTuple, TypeAlias, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkage.checks import refuse
 from linkage.errors import DefinitionError, cited, known_name
 from linkage.frozen import keep_own, refuses_changes
 from linkage.units import inch, mm, show, shown_in, shown_number
@@ -259,8 +260,7 @@ class CylinderSize(RamSize):
             rods, bores = f"Rod {show(rod[thick][0], 'mm')}", f"bore {show(bore[thick][0], 'mm')}"
             raise DefinitionError(f"{rods} is not smaller than {bores}; exchange them or take a thinner rod.")
         count = one_number(self.count, "Count of cylinders")
-        if not 1.0 <= count <= MOST or count != int(count):
-            raise DefinitionError(f"Count of cylinders = {cited(self.count)}; give a whole number from 1 on.")
+        refuse(not 1.0 <= count <= MOST or count != int(count), f"Count of cylinders = {cited(self.count)}; give a whole number from 1 on.")
         known_name("Side", self.works, SIDES, where="works")
 
     def __str__(self) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import singledispatch
 from typing import Any, final
 
-from linkage.checks import require
+from linkage.checks import refuse, require
 from linkage.errors import DefinitionError, cited, known_name, unknown
 from linkage.quantities import Number, is_number
 from linkage.quantities.quantity import plain
@@ -35,8 +35,7 @@ def gas_of(given: Any, number: Callable[[Any], float]) -> Gas:
     for key in table:
         if key not in ("law", *keys):
             raise unknown(f"Key of {name}", key, keys)
-    if "n" in keys and "n" not in table:
-        raise DefinitionError(f"the exponent n of {name} is missing; write {EXAMPLE}.")
+    refuse("n" in keys and "n" not in table, f"the exponent n of {name} is missing; write {EXAMPLE}.")
     return make(**{key: number(table[key]) for key in keys if key in table})
 
 
@@ -65,8 +64,7 @@ def temperature(gas: Gas) -> dict[str, Any]:
 
 def gas_number(value: Any) -> Any:
     """Return a number of a gas law; DefinitionError where there are several."""
-    if not is_number(plain(value)):
-        raise DefinitionError(f"the gas law has several values, {value!r}; a file holds one design.")
+    refuse(not is_number(plain(value)), f"the gas law has several values, {value!r}; a file holds one design.")
     return plain(value)
 
 

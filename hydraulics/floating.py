@@ -18,7 +18,7 @@ from typing import Any, ClassVar, Self, TypeAlias, cast, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.checks import require_type
+from linkage.checks import refuse, require_type
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import refuses_changes
 from linkage.language import said
@@ -269,8 +269,7 @@ class FloatCircuit(GasLine):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not self.references:
-            raise DefinitionError("FloatCircuit: [] stands where a cylinder or its name is expected.")
+        refuse(not self.references, "FloatCircuit: [] stands where a cylinder or its name is expected.")
         for name in ("charge_pressure", "seal_friction"):
             if not follows(getattr(self, name)):
                 in_pascals(getattr(self, name), name.replace("_", " ").capitalize())

@@ -13,6 +13,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
+from linkage.checks import refuse
 from linkage.errors import DefinitionError, known_name
 from linkage.loads import DIRECTIONS, Acting, Case, situation_of
 from linkage.mechanism import Mechanism
@@ -85,8 +86,7 @@ def circuit_with(plan: Plan, ram: Ram, circuit: Circuits, word: str) -> LiftLine
     feeding = pumped if pumped and not circuit else feeding  # a tank or gas on the other side lifts nothing
     if circuit or len(feeding) == 1:
         return feeding[circuit or next(iter(feeding))]
-    if feeding:
-        raise DefinitionError(f"{plan.title}: {ram.name} is on {len(feeding)} circuits; say circuit= one of {', '.join(feeding)}.")
+    refuse(feeding, f"{plan.title}: {ram.name} is on {len(feeding)} circuits; say circuit= one of {', '.join(feeding)}.")
     remedy = f"declare one, circuit = LiftCircuit({ram.name}, pressure=...)"
     raise DefinitionError(f"{plan.title}: {word}({ram.name}): no LiftCircuit has it, whose pump and relief count; {remedy}.")
 
@@ -382,8 +382,7 @@ class Fits(Condition):
         ram = found_in(plan.members, self.cylinder, plan.title)
         length, name = distance(ram.A, ram.B), ram.name
         strokes, closed = ([at(each) for each in ram.lengths_named(said)] for said in ("stroke", "closed"))
-        if not strokes:
-            raise DefinitionError(f"{plan.title}: fits({name}): {name} says no stroke; declare it, Cylinder(..., closed=0.5, stroke=0.25).")
+        refuse(not strokes, f"{plan.title}: fits({name}): {name} says no stroke; declare it, Cylinder(..., closed=0.5, stroke=0.25).")
         if not closed:
             return (most(length) - least(length) <= strokes[0],)
         opened = reduce(lambda a, b: a + b, [closed[0], *strokes])

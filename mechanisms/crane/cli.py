@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from linkage import Column, DefinitionError
+from linkage.checks import refuse
 from linkage.cli.chart import print_chart
 from linkage.cli.command import Command, progress_bar
 from linkage.cli.machines import find
@@ -73,8 +74,7 @@ class DesignedCrane(Command):
     def run(self, options: Namespace) -> int:
         if options.skeleton or options.cab:
             for name in ("pictures", "pins", "csv", "scheme"):
-                if getattr(options, name):
-                    raise DefinitionError(f"--{name} is of a whole crane; leave --skeleton and --cab out.")
+                refuse(getattr(options, name), f"--{name} is of a whole crane; leave --skeleton and --cab out.")
             skeleton = bare_skeleton(options)
             print_skeleton(skeleton)
             return print_verdicts(skeleton.verdicts(over=overs_of(skeleton, options.over)), options)
@@ -135,8 +135,7 @@ def duty_of_options(options: Namespace) -> Duty:
 
 def bare_skeleton(options: Namespace) -> CraneSkeleton:
     """Return the skeleton of the options, and report its search."""
-    if options.machine:
-        raise DefinitionError(f"{options.machine} has its skeleton already; leave its name out to search one.")
+    refuse(options.machine, f"{options.machine} has its skeleton already; leave its name out to search one.")
     cab = si_value(options.cab, "length", "--cab") if options.cab else None
     with progress_bar("skeleton") as progress:
         found = design_skeleton(duty_of_options(options), reading=options.reading, cab=cab, progress=progress or False)
@@ -147,8 +146,7 @@ def bare_skeleton(options: Namespace) -> CraneSkeleton:
 
 def named_machine(options: Namespace) -> Crane | BoomDrive | DrivenArm:
     """Return the crane that is named, or the drive on its own; DefinitionError for another machine, or what goes with another."""
-    if options.scheme:
-        raise DefinitionError(f"--scheme {options.scheme} is of a crane to design; {options.machine} has its arm's drive.")
+    refuse(options.scheme, f"--scheme {options.scheme} is of a crane to design; {options.machine} has its arm's drive.")
     machine = design(find(options.machine), options.settings)
     if not isinstance(machine, (Crane, BoomDrive, DrivenArm)):
         raise DefinitionError(f"{options.machine} is no crane with its cylinders; take crane, or a subclass of mechanisms.crane.Crane.")

@@ -30,7 +30,7 @@ from linkage import (
     angle,
     ref,
 )
-from linkage.checks import require
+from linkage.checks import refuse, require
 from linkage.errors import cited
 from linkage.language import noted, said, translated
 from linkage.program import FloatArray
@@ -209,8 +209,7 @@ class CraneSkeleton(Mechanism):
 
     def position(self, number: int) -> Motion:
         """Return one of the positions that the skeleton is laid out by: 1 reaching, 2 over the stakes, 3 over the guard, 4 in transport."""
-        if number not in POSITIONS:
-            raise DefinitionError(f"Position {cited(number)} is unknown; the skeleton has {', '.join(map(str, POSITIONS))}.")
+        refuse(number not in POSITIONS, f"Position {cited(number)} is unknown; the skeleton has {', '.join(map(str, POSITIONS))}.")
         (phi_0, phi_k), (psi_0, psi_k), (t_0, t_k) = self.limits_of().values()
         poses = {1: (phi_k, psi_k, t_k), 2: (phi_0, max(phi_0, psi_0), t_0), 3: (phi_0, psi_0, t_0), 4: (90 * deg, psi_0, t_0)}
         phi, psi, t = poses[number]

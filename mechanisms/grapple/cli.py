@@ -6,7 +6,8 @@ from argparse import ArgumentParser, Namespace
 from dataclasses import fields
 from typing import Any
 
-from linkage import DefinitionError, Motion
+from linkage import Motion
+from linkage.checks import refuse
 from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
 from linkage.cli.machines import find_like
 from linkage.cli.settings import check_argument, design, judged_over, motion_at, over_argument, pair, print_verdicts, si_value
@@ -69,8 +70,7 @@ def named_grapple(options: Namespace) -> Grapple:
 
 def designed_grapple(options: Namespace) -> Grapple:
     """Return the grapple designed for the duty of the options, and report its search."""
-    if options.machine != "grapple":
-        raise DefinitionError(f"{options.machine} is designed already; leave --design out, or the name.")
+    refuse(options.machine != "grapple", f"{options.machine} is designed already; leave --design out, or the name.")
     names, given = tuple(each.name for each in fields(Duty) if isinstance(each.default, float)), dict[str, Any]()
     for text in options.settings:
         name, value = pair(text, "--set", "D_0=600mm")

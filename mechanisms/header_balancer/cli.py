@@ -6,6 +6,7 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
 from linkage import DefinitionError, Motion
+from linkage.checks import refuse
 from linkage.cli.command import Command, figure_path, machine_arguments, picture_argument, whole_number
 from linkage.cli.machines import find_like
 from linkage.cli.settings import check_argument, over_argument, overs_of, parsed_setting, print_verdicts
@@ -88,8 +89,7 @@ def header_of(options: Namespace) -> HeaderBalancer:
     given |= changes(found.plan, options)
     if options.table and found is not HeaderBalancer:
         raise DefinitionError(f"--table goes with header_balancer and its headers; {options.machine} has dimensions of its own.")
-    if options.pressure and options.reaction:
-        raise DefinitionError("--pressure and --reaction both choose the charge; give one of them.")
+    refuse(options.pressure and options.reaction, "--pressure and --reaction both choose the charge; give one of them.")
     if options.pressure:
         given["charge"] = value(options.pressure, "pressure", "--pressure")
     if options.reaction:

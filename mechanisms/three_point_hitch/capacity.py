@@ -14,7 +14,7 @@ import numpy as np
 from hydraulics import LiftCircuit
 from hydraulics.member import found_in
 from linkage import DefinitionError, Force, ForceElement, Motion, angle, least, most
-from linkage.checks import require_number
+from linkage.checks import refuse, require_number
 from linkage.errors import unwarned
 from linkage.language import noted, said, translated
 from linkage.loads.element import Formulas
@@ -74,8 +74,7 @@ def capacity_beside_own(point: str, share: float, motion: AnyMotion) -> FloatArr
 def lifting_circuit(plan: Plan) -> LiftCircuit:
     """Return the circuit of a hitch that lifts; DefinitionError where there is none."""
     circuits = plan.of_kind(LiftCircuit)
-    if "circuit" not in circuits:
-        raise DefinitionError(f"{plan.title} has no lift circuit of the name circuit, whose pump lifts.")
+    refuse("circuit" not in circuits, f"{plan.title} has no lift circuit of the name circuit, whose pump lifts.")
     return circuits["circuit"]
 
 

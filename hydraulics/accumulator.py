@@ -350,7 +350,7 @@ class AccumulatorBlock:
             says = said("{high} at most is {ratio:.4g} times the charge, limit {limit:g} (absolute)", **by)
         if keeps_rule(rule, charge, pressure):
             return Verdict(f"{rule} of accumulator {number}", True, f"{says}.", heading)
-        possible, own = gauge(charge / CHARGE_SHARE if is_low else COMPRESSION * charge)
+        possible = gauge(charge / CHARGE_SHARE if is_low else COMPRESSION * charge)
         own = CHARGE_SHARE * pressure if is_low else pressure / COMPRESSION
         own = own if recharged is None else recharged(number, rule) + self.atmosphere  # in this range, else on its line
         words = {"possible": possible, "wanted": gauge(own) if isfinite(own) else ""}

@@ -51,7 +51,7 @@ class DrivenArm(Mechanism):
     `opens` are the forces that the cylinder then gives, F p n, positive where it pushes.
     """
 
-    shut: ClassVar[str] = "psi_k"  # where its cylinder is closed
+    opens_by_piston: ClassVar[bool] = False  # the side of its cylinder that opens the arm
     psi: Quantity = Stroke(0.0, 180 * deg)
 
     D = Dimension(140 * mm, unit="mm")  # bore
@@ -221,7 +221,7 @@ class DirectArmDrive(DrivenArm):
     is the boom's drive, with column and boom instead of boom and arm.
     """
 
-    shut: ClassVar[str] = "psi_0"
+    opens_by_piston: ClassVar[bool] = True
     psi = Stroke(60 * deg, 180 * deg)
     psi_0 = Dimension(60 * deg, unit="deg")
     D = Dimension(125 * mm, unit="mm")
@@ -252,7 +252,7 @@ class DirectArmDriveAbove(DirectArmDrive):
     B may lie behind the arm's hinge, r_3 below zero.
     """
 
-    shut: ClassVar[str] = "psi_k"
+    opens_by_piston: ClassVar[bool] = False
     D = Dimension(140 * mm, unit="mm")
     d = Dimension(80 * mm, unit="mm")
     S = Dimension(0.9639376633275721, unit="mm")

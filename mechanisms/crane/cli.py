@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable, Mapping
-from dataclasses import fields
 from functools import partial
 from pathlib import Path
-from typing import Any, TypeAlias
 
 import numpy as np
 
-from linkage import Column, DefinitionError
+from linkage import Column, DefinitionError, max_table
 from linkage.checks import refuse
 from linkage.cli.chart import print_chart
 from linkage.cli.command import Command, progress_bar
 from linkage.cli.machines import find
-from linkage.cli.settings import check_argument, design, over_argument, overs_of, pair, print_verdicts, si_value
+from linkage.cli.settings import check_argument, design, over_argument, overs_of, print_verdicts, si_value
 from linkage.cli.table import csv_argument, write_table
 from linkage.disk import check_place, in_words
-from linkage.errors import known_name
+from linkage.statics import table_text
 
+from ..paper import duty_set
 from . import DRIVE_FIGURES, FIGURES, crane_figure, drive_figure
 from .arm_drive import DrivenArm
 from .boom_drive import BoomDrive
@@ -32,7 +30,7 @@ from .load_map import envelope, load_map
 from .machine import Crane
 from .moments import arm_bound, boom_bound
 from .skeleton import CraneSkeleton
-from .strength import strength_text
+from .strength import strength
 
 KINDS = {"M": "moment", "payload": "mass", "psi_0": "angle", "k_d": "", "rho_w": ""}
 """What the numbers of a duty measure; those not named here are lengths."""
@@ -47,12 +45,8 @@ class DesignedCrane(Command):
     help = "a forestry crane: skeleton, masses, bound of moments, drives, load map, pin forces, pictures"
 
     def add(self, parser: ArgumentParser) -> None:
-        parser.add_argument(
-            "machine",
-            metavar="NAME",
-            nargs="?",
-            help="judge this crane, or one of its drives, such as crane, boom_drive or arm_drive, instead of designing one",
-        )
+        what = "judge this crane, or one of its drives, such as crane, boom_drive or arm_drive, instead of designing one"
+        parser.add_argument("machine", metavar="NAME", nargs="?", help=what)
         parser.add_argument(
             "--set", dest="settings", metavar="L=8.5m", action="append", default=[],
             help="change a number of the duty, with its unit; of a crane that is named a design variable; repeatable",
@@ -83,54 +77,24 @@ class DesignedCrane(Command):
             with in_words(folder):
                 folder.mkdir(parents=True, exist_ok=True)
             check_place(folder / "map.png")
-        machine = named_machine(options) if options.machine else designed_crane(options)
+        machine = crane_or_drive(options)
         over = overs_of(machine, options.over)
         if isinstance(machine, Crane):
             print_skeleton(machine)
-            print_moments(machine)
-            print_map(machine, options)
-            if options.pins:
-                print(f"\n{strength_text(machine)}")
+            print_crane(machine, options)
+            pictures = {name: partial(crane_figure, name, machine) for name in FIGURES}
+            drives: dict[str, BoomDrive | DrivenArm] = {"boom_": boom_drive_of(machine), "arm_": arm_drive_of(machine)}
         else:
             motion = machine.working(2 * COUNT - 1)
             write_table(machine.columns(motion), motion.reached.size, options.csv)
+            pictures, drives = {}, {"": machine}
         code = print_verdicts(machine.verdicts(over=over), options)
-        draw_all(folder, crane_pictures(machine) if isinstance(machine, Crane) else drive_pictures(machine))
+        pictures |= {f"{side}{name}": partial(drive_figure, name, drive) for side, drive in drives.items() for name in DRIVE_FIGURES}
+        for name, drawing in pictures.items() if folder is not None else ():
+            path = Path(options.pictures) / f"{name}.png"
+            drawing().savefig(path)
+            print(path)
         return code
-
-
-Pictures: TypeAlias = Mapping[str, Callable[[], Any]]
-"""What draws each picture, by the name of its file."""
-
-
-def crane_pictures(crane: Crane) -> Pictures:
-    """Return the pictures of a crane, those of its drives among them."""
-    drives: dict[str, BoomDrive | DrivenArm] = {"boom": boom_drive_of(crane), "arm": arm_drive_of(crane)}
-    whole: dict[str, Callable[[], Any]] = {name: partial(crane_figure, name, crane) for name in FIGURES}
-    return whole | {f"{side}_{name}": each for side, drive in drives.items() for name, each in drive_pictures(drive).items()}
-
-
-def drive_pictures(drive: BoomDrive | DrivenArm) -> Pictures:
-    """Return the pictures of a drive on its own."""
-    return {name: partial(drive_figure, name, drive) for name in DRIVE_FIGURES}
-
-
-def draw_all(folder: Path | None, pictures: Pictures) -> None:
-    """Write pictures into a folder, and say where; nothing without one."""
-    for name, drawn in pictures.items() if folder is not None else ():
-        path = Path(folder or "") / f"{name}.png"
-        drawn().savefig(path)
-        print(path)
-
-
-def duty_of_options(options: Namespace) -> Duty:
-    """Return the duty that the options mean."""
-    names, given = [each.name for each in fields(Duty)], {}
-    for text in options.settings:
-        name, value = pair(text, "--set", "L=8.5m")
-        known_name("Number of the duty", name, names)
-        given[name] = si_value(value, KINDS.get(name, "length"), f"--set {name}")
-    return Duty(**given)
 
 
 def bare_skeleton(options: Namespace) -> CraneSkeleton:
@@ -138,69 +102,62 @@ def bare_skeleton(options: Namespace) -> CraneSkeleton:
     refuse(options.machine, f"{options.machine} has its skeleton already; leave its name out to search one.")
     cab = si_value(options.cab, "length", "--cab") if options.cab else None
     with progress_bar("skeleton") as progress:
-        found = design_skeleton(duty_of_options(options), reading=options.reading, cab=cab, progress=progress or False)
+        duty = duty_set(Duty, options, "L=8.5m", KINDS)
+        found = design_skeleton(duty, reading=options.reading, cab=cab, progress=progress or False)
     print(f"{found}\n")
     assert isinstance(found.machine, CraneSkeleton)
     return found.machine
 
 
-def named_machine(options: Namespace) -> Crane | BoomDrive | DrivenArm:
-    """Return the crane that is named, or the drive on its own; DefinitionError for another machine, or what goes with another."""
+def crane_or_drive(options: Namespace) -> Crane | BoomDrive | DrivenArm:
+    """Return the crane designed for the duty, each stage told; or the crane that is named, or a drive on its own.
+
+    DefinitionError for another machine, or for what goes with another.
+    """
+    if not options.machine:
+        with progress_bar("crane") as progress:
+            duty, scheme = duty_set(Duty, options, "L=8.5m", KINDS), options.scheme or "a"
+            found = design_crane(duty, scheme=scheme, reading=options.reading, progress=progress or False)
+        print(*(f"{each}\n" for each in (found.skeleton, found.boom, found.arm)), sep="\n")
+        return found.crane
     refuse(options.scheme, f"--scheme {options.scheme} is of a crane to design; {options.machine} has its arm's drive.")
     machine = design(find(options.machine), options.settings)
     if not isinstance(machine, (Crane, BoomDrive, DrivenArm)):
         raise DefinitionError(f"{options.machine} is no crane with its cylinders; take crane, or a subclass of mechanisms.crane.Crane.")
-    if options.pins and not isinstance(machine, Crane):
-        raise DefinitionError(f"--pins are those of a whole crane; `forces {options.machine}` has what the pins of a drive carry.")
+    is_drive, forces = not isinstance(machine, Crane), f"`forces {options.machine}` has what the pins of a drive carry"
+    refuse(options.pins and is_drive, f"--pins are those of a whole crane; {forces}.")
     return machine
-
-
-def designed_crane(options: Namespace) -> Crane:
-    """Return the crane designed for the duty, each stage told."""
-    with progress_bar("crane") as progress:
-        duty, scheme = duty_of_options(options), options.scheme or "a"
-        found = design_crane(duty, scheme=scheme, reading=options.reading, progress=progress or False)
-    print(*(f"{each}\n" for each in (found.skeleton, found.boom, found.arm)), sep="\n")
-    return found.crane
 
 
 def print_skeleton(crane: CraneSkeleton) -> None:
     """Print heights and masses of a skeleton's members, and the conditions that it keeps."""
-    members = {
-        "column": ("h_0", "b_0", "W_0"),
-        "boom": ("l_c", "b_c", "W_c"),
-        "arm": ("l_p", "b_p", "W_p"),
-        "telescope": ("l_t", "b_t", "W_t"),
-    }
-    for words, (length, height, mass) in members.items():
-        numbers = float(crane[length]), crane.output(height) * 1e3, crane.output(mass)
-        print("{:10} {:7.3f} m long, {:6.1f} mm high, {:7.1f} kg".format(words, *numbers))
+    for words, part in (("column", "0"), ("boom", "c"), ("arm", "p"), ("telescope", "t")):
+        length = float(crane["h_0" if part == "0" else f"l_{part}"])
+        height, mass = crane.output(f"b_{part}") * 1e3, crane.output(f"W_{part}")
+        print(f"{words:10} {length:7.3f} m long, {height:6.1f} mm high, {mass:7.1f} kg")
     print(f"{'crane':10} {crane.output('W'):.1f} kg with its drives; W_m = {crane.output('W_m'):.6f} m2")
 
 
-def print_moments(crane: Crane) -> None:
-    """Print the bound of moments and what the cylinders give, over boom's and arm's angle."""
+def print_crane(crane: Crane, options: Namespace) -> None:
+    """Print the bound of moments and what the cylinders give over boom's and arm's angle, the load map with its limiters, the reach."""
     limits = crane.limits_of()
     phi, psi = (np.linspace(*limits[name], COUNT) for name in ("phi", "psi"))
     falls, rises = arm_bound(crane, psi)
     folds, opens = arm_moment(crane, psi)
     print("\nBound of moments M_l and what the cylinders give M_g, kNm; phi from the upward vertical, psi from boom to arm, deg\n")
-    columns = [
-        Column("phi", phi, "deg", 2), Column("M_l", boom_bound(crane, phi), "kNm", 2), Column("M_g", boom_moment(crane, phi), "kNm", 2),
-        Column("psi", psi, "deg", 2), Column("M_l1", falls, "kNm", 2), Column("M_g1", folds, "kNm", 2),
-        Column("M_l2", rises, "kNm", 2), Column("M_g2", opens, "kNm", 2),
-    ]  # fmt: skip
+    named = {"M_l": boom_bound(crane, phi), "M_g": boom_moment(crane, phi)}
+    arm = {"M_l1": falls, "M_g1": folds, "M_l2": rises, "M_g2": opens}
+    columns = [Column("phi", phi, "deg", 2), *(Column(name, values, "kNm", 2) for name, values in named.items())]
+    columns += [Column("psi", psi, "deg", 2), *(Column(name, values, "kNm", 2) for name, values in arm.items())]
     write_table(columns, COUNT, None)
-
-
-def print_map(crane: Crane, options: Namespace) -> None:
-    """Print the load map with its limiters, or write it as CSV, and the reach's area."""
     found = envelope(crane)
-    far = float(found.border[..., 0].max())
-    over = load_map(crane, np.linspace(8.0, -1.0, 10), np.linspace(1.0, np.floor(far), 10))
+    over = load_map(crane, np.linspace(8.0, -1.0, 10), np.linspace(1.0, np.floor(float(found.border[..., 0].max())), 10))
     if options.csv:
         write_table(over.columns(), over.x.size, options.csv)
     else:
         print()
         print_chart(over)
     print(f"\nThe tip reaches {found.area:.1f} m2.")
+    if options.pins:
+        tables = [f"{title[0].upper()}{title[1:]}\n{table_text(max_table(pins))}" for title, pins in strength(crane).items()]
+        print("\n" + "\n\n".join(tables))

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,22 +19,10 @@ PLAY = 1e-6
 """m: a length that a cylinder misses by no more is within its stroke."""
 
 
-@final
-@dataclass(frozen=True)
-class Sides:
-    """What a cylinder pushes and pulls with at the pump's pressure [N], both positive."""
+def sides(motion: Motion, stroke: str) -> tuple[float, float]:
+    """Return what the cylinder of a stroke pushes and pulls with at the pump's pressure [N], both positive, of one design.
 
-    push: float
-    pull: float
-
-    @property
-    def bounds(self) -> tuple[FloatArray, FloatArray]:
-        """Its least and its greatest thrust [N]."""
-        return np.asarray(-self.pull), np.asarray(self.push)
-
-
-def sides(motion: Motion, stroke: str) -> Sides:
-    """Return what the cylinder of a stroke pushes and pulls with, of one design; p n times the area, less the back pressure's share.
+    It is p n times the area, less the back pressure's share.
 
     The side that a cylinder does not work with gives nothing.
     """
@@ -46,7 +33,7 @@ def sides(motion: Motion, stroke: str) -> Sides:
     pressure = k_h * float(circuit.supply(motion))
     out = k_m * (pressure * float(size.push_area) - back * float(size.pull_area))
     inwards = k_m * (pressure * float(size.pull_area) - back * float(size.push_area))
-    return Sides(max(out, 0.0) if size.works != "rod" else 0.0, max(inwards, 0.0) if size.works != "piston" else 0.0)
+    return (max(out, 0.0) if size.works != "rod" else 0.0, max(inwards, 0.0) if size.works != "piston" else 0.0)
 
 
 def lever(crane: Crane, stroke: str, at: ArrayLike) -> FloatArray:
@@ -64,7 +51,8 @@ def along_stroke(crane: Crane, stroke: str, at: ArrayLike) -> dict[str, Any]:
 
 def boom_moment(crane: Crane, phi: ArrayLike) -> FloatArray:
     """Return M_g(phi) [N m], the shape of phi: what the boom's cylinder lifts with, its piston side at the pump's pressure. (2.29)"""
-    return -sides(crane.position(1), "phi").push * lever(crane, "phi", phi)
+    push, _ = sides(crane.position(1), "phi")
+    return -push * lever(crane, "phi", phi)
 
 
 def arm_moment(crane: Crane, psi: ArrayLike) -> tuple[FloatArray, FloatArray]:
@@ -72,8 +60,8 @@ def arm_moment(crane: Crane, psi: ArrayLike) -> tuple[FloatArray, FloatArray]:
 
     M_g1 folds the arm and is negative, M_g2 unfolds it; a cylinder that opens the arm while it grows folds it by its rod side.
     """
-    has, arm = sides(crane.position(1), "psi"), lever(crane, "psi", psi)
-    pushes, pulls = has.push * arm, -has.pull * arm
+    (push, pull), arm = sides(crane.position(1), "psi"), lever(crane, "psi", psi)
+    pushes, pulls = push * arm, -pull * arm
     return np.minimum(pushes, pulls), np.maximum(pushes, pulls)
 
 

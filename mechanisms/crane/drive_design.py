@@ -5,11 +5,11 @@ Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from math import pi
 from types import MappingProxyType
-from typing import Any, final
+from typing import Any, NamedTuple, final
 
 import numpy as np
 
@@ -85,17 +85,22 @@ class DriveDesign:
 
     @property
     def sentences(self) -> list[str]:
-        """What became of every size, in words: those that are too small in one sentence."""
-        small = [each for each in self.sizes if each.is_too_small]
-        return [*([too_small(small)] if small else []), *(self.sentence(each) for each in self.sizes if each not in small)]
-
-    def sentence(self, size: JudgedSize) -> str:
-        """Return what became of one size."""
-        name = f"{size.bore / mm:.0f}/{size.rod / mm:.0f} mm"
-        if size.optimum is None:
-            return f"{name} cannot: {size.reason}"
-        stroke = float(size.optimum.machine["S"])
-        return f"{name}: {self.objective} {OBJECTIVES[self.objective](size.value)}, stroke {stroke / mm:.1f} mm."
+        """What became of every size, in words: those that are too small in one sentence, by the energy that they swallow."""
+        small, found = [each for each in self.sizes if each.is_too_small], []
+        if small:
+            ends = small if len(small) == 1 else (small[0], small[-1])
+            both = [each.bore / mm for each in ends], [each.could for each in ends]
+            bores, could = (" to ".join(f"{each:.0f}" for each in values) for values in both)
+            many, longest = ("they would", "their longest strokes take") if len(small) > 1 else ("it would", "its longest stroke takes")
+            found.append(f"{bores} mm cannot: {many} have to swallow the {small[0].asked:.0f} J the load asks; {longest} {could} J.")
+        for size in self.sizes:
+            name = f"{size.bore / mm:.0f}/{size.rod / mm:.0f} mm"
+            if size.optimum is not None:
+                stroke = float(size.optimum.machine["S"])
+                found.append(f"{name}: {self.objective} {OBJECTIVES[self.objective](size.value)}, stroke {stroke / mm:.1f} mm.")
+            elif not size.is_too_small:
+                found.append(f"{name} cannot: {size.reason}")
+        return found
 
     def __str__(self) -> str:
         best = f"The best {self.what} drive has {self.best.bore / mm:.0f}/{self.best.rod / mm:.0f} mm."
@@ -113,19 +118,6 @@ OBJECTIVES: Mapping[str, Callable[[float], str]] = MappingProxyType(
 """What a drive may be chosen by, and how its value is said."""
 
 
-def too_small(sizes: Sequence[JudgedSize]) -> str:
-    """Return the energy bound in words: `63 to 100 mm cannot: they would have to swallow ...`."""
-    bores = " to ".join(f"{each.bore / mm:.0f}" for each in ends_of(sizes))
-    could = " to ".join(f"{each.could:.0f}" for each in ends_of(sizes))
-    many, longest = ("they would", "their longest strokes take") if len(sizes) > 1 else ("it would", "its longest stroke takes")
-    return f"{bores} mm cannot: {many} have to swallow the {sizes[0].asked:.0f} J the load asks; {longest} {could} J."
-
-
-def ends_of(sizes: Sequence[JudgedSize]) -> Sequence[JudgedSize]:
-    """Return the first and the last of some sizes; a single one alone."""
-    return sizes if len(sizes) == 1 else (sizes[0], sizes[-1])
-
-
 GAUSS = 16
 PIECES = 64
 
@@ -140,35 +132,29 @@ def work_of(moment: Callable[[np.ndarray[Any, Any]], Any], start: float, end: fl
 
 
 def judged(
-    cylinders: DriveCylinders, could: Callable[[float, float], float], asked: float, search: Callable[[float, float], Optimum]
+    cylinders: DriveCylinders, could: Callable[[float, float], float], asked: float, task: Callable[[float, float], Mapping[str, Any]]
 ) -> tuple[JudgedSize, ...]:
-    """Return every size of a series judged: by the energy bound first, then by a search."""
+    """Return every size of a series judged: by the energy bound first, then by a search, of which a task gives what `optimise` takes.
+
+    The reason why none is found is what the drive that misses least falls short of, moments by the source's letters.
+    """
     found = []
     for bore, rod in cylinders.sizes:
         size = JudgedSize(bore, rod, could(bore, rod), asked, None)
         if not size.is_too_small:
             try:
-                size = replace(size, optimum=search(bore, rod))
+                optimum = optimise(**task(bore, rod))
+                assert isinstance(optimum, Optimum)
+                size = replace(size, optimum=optimum)
             except StudyError as error:
-                size = replace(size, reason=in_symbols(error))
+                text = str(error)
+                if isinstance(error, InfeasibleError):
+                    text = f"no pins found keep everything, the nearest miss {'; '.join(each.sentence for each in error.relaxations)}."
+                for quantity, letters in ((GIVEN, "M_g"), (FOLDS, "|M_g1|"), (OPENS, "M_g2")):
+                    text = text.replace(str(quantity), letters)
+                size = replace(size, reason=text)
         found.append(size)
     return tuple(found)
-
-
-def found_by(machine: Mechanism, **options: Any) -> Optimum:
-    """Return what `optimise` finds for one objective."""
-    found = optimise(machine, **options)
-    assert isinstance(found, Optimum)
-    return found
-
-
-def in_symbols(error: StudyError) -> str:
-    """Return why a search found nothing: what the drive that misses least falls short of, moments by the source's letters."""
-    missed = "; ".join(each.sentence for each in error.relaxations) if isinstance(error, InfeasibleError) else str(error)
-    text = f"no pins found keep everything, the nearest miss {missed}." if isinstance(error, InfeasibleError) else missed
-    for quantity, letters in ((GIVEN, "M_g"), (FOLDS, "|M_g1|"), (OPENS, "M_g2")):
-        text = text.replace(str(quantity), letters)
-    return text
 
 
 # -- the boom ----------------------------------------------------------------------------------------------
@@ -200,49 +186,36 @@ def design_boom_drive(
     duty, cylinders = duty or DriveDuty(), cylinders or DriveCylinders()
     one_word("objective", objective, ("area", "ratio", "difference"))
     one_word("clearance", clearance, tuple(CLEARANCES))
-    check_lengths(duty, r_3_min, lowest_pin)
-    pin, over = CLEARANCES[clearance], GIVEN - ref("M_l")
-    least_of = {"area": integral(over), "ratio": most(GIVEN / ref("M_l")), "difference": most(over)}
-
-    def drive(bore: float, rod: float) -> BoomDrive:
-        return BoomDrive(
-            **cylinders.dimensions(bore, rod), **boom_numbers(duty), r_1=pin(duty.b_0, bore), r_4=pin(duty.b_c, bore),
-            S=0.8 * cylinders.longest * bore, r_2=0.85 * duty.h_0, r_3=max(0.14 * duty.l_c, r_3_min),
-        )  # fmt: skip
-
-    def search(bore: float, rod: float) -> Optimum:
-        longest = cylinders.longest * bore
-        return found_by(
-            drive(bore, rod),
-            minimise=least_of[objective],
-            vary={"S": (0.1 * longest, longest), "r_2": (0.05 * duty.h_0, duty.h_0), "r_3": (r_3_min, duty.l_c)},
-            subject_to=[
-                at("length", phi=duty.phi_k) == at("l"),
-                at("length", phi=duty.phi_0) == at(ref("l") + ref("S")),
-                least(GIVEN / ref("M_l")) >= 1.0,
-                at("r_2") >= lowest_pin * at("l"),
-            ],
-            over={"phi": (duty.phi_0, duty.phi_k)},
-            starts=starts,
-            seed=seed,
-        )
-
-    bound = drive(*cylinders.sizes[-1])
-    asked = work_of(lambda phi: bound.at(phi=phi)["M_l"], duty.phi_0, duty.phi_k)
-    sizes = judged(cylinders, lambda bore, rod: cylinders.swallowed(bore), asked, search)
-    return DriveDesign("boom", objective, sizes)
-
-
-def check_lengths(duty: DriveDuty, r_3_min: float, lowest_pin: float) -> None:
-    """Raise DefinitionError for bounds that leave nothing."""
     if not is_number(r_3_min) or not 0.0 < r_3_min < duty.l_c:
         raise DefinitionError(f"r_3_min={cited(r_3_min)}: a length below the boom's {duty.l_c:.4g} m is expected, such as 300 * mm.")
     require_number("lowest_pin", lowest_pin, "a share of the closed length is expected, 0 to 1; the source has 0.5", least=0.0, most=1.0)
+    pin, over = CLEARANCES[clearance], GIVEN - ref("M_l")
+    least_of = {"area": integral(over), "ratio": most(GIVEN / ref("M_l")), "difference": most(over)}
 
+    numbers = {name: getattr(duty, name) for name in ("l_c", "K_B", "K_A", "phi_0", "phi_k", "psi_k")}
 
-def boom_numbers(duty: DriveDuty) -> dict[str, float]:
-    """Return what a BoomDrive takes of a duty."""
-    return {name: getattr(duty, name) for name in ("l_c", "K_B", "K_A", "phi_0", "phi_k", "psi_k")}
+    def drive(bore: float, rod: float) -> BoomDrive:
+        return BoomDrive(
+            **cylinders.dimensions(bore, rod), **numbers, r_1=pin(duty.b_0, bore), r_4=pin(duty.b_c, bore),
+            S=0.8 * cylinders.longest * bore, r_2=0.85 * duty.h_0, r_3=max(0.14 * duty.l_c, r_3_min),
+        )  # fmt: skip
+
+    kept = [
+        at("length", phi=duty.phi_k) == at("l"), at("length", phi=duty.phi_0) == at(ref("l") + ref("S")),
+        least(GIVEN / ref("M_l")) >= 1.0, at("r_2") >= lowest_pin * at("l"),
+    ]  # fmt: skip
+
+    def task(bore: float, rod: float) -> Mapping[str, Any]:
+        longest = cylinders.longest * bore
+        vary = {"S": (0.1 * longest, longest), "r_2": (0.05 * duty.h_0, duty.h_0), "r_3": (r_3_min, duty.l_c)}
+        return dict(
+            machine=drive(bore, rod), minimise=least_of[objective], vary=vary, subject_to=kept, over={"phi": (duty.phi_0, duty.phi_k)},
+            starts=starts, seed=seed,
+        )  # fmt: skip
+
+    bound = drive(*cylinders.sizes[-1])
+    asked = work_of(lambda phi: bound.at(phi=phi)["M_l"], duty.phi_0, duty.phi_k)
+    return DriveDesign("boom", objective, judged(cylinders, lambda bore, rod: cylinders.swallowed(bore), asked, task))
 
 
 # -- the arm -----------------------------------------------------------------------------------------------
@@ -257,34 +230,15 @@ DIRECT_BOUNDS: Mapping[str, tuple[float, float]] = MappingProxyType(
 """Bounds of a drive without a four-bar [m], after those above: its pins stand beside boom and arm."""
 
 
-@final
-@dataclass(frozen=True)
-class ArmScheme:
-    """A scheme of fig. 2.13: its class, the bounds of its lengths [m] and angles [rad]."""
-
-    machine: type[DrivenArm]
-    bounds: Mapping[str, tuple[float, float]]
-
-    @property
-    def is_direct(self) -> bool:
-        """Whether it does without a four-bar."""
-        return issubclass(self.machine, DirectArmDrive)
-
-    @property
-    def opens_by_piston(self) -> bool:
-        """Whether the arm opens by the cylinder's piston side."""
-        return self.machine.shut == "psi_0"
-
-
-SCHEMES: Mapping[str, ArmScheme] = MappingProxyType(
+SCHEMES: Mapping[str, tuple[type[DrivenArm], Mapping[str, tuple[float, float]]]] = MappingProxyType(
     {
-        "a": ArmScheme(ArmDrive, ARM_BOUNDS),
-        "b": ArmScheme(AngledBellCrankArmDrive, {**ARM_BOUNDS, "r_8": (0.15, 0.80)}),
-        "c": ArmScheme(DirectArmDrive, DIRECT_BOUNDS),
-        "d": ArmScheme(DirectArmDriveAbove, {**DIRECT_BOUNDS, "r_3": (-0.60, 0.60)}),
+        "a": (ArmDrive, ARM_BOUNDS),
+        "b": (AngledBellCrankArmDrive, {**ARM_BOUNDS, "r_8": (0.15, 0.80)}),
+        "c": (DirectArmDrive, DIRECT_BOUNDS),
+        "d": (DirectArmDriveAbove, {**DIRECT_BOUNDS, "r_3": (-0.60, 0.60)}),
     }
 )
-"""The arm drives of fig. 2.13, by letter."""
+"""The arm drives of fig. 2.13, by letter, with the bounds of their lengths [m] and angles [rad]."""
 
 TRAVELS = ("free", "travels", "angles")
 FINE = 10.0 * kN
@@ -328,15 +282,15 @@ class ArmRules:
 
     def conditions(self, duty: DriveDuty, scheme: str = "a") -> list[Any]:
         """Return the conditions (2.61) to (2.65) of a duty, those that are kept by a drive of a scheme of fig. 2.13."""
-        psi_0, psi_k = duty.psi_0, duty.psi_k
-        closed, out = (psi_0, psi_k) if SCHEMES[scheme].opens_by_piston else (psi_k, psi_0)
+        psi_0, psi_k, (machine, _) = duty.psi_0, duty.psi_k, SCHEMES[scheme]
+        closed, out = (psi_0, psi_k) if machine.opens_by_piston else (psi_k, psi_0)
         found = [
             at("length", psi=closed) == at("l"),
             at("length", psi=out) == at(ref("l") + ref("S")),
             least(OPENS - ref("M_l2") + FINE) >= FINE,
             least(FOLDS + ref("M_l1") + FINE) >= FINE,
         ]
-        if SCHEMES[scheme].is_direct:
+        if issubclass(machine, DirectArmDrive):
             return [*found, at("r_2") <= duty.l_c]
         counts = clipped(1.0 + (ref("psi") - duty.phi_0) / STEP, 0.0, 1.0) if self.excess_from == "phi_0" else 1.0
         found += [
@@ -351,25 +305,10 @@ class ArmRules:
             found += [at(y(pin), psi=psi) >= height for pin in ("LZ" if scheme == "b" else "L") for psi in (psi_0, psi_k)]
         if self.transmission:
             found += [least("mu") >= self.transmission, most("mu") <= pi - self.transmission]
-        return [*found, *self.lever_angles(duty)]
-
-    def lever_angles(self, duty: DriveDuty) -> list[Any]:
-        """Return the conditions that (2.65) may stand for."""
-        start, end = at("alpha_1", psi=duty.psi_0), at("alpha_1", psi=duty.psi_k)
-        first, last = at("alpha_2", psi=duty.psi_0), at("alpha_2", psi=duty.psi_k)
-        if self.angles == "travels":
-            return [end - start >= 90 * deg, last - first >= 100 * deg]
-        return [end <= 90 * deg, last <= 100 * deg] if self.angles == "angles" else []
-
-
-def area_of_duty(duty: DriveDuty, asked: float) -> Measure:
-    """Return the arm drive's second criterion, what is given over what is asked [N m rad], where something is asked: from phi_0 on.
-
-    By virtual work the integral of M_g2 is the force times the way of the cylinder; `asked` is that of M_l2 [J].
-    """
-    way = at("length", psi=duty.psi_k) - at("length", psi=max(duty.phi_0, duty.psi_0))
-    found: Measure = at("opens") * way - asked
-    return found
+        for name, most_angle in (("alpha_1", 90 * deg), ("alpha_2", 100 * deg)) if self.angles != "free" else ():
+            end = at(name, psi=psi_k)
+            found.append(end <= most_angle if self.angles == "angles" else end - at(name, psi=psi_0) >= most_angle)
+        return found
 
 
 def design_arm_drive(
@@ -394,61 +333,58 @@ def design_arm_drive(
     duty, cylinders, rules = duty or DriveDuty(), cylinders or DriveCylinders(), rules or ArmRules()
     one_word("objective", objective, ("weight", "area"))
     one_word("scheme", scheme, tuple(SCHEMES))
-    bounds = SCHEMES[scheme].bounds if bounds is None else bounds
-    check_bounds(bounds, duty, scheme)
+    bounds = bounds_checked(bounds, duty, scheme)
     if most_area is not None:
         require_number("most_area", most_area, "a number above zero is expected, in N m rad", above=0.0)
+    from_on, opens = max(duty.phi_0, duty.psi_0), SCHEMES[scheme][0].opens_by_piston
     bound = arm_drive(duty, cylinders, rules, *cylinders.sizes[-1], scheme)
-    asked = work_of(lambda psi: bound.at(psi=psi)["M_l2"], max(duty.phi_0, duty.psi_0), duty.psi_k)
-    area = area_of_duty(duty, asked)
+    asked = work_of(lambda psi: bound.at(psi=psi)["M_l2"], from_on, duty.psi_k)
+    # what is given over what is asked, from phi_0 on: by virtual work the integral of M_g2 is the force times the way of the cylinder
+    area: Measure = at("opens") * (at("length", psi=duty.psi_k) - at("length", psi=from_on)) - asked
     conditions = rules.conditions(duty, scheme) + ([] if most_area is None else [area <= most_area])
 
-    def search(bore: float, rod: float) -> Optimum:
-        longest = cylinders.longest * bore
-        return found_by(
-            arm_drive(duty, cylinders, rules, bore, rod, scheme),
-            minimise="steel" if objective == "weight" else area,
-            vary={**bounds, "S": (0.2 * longest, longest)},
-            subject_to=conditions,
-            over={"psi": (duty.psi_0, duty.psi_k)},
-            starts=starts,
-            seed=seed,
-        )
+    def swallowed(bore: float, rod: float) -> float:
+        return cylinders.swallowed(bore) if opens else cylinders.swallowed(bore, rod)
 
-    return DriveDesign("arm", objective, judged(cylinders, lambda bore, rod: swallowed(cylinders, scheme, bore, rod), asked, search))
+    def task(bore: float, rod: float) -> Mapping[str, Any]:
+        vary = {**bounds, "S": (0.2 * cylinders.longest * bore, cylinders.longest * bore)}
+        return dict(
+            machine=arm_drive(duty, cylinders, rules, bore, rod, scheme), minimise="steel" if objective == "weight" else area, vary=vary,
+            subject_to=conditions, over={"psi": (duty.psi_0, duty.psi_k)}, starts=starts, seed=seed,
+        )  # fmt: skip
 
-
-def swallowed(cylinders: DriveCylinders, scheme: str, bore: float, rod: float) -> float:
-    """Return the greatest work [J] of a cylinder over its longest stroke while it opens the arm."""
-    return cylinders.swallowed(bore) if SCHEMES[scheme].opens_by_piston else cylinders.swallowed(bore, rod)
+    return DriveDesign("arm", objective, judged(cylinders, swallowed, asked, task))
 
 
 def arm_drive(duty: DriveDuty, cylinders: DriveCylinders, rules: ArmRules, bore: float, rod: float, scheme: str = "a") -> DrivenArm:
     """Return an arm drive for a duty, its lengths those of the shipped one: what a search begins with."""
+    machine, _ = SCHEMES[scheme]
     numbers = {name: getattr(duty, name) for name in ("l_p", "K_A", "K_A1", "phi_0", "phi_k", "psi_0", "psi_k")}
-    given = {"eyes": rules.eyes}
-    given |= {} if SCHEMES[scheme].is_direct else {"r_6": rules.r_6, "delta": rules.delta}
-    given |= {"crank": rules.crank} if scheme == "b" else {}
+    own = () if issubclass(machine, DirectArmDrive) else ("r_6", "delta", "crank") if scheme == "b" else ("r_6", "delta")
+    given = {name: getattr(rules, name) for name in ("eyes", *own)}
     S = min(0.66, 0.9 * cylinders.longest * 0.1) * 10.0 * bore
-    return SCHEMES[scheme].machine(**cylinders.dimensions(bore, rod), **numbers, **given, S=S)
+    return machine(**cylinders.dimensions(bore, rod), **numbers, **given, S=S)
 
 
-def check_bounds(bounds: Mapping[str, tuple[float, float]], duty: DriveDuty, scheme: str = "a") -> None:
-    """Raise DefinitionError for bounds that leave something out or nothing in."""
-    for name in SCHEMES[scheme].bounds:
+def bounds_checked(
+    given: Mapping[str, tuple[float, float]] | None, duty: DriveDuty, scheme: str
+) -> Mapping[str, tuple[float, float]]:
+    """Return bounds, by default a scheme's; DefinitionError for those that leave something out or nothing in."""
+    machine, own = SCHEMES[scheme]
+    bounds = own if given is None else given
+    for name in own:
         ends = bounds.get(name)
         if ends is None or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
             raise DefinitionError(f"bounds[{name!r}] = {cited(ends)}: (low, high) is expected, low below high, in SI.")
-    lengths = ("r_2",) if SCHEMES[scheme].is_direct else ("r_4", "r_5")
+    lengths = ("r_2",) if issubclass(machine, DirectArmDrive) else ("r_4", "r_5")
     least_length = sum(bounds[name][0] for name in lengths)
     if least_length > duty.l_c:
         what = f"bounds: {' + '.join(lengths)} is {least_length:.4g} m at the least"
         raise DefinitionError(f"{what}, more than the boom, {duty.l_c:.4g} m; lower them.")
+    return bounds
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Compromise:
+class Compromise(NamedTuple):
     """An arm drive between its two criteria: mass [kg], area [N m rad]."""
 
     drive: Mechanism
@@ -468,18 +404,14 @@ def arm_drive_front(
 
     def compromise(objective: str, most_area: float | None) -> Compromise:
         drive = design_arm_drive(duty, one, objective=objective, most_area=most_area, **options).machine
-        return Compromise(drive, float(drive.at(psi=drive["psi_0"])["mass"]), area_of(drive))
+
+        def surplus(psi: Any) -> Any:
+            motion = drive.at(psi=psi)
+            return motion["opens"] * motion.ratio("length") - motion["M_l2"]
+
+        area = work_of(surplus, max(float(drive["phi_0"]), float(drive["psi_0"])), float(drive["psi_k"]))
+        return Compromise(drive, float(drive.at(psi=drive["psi_0"])["mass"]), area)
 
     light, small = compromise("weight", None), compromise("area", None)
     between = np.linspace(light.area, small.area, count)[1:-1]
     return [light, *(compromise("weight", float(area)) for area in between), small]
-
-
-def area_of(drive: Mechanism) -> float:
-    """Return an arm drive's area between M_g2 and M_l2 [N m rad], from phi_0 on."""
-
-    def surplus(psi: Any) -> Any:
-        motion = drive.at(psi=psi)
-        return motion["opens"] * motion.ratio("length") - motion["M_l2"]
-
-    return work_of(surplus, max(float(drive["phi_0"]), float(drive["psi_0"])), float(drive["psi_k"]))

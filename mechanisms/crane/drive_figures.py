@@ -11,13 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from linkage import Motion, draw
-from linkage.checks import require_one_design
-from linkage.errors import known_name
 from linkage.motion import Answer
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
 from linkage.units import deg, kN
 
+from ..paper import drawn
 from .arm_drive import DrivenArm
 from .boom_drive import BoomDrive
 from .drive_report import Movement, WorstMovement, angle_of, worst_movements
@@ -27,9 +26,7 @@ COUNT = 361
 
 def drive_figure(name: str, drive: BoomDrive | DrivenArm) -> Figure:
     """Return a figure of a drive, "moments" or "positions"; DefinitionError for an unknown name, a batch of designs."""
-    known_name("Figure", name, DRAWN)
-    require_one_design(drive.dimensions, f"{drive.plan.title}: a figure shows one design")
-    return DRAWN[name](drive)
+    return drawn(DRAWN, name, drive)
 
 
 # -- moments -----------------------------------------------------------------------------------------------
@@ -109,9 +106,15 @@ def positions(drive: BoomDrive | DrivenArm) -> Figure:
     motion = drive.working(COUNT)
     name, worst = angle_of(motion), worst_movements(motion)
     ends = [(float(motion.strokes[name][place]), text) for place, text in ((0, "start"), (-1, "end"))]
-    poses = joined_poses(sorted([*ends, *((float(each.least.strokes[name]), f"{each.movement.name}: least over") for each in worst)]))
+    poses: list[tuple[float, str]] = []  # those that are the same as one, with all its words
+    for at, text in sorted([*ends, *((float(each.least.strokes[name]), f"{each.movement.name}: least over") for each in worst)]):
+        if poses and at - poses[-1][0] < SAME:
+            poses[-1] = poses[-1][0], ", ".join(sorted({poses[-1][1], text}, key=lambda each: each not in ("start", "end")))
+        else:
+            poses.append((at, text))
     strokes: dict[str, Any] = {name: [at for at, _ in poses]}
-    shown, short = with_short_arm(drive).at(**strokes), isinstance(drive, DrivenArm)
+    short = isinstance(drive, DrivenArm)  # an arm drawn as long as it is would dwarf its drive
+    shown = (drive.replaced(l_p=min(SHORT_ARM, float(drive["l_p"]))) if short else drive).at(**strokes)
     sheet, cells = panels((4.6 * len(poses), 3.7 if short else 5.4), len(poses), rect=(0.005, 0.01, 0.99, 0.98), w_pad=0.05, h_pad=0.05)
     title = f"{title_of(drive)}{'; the arm is drawn short' if short else ''}"
     sheet.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
@@ -126,24 +129,8 @@ SHORT_ARM = 0.9
 """m: how long an arm is drawn, whose drive is meant."""
 
 
-def with_short_arm(drive: BoomDrive | DrivenArm) -> BoomDrive | DrivenArm:
-    """Return a drive whose arm does not dwarf it; a boom as it is."""
-    return drive.replaced(l_p=min(SHORT_ARM, float(drive["l_p"]))) if isinstance(drive, DrivenArm) else drive
-
-
 SAME = 0.2 * deg
 """Poses nearer to each other than this are one picture."""
-
-
-def joined_poses(poses: list[tuple[float, str]]) -> list[tuple[float, str]]:
-    """Return poses in ascending order, those that are the same as one with all its words."""
-    joined: list[tuple[float, str]] = []
-    for at, text in poses:
-        if joined and at - joined[-1][0] < SAME:
-            joined[-1] = joined[-1][0], ", ".join(sorted({joined[-1][1], text}, key=lambda each: each not in ("start", "end")))
-        else:
-            joined.append((at, text))
-    return joined
 
 
 DRAWN: Mapping[str, Callable[[BoomDrive | DrivenArm], Figure]] = MappingProxyType({"moments": moments, "positions": positions})

@@ -14,10 +14,12 @@ import numpy as np
 from linkage import Column, DefinitionError, Featured, Motion, least, most, ratio
 from linkage.checks import refuse
 from linkage.language import noted, said, translated
-from linkage.motion import Answer, Judge, MotionFunction, Question
+from linkage.motion import Answer, MotionFunction
 from linkage.program import FloatArray
 from linkage.units import show
 from linkage.verdict import Verdict
+
+from ..paper import answers_over
 
 SHORT = 1e-6
 """Of the greatest moment asked for: what is missing by less is met to rounding."""
@@ -118,11 +120,6 @@ def worst_movements(motion: Motion) -> list[WorstMovement]:
     refuse(motion._design_shape, f"A drive is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
     judged = [(each, answers_over(motion, [least(each.surplus), most(each.surplus), most(each.asked)])) for each in movements_of(motion)]
     return [WorstMovement(each, low, high, float(asked.value)) for each, (low, high, asked) in judged]
-
-
-def answers_over(motion: Motion, questions: list[Question]) -> list[Answer]:
-    """Return the answers to some questions over all that a motion covers."""
-    return Judge(motion.plan, motion.designs, [motion]).answers(questions)
 
 
 def drive_verdicts(motion: Motion) -> list[Verdict]:

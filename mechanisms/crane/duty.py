@@ -56,23 +56,14 @@ class Duty:
             positive(getattr(self, name), name)
         for name in ("H_p", "H_w", "payload", "c", "psi_0"):
             not_negative(getattr(self, name), name)
-        self._check_units()
-        self._check_ranges()
-        self._check_heights()
-
-    def _check_units(self) -> None:
         check_metres({name: getattr(self, name) for name in METRES})
         if self.psi_0 >= 180.0 * deg:
             least = f"psi_0 = {self.psi_0 / deg:.4g} deg is 180 deg or more, and the arm would never fold"
             raise DefinitionError(f"{least}; write psi_0={self.psi_0:.4g} * deg if these are degrees.")
-
-    def _check_ranges(self) -> None:
         if not LEAST_MOMENT <= self.M <= GREATEST_MOMENT:
             said = f"M = {self.M / kN:.4g} kN m lies outside the {LEAST_MOMENT / kN:.4g} to {GREATEST_MOMENT / kN:.4g} kN m"
             raise DefinitionError(f"{said} of the cranes that the regressions (2.5)-(2.9) are made of; give a moment among them, in N m.")
         refuse(not LOOSEST <= self.k_d <= DENSEST, f"k_d = {self.k_d:.4g}: the share of a stack that is wood is {LOOSEST} to {DENSEST}.")
-
-    def _check_heights(self) -> None:
         legal = f"the legal height, {self.H_max / mm:.0f} mm"
         refuse(self.H_k > self.H_max, f"The cab, H_k = {self.H_k / mm:.0f} mm, is higher than {legal}; lower the cab or raise H_max.")
         if self.h_s > self.H_max:

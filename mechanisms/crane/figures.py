@@ -12,13 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from linkage import draw, plot
-from linkage.checks import require_one_design
-from linkage.errors import known_name
 from linkage.pictures import style
 from linkage.pictures.sheet import panels, sheet
-from linkage.study.reach import Reach
 from linkage.units import kN
 
+from ..paper import drawn
 from .drive_figures import drive_figure as drive_figure
 from .drive_figures import one_movement
 from .drive_report import worst_movements
@@ -37,10 +35,7 @@ def crane_figure(name: str, crane: Crane | None = None) -> Figure:
     "positions" are those that its skeleton is laid out by, "moments" what boom and arm are given and asked for, "map" the load map,
     "reach" all that the tip reaches.
     """
-    shown = crane if crane is not None else Crane()
-    known_name("Figure", name, DRAWN)
-    require_one_design(shown.dimensions, f"{shown.plan.title}: a figure shows one design")
-    return DRAWN[name](shown)
+    return drawn(DRAWN, name, crane if crane is not None else Crane())
 
 
 # -- positions ---------------------------------------------------------------------------------------------
@@ -50,7 +45,9 @@ def positions(crane: CraneSkeleton) -> Figure:
     """Return the crane in the positions that its skeleton is laid out by, with the heights that it has to keep."""
     bare = CraneSkeleton(**{name: crane[name] for name in CraneSkeleton.plan.defaults})
     page, axes = panels((13.4, 9.6), 2, 2, rect=(0.005, 0.01, 0.99, 0.96), w_pad=0.06, h_pad=0.06)
-    page.suptitle(skeleton_title(crane), fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    lengths = ", ".join(f"{words} {float(crane[name]):.3f} m" for name, words in LENGTHS.items())
+    title = f"Crane {float(crane['L']):.4g} m, {float(crane['M']) / kN:.4g} kNm: {lengths}"
+    page.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
     most = float(crane["L"])
     top = float(crane["H_p"] + crane["h_0"] + crane["l_c"])
     for ax, (number, words) in zip(axes, POSITIONS.items(), strict=True):
@@ -62,12 +59,6 @@ def positions(crane: CraneSkeleton) -> Figure:
         draw(motion, ax=ax)
         ax.set_title(f"{number}: {words}", loc="left", fontsize=style.TEXT, color=style.INK, pad=6)
     return page
-
-
-def skeleton_title(crane: CraneSkeleton) -> str:
-    """Return a skeleton's numbers as a title."""
-    lengths = ", ".join(f"{words} {float(crane[name]):.3f} m" for name, words in LENGTHS.items())
-    return f"Crane {float(crane['L']):.4g} m, {float(crane['M']) / kN:.4g} kNm: {lengths}"
 
 
 LENGTHS: Mapping[str, str] = MappingProxyType({"l_c": "boom", "l_p": "arm", "l_t": "telescope", "h_0": "column"})
@@ -124,11 +115,6 @@ def shipped_map(crane: Crane) -> Figure:
     return plot(load_map(crane, np.linspace(-0.2 * far, top - 0.3, down), np.linspace(0.05 * far, far - 0.02, across)))
 
 
-def outline(ax: Axes, found: Reach) -> None:
-    """Draw the border of the reach."""
-    ax.add_collection(LineCollection(list(found.border), colors=style.INK, linewidths=1.4, capstyle="round", zorder=5.5), autolim=False)
-
-
 # -- the reach ---------------------------------------------------------------------------------------------
 
 
@@ -145,7 +131,8 @@ def reach_figure(crane: Crane) -> Figure:
     below, above = np.append(found.heights[0], middle), np.append(middle, found.heights[-1])
     strips = [[(a, below[k]), (b, below[k]), (b, above[k]), (a, above[k])] for k, a, b in found.spans]
     ax.add_collection(PolyCollection(strips, facecolors=REACHED, edgecolors=REACHED, linewidths=0.8, zorder=1.5), autolim=False)
-    outline(ax, found)
+    border = LineCollection(list(found.border), colors=style.INK, linewidths=1.4, capstyle="round", zorder=5.5)
+    ax.add_collection(border, autolim=False)
     surroundings(ax, crane)
     draw(crane.position(3), ax=ax, faint=True)
     draw(crane.position(1), ax=ax)

@@ -33,8 +33,8 @@ def load_map(
     The telescope stands where it carries most; the load pulls down the slope of the load case. `stability` is the moment about the
     column's axis that the vehicle stands [N m], the crane's own weights included; `rated` a load [N] that is not exceeded.
     """
-    slope = known_case(crane, case).slope
-    x, y = on_slope((0.0, -1.0), slope)
+    cases = crane.plan.of_kind(LoadCase)
+    x, y = on_slope((0.0, -1.0), cases[known_name("Load case", case, cases)].slope)
     limits: dict[str, Any] = {}
     if stability is not None:
         limits["stability"] = drive_force("phi") >= -float(positive(one_number(stability, "stability"), "stability"))
@@ -48,9 +48,3 @@ def load_map(
 def envelope(crane: Crane) -> Reach:
     """Return all that the tip of one crane reaches, its border and area; what stands in the way, vehicle and ground, is not looked at."""
     return load_map(crane, [0.0], [0.0]).search.reach
-
-
-def known_case(crane: Crane, case: str) -> LoadCase:
-    """Return a load case of a crane; DefinitionError for an unknown one."""
-    cases = crane.plan.of_kind(LoadCase)
-    return cases[known_name("Load case", case, cases)]

@@ -7,6 +7,7 @@ are only in the tests. The boom's moment is positive where it lowers the boom, t
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -55,13 +56,9 @@ def boom_bound(crane: CraneSkeleton, phi: ArrayLike, *, case: str = LIFTING) -> 
     at, limits = np.ravel(np.asarray(phi, float)), crane.limits_of()
     found = np.full(at.size, -np.inf)
     for t in limits["t"]:
-        found = np.maximum(found, worst_over(lowering(crane, at, t, case), *limits["psi"], at.size))
+        lowering = partial(lambda psi, t: -moments(crane, "phi", at, psi, t, case), t=t)
+        found = np.maximum(found, worst_over(lowering, *limits["psi"], at.size))
     return found.reshape(np.shape(phi))
-
-
-def lowering(crane: CraneSkeleton, phi: FloatArray, t: float, case: str) -> Curve:
-    """Return the moment that lowers the boom [N m] as a function of psi."""
-    return lambda psi: -moments(crane, "phi", phi, psi, t, case)
 
 
 def arm_bound(crane: CraneSkeleton, psi: ArrayLike, *, case: str = LIFTING) -> tuple[FloatArray, FloatArray]:

@@ -163,18 +163,15 @@ class CraneSkeleton(Mechanism):
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return the table of results without what hangs on the design alone."""
-        return [each for each in super().columns(motion) if each.name in self.strokes or self._moves(each.name)]
-
-    def _moves(self, name: str) -> bool:
-        """Return whether a column is one of a point or of an output that follows a stroke."""
-        point = name.removesuffix("_x").removesuffix("_y")
-        return not self.plan.reaches(name if name in self.plan.members else point).isdisjoint(self.strokes)
+        found = []
+        for each in super().columns(motion):
+            name = each.name if each.name in self.plan.members else each.name.removesuffix("_x").removesuffix("_y")
+            found += [each] if each.name in self.strokes or not self.plan.reaches(name).isdisjoint(self.strokes) else []
+        return found
 
     def rules(self, motion: Motion) -> list[Verdict]:
         """Return which of the source's conditions on the skeleton this design keeps, with what is to spare; of a batch nothing."""
-        if any(np.ndim(value) for value in self.dimensions.values()):
-            return []
-        return self.judged()
+        return [] if any(np.ndim(value) for value in self.dimensions.values()) else self.judged()
 
     @classmethod
     def conditions(cls, reading: str) -> dict[str, str]:
@@ -190,8 +187,18 @@ class CraneSkeleton(Mechanism):
         """Return the source's conditions on the skeleton of one design, (2.10)-(2.16)."""
         rules = self.conditions(self.reading)
         found = {name: float(value) for name, value in self.outputs(*self.errors, *rules).items()}
-        return [*(met(name, rule, found[name]) for name, rule in self.errors.items()),
-                *(kept(name, rule, found[name]) for name, rule in rules.items())]  # fmt: skip
+        verdicts = []
+        for name, rule in {**self.errors, **rules}.items():
+            value, words, ok = found[name], translated(rule), found[name] >= -CLOSE
+            if name in self.errors:  # a length that should be none [m]
+                ok = abs(value) <= CLOSE
+                text = said("{rule}: met.", rule=words) if ok else said("{rule}: off by {gap}.", rule=words, gap=show(value, "mm", "+.1f"))
+            elif ok:  # a margin [m] that is not negative
+                text = said("{rule}: {spare} to spare.", rule=words, spare=show(max(value, 0.0), "mm", ".1f"))
+            else:
+                text = said("{rule}: {missing} are missing.", rule=words, missing=show(-value, "mm", ".1f"))
+            verdicts.append(Verdict(name, bool(ok), text))
+        return verdicts
 
     def outputs(self, *names: str) -> dict[str, FloatArray]:
         """Return named outputs that hang on the design alone [SI], such as W_m, one value a design."""
@@ -214,20 +221,6 @@ class CraneSkeleton(Mechanism):
         poses = {1: (phi_k, psi_k, t_k), 2: (phi_0, max(phi_0, psi_0), t_0), 3: (phi_0, psi_0, t_0), 4: (90 * deg, psi_0, t_0)}
         phi, psi, t = poses[number]
         return self.at(phi=phi, psi=psi, t=t)
-
-
-def met(name: str, rule: str, gap: float) -> Verdict:
-    """Return whether a length that should be none [m] is none."""
-    if abs(gap) <= CLOSE:
-        return Verdict(name, True, said("{rule}: met.", rule=translated(rule)))
-    return Verdict(name, False, said("{rule}: off by {gap}.", rule=translated(rule), gap=show(gap, "mm", "+.1f")))
-
-
-def kept(name: str, rule: str, spare: float) -> Verdict:
-    """Return whether a margin [m] is not negative."""
-    if spare >= -CLOSE:
-        return Verdict(name, True, said("{rule}: {spare} to spare.", rule=translated(rule), spare=show(max(spare, 0.0), "mm", ".1f")))
-    return Verdict(name, False, said("{rule}: {missing} are missing.", rule=translated(rule), missing=show(-spare, "mm", ".1f")))
 
 
 POSITIONS: Mapping[int, str] = {

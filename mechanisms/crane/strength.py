@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkage import Force, ForceElement, Motion, PinForces, max_table, pin_forces, working_field
+from linkage import Force, ForceElement, Motion, PinForces, pin_forces, working_field
 from linkage.program import FloatArray
-from linkage.statics import table_text
 
 from .cylinders import drive_limits
 from .load_map import LOAD, TIP
@@ -58,8 +57,3 @@ def dragging(crane: Crane) -> tuple[Motion, FloatArray]:
     there = np.flatnonzero(np.isfinite(pull))
     chosen = there[np.linspace(0, there.size - 1, COUNT).astype(int)]
     return crane.replaced(Q=0.0).at(**{name: values[chosen] for name, values in strokes.items()}), pull[chosen]
-
-
-def strength_text(crane: Crane) -> str:
-    """Return the largest force of every pin in each load case as text."""
-    return "\n\n".join(f"{title[0].upper()}{title[1:]}\n{table_text(max_table(found))}" for title, found in strength(crane).items())

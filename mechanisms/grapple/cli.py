@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from dataclasses import fields
-from typing import Any
 
-from linkage import Motion
+import numpy as np
+
+from linkage import Mechanism
 from linkage.checks import refuse
-from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
+from linkage.cli.command import Command, figure_path, machine_arguments
 from linkage.cli.machines import find_like
-from linkage.cli.settings import check_argument, design, judged_over, motion_at, over_argument, pair, print_verdicts, si_value
-from linkage.cli.table import csv_argument, write_table
-from linkage.errors import known_name
+from linkage.cli.settings import design, judged_over, motion_at, print_verdicts
+from linkage.cli.table import write_table
 from linkage.language import said
 from linkage.units import show, shown_number, unit_sign
 
+from ..paper import duty_set, figure_arguments
 from . import FIGURES, figure
 from .design import OBJECTIVES
 from .design import design as design_for
@@ -40,19 +40,20 @@ class Gripping(Command):
             help="design one for a duty first: even, the least greatest M_g / M_1, or arm, the greatest arm at the largest stem; --set "
             "then changes a number of the duty, D_0=600mm",
         )  # fmt: skip
-        csv_argument(parser)
-        picture_argument(parser, "the figure")
-        parser.add_argument("--figure", choices=FIGURES, help="which figure (default: stems)")
-        motion_arguments(parser, 11)
-        over_argument(parser)
-        check_argument(parser)
+        figure_arguments(parser, FIGURES, "stems")
 
     def run(self, options: Namespace) -> int:
-        machine = named_grapple(options) if options.design is None else designed_grapple(options)
+        machine = design(find_like(options.machine, Grapple, "grapple"), options.settings) if options.design is None else designed(options)
         path = figure_path(options, machine, self.name)
         motion, over = motion_at(machine, options), judged_over(machine, options)
-        columns = machine.columns(motion)
-        print(f"{layout_words(motion)}\n{LEGEND}\n")
+        assert isinstance(machine, Grapple)
+        columns, first = machine.columns(motion), {name: np.ravel(motion[name])[0] for name in ("OA", "opening_angle", "closing_angle")}
+        places = {name: ", ".join(shown_number(float(part.ravel()[0]), "mm", ".2f") for part in motion[name]) for name in "OE"}
+        pins = ", ".join(f"{name} ({place}) {unit_sign('mm')}" for name, place in places.items())
+        arms = f"OA {show(float(first['OA']), 'mm', '.2f')}, OC {show(float(motion.inputs['rho']), 'mm', '.2f')}"
+        opened, closing = (show(float(first[name]), "deg", ".3f") for name in ("opening_angle", "closing_angle"))
+        print(said("{pins}, {arms}; opens by {opened}, closes by {closing}.", pins=pins, arms=arms, opened=opened, closing=closing))
+        print(f"{LEGEND}\n")
         write_table(columns, motion.reached.size, options.csv)
         code = print_verdicts(machine.verdicts(over=over), options)
         if path is not None:
@@ -61,35 +62,13 @@ class Gripping(Command):
         return code
 
 
-def named_grapple(options: Namespace) -> Grapple:
-    """Return the grapple that is named."""
-    machine = design(find_like(options.machine, Grapple, "grapple"), options.settings)
-    assert isinstance(machine, Grapple)
-    return machine
-
-
-def designed_grapple(options: Namespace) -> Grapple:
+def designed(options: Namespace) -> Mechanism:
     """Return the grapple designed for the duty of the options, and report its search."""
     refuse(options.machine != "grapple", f"{options.machine} is designed already; leave --design out, or the name.")
-    names, given = tuple(each.name for each in fields(Duty) if isinstance(each.default, float)), dict[str, Any]()
-    for text in options.settings:
-        name, value = pair(text, "--set", "D_0=600mm")
-        known_name("Number of the duty", name, names)
-        given[name] = si_value(value, KINDS.get(name, "length"), f"--set {name}")
-    found = design_for(Duty(**given), options.design)
+    found = design_for(duty_set(Duty, options, "D_0=600mm", KINDS), options.design)
     print(f"{found}\n")
-    assert isinstance(found.machine, Grapple)
     return found.machine
 
 
 KINDS = {"alpha": "angle", "beta": "angle", "opening": "", "dead_bores": "", "pressure": "pressure", "efficiency": ""}
 """What the numbers of a duty measure; those not named here are lengths."""
-
-
-def layout_words(motion: Motion) -> str:
-    """Return where the pins are and how far the lever goes."""
-    places = {name: ", ".join(shown_number(float(part.ravel()[0]), "mm", ".2f") for part in motion[name]) for name in "OE"}
-    opened, closing = (show(float(motion[name].ravel()[0]), "deg", ".3f") for name in ("opening_angle", "closing_angle"))
-    arms = f"OA {show(float(motion['OA'].ravel()[0]), 'mm', '.2f')}, OC {show(float(motion.inputs['rho']), 'mm', '.2f')}"
-    pins = ", ".join(f"{name} ({place}) {unit_sign('mm')}" for name, place in places.items())
-    return said("{pins}, {arms}; opens by {opened}, closes by {closing}.", pins=pins, arms=arms, opened=opened, closing=closing)

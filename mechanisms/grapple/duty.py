@@ -7,15 +7,15 @@ stems of 100 to 550 mm, 4 bores from 50 mm, 10 strokes from 100 mm
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields
+from math import inf
 from typing import Any, ClassVar, TypeAlias, final
 
 from hydraulics.cylinder import CylinderSize
 from hydraulics.inputs import efficient, in_pascals, one_number, positive
 from linkage import DefinitionError, Stroke, ref
 from linkage.checks import require
-from linkage.errors import cited
 from linkage.frozen import refuses_changes
 from linkage.quantities import Quantity, quantity
 from linkage.units import MPa, deg, mm
@@ -71,9 +71,18 @@ class Duty:
         self._check_stems()
         in_pascals(positive(self.pressure, "pressure"), "pressure")
         efficient(self.efficiency, "efficiency")
-        object.__setattr__(self, "cylinders", tuple((float(size.bore), float(size.rod)) for size in sizes_of(self.cylinders)))
-        object.__setattr__(self, "strokes", strokes_of(self.strokes))
-        object.__setattr__(self, "box", box_of(self.box))
+        rows = [numbers_of(row) for row in (self.cylinders if isinstance(self.cylinders, Iterable) else ())]
+        expected = "rows of bore and rod [m] are expected, such as [(0.05, 0.028)]"
+        require(rows and all(len(row) == 2 for row in rows), "Duty: cylinders", self.cylinders, expected)
+        for bore, rod in rows:
+            CylinderSize(bore, rod)
+        strokes, box = sorted(numbers_of(self.strokes)), numbers_of(self.box)
+        expected = "standard strokes [m] above zero are expected, such as [0.2, 0.25]"
+        require(strokes and 0.0 < strokes[0] <= strokes[-1] < inf, "Duty: strokes", self.strokes, expected)
+        expected = "left, right, low and high [m] are expected, such as (-0.15, 0.15, 0.3, 0.62)"
+        require(len(box) == 4 and box[0] < box[1] and box[2] < box[3], "Duty: box", self.box, expected)
+        for name, found in (("cylinders", map(tuple, rows)), ("strokes", strokes), ("box", box)):
+            object.__setattr__(self, name, tuple(found))
         require(callable(self.moment), "moment", self.moment, "a function of the diameter and the arm is expected, as assumed_moment")
 
     @classmethod
@@ -102,35 +111,12 @@ class Duty:
             raise DefinitionError(f"Duty: {said}; 1.2 to 1.4 (2.81).")
 
 
-def sizes_of(given: Any) -> list[CylinderSize]:
-    """Return cylinder sizes from rows of bore and rod [m]; DefinitionError for anything else."""
+def numbers_of(given: Any) -> list[float]:
+    """Return numbers [SI]; none for anything else."""
     try:
-        rows = [(float(bore), float(rod)) for bore, rod in given]
+        return [float(each) for each in given]
     except (TypeError, ValueError):
-        rows = []
-    require(rows, "Duty: cylinders", given, "rows of bore and rod [m] are expected, such as [(0.05, 0.028)]")
-    return [CylinderSize(bore, rod) for bore, rod in rows]
-
-
-def strokes_of(given: Any) -> tuple[float, ...]:
-    """Return strokes [m], ascending; DefinitionError for what are none."""
-    try:
-        found = sorted(float(each) for each in given)
-    except (TypeError, ValueError):
-        found = []
-    if not found or not 0.0 < found[0] <= found[-1] < float("inf"):
-        raise DefinitionError(f"Duty: strokes={cited(given)}: standard strokes [m] above zero are expected, such as [0.2, 0.25].")
-    return tuple(found)
-
-
-def box_of(given: Any) -> tuple[float, float, float, float]:
-    """Return the room for the pin E [m]; DefinitionError for anything else."""
-    try:
-        left, right, low, high = (float(each) for each in given)
-    except (TypeError, ValueError):
-        left = right = low = high = 0.0
-    require(left < right and low < high, "Duty: box", given, "left, right, low and high [m] are expected, such as (-0.15, 0.15, 0.3, 0.62)")
-    return left, right, low, high
+        return []
 
 
 def grapple_for(duty: Duty, **design: float) -> Grapple:

@@ -16,13 +16,12 @@ from matplotlib.patches import Circle, Polygon
 
 from hydraulics import Cylinder
 from linkage import Motion, ref
-from linkage.checks import require_one_design
-from linkage.errors import known_name
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
 from linkage.units import deg, mm
 
+from ..paper import drawn
 from .machine import Grapple
 from .report import GrappleState, gripping, moment_ratio, require_placed, travelling
 
@@ -36,10 +35,7 @@ THICK = 0.055
 
 def figure(name: str, grapple: Grapple | None = None) -> Figure:
     """Return a figure of a grapple, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch."""
-    shown = grapple if grapple is not None else Grapple()
-    known_name("Figure", name, DRAWN)
-    require_one_design(shown.dimensions, f"{shown.plan.title}: a figure shows one design")
-    return DRAWN[name](shown)
+    return drawn(DRAWN, name, grapple if grapple is not None else Grapple())
 
 
 # -- three positions with the rosette of stems -------------------------------------------------------------
@@ -49,9 +45,18 @@ def stems(grapple: Grapple) -> Figure:
     """Return the grapple open, at D_0 and at d_0, both levers, with the rosette of stems resting on T."""
     way = travelling(require_placed(grapple.at(theta=0.0)), 41)
     start, end = (float(way.strokes["theta"][place]) for place in (0, -1))
-    left, right, low, high = _room(way)
+    half = float(way.inputs["D_0"]) / 2.0  # a box that has room for both levers over their whole way [m]
+    pad = 0.16 * half
+    right = max(float(np.abs(way.x(point)).max()) for point in "ACEO") + 2.0 * pad
+    low = min(-half, *(float(way.y(point).min()) for point in "AC")) - 1.8 * pad
+    high = max(half, *(float(way.y(point).max()) for point in ("C", "E", rod_end(way)))) + 2.2 * pad
+    left = -right
     page, axes = panels((14.4, 1.2 + 4.6 * (high - low) / (right - left)), 3, rect=(0.005, 0.0, 0.99, 0.985), w_pad=0.06, h_pad=0.06)
-    page.suptitle(_stems_title(grapple), fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    named, drawn_in = (("bore", "bore"), ("rod", "rod"), ("stroke", "S")), grapple.at(theta=0.0)
+    size = ", ".join(f"{word} {float(drawn_in.value(ref(name))) / mm:.0f}" for word, name in named)
+    stems_held = f"{float(grapple['d_0']) / mm:.0f} to {float(grapple['D_0']) / mm:.0f} mm"
+    title = f"The grapple and its stems, {stems_held}; cylinder, mm: {size}"
+    page.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
     for ax, theta, title in zip(axes, (start, 0.0, end), ("open", "largest stem", "smallest stem"), strict=True):
         motion = grapple.at(theta=theta)
         ax.set(xlim=(left, right), ylim=(low, high))
@@ -68,23 +73,6 @@ def stems(grapple: Grapple) -> Figure:
         text = f"{title}{held}: theta = {theta / deg:.1f} deg".replace("-", "\N{MINUS SIGN}")
         ax.set_title(text, loc="left", fontsize=style.TITLE, color=style.INK, pad=8)
     return page
-
-
-def _stems_title(grapple: Grapple) -> str:
-    motion = grapple.at(theta=0.0)
-    named = (("bore", "bore"), ("rod", "rod"), ("stroke", "S"))
-    size = ", ".join(f"{word} {float(motion.value(ref(name))) / mm:.0f}" for word, name in named)
-    return f"The grapple and its stems, {float(grapple['d_0']) / mm:.0f} to {float(grapple['D_0']) / mm:.0f} mm; cylinder, mm: {size}"
-
-
-def _room(way: Motion) -> tuple[float, float, float, float]:
-    """Return a box that has room for both levers over their whole way [m]."""
-    half = float(way.inputs["D_0"]) / 2.0
-    pad = 0.16 * half
-    wide = max(float(np.abs(way.x(point)).max()) for point in "ACEO") + 2.0 * pad
-    low = min(-half, *(float(way.y(point).min()) for point in "AC")) - 1.8 * pad
-    high = max(half, *(float(way.y(point).max()) for point in ("C", "E", rod_end(way)))) + 2.2 * pad
-    return -wide, wide, low, high
 
 
 def rod_end(motion: Motion) -> str:

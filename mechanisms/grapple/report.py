@@ -11,10 +11,12 @@ from hydraulics import LiftCircuit
 from linkage import Column, DefinitionError, Force, Motion, least, most, pin_force, ref
 from linkage.checks import refuse, require_whole
 from linkage.language import said
-from linkage.motion import Answer, Judge, MotionFunction, Question, require_motion
+from linkage.motion import Answer, MotionFunction, require_motion
 from linkage.program import FloatArray
 from linkage.units import show, shown_number
 from linkage.verdict import Verdict
+
+from ..paper import answers_over
 
 ADVISED = (1.2, 1.4)
 """Opening angle over the release angle (2.81)."""
@@ -132,10 +134,7 @@ def grapple_verdicts(motion: Motion) -> list[Verdict]:
     words = unplaced_words(motion)
     if words:
         return [Verdict("cylinder", False, words)]
-    return [
-        moment_verdict(motion), passing_verdict(motion), room_verdict(motion), opening_verdict(motion), stroke_verdict(motion),
-        hinge_verdict(motion),
-    ]  # fmt: skip
+    return [moment_verdict(motion), *way_verdicts(motion), opening_verdict(motion), stroke_verdict(motion), hinge_verdict(motion)]
 
 
 def crosshead_verdicts(motion: Motion) -> list[Verdict]:
@@ -150,11 +149,6 @@ def crosshead_verdicts(motion: Motion) -> list[Verdict]:
     )  # fmt: skip
     standing = Verdict("room", room >= needed, f"{text}{remedy}.")
     return [moment_verdict(motion), standing, opening_verdict(motion), stroke_verdict(motion), hinge_verdict(motion)]
-
-
-def answers_over(motion: Motion, questions: list[Question]) -> list[Answer]:
-    """Return the answers to some questions over all that a motion covers."""
-    return Judge(motion.plan, motion.designs, [motion]).answers(questions)
 
 
 def stem_at(motion: Motion, answer: Answer) -> str:
@@ -175,27 +169,25 @@ def moment_verdict(motion: Motion) -> Verdict:
     return Verdict("moment", low >= 1.0 - MET, f"{text}{remedy}.", answer=found[0])
 
 
-def passing_verdict(motion: Motion) -> Verdict:
-    """Return whether the cylinder passes the hinge's bush on its whole way. (2.93)"""
-    (found,) = answers_over(travelling(motion), [least(MotionFunction(lambda each: GrappleState(each).H, "length"))])
-    room, needed = float(found.value), float(motion.inputs["bush"] + motion.inputs["rod"] / 2.0)
+def way_verdicts(motion: Motion) -> list[Verdict]:
+    """Return whether the cylinder passes the hinge's bush on its whole way (2.93), and keeps off every stem that is held."""
+    (passing,) = answers_over(travelling(motion), [least(MotionFunction(lambda each: GrappleState(each).H, "length"))])
+    (beside,) = answers_over(gripping(motion), [least("room")])
+    needed = {"passing": float(motion.inputs["bush"] + motion.inputs["rod"] / 2.0), "room": float(motion.inputs["bore"] / 2.0)}
+    by = {
+        name: {
+            "room": show(float(found.value), "mm", ".1f"), "theta": show(float(found.strokes["theta"]), "deg", ".1f"),
+            "needed": show(needed[name], "mm", ".1f"),
+        } for name, found in (("passing", passing), ("room", beside))
+    }  # fmt: skip
     text = said(
-        "the cylinder's line passes the hinge at {room} at the least, at theta = {theta}; bush and rod need {needed}.",
-        room=show(room, "mm", ".1f"), theta=show(float(found.strokes["theta"]), "deg", ".1f"), needed=show(needed, "mm", ".1f"),
+        "the cylinder's line passes the hinge at {room} at the least, at theta = {theta}; bush and rod need {needed}.", **by["passing"]
     )  # fmt: skip
-    return Verdict("passing", room >= needed - MET, text, answer=found)
-
-
-def room_verdict(motion: Motion) -> Verdict:
-    """Return whether the cylinder keeps off every stem that is held."""
-    (found,) = answers_over(gripping(motion), [least("room")])
-    room, needed = float(found.value), float(motion.inputs["bore"] / 2.0)
-    remedy = "" if room >= needed else said(": it runs into the stem; give a greater hinge_gap or another bend")
-    text = said(
-        "the cylinder's axis keeps {room} off the stems, at theta = {theta} the least; half its bore is {needed}",
-        room=show(room, "mm", ".1f"), theta=show(float(found.strokes["theta"]), "deg", ".1f"), needed=show(needed, "mm", ".1f"),
-    )  # fmt: skip
-    return Verdict("room", room >= needed, f"{text}{remedy}.", answer=found)
+    passes = Verdict("passing", float(passing.value) >= needed["passing"] - MET, text, answer=passing)
+    is_free = float(beside.value) >= needed["room"]
+    text = said("the cylinder's axis keeps {room} off the stems, at theta = {theta} the least; half its bore is {needed}", **by["room"])
+    remedy = "" if is_free else said(": it runs into the stem; give a greater hinge_gap or another bend")
+    return [passes, Verdict("room", is_free, f"{text}{remedy}.", answer=beside)]
 
 
 def opening_verdict(motion: Motion) -> Verdict:

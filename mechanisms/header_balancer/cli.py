@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from pathlib import Path
 
 from linkage import DefinitionError, Motion
 from linkage.checks import refuse
@@ -18,11 +17,15 @@ from . import FIGURES, figure
 from .charge import HEADERS, charge_for
 from .following import kgf_cm2_text, over_following, reaction_columns
 from .machine import HeaderBalancer
-from .measured import Deviation, deviations, read_measured
+from .measured import deviations, read_measured
 from .settings import setting_table, with_header
 
 REACTION = {1: "2", 2: "4", 3: "5"}
 """The figure that shows the reaction of each header; without one it is drawn like header 2's."""
+ABOUT_TABLE = """\
+Charge pressures at the horizon, gauge, for each header and each wanted reaction of all shoes; the least reaction that is left
+moving down over the following range; safe: 1 where the shoe never lifts off. A dash: the header or its line cannot give it.
+"""
 WANTED = tuple(step * 100.0 * kgf for step in range(9))
 
 
@@ -52,21 +55,18 @@ class Balance(Command):
         motion = machine.at(h=machine.strokes["h"].start)
         compared = deviations(motion, read_measured(options.measured)) if options.measured else []
         if options.table:
-            print_settings(machine, options)
+            columns = setting_table(WANTED, changes(machine.plan, options))
+            print(ABOUT_TABLE)
+            write_table(columns, len(columns[0].values), options.csv)
         if not options.table or options.header or options.pressure or options.reaction or compared:
             print_header(motion, options)
             code = print_verdicts([*machine.verdicts(over=over), *(each.verdict for each in compared)], options)
-        if path is not None:
-            draw_figure(machine, options, path, compared)
+        if path is not None:  # figure 6 of the machine as it is shipped shows the improved one
+            number = options.figure or ("7" if compared else REACTION.get(options.header, "4"))
+            as_shipped = type(machine) is HeaderBalancer and machine.dimensions in (HeaderBalancer().dimensions, with_header(1).dimensions)
+            figure(number, None if number[0] == "6" and as_shipped else machine, compared).savefig(path)
+            print(path)
         return code
-
-
-def print_settings(machine: HeaderBalancer, options: Namespace) -> None:
-    """Print the table of all headers, which is about none of them alone."""
-    columns = setting_table(WANTED, changes(machine.plan, options))
-    print("Charge pressures at the horizon, gauge, for each header and each wanted reaction of all shoes; the least reaction that is left")
-    print("moving down over the following range; safe: 1 where the shoe never lifts off. A dash: the header or its line cannot give it.\n")
-    write_table(columns, len(columns[0].values), options.csv)
 
 
 def print_header(motion: Motion, options: Namespace) -> None:
@@ -112,11 +112,3 @@ def value(text: str, kind: str, option: str) -> float:
     if not any(letter.isalpha() for letter in text.replace("e", "").replace("E", "")):
         raise DefinitionError(f"{option} {text}: say the unit too, such as 40kgf_cm2, 39bar or 300kgf.")
     return number
-
-
-def draw_figure(machine: HeaderBalancer, options: Namespace, path: Path, compared: list[Deviation]) -> None:
-    """Draw the figure that the options mean; figure 6 of the machine as it is shipped shows the improved one."""
-    number = options.figure or ("7" if compared else REACTION.get(options.header, "4"))
-    as_shipped = type(machine) is HeaderBalancer and machine.dimensions in (HeaderBalancer().dimensions, with_header(1).dimensions)
-    figure(number, None if number[0] == "6" and as_shipped else machine, compared).savefig(path)
-    print(path)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 
-from linkage import Column, DefinitionError, Motion, max_table, pin_forces
-from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
+from linkage import DefinitionError, max_table, pin_forces
+from linkage.cli.command import Command, figure_path, machine_arguments
 from linkage.cli.machines import find_like
-from linkage.cli.settings import check_argument, design, judged_over, motion_at, over_argument, print_verdicts
-from linkage.cli.table import csv_argument, write_table
+from linkage.cli.settings import design, judged_over, motion_at, print_verdicts
+from linkage.cli.table import write_table
 from linkage.statics import table_text
 
+from ..paper import figure_arguments
 from . import FIGURES, figure
 from .machine import CATEGORIES, ThreePointHitch
 from .report import capacity_columns, pressure_words
@@ -34,12 +35,7 @@ class Hitch(Command):
         parser.add_argument("--zones", action="store_true", help="the zones over all admissible settings instead (figure 2)")
         parser.add_argument("--vertical", action="store_true", help="the upper link's length for a vertical mast at every stroke too")
         parser.add_argument("--pins", action="store_true", help="the largest force of every pin too, its direction and pose")
-        csv_argument(parser)
-        picture_argument(parser, "the figure")
-        parser.add_argument("--figure", choices=FIGURES, help="which figure (default: capacity, with --zones zones)")
-        motion_arguments(parser, 11)
-        over_argument(parser)
-        check_argument(parser)
+        figure_arguments(parser, FIGURES, "capacity, with --zones zones")
 
     def run(self, options: Namespace) -> int:
         machine = hitch_of(options)
@@ -48,7 +44,9 @@ class Hitch(Command):
         if options.category:
             print(f"{CATEGORIES[options.category]}.\n")
         if options.zones:
-            columns = zone_table(machine, motion)
+            capacity, tilt = capacity_zone(machine, S=motion.strokes["S"]), tilt_zone(machine, S=motion.strokes["S"])
+            print(*(f"{remark}\n\n" for remark in dict.fromkeys((*capacity.remarks, *tilt.remarks))), sep="", end="")
+            columns = zone_columns(capacity, tilt)
         else:
             eta = float(motion.inputs["circuit.mechanical_efficiency"])
             print(f"{pressure_words(motion)}, eta {eta:.4g}. Pressures are gauge.\n{LEGEND}\n")
@@ -75,11 +73,3 @@ def hitch_of(options: Namespace) -> ThreePointHitch:
     machine = design(CATEGORIES[options.category].machine if options.category else found, options.settings)
     assert isinstance(machine, ThreePointHitch)
     return machine
-
-
-def zone_table(machine: ThreePointHitch, over: Motion) -> list[Column]:
-    """Return the table of the zones, and report what they leave out."""
-    capacity, tilt = capacity_zone(machine, S=over.strokes["S"]), tilt_zone(machine, S=over.strokes["S"])
-    for remark in dict.fromkeys((*capacity.remarks, *tilt.remarks)):
-        print(f"{remark}\n")
-    return zone_columns(capacity, tilt)

@@ -15,8 +15,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from linkage import Motion, draw
-from linkage.checks import require_one_design
-from linkage.errors import known_name
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
@@ -24,6 +22,7 @@ from linkage.reports import closely
 from linkage.study import Zone
 from linkage.units import deg, g0, kN, mm
 
+from ..paper import drawn
 from .capacity import at_hitch_points, behind, capacity, weakest
 from .machine import ThreePointHitch
 from .tractor import largest_mass, tipping_mass
@@ -34,10 +33,7 @@ COUNT = 101
 
 def figure(name: str, hitch: ThreePointHitch | None = None) -> Figure:
     """Return a figure of a hitch, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch."""
-    shown = hitch if hitch is not None else ThreePointHitch()
-    known_name("Figure", name, DRAWN)
-    require_one_design(shown.dimensions, f"{shown.plan.title}: a figure shows one design")
-    return DRAWN[name](shown)
+    return drawn(DRAWN, name, hitch if hitch is not None else ThreePointHitch())
 
 
 # -- figure 2 ----------------------------------------------------------------------------------------------

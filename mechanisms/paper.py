@@ -1,0 +1,54 @@
+"""What the machines of the papers share: their commands' options, figures by name, answers over one motion."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields
+from typing import TYPE_CHECKING, TypeVar
+
+from linkage import Mechanism, Motion
+from linkage.checks import require_one_design
+from linkage.cli.command import motion_arguments, picture_argument
+from linkage.cli.settings import check_argument, over_argument, pair, si_value
+from linkage.cli.table import csv_argument
+from linkage.errors import known_name
+from linkage.motion import Answer, Judge, Question
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Machine = TypeVar("Machine", bound=Mechanism)
+Duty = TypeVar("Duty")
+
+
+def figure_arguments(parser: ArgumentParser, figures: Sequence[str], default: str) -> None:
+    """Declare what a command on one machine takes that prints its table and its verdicts and draws one of its figures."""
+    csv_argument(parser)
+    picture_argument(parser, "the figure")
+    parser.add_argument("--figure", choices=figures, help=f"which figure (default: {default})")
+    motion_arguments(parser, 11)
+    over_argument(parser)
+    check_argument(parser)
+
+
+def duty_set(duty: type[Duty], options: Namespace, example: str, kinds: Mapping[str, str]) -> Duty:
+    """Return the duty that `--set` means: its numbers with their units; what they measure by their names, else they are lengths."""
+    names, given = tuple(each.name for each in fields(duty) if isinstance(each.default, float)), dict[str, float]()  # type: ignore[arg-type]
+    for text in options.settings:
+        name, value = pair(text, "--set", example)
+        known_name("Number of the duty", name, names)
+        given[name] = si_value(value, kinds.get(name, "length"), f"--set {name}")
+    return duty(**given)
+
+
+def drawn(figures: Mapping[str, Callable[[Machine], Figure]], name: str, machine: Machine) -> Figure:
+    """Return a figure of a machine by its name; DefinitionError for an unknown name, a batch of designs."""
+    known_name("Figure", name, figures)
+    require_one_design(machine.dimensions, f"{machine.plan.title}: a figure shows one design")
+    return figures[name](machine)
+
+
+def answers_over(motion: Motion, questions: Sequence[Question]) -> list[Answer]:
+    """Return the answers to some questions over all that a motion covers."""
+    return Judge(motion.plan, motion.designs, [motion]).answers(questions)

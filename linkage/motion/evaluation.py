@@ -33,6 +33,7 @@ from .requests import (
     keeps_digits,
     known_bound,
     nearness_of,
+    of_all,
     other_law_error,
 )
 from .strokes import at_values, float_array, known_strokes
@@ -208,6 +209,18 @@ def assumed_of(plan: Plan, requests: Sequence[Request]) -> list[Node]:
     return [node for each in requests for node in each.notes(plan).assumed]
 
 
+def watch_of(plan: Plan, requests: Sequence[Request]) -> tuple[int, list[int], Kernel]:
+    """Return how many of its outputs are assumptions, and gaps of each request; and the kernel.
+
+    Its outputs are the assumptions, what tells whether there is a place, how near each request is, and the gaps of each.
+    """
+    assumed = assumed_of(plan, requests)
+    near = [nearness_of(plan, each) for each in requests]
+    gaps = [each.gaps(plan) for each in requests]
+    kernel = Kernel([*assumed, *plan.trace.placeable(members_behind(plan, requests)), *near, *(node for each in gaps for node in each)])
+    return len(assumed), list(map(len, gaps)), kernel
+
+
 @final
 @dataclass(frozen=True)
 class Evaluation:
@@ -239,18 +252,6 @@ class Evaluation:
         for (first, _), each in zip(self.program.parts, self.requests, strict=True):
             yield first, each
 
-    def _watch(self, plan: Plan) -> tuple[int, list[int], Kernel]:
-        """Return how many of its outputs are assumptions, and gaps of each request; and the kernel.
-
-        Its outputs are the assumptions, what tells whether there is a place, how near each request is, and the gaps of each.
-        """
-        assumed = assumed_of(plan, self.requests)
-        near = [nearness_of(plan, each) for each in self.requests]
-        gaps = [each.gaps(plan) for each in self.requests]
-        placed = plan.trace.placeable(members_behind(plan, self.requests))
-        kernel = Kernel([*assumed, *placed, *near, *(node for each in gaps for node in each)])
-        return len(assumed), list(map(len, gaps)), kernel
-
     def _target(self, rows: int, out: FloatArray | None) -> FloatArray | None:
         """Return where the caller wants the results, shape (rows, designs, poses)."""
         grid = self.grid
@@ -263,7 +264,7 @@ class Evaluation:
     def _settle(self, place: FloatArray) -> None:
         """Put right the poses where a guard tells: place them to rounding, refuse or mask those out of reach or singular."""
         plan = self.grid.plan
-        assumed, gaps, kernel = plan.made(("guards", tuple(each.key for each in self.requests)), self._watch)
+        assumed, gaps, kernel = of_all("guards", plan, self.requests, watch_of)
         worst: dict[int, Conditioning] = {}
         for band, part in grid_blocks(*self.grid.size):
             inputs = {name: part_of_input(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}

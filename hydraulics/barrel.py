@@ -16,20 +16,7 @@ from linkage.frozen import refuses_changes
 from linkage.language import noted
 from linkage.loads import Glyph, Halves, Load, Parameter, Poses, Rates, TwoPoint
 from linkage.loads.point import DOWN, on_slope, vector
-from linkage.quantities import (
-    Axes,
-    Member,
-    Number,
-    Operand,
-    Quantity,
-    Reference,
-    Variable,
-    Where,
-    label,
-    name_of,
-    quantity,
-    spelled,
-)
+from linkage.quantities import Axes, Member, Number, Operand, Quantity, Reference, Variable, Where, label, name_of, quantity, spelled
 from linkage.steps import Link, Point
 from linkage.units import mm
 from linkage.vectors import Vec

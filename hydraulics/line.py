@@ -22,40 +22,14 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, UntracedError, one_word, unwarned
 from linkage.frozen import refuses_changes
 from linkage.language import said, with_and
-from linkage.loads import (
-    Acting,
-    ActingKeywords,
-    Case,
-    Declared,
-    ForceElement,
-    Loads,
-    Parameter,
-    Poses,
-    Share,
-    Tie,
-    require_poses,
-    situation_of,
-)
-from linkage.loads.element import Formulas
+from linkage.loads import Acting, ActingKeywords, Case, Loads, situation_of
+from linkage.loads.element import Declared, ForceElement, Formulas, Parameter, Poses, Share, Tie, require_poses
 from linkage.motion import Answer, HasVerdicts, Judge, Motion, greatest, lowest
 from linkage.plan import Mask
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference
-from linkage.statics import (
-    PROBE,
-    AnyMotion,
-    direction_at,
-    elements_of,
-    held_in_case,
-    is_steady,
-    member_limits,
-    member_thrust,
-    plan_of,
-    pull_direction,
-    pulling,
-    pump_thrust,
-    same,
-)
+from linkage.statics import PROBE, AnyMotion, elements_of, held_in_case, member_limits, member_thrust, plan_of, pump_thrust, same
+from linkage.statics.pull import direction_at, is_steady, pull_direction, pulling
 from linkage.units import show
 
 from .cylinder import RamSize

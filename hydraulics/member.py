@@ -24,62 +24,28 @@ from linkage.checks import refuse
 from linkage.errors import DefinitionError, cited, known_name, unknown, unwarned
 from linkage.frozen import refuses_changes
 from linkage.language import noted, said, with_and
-from linkage.loads import (
+from linkage.loads import Acting, ActingKeywords, Case, DrawnAs, Loads, TwoPoint, situation_of, takes_situation
+from linkage.loads.element import (
     AT_REST,
     DIRECTIONS,
     FRICTIONLESS,
-    Acting,
-    ActingKeywords,
-    Case,
+    UNBOUNDED,
     Declared,
-    DrawnAs,
     ForceElement,
+    Formulas,
     Load,
-    Loads,
     Parameter,
     Poses,
     Push,
     Rates,
     Share,
     Tie,
-    TwoPoint,
     require_poses,
-    situation_of,
-    takes_situation,
 )
-from linkage.loads.element import UNBOUNDED, Formulas
-from linkage.motion import (
-    Column,
-    Condition,
-    Constraint,
-    HasVerdicts,
-    Judge,
-    Motion,
-    Question,
-    Request,
-    SmoothPiece,
-    Tabled,
-    at,
-    greatest,
-    least,
-    lowest,
-    most,
-    require_motion,
-)
+from linkage.motion import Column, HasVerdicts, Judge, Motion, Question, Request, SmoothPiece, Tabled, greatest, lowest, require_motion
+from linkage.motion.measures import Condition, Constraint, at, least, most
 from linkage.plan import Mask, Plan
-from linkage.quantities import (
-    InnerQuantity,
-    Member,
-    Number,
-    Quantity,
-    Reference,
-    Variable,
-    body_name,
-    distance,
-    label,
-    name_of,
-    quantity,
-)  # fmt: skip
+from linkage.quantities import InnerQuantity, Member, Number, Quantity, Reference, Variable, body_name, distance, label, name_of, quantity
 from linkage.statics import AnyMotion, LawRequest, applied_elements, case_words, elements_of, held_in_case, member_thrust, same
 from linkage.units import show, shown_number, unit_sign
 from linkage.verdict import Remark, Verdict

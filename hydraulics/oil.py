@@ -25,34 +25,11 @@ from linkage.checks import refuse, require_type
 from linkage.errors import DefinitionError, cited, unknown
 from linkage.frozen import FrozenDict, refuses_changes
 from linkage.language import said
-from linkage.loads import (
-    Acting,
-    ActingKeywords,
-    Declared,
-    ForceElement,
-    Parameter,
-    Poses,
-    Tie,
-    situation_of,
-    takes_situation,
-)
+from linkage.loads import Acting, ActingKeywords, Declared, ForceElement, Parameter, Poses, Tie, situation_of, takes_situation
 from linkage.loads.element import UNBOUNDED, Formulas
 from linkage.motion import Condition, Judge, Motion, Question, at, least, most
 from linkage.plan import require_kinds
-from linkage.quantities import (
-    AtPose,
-    Distance,
-    Member,
-    Number,
-    Quantity,
-    Reference,
-    Stroke,
-    Variable,
-    Where,
-    label,
-    name_of,
-    quantity,
-)
+from linkage.quantities import AtPose, Distance, Member, Number, Quantity, Reference, Stroke, Variable, Where, label, name_of, quantity
 from linkage.quantities.quantity import plain
 from linkage.statics import AnyMotion, LawRequest, each_once, held_in_case, plan_of, same
 from linkage.units import require_measure, show

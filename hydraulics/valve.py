@@ -19,15 +19,7 @@ from linkage.checks import refuse
 from linkage.errors import DefinitionError, cited, known_name, unknown
 from linkage.frozen import refuses_changes
 from linkage.language import said
-from linkage.loads import (
-    Acting,
-    ActingKeywords,
-    Case,
-    Parameter,
-    Poses,
-    situation_of,
-    takes_situation,
-)  # fmt: skip
+from linkage.loads import Acting, ActingKeywords, Case, Parameter, Poses, situation_of, takes_situation
 from linkage.motion import Condition, Judge, Question, at, most
 from linkage.plan import Plan
 from linkage.quantities import Member, Reference, label, name_of

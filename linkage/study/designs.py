@@ -120,9 +120,9 @@ def design_array(machine: Mechanism, name: str, value: object, least: int) -> Ar
 
 def check_once(machine: Mechanism, names: Mapping[str, object]) -> None:
     """Raise DefinitionError where two names stand for one dimension."""
-    seen: dict[str, str] = {}
+    seen, spellings = dict[str, str](), machine.plan.table.spellings
     for name in names:
-        for owner in machine._owners(name):
+        for owner in {spellings[each][0] for each in (name, f"{name}.x", f"{name}.y") if each in spellings}:
             if owner in seen:
                 raise DefinitionError(f"{machine.plan.title}: {seen[owner]} and {name} both set {owner}; leave one of them out.")
             seen[owner] = name

@@ -14,14 +14,14 @@ from ..motion import Planes
 from ..units import g0
 from ..verdict import Verdict
 from .calculation import has_loads
-from .content import Block, ListBlock, Paragraph, Section, TableBlock
+from .content import Block, Section, TableBlock
 from .run import ReportSubject
 
 
 def assumptions_section(subject: ReportSubject) -> Section:
     """Return the section of what holds for all numbers of a report, and of what none of them says."""
-    beside = Paragraph(said("Not looked at, but for what a rule above judges:"))
-    return Section(said("Assumptions"), (ListBlock(tuple(assumed(subject))), beside, ListBlock(tuple(left_open(subject)))))
+    beside = said("Not looked at, but for what a rule above judges:")
+    return Section(said("Assumptions"), (tuple(assumed(subject)), beside, tuple(left_open(subject))))
 
 
 def assumed(subject: ReportSubject) -> Iterator[str]:
@@ -109,7 +109,7 @@ def standards_section(subject: ReportSubject, verdicts: Iterable[Verdict]) -> Se
     cite(subject.machine.__doc__ or "", said("description of the machine"))
     if with_weight(subject):
         uses.setdefault(GRAVITY, []).append(said("standard acceleration of gravity"))
-    blocks: tuple[Block, ...] = (Paragraph(said("No rule and no input of this report cites a standard.")),)
+    blocks: tuple[Block, ...] = (said("No rule and no input of this report cites a standard."),)
     if uses:
         rows = tuple((name, "; ".join(dict.fromkeys(uses[name]))) for name in sorted(uses))
         blocks = (TableBlock(said("Standards"), (said("standard"), said("used for")), rows, "lm"),)

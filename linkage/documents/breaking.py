@@ -39,7 +39,14 @@ def formula_pieces(box: Box, room: float, depth: int = 0) -> list[Box]:
         cut = opened(cut[0])
     if len(cut) == 1:
         return cut
-    return filled_pieces([piece for each in cut for piece in formula_pieces(each, room, depth + 1)], room)
+    found: list[Box] = []
+    for part in (piece for each in cut for piece in formula_pieces(each, room, depth + 1)):
+        longer = row_of(found[-1], part) if found else part
+        if found and rough_width(longer) <= room:
+            found[-1] = longer
+        else:
+            found.append(part)
+    return found
 
 
 def cuts(box: Box) -> list[Box]:
@@ -53,37 +60,34 @@ def cuts(box: Box) -> list[Box]:
     parts: list[list[Box]] = [[]]
     for part in box.parts:
         parts[-1].append(part)
-        if isinstance(part, Sign) and part.text == ",":
+        if part == Sign("operator", ","):
             parts.append([])
     return [BoxRow(tuple(each)) for each in parts if each]
 
 
 def opened(box: Box) -> list[Box]:
     """Return what a box is made of, so that a line may break in it; one that cannot be opened whole."""
-    if isinstance(box, Fraction):
-        return [in_parentheses(box.over), BoxRow((Sign("operator", "/"), in_parentheses(box.under)))]
-    if isinstance(box, Fenced):
-        inner = cuts(box.body)
-        inner = opened(inner[0]) if len(inner) == 1 else inner
-        return put_around(Sign("operator", box.left), inner, Sign("operator", box.right)) if len(inner) > 1 else [box]
-    if isinstance(box, Script) and isinstance(box.base, Fenced):
-        inner = opened(box.base)
-        return [*inner[:-1], scripted(inner[-1], box)] if len(inner) > 1 else [box]
-    if isinstance(box, Rooted):
-        half = Fraction(Sign("number", "1"), Sign("number", "2"))
-        return opened(Script(Fenced("(", box.base, ")"), None, half))
-    return opened_row(box) if isinstance(box, BoxRow) else [box]
-
-
-def opened_row(row: BoxRow) -> list[Box]:
-    """Return a row without signs of operation, its longest part opened."""
-    row = row_of(row)
-    sizes = [rough_width(each) for each in row.parts]
-    for place in sorted(range(len(sizes)), key=lambda k: -sizes[k]):
-        inner = opened(row.parts[place])
-        if len(inner) > 1:
-            return put_around(BoxRow(row.parts[:place]), inner, BoxRow(row.parts[place + 1 :]))
-    return [row]
+    match box:
+        case Fraction(over, under):
+            return [in_parentheses(over), row_of(Sign("operator", "/"), in_parentheses(under))]
+        case Fenced(left, body, right):
+            inner = cuts(body)
+            inner = opened(inner[0]) if len(inner) == 1 else inner
+            return put_around(Sign("operator", left), inner, Sign("operator", right)) if len(inner) > 1 else [box]
+        case Script(Fenced() as base):
+            *inner, last = opened(base)
+            *before, end = row_of(last).parts or (last,)  # the closing parenthesis has the index and the exponent
+            return [*inner, row_of(*before, replace(box, base=end))] if inner else [box]
+        case Rooted(base):
+            return opened(Script(Fenced("(", base, ")"), None, Fraction(Sign("number", "1"), Sign("number", "2"))))
+        case BoxRow():
+            parts = row_of(box).parts
+            for place in sorted(range(len(parts)), key=lambda k: -rough_width(parts[k])):
+                inner = opened(parts[place])
+                if len(inner) > 1:
+                    return put_around(BoxRow(parts[:place]), inner, BoxRow(parts[place + 1 :]))
+            return [row_of(box)]
+    return [box]
 
 
 def put_around(first: Box, inner: Sequence[Box], last: Box) -> list[Box]:
@@ -99,25 +103,6 @@ def row_of(*parts: Box) -> BoxRow:
     return BoxRow(tuple(inner for each in parts for inner in (row_of(*each.parts).parts if isinstance(each, BoxRow) else (each,))))
 
 
-def scripted(piece: Box, of: Script) -> Box:
-    """Return a piece whose last sign, a closing parenthesis, has the index and the exponent of a box."""
-    if isinstance(piece, BoxRow) and piece.parts:
-        return BoxRow((*piece.parts[:-1], replace(of, base=piece.parts[-1])))
-    return replace(of, base=piece)
-
-
 def in_parentheses(box: Box) -> Box:
     """Return a box in parentheses; one sign as it is."""
     return box if not isinstance(box, BoxRow) or len(box.parts) < 2 else Fenced("(", box, ")")
-
-
-def filled_pieces(parts: Sequence[Box], room: float) -> list[Box]:
-    """Return pieces, as many as fit into a room together as one."""
-    found: list[Box] = []
-    for part in parts:
-        longer = row_of(found[-1], part) if found else part
-        if found and rough_width(longer) <= room:
-            found[-1] = longer
-        else:
-            found.append(part)
-    return found

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, final
 
 from ..errors import LinkageError
@@ -13,7 +12,7 @@ from ..formulas.numbered import Equations, SheetLine
 from ..language import said
 from ..loads import ForceElement
 from ..mechanism import Mechanism
-from .content import Block, Equality, Paragraph, Section
+from .content import Block, Equality
 
 DIGITS = 30
 """The digits that the equations are worked out with, so that what they print is theirs and nothing of it is rounding."""
@@ -29,7 +28,7 @@ class FilledEquations:
     values: Mapping[str, Any]
     why_no_forces: str = ""
 
-    @cached_property
+    @property
     def lines(self) -> Sequence[SheetLine]:
         """The equations with their numbers."""
         return self.listing.sheet(self.pose, {name: without_rounding(value) for name, value in self.values.items()})
@@ -59,61 +58,42 @@ def has_loads(machine: Mechanism) -> bool:
     return bool(machine.plan.of_kind(ForceElement))
 
 
-def calculation_section(found: FilledEquations, pose_words: str) -> Section:
-    """Return the section of the numbered equations with their numbers."""
+def calculation_blocks(found: FilledEquations, pose_words: str) -> Iterator[Block]:
+    """Yield the numbered equations with their numbers, and what is said of them."""
     listing = found.listing
-    body: list[Block] = [
-        Paragraph(
-            said(
-                "The equations of the vector method in the order in which they are solved; the numbers are those of {pose}. "
-                "Axes: x to the right, y up; angles are positive counter-clockwise. Lengths in m, forces in N, pressures in Pa (gauge).",
-                pose=pose_words,
-            )
-        ),
-        Paragraph(
-            said(
-                "An arrow over one letter is the position of a point, over two the vector between two points. L is a given length. "
-                "TurnV turns a vector by an angle and, with an index L, scales it to a length. Tcos is the angle of a triangle by the "
-                "cosine rule, arg the direction of a vector from the x axis."
-            )
-        ),
-    ]
-    body += [Equality(0, tuple(each.split(" = ", 1))) for each in listing.definitions]
+    yield said(
+        "The equations of the vector method in the order in which they are solved; the numbers are those of {pose}. "
+        "Axes: x to the right, y up; angles are positive counter-clockwise. Lengths in m, forces in N, pressures in Pa (gauge).",
+        pose=pose_words,
+    )
+    yield said(
+        "An arrow over one letter is the position of a point, over two the vector between two points. L is a given length. "
+        "TurnV turns a vector by an angle and, with an index L, scales it to a length. Tcos is the angle of a triangle by the "
+        "cosine rule, arg the direction of a vector from the x axis."
+    )
+    yield from (Equality(0, tuple(each.split(" = ", 1))) for each in listing.definitions)
     if listing.together:
-        pins = ", ".join(listing.together)
-        body.append(
-            Paragraph(
-                said(
-                    "The pins {pins} are found together, by iteration: they form a group that has no closed form. Their equations are "
-                    "the conditions that they keep.",
-                    pins=pins,
-                )
-            )
+        yield said(
+            "The pins {pins} are found together, by iteration: they form a group that has no closed form. Their equations are "
+            "the conditions that they keep.",
+            pins=", ".join(listing.together),
         )
     if found.why_no_forces:
-        body.append(Paragraph(said("The forces of this machine have no equations that are written out: {why}", why=found.why_no_forces)))
+        yield said("The forces of this machine have no equations that are written out: {why}", why=found.why_no_forces)
     elif has_loads(listing.machine):
-        body.append(
-            Paragraph(
-                said(
-                    "Forces are without friction. P is a force downwards, F another one. Q is the force of a drive by virtual work, "
-                    "positive the way its stroke grows. T is what a member carries, positive where it pushes its ends apart."
-                )
-            )
+        yield said(
+            "Forces are without friction. P is a force downwards, F another one. Q is the force of a drive by virtual work, "
+            "positive the way its stroke grows. T is what a member carries, positive where it pushes its ends apart."
         )
-        body += [Paragraph(text) for text in axle_words(listing)]
+        about, given = listing.axles
+        if about:
+            yield said("R is what a support carries, by the moments about {support} and by the sum across the ground.", support=about)
+        if given:
+            names = ", ".join(f"R_{name}" for name in given)
+            yield said("{names} hang on how the supports give way: they are given numbers.", names=names)
     if listing.left_out:
-        body.append(Paragraph(said("Left out of the equations: the friction of {names}.", names=", ".join(listing.left_out))))
+        yield said("Left out of the equations: the friction of {names}.", names=", ".join(listing.left_out))
     for each in found.lines:
-        body += [*([Paragraph(each.heading)] if each.heading else []), Equality(each.number, each.steps)]
-    return Section(said("Calculation"), tuple(body))
-
-
-def axle_words(listing: Equations) -> list[str]:
-    """Return what the equations of axle loads are, in words; nothing for a machine that does not stand on supports."""
-    about, given = listing.axles
-    if not about:
-        return []
-    names = ", ".join(f"R_{name}" for name in given)
-    plain = said("R is what a support carries, by the moments about {support} and by the sum across the ground.", support=about)
-    return [plain, *([said("{names} hang on how the supports give way: they are given numbers.", names=names)] if names else [])]
+        if each.heading:
+            yield each.heading
+        yield Equality(each.number, each.steps)

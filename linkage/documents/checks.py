@@ -94,18 +94,16 @@ def loops_closed(motion: Motion) -> Iterator[Check]:
     worst, longest = 0.0, 0.0
     for loop in loops:
         sides = [(P, Q) for P, Q, *_ in nx.find_cycle(graph.subgraph(loop), source=loop[0])]
-        vectors = [link_vector(motion, given[frozenset(side)], *side) for side in sides]
+        angles = [motion.angle(*side) for side in sides]
+        vectors = [
+            np.asarray(motion.value(given[frozenset(side)]) * np.array([np.cos(angle), np.sin(angle)]))
+            for side, angle in zip(sides, angles, strict=True)
+        ]
         worst = max(worst, largest_finite(np.hypot(*np.sum(vectors, axis=0))))
         longest = max(longest, *(largest_finite(np.hypot(*each)) for each in vectors))
     if loops:
         what = said("given lengths in the directions of the links, summed round the closed loops: {n} of them", n=len(loops))
         yield Check(said("loops closed"), what, worst / (longest or 1.0), EXACT)
-
-
-def link_vector(motion: Motion, length: Quantity, P: str, Q: str) -> FloatArray:
-    """Return a link as its given length in its direction, shape (2, ...)."""
-    angle = motion.angle(P, Q)
-    return np.asarray(motion.value(length) * np.array([np.cos(angle), np.sin(angle)]))
 
 
 def equations_against(subject: ReportSubject, values: Mapping[str, Any]) -> Check:

@@ -41,22 +41,6 @@ Cell: TypeAlias = str | Formula | Mark
 
 @final
 @dataclass(frozen=True)
-class Paragraph:
-    """Some sentences."""
-
-    text: str
-
-
-@final
-@dataclass(frozen=True)
-class ListBlock:
-    """Short texts below each other, each with a mark in front."""
-
-    texts: tuple[str, ...]
-
-
-@final
-@dataclass(frozen=True)
 class TableBlock:
     """A table: headings, rows, and how each column stands, "l" to the left, "r" as numbers do, "m" for long text."""
 
@@ -87,7 +71,8 @@ class Illustration:
     paint: Callable[[Axes], None]
 
 
-Block: TypeAlias = Paragraph | ListBlock | TableBlock | Equality | Illustration
+Block: TypeAlias = str | tuple[str, ...] | TableBlock | Equality | Illustration
+"""A paragraph of some sentences; short texts below each other, each with a mark in front; a table, an equation, a picture."""
 
 
 @final

@@ -37,15 +37,14 @@ def fingerprint(machine: Mechanism, strokes: Mapping[str, Any]) -> str:
 
 def functions_of(member: object) -> list[str]:
     """Return the source of the functions that a member is made of; the name of one without source."""
-    return [source_of_function(value) for _, value in sorted(vars(member).items()) if inspect.isfunction(value)]
-
-
-def source_of_function(function: Any) -> str:
-    """Return a function's source, its name where there is none."""
-    try:
-        return inspect.getsource(function)
-    except (OSError, TypeError):
-        return str(function.__qualname__)
+    found: list[str] = []
+    for _, value in sorted(vars(member).items()):
+        if inspect.isfunction(value):
+            try:
+                found.append(inspect.getsource(value))
+            except (OSError, TypeError):
+                found.append(value.__qualname__)
+    return found
 
 
 def own_version() -> str:

@@ -19,7 +19,7 @@ from ..program import FloatArray
 from ..statics import PinForces, PinLoad, drive_force, judged_table, pin_forces, thrust_from_forces
 from ..units import shown_number, unit_sign
 from .calculation import has_loads
-from .content import Block, Paragraph, Section, TableBlock
+from .content import Block, Section, TableBlock
 from .outcome import amount_text
 from .run import ReportSubject
 
@@ -38,30 +38,27 @@ def forces_section(subject: ReportSubject) -> Section | None:
         with unwarned():
             rows, ranges = judged_table(subject.judge), tuple(drive_rows(subject))
     except LinkageError as error:
-        return Section(title, (Paragraph(said("The joint forces are not calculated: {why}", why=str(error))),))
-    looks = Paragraph(
-        said(
-            "The largest force of each joint over {domain}, between the poses of the tables too, over load cases and directions of "
-            "motion. Fx and Fy act on the body, in its own axes: x from the first of the named points to the second, y to its left. On "
-            "the frame they are in the axes of the drawing.",
-            domain=subject.domain,
-        )
+        return Section(title, (said("The joint forces are not calculated: {why}", why=str(error)),))
+    looks = said(
+        "The largest force of each joint over {domain}, between the poses of the tables too, over load cases and directions of "
+        "motion. Fx and Fy act on the body, in its own axes: x from the first of the named points to the second, y to its left. On "
+        "the frame they are in the axes of the drawing.",
+        domain=subject.domain,
     )
     unit = unit_sign("kN")
     parts = said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit), said("F, {unit}", unit=unit)
     heads = (*joint_heads(), *parts, said("x axis"), said("situation and place"))
-    table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(map(pin_row, rows)), "llllrrrlm")
+    cells = [
+        (*joint_cells(row), *(force_cell(row.force, way(row.angle)) for way in (cos, sin)), force_cell(row.force), row.axis,
+         f"{translated(row.case)}, {row.movement}, {row.place}")
+        for row in rows
+    ]  # fmt: skip
+    table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(cells), "llllrrrlm")
     ends = said("least"), said("situation and place"), said("greatest"), said("situation and place")
     drives = (said("drive or member"), said("unit"), *ends)
     forces = TableBlock(said("Driving forces and thrusts, over all that the machine runs"), drives, ranges, "llrmrm")
-    remarks = [Paragraph(each) for each in dict.fromkeys(remark for one in found for remark in one.remarks)]
+    remarks = [each for each in dict.fromkeys(remark for one in found for remark in one.remarks)]
     return Section(title, (forces, looks, table, *case_tables(subject), *blocked_blocks(subject), *remarks))
-
-
-def pin_row(row: PinLoad) -> tuple[str, ...]:
-    """Return a joint's largest force as cells."""
-    parts = [shown_number(row.force * way(row.angle), "kN", "z.3f") if np.isfinite(row.force) else "∞" for way in (cos, sin)]
-    return (*joint_cells(row), *parts, force_cell(row.force), row.axis, f"{translated(row.case)}, {row.movement}, {row.place}")
 
 
 def joint_heads() -> tuple[str, ...]:
@@ -74,9 +71,9 @@ def joint_cells(row: PinLoad) -> tuple[str, ...]:
     return row.point, translated(row.kind), frame(row.on), frame(row.by)
 
 
-def force_cell(force: float) -> str:
-    """Return the size of a force as a cell."""
-    return shown_number(force, "kN", ".3f") if np.isfinite(force) else "∞"
+def force_cell(force: float, share: float = 1.0) -> str:
+    """Return the size of a force, or of a share of it, as a cell."""
+    return shown_number(force * share, "kN", "z.3f") if np.isfinite(force) else "∞"
 
 
 def frame(name: str) -> str:
@@ -115,7 +112,7 @@ def case_tables(subject: ReportSubject) -> Iterator[Block]:
                 judge = subject.machine.judge(places, replace(subject.judge.acting, case=case)).lost_allowed()
                 rows = judged_table(judge)
         except LinkageError as error:
-            yield Paragraph(said("Load case {case}: {why}", case=subject.case_words(case), why=str(error)))
+            yield said("Load case {case}: {why}", case=subject.case_words(case), why=str(error))
             continue
         cells = tuple((*joint_cells(row), force_cell(row.force), row.place, row.movement) for row in rows)
         heads = (*joint_heads(), said("F, {unit}", unit=unit_sign("kN")), said("strokes"), said("motion"))
@@ -151,26 +148,26 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     held = blocked_cylinders(subject)
     if not held:
         if any("bore" in each.numbers for each in subject.machine.plan.of_kind(TwoPoint).values()):
-            yield Paragraph(said("No cylinder has a pump or a relief valve: there are no pin forces at the relief pressure."))
+            yield said("No cylinder has a pump or a relief valve: there are no pin forces at the relief pressure.")
         return
-    point = stopped_point(subject)
+    moving = subject.machine.plan.moving  # a stop holds the last point that the machine is about, else the last that moves
+    point = next((name for name in reversed(subject.machine.featured().path) if name in moving), moving[-1])
     try:
         with unwarned():
             rows = worst_blocked(subject, point, held)
     except LinkageError as error:
-        yield Paragraph(said("Pin forces at the relief pressure are not calculated: {why}", why=str(error)))
+        yield said("Pin forces at the relief pressure are not calculated: {why}", why=str(error))
         return
     if not rows:
         return
+    count = sum(int(place.sampled.reached.sum()) for place in subject.judge.places)
     pressures = ", ".join(f"{name} {' … '.join(shown_number(end, 'kN', '.1f') for end in ends)}" for name, ends in held.items())
-    yield Paragraph(
-        said(
+    yield said(
             "At the relief pressure: a stop holds {point} in either direction. One cylinder after the other presses and the others hold, "
             "until the first relief valve opens. Where no relief valve is declared, the pump's pressure is the highest. The machine's own "
             "loads act too. Greatest thrusts, {unit}: {thrusts}. This table looks at {count} poses over all that the machine runs.",
-            point=point, unit=unit_sign("kN"), thrusts=pressures, count=sum(int(place.reached.sum()) for place in judged_poses(subject)),
-        )
-    )  # fmt: skip
+            point=point, unit=unit_sign("kN"), thrusts=pressures, count=count,
+        )  # fmt: skip
     units = {name: stroke_display_unit(subject.machine.plan, name, "m") for name in subject.machine.strokes}
     plain_units = {name: "rad" if unit == "deg" else unit for name, unit in units.items()}
     cells = []
@@ -180,11 +177,6 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     force = said("F, {unit}", unit=unit_sign("kN"))
     heads = (*joint_heads(), force, said("member"), said("at the limit"), said("strokes"))
     yield TableBlock(said("Largest pin forces at the relief pressure, against a stop"), heads, tuple(cells), "llllrllm")
-
-
-def judged_poses(subject: ReportSubject) -> list[Motion]:
-    """Return some poses of each place that is judged."""
-    return [place.sampled for place in subject.judge.places]
 
 
 def blocked_cylinders(subject: ReportSubject) -> dict[str, tuple[float, float]]:
@@ -201,12 +193,6 @@ def blocked_cylinders(subject: ReportSubject) -> dict[str, tuple[float, float]]:
     return found
 
 
-def stopped_point(subject: ReportSubject) -> str:
-    """Return the point that runs against a stop: the last of those that the machine is about, else the last that moves."""
-    moving = subject.machine.plan.moving
-    return next((name for name in reversed(subject.machine.featured().path) if name in moving), moving[-1])
-
-
 def worst_blocked(subject: ReportSubject, point: str, held: Iterable[str]) -> list[Blocked]:
     """Return the largest force of each joint over some poses, cylinders and both of their ways.
 
@@ -214,11 +200,11 @@ def worst_blocked(subject: ReportSubject, point: str, held: Iterable[str]) -> li
     cylinder's own, or that of another one that holds. Forces are affine in it, so that the machine's own loads and two unit forces tell it.
     """
     worst: dict[tuple[str, ...], Blocked] = {}
-    for motion in judged_poses(subject):
+    for motion in [place.sampled for place in subject.judge.places]:
         stop = Stop.of(subject, motion.moved(motion.strokes), point, held)
         for cylinder, pushes in product(stop.bounds, (True, False)):
             force, way, opens = stop.until_open(cylinder, pushes)
-            for key, cells, size in stop.sizes(force, way):
+            for key, cells, size in stop.joint_sizes(force, way):
                 if np.isnan(size).all():
                     continue
                 place = np.unravel_index(int(np.argmax(size >= (1.0 - NEAR) * np.nanmax(size))), size.shape)
@@ -265,7 +251,7 @@ class Stop:
             least = np.minimum(least, np.maximum(force, 0.0))
         return np.where(np.isfinite(least), least, np.nan), way, opens
 
-    def sizes(self, force: FloatArray, way: FloatArray) -> Iterator[tuple[tuple[str, ...], tuple[str, ...], FloatArray]]:
+    def joint_sizes(self, force: FloatArray, way: FloatArray) -> Iterator[tuple[tuple[str, ...], tuple[str, ...], FloatArray]]:
         """Yield, of each joint that transmits a force, what tells it apart, its cells, and the size of its force [N]."""
         across, up = ({(each.point, each.on, each.by, each.kind): each.force for each in unit.joints} for unit in self.units)
         for joint in self.own.joints:

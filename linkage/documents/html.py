@@ -14,7 +14,7 @@ from ..formulas.mathml import mathml
 from ..formulas.typeset import boxes
 from ..language import said
 from .breaking import line_pieces
-from .content import Block, Cell, Document, Equality, Formula, Illustration, ListBlock, Mark, Paragraph, Section, TableBlock, captions_of
+from .content import Block, Cell, Document, Equality, Formula, Illustration, Mark, Section, TableBlock, captions_of
 from .pictures import picture_svg
 from .title import TitleBlock
 
@@ -96,13 +96,18 @@ def section_lines(number: int, section: Section, captions: dict[int, str]) -> It
 
 def block_html(block: Block, captions: dict[int, str]) -> str:
     """Return a block."""
-    if isinstance(block, Paragraph):
-        return f"<p>{escape(block.text)}</p>"
-    if isinstance(block, ListBlock):
-        return f"<ul>{''.join(f'<li>{escape(text)}</li>' for text in block.texts)}</ul>"
-    if isinstance(block, TableBlock):
-        return table_html(block, captions.get(id(block), ""))
-    return equality(block) if isinstance(block, Equality) else figure_html(block, captions)
+    match block:
+        case str():
+            return f"<p>{escape(block)}</p>"
+        case TableBlock():
+            return table_html(block, captions.get(id(block), ""))
+        case Equality():
+            return equality(block)
+        case Illustration():
+            caption = escape(captions.get(id(block), block.caption))
+            data = b64encode(picture_svg(block).encode()).decode()
+            return f'<figure><img alt="{caption}" src="data:image/svg+xml;base64,{data}"/><figcaption>{caption}</figcaption></figure>'
+    return f"<ul>{''.join(f'<li>{escape(text)}</li>' for text in block)}</ul>"
 
 
 def table_html(grid: TableBlock, caption: str) -> str:
@@ -115,10 +120,11 @@ def table_html(grid: TableBlock, caption: str) -> str:
 
 def cell(value: Cell, kind: str) -> str:
     """Return a cell."""
-    if isinstance(value, Mark):
-        return f"<td{coloured(value)}>{escape(value.word)}</td>"
-    if isinstance(value, Formula):
-        return f'<td class="{kind}">{math(value.latex)}</td>'
+    match value:
+        case Mark():
+            return f"<td{coloured(value)}>{escape(value.word)}</td>"
+        case Formula(latex):
+            return f'<td class="{kind}">{math(latex)}</td>'
     return f'<td class="{kind}">{escape(value)}</td>'
 
 
@@ -137,10 +143,3 @@ def equality(block: Equality) -> str:
             parts.append(f'<math xmlns="http://www.w3.org/1998/Math/MathML" displaystyle="true">{sign}{set_in}</math>')
     number = f"({block.number})" if block.number else ""
     return f'<div class="eq"><span>{number}</span><div>{" ".join(parts)}</div></div>'
-
-
-def figure_html(picture: Illustration, captions: dict[int, str]) -> str:
-    """Return a picture inside the file."""
-    caption = escape(captions.get(id(picture), picture.caption))
-    data = b64encode(picture_svg(picture).encode()).decode()
-    return f'<figure><img alt="{caption}" src="data:image/svg+xml;base64,{data}"/><figcaption>{caption}</figcaption></figure>'

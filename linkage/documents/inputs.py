@@ -20,7 +20,7 @@ from ..plan import written_out
 from ..quantities import Dimension, Stroke
 from ..reports import dimension_unit
 from ..units import show, shown_number, unit_sign
-from .content import Block, Cell, Formula, Illustration, Paragraph, Section, TableBlock
+from .content import Block, Cell, Formula, Illustration, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit
 from .run import ReportSubject
 from .sources import comments_in
@@ -29,7 +29,7 @@ from .sources import comments_in
 def inputs_section(subject: ReportSubject, listing: Equations) -> Section:
     """Return the section of what is given, with the drawing of its dimensions."""
     machine, notes = subject.machine, subject.notes
-    prose = [Paragraph(plain_words(translated(each))) for each in own_paragraphs(type(machine))[1:]]  # the first line is the subtitle
+    prose = [plain_words(translated(each)) for each in own_paragraphs(type(machine))[1:]]  # the first line is the subtitle
     blocks: list[Block] = [*prose, stroke_table(machine, listing, subject.run.held, notes)]
     if machine.dimensions:
         blocks.append(dimension_table(machine, listing, notes))
@@ -39,7 +39,7 @@ def inputs_section(subject: ReportSubject, listing: Equations) -> Section:
         heads = (said("name"), said("declared as"), said("source, note"))
         blocks.append(TableBlock(said("Loads, force elements and hydraulics"), heads, rows, "lmm"))
     else:
-        blocks.append(Paragraph(said("No load is declared: forces are not calculated.")))
+        blocks.append(said("No load is declared: forces are not calculated."))
     cases = machine.plan.of_kind(LoadCase)
     if cases:
         heads = (said("name"), said("declared as"), said("source, note"))
@@ -144,10 +144,10 @@ def definition_section(machine: Mechanism) -> Section:
         "slide.",
         rank=machine.mobility, strokes=len(machine.strokes), count=machine.gruebler,
     )  # fmt: skip
-    order = Paragraph(said("In the order in which the positions are worked out; lengths in m, angles in rad where no deg is marked."))
+    order = said("In the order in which the positions are worked out; lengths in m, angles in rad where no deg is marked.")
     members = TableBlock(said("Members"), heads, rows, "lm")
     rigid = TableBlock(said("Rigid bodies"), (said("No."), said("points")), bodies, "lm")
-    return Section(said("Definition of the mechanism"), (order, members, rigid, Paragraph(count)))
+    return Section(said("Definition of the mechanism"), (order, members, rigid, count))
 
 
 OF_PART = re.compile(r", \*\*\{.*\}")

@@ -12,7 +12,7 @@ from secrets import token_hex
 from ..disk import check_place, in_words, replacing_text
 from ..errors import FileError
 from ..language import said
-from .content import Block, Cell, Document, Equality, Formula, Illustration, ListBlock, Mark, Paragraph, Section, TableBlock, captions_of
+from .content import Cell, Document, Equality, Formula, Illustration, Mark, Section, TableBlock, captions_of
 from .html import footer
 from .pictures import picture_svg
 from .title import TitleBlock
@@ -88,22 +88,21 @@ def section_text(number: int, section: Section, captions: dict[int, str], names:
     yield from ("", f"## {number}. {escaped_markdown(section.title)}")
     for block in section.blocks:
         yield ""
-        yield from block_text(block, captions, names)
-
-
-def block_text(block: Block, captions: dict[int, str], names: dict[int, str]) -> Iterator[str]:
-    """Yield the lines of a block."""
-    if isinstance(block, Paragraph):
-        yield escaped_markdown(block.text)
-    elif isinstance(block, ListBlock):
-        yield from (f"- {escaped_markdown(text)}" for text in block.texts)
-    elif isinstance(block, TableBlock):
-        yield from table_markdown(block, captions.get(id(block), ""))
-    elif isinstance(block, Equality):
-        yield from ("$$", equality_latex(block), "$$")
-    else:
-        caption = escaped_markdown(captions.get(id(block), block.caption))
-        yield from (f"![{caption}]({names[id(block)]})", "", f"*{caption}*")
+        match block:
+            case str():
+                yield escaped_markdown(block)
+            case TableBlock():
+                yield from table_markdown(block, captions.get(id(block), ""))
+            case Equality(place, steps):  # aligned at its signs of equality
+                first, *others = steps
+                lines = " \\\\\n".join(f"&= {each}" for each in others)
+                body = f"\\begin{{aligned}}\n{first} {lines}\n\\end{{aligned}}" if others else first
+                yield from ("$$", body + (rf" \tag{{{place}}}" if place else ""), "$$")
+            case Illustration():
+                caption = escaped_markdown(captions.get(id(block), block.caption))
+                yield from (f"![{caption}]({names[id(block)]})", "", f"*{caption}*")
+            case _:
+                yield from (f"- {escaped_markdown(text)}" for text in block)
 
 
 def table_markdown(grid: TableBlock, caption: str) -> Iterator[str]:
@@ -118,17 +117,12 @@ def table_markdown(grid: TableBlock, caption: str) -> Iterator[str]:
 
 def cell_text(value: Cell) -> str:
     """Return a cell in one line."""
-    if isinstance(value, Formula):
-        return f"${value.latex.replace('|', chr(92) + 'vert ')}$"
-    return f"**{escaped_markdown(value.word)}**" if isinstance(value, Mark) else escaped_markdown(value)
-
-
-def equality_latex(block: Equality) -> str:
-    """Return an equation with its number, aligned at its signs of equality."""
-    first, *others = block.steps
-    lines = " \\\\\n".join(f"&= {each}" for each in others)
-    body = f"\\begin{{aligned}}\n{first} {lines}\n\\end{{aligned}}" if others else first
-    return body + (rf" \tag{{{block.number}}}" if block.number else "")
+    match value:
+        case Formula(latex):
+            return f"${latex.replace('|', chr(92) + 'vert ')}$"
+        case Mark(_, word):
+            return f"**{escaped_markdown(word)}**"
+    return escaped_markdown(value)
 
 
 def escaped_markdown(text: str) -> str:

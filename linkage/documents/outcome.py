@@ -25,7 +25,7 @@ from ..reports import results
 from ..reports.table import column_blocks, flat
 from ..reports.table import column_texts as text_cells
 from ..units import UNITS, factor, show, unit_sign
-from .content import Block, Cell, Illustration, Paragraph, Section, TableBlock
+from .content import Block, Cell, Illustration, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit
 from .run import ReportSubject
 
@@ -43,7 +43,8 @@ LETTERS = 100
 def sketch_section(subject: ReportSubject, path: Sequence[str]) -> Section:
     """Return the section of the sketch: the machine with its pins by name, at both ends of the stroke, with the paths of points."""
     reached = np.flatnonzero(subject.curve.reached)
-    ends = [subject.moving_words(subject.strokes_at(subject.curve, int(place))) for place in (reached[0], reached[-1])]
+    poses = [subject.strokes_at(subject.curve, int(place)) for place in (reached[0], reached[-1])]
+    ends = [subject.words({name: pose[name] for name in pose if name in subject.run.ways}) for pose in poses]
     paths = said(" Broken line: path of {points}.", points=", ".join(path)) if path else ""
     sketch = Illustration(
         "sketch", said("The machine with its pins, at {start} (faint) and at {end}.", start=ends[0], end=ends[1]) + paths,
@@ -77,45 +78,40 @@ def reported_columns(subject: ReportSubject, names: Sequence[str] | None) -> lis
     return [known[name] for name in dict.fromkeys([*(each for each in subject.machine.strokes if each in known), *names])]
 
 
-def results_section(subject: ReportSubject, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[object]]) -> Section:
-    """Return the section of the table over the stroke and the curves, the one the machine is about first."""
+def results_blocks(
+    subject: ReportSubject, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[object]]
+) -> Iterator[Block]:
+    """Yield the table over the stroke and the curves, the one the machine is about first."""
     columns = reported_columns(subject, names)
-    blocks: list[Block] = []
-    shown = [column for column in columns if column.name not in subject.run.held]
-    held = subject.words(dict(subject.run.held))
+    along, held = ", ".join(subject.run.ways), subject.words(dict(subject.run.held))
     if held:
-        blocks.append(Paragraph(said("Along {stroke}, with {held} held.", stroke=", ".join(subject.run.ways), held=held)))
+        yield said("Along {stroke}, with {held} held.", stroke=along, held=held)
     missing = int(np.count_nonzero(~subject.table.reached))
     if missing:
-        blocks.append(
-            Paragraph(said("{n} of {count} poses of the table cannot be assembled; they have no values.", n=missing, count=subject.count))
-        )
-    blocks += column_grids(said("Results over the stroke"), shown)
+        yield said("{n} of {count} poses of the table cannot be assembled; they have no values.", n=missing, count=subject.count)
+    yield from column_grids(said("Results over the stroke"), [column for column in columns if column.name not in subject.run.held])
     whole = curve_columns(subject)
     coordinates = {f"{point}_{axis}" for point in subject.machine.plan.points for axis in "xy"}
     drawn = [name for name in whole if name != first and (name in names if names is not None else name not in coordinates)]
     same = one_curve([first, *drawn], whole, limits)
-    drawn = [name for name in drawn if name in same]
     first = next(name for name in same if first in (name, *same[name]))
-    still = [name for name in same if name not in (first, *limits) and is_constant(whole[name])] if subject.run.held else []
+    still = [name for name in same if name not in (first, *limits) and is_constant(whole[name])] if held else []
     if still:
-        blocks.append(Paragraph(said("The same all along this run, and not drawn: {names}.", names=", ".join(map(heading_of, still)))))
-    drawn = [name for name in same if name not in (first, *still)]
-    beyond = wider_answers(subject, {name: whole[name] for name in [first, *drawn]}, limits)
-    along, over = ", ".join(subject.run.ways), subject.words(dict(subject.run.held))
-    for name in [first, *drawn]:
+        yield said("The same all along this run, and not drawn: {names}.", names=", ".join(map(heading_of, still)))
+    drawn = [first, *(name for name in same if name not in (first, *still))]
+    beyond = wider_answers(subject, {name: whole[name] for name in drawn}, limits)
+    for name in drawn:
         bound, further = limits.get(name), beyond.get(name, [])
-        caption = said("{column} along {stroke}.", column=whole[name].heading, stroke=along)
-        caption = said("{column} along {stroke}; {held} held.", column=whole[name].heading, stroke=along, held=over) if over else caption
+        called = whole[name].heading
         others = [each for each in same[name] if not any(each.startswith(f"{one} ") for one in (name, *same[name]))]
+        caption = said("{column} along {stroke}.", column=called, stroke=along)
+        caption = said("{column} along {stroke}; {held} held.", column=called, stroke=along, held=held) if held else caption
         caption += said(" The same curve: {names}.", names=", ".join(map(heading_of, others))) if others else ""
         caption += said(" Shaded: what its limit excludes.") if bound is not None else ""
         caption += beyond_words(further, whole[name]) if further else ""
-        size = (WIDE, 2.6) if name == first else (HALF, 2.15)
         paint = partial(draw_column, motion=subject.curve, column=whole[name], bound=bound, beyond=further)
         room = (*CURVE_ROOM[:3], CURVE_ROOM[3] if bound is None else 0.48)
-        blocks.append(Illustration(f"curve_{safe(name)}", caption, size, room, paint))
-    return Section(said("Results"), tuple(blocks))
+        yield Illustration(f"curve_{safe(name)}", caption, (WIDE, 2.6) if name == first else (HALF, 2.15), room, paint)
 
 
 def one_curve(names: Sequence[str], columns: Mapping[str, Column], limits: Mapping[str, Sequence[object]]) -> dict[str, list[str]]:
@@ -124,9 +120,8 @@ def one_curve(names: Sequence[str], columns: Mapping[str, Column], limits: Mappi
     for name in dict.fromkeys(names):
         group = next((each for each in groups if same_curve(columns[each[0]], columns[name])), None)
         if group is None:
-            groups.append([name])
-        else:
-            group.append(name)
+            groups.append(group := [])
+        group.append(name)
     led = [sorted(group, key=lambda name: name not in limits) for group in groups]
     return {group[0]: group[1:] for group in led}
 
@@ -215,21 +210,17 @@ def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object
     heading = ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=TITLE, fontweight="bold", color=INK, pad=pad)
     heading.set_fontsize(TITLE * min(1.0, HEADING_SHARE * ax.bbox.width / heading.get_window_extent().width))
     for each in beyond:
-        if np.isfinite(each.value):
-            mark_beyond(ax, float(each.value) / factor(column.shown_unit), amount_text(each, column), isinstance(each.question, Least))
+        value, is_least = float(each.value) / factor(column.shown_unit), isinstance(each.question, Least)
+        if np.isfinite(value):
+            low, high = ax.get_ylim()
+            air = 0.2 * (max(high, value) - min(low, value))  # room for the number
+            ax.set_ylim(min(low, value - air), max(high, value + air))
+            ax.axhline(value, color=INK, linewidth=1.1, linestyle=(0, (1.5, 1.5)), zorder=4.0)
+            note(ax, amount_text(each, column), (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
 
 
 HEADING_SHARE = 0.97
 """Of the width of a curve's axes: what its heading takes at the most, as letters on a screen are wider than printed ones."""
-
-
-def mark_beyond(ax: Axes, value: float, text: str, is_least: bool) -> None:
-    """Draw a line at a value, with its number, and make room for it."""
-    low, high = ax.get_ylim()
-    air = 0.2 * (max(high, value) - min(low, value))
-    ax.set_ylim(min(low, value - air), max(high, value + air))
-    ax.axhline(value, color=INK, linewidth=1.1, linestyle=(0, (1.5, 1.5)), zorder=4.0)
-    note(ax, text, (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
 
 
 def safe(name: str) -> str:
@@ -267,14 +258,14 @@ def members_section(subject: ReportSubject, members: Mapping[str, Tabled]) -> Se
         try:
             answers = iter(subject.judge.answers([question for each in questions for question in each]))
         except LinkageError as error:
-            return Section(title, (Paragraph(str(error)),))
+            return Section(title, (str(error),))
     found = [[next(answers) for _ in each] for each in questions]
     rows = tuple(
         (name, column.heading, *end_cells(each, Least, column), *end_cells(each, Most, column))
         for (name, column), each in zip(columns, found, strict=True)
     )
     shown = dict.fromkeys(name for name, _ in columns)
-    refused = [Paragraph(why) for name in members if name not in shown and (why := refusal_words(subject, name))]
+    refused = [why for name in members if name not in shown and (why := refusal_words(subject, name))]
     heads = (said("member"), said("quantity"), said("least"), said("situation and place"), said("greatest"), said("situation and place"))
     table = [TableBlock(caption, heads, rows, "llrmrm")] if rows else []
     return Section(title, (*table, *refused))
@@ -333,12 +324,12 @@ def limits_section(subject: ReportSubject) -> Section:
         with unwarned():
             found = subject.machine.at(unreachable="nan", **subject.pose).limits()
     except LinkageError as error:
-        return Section(title, (Paragraph(str(error)),))
+        return Section(title, (str(error),))
     heads = (said("stroke"), said("limit"), said("at stroke"))
-    rows = [row for each in found.values() for row in limit_rows(subject, each)]
+    rows = tuple(row for each in found.values() for row in limit_rows(subject, each))
+    table = TableBlock(said("Reach, dead points, transmission"), heads, rows, "lmm")
     held = said("Each stroke by itself, the others held at {pose}.", pose=subject.words(subject.pose))
-    table = TableBlock(said("Reach, dead points, transmission"), heads, tuple(rows), "lmm")
-    return Section(title, (*([Paragraph(held)] if len(found) > 1 else []), table))
+    return Section(title, (held, table) if len(found) > 1 else (table,))
 
 
 def limit_rows(subject: ReportSubject, limits: StrokeLimits) -> Iterator[tuple[Cell, ...]]:

@@ -16,7 +16,7 @@ from ..formulas.typeset import boxes, rough_width
 from ..formulas.typst import typst_math
 from ..language import said
 from .breaking import LONGEST, readable
-from .content import Block, Cell, Document, Equality, Formula, Illustration, ListBlock, Mark, Paragraph, TableBlock, captions_of
+from .content import Block, Cell, Document, Equality, Formula, Illustration, Mark, TableBlock, captions_of
 from .pictures import picture_svg
 
 JSON = dict[str, object]
@@ -67,9 +67,9 @@ def document_data(document: Document) -> JSON:
 def block_data(is_pair: bool, row: Sequence[Block], captions: dict[int, str]) -> JSON:
     """Return a block, or pictures beside each other."""
     match row[0]:
-        case Paragraph(text):
+        case str(text):
             return {"kind": "text", "text": text}
-        case ListBlock(texts):
+        case tuple(texts):
             return {"kind": "list", "texts": texts}
         case TableBlock(_, headings, rows, columns) as table:
             cells = [[cell_data(value) for value in each] for each in rows]

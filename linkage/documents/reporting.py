@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..checks import require_type
+from ..checks import require, require_type
 from ..disk import check_name, check_place
 from ..errors import DefinitionError, LinkageError, cited, known_name, unwarned
 from ..language import current_language, heading_of, said, said_of, translated
@@ -22,7 +22,6 @@ from ..motion import (
     Answer,
     Column,
     Constraint,
-    Leaf,
     Motion,
     MotionFunction,
     Request,
@@ -40,19 +39,20 @@ from ..reports import NOTHING, At, is_column
 from ..units import current_system, display_unit, show, shown_number, unit_sign, unit_system
 from ..verdict import Verdict
 from .assumptions import assumptions_section, standards_section
-from .calculation import calculated, calculation_section, has_loads
+from .calculation import calculated, calculation_blocks, has_loads
 from .checks import checks_section
-from .content import Block, Document, ListBlock, Mark, Paragraph, Section, TableBlock
+from .content import Block, Document, Mark, Section, TableBlock
 from .fingerprint import DIGITS, fingerprint, own_version
 from .forces import forces_section
 from .html import write_html
 from .inputs import definition_section, inputs_section, own_paragraphs, plain_words
 from .markdown import write_markdown
-from .outcome import amount_text, curve_columns, limits_section, members_sections, results_section, sketch_section
+from .outcome import amount_text, curve_columns, limits_section, members_sections, results_blocks, sketch_section
 from .pdf import check_typst, write_pdf
 from .run import ReportSubject
 from .title import TitleBlock
 
+LIMITS = 'limits by the names of columns are expected, limits={"tilt": (0.1, "most")}'
 WRITERS: Mapping[str, Callable[[Document, Path], None]] = {".html": write_html, ".pdf": write_pdf, ".md": write_markdown}
 
 
@@ -137,8 +137,8 @@ def report_document(
 ) -> Document:
     """Return what a report says, before it is written as a file; each number in its own unit where no system of units is named."""
     subject = ReportSubject.at(machine, at, count, over, situation_of("report", acting, case=case))
-    if not isinstance(title_block, Mapping) or not all(isinstance(each, str) for pair in title_block.items() for each in pair):
-        raise DefinitionError(f'title_block={cited(title_block)}: rows of text are expected, title_block={{"Checked by": "N. N."}}.')
+    fits = isinstance(title_block, Mapping) and all(isinstance(each, str) for pair in title_block.items() for each in pair)
+    require(fits, "title_block", title_block, 'rows of text are expected, title_block={"Checked by": "N. N."}')
     with speaking(language, units):
         return composed(subject, columns, trace, limits, title_block, start, block or TitleBlock())
 
@@ -164,19 +164,22 @@ def composed(
     first = column_among(machine, subject.columns, None).name
     names = curve_columns(subject)
     own = {name: given for name, given in featured.limits.items() if name in names}
-    bounds = checked_limits(own if limits is None else limits, names, machine.plan.title)
+    bounds = require_type("limits", own if limits is None else limits, Mapping, LIMITS)
+    for name, given in bounds.items():
+        known_name("Column", name, names, where=f"limits of {machine.plan.title}")
+        limit_of(given, names[name].unit)
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
     found = calculated(machine, subject.pose, start)
     verdicts, mark, judged = verdict_section(subject, bounds)
     sections = (
         sketch_section(subject, path),
         of_source(verdicts),
-        results_section(subject, columns, first, bounds),
+        Section(said("Results"), tuple(results_blocks(subject, columns, first, bounds))),
         *members_sections(subject),
         of_source(inputs_section(subject, found.listing)),
         assumptions_section(subject),
         standards_section(subject, judged),
-        calculation_section(found, subject.words(subject.pose)),
+        Section(said("Calculation"), tuple(calculation_blocks(found, subject.words(subject.pose)))),
         forces_section(subject),
         limits_section(subject),
         checks_section(subject, found.values),
@@ -192,10 +195,7 @@ def own_system(machine: object) -> str | None:
     if not isinstance(machine, Mechanism):
         return None
     given = {entry.unit for entry in machine.plan.table.entries.values()} | {each.unit for each in machine.plan.of_kind(Dimension).values()}
-    for name, signs in OWN_UNITS.items():
-        if given & signs:
-            return name
-    return "bar-mm"
+    return next((name for name, signs in OWN_UNITS.items() if given & signs), "bar-mm")
 
 
 OWN_UNITS = {
@@ -217,26 +217,32 @@ def cited_numbers(text: str) -> str:
 
 def of_source(section: Section) -> Section:
     """Return a section whose texts say whose the numbers of equations in them are."""
-    return replace(section, blocks=tuple(map(block_of_source, section.blocks)))
 
+    def marked(block: Block) -> Block:
+        match block:
+            case str():
+                return cited_numbers(block)
+            case tuple():
+                return tuple(map(cited_numbers, block))
+            case TableBlock(rows=rows):
+                return replace(
+                    block, rows=tuple(tuple(cited_numbers(cell) if isinstance(cell, str) else cell for cell in row) for row in rows)
+                )
+        return block
 
-def block_of_source(block: Block) -> Block:
-    """Return a block whose texts say whose the numbers of equations in them are."""
-    if isinstance(block, Paragraph):
-        return Paragraph(cited_numbers(block.text))
-    if isinstance(block, ListBlock):
-        return ListBlock(tuple(map(cited_numbers, block.texts)))
-    if isinstance(block, TableBlock):
-        rows = tuple(tuple(cited_numbers(cell) if isinstance(cell, str) else cell for cell in row) for row in block.rows)
-        return replace(block, rows=rows)
-    return block
+    return replace(section, blocks=tuple(map(marked, section.blocks)))
 
 
 def title_rows(subject: ReportSubject, title_block: Mapping[str, str], mark: Mark) -> tuple[tuple[str, str], ...]:
     """Return the rows of the title block: what was calculated, of what inputs, by which version; nothing that another run would change."""
     machine, run, cls = subject.machine, subject.run, type(subject.machine)
     seen = {**run.ways, **{name: (value,) for name, value in run.held.items()}}
-    moves = said("{stroke}, {poses} poses in tables", stroke=span_words(subject), poses=subject.count)
+    spans = []
+    for name, way in run.ways.items():
+        unit = stroke_display_unit(machine.plan, name, "mm")
+        low = ", ".join(shown_number(value, unit) for value in way[:-1])
+        spans.append(said("{name} = {low} to {high}", name=name, low=low, high=show(way[-1], unit)))
+    moves = said("{stroke}, {poses} poses in tables", stroke=", ".join(spans), poses=subject.count)
     held = subject.words(dict(run.held))
     return (
         (said("Machine"), f"{machine.plan.heading} ({cls.__module__}:{cls.__qualname__})"),
@@ -250,25 +256,6 @@ def title_rows(subject: ReportSubject, title_block: Mapping[str, str], mark: Mar
     )
 
 
-def span_words(subject: ReportSubject) -> str:
-    """Return the run of the strokes that move as text: `S = 0 to 250 mm`."""
-    words = []
-    for name, way in subject.run.ways.items():
-        unit = stroke_display_unit(subject.machine.plan, name, "mm")
-        low = ", ".join(shown_number(value, unit) for value in way[:-1])
-        words.append(said("{name} = {low} to {high}", name=name, low=low, high=show(way[-1], unit)))
-    return ", ".join(words)
-
-
-def checked_limits(limits: Mapping[str, Sequence[object]], columns: Mapping[str, Column], title: str) -> Mapping[str, Sequence[Any]]:
-    """Return limits by column; DefinitionError for one of no column, or that is none."""
-    require_type("limits", limits, Mapping, 'limits by the names of columns are expected, limits={"tilt": (0.1, "most")}')
-    for name, given in limits.items():
-        known_name("Column", name, columns, where=f"limits of {title}")
-        limit_of(given, columns[name].unit)
-    return limits
-
-
 # What the machine itself judges.
 
 
@@ -280,19 +267,20 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
             found = subject.machine.verdicts(over=subject.over, acting=subject.judge.acting)
             limited = limit_answers(subject, limits)
     except LinkageError as error:
-        why = Paragraph(said("The machine cannot be judged over all that it runs: {why}", why=str(error)))
-        return Section(title, (why,)), Mark(False, said("not judged")), ()
+        return (
+            Section(title, (said("The machine cannot be judged over all that it runs: {why}", why=str(error)),)),
+            Mark(False, said("not judged")),
+            (),
+        )
     if not found:
-        none = Paragraph(said("This machine declares no rules of its own."))
-        return Section(title, (none,)), Mark(None, said("no rules declared")), ()
+        return Section(title, (said("This machine declares no rules of its own."),)), Mark(None, said("no rules declared")), ()
     judged = [each for each in found if each.is_rule]
-    domain = Paragraph(said("Judged over {domain}, in all load cases and directions of motion that occur there.", domain=subject.domain))
+    domain = said("Judged over {domain}, in all load cases and directions of motion that occur there.", domain=subject.domain)
     heads = (said("rule"), said("result"), said("what was found"))
     rows = tuple((each.heading, verdict_mark(each.ok) if each.is_rule else Mark(None, "–"), each.sentence) for each in found)
     table = TableBlock(said("Rules, over all that the machine runs"), heads, rows, "llm")
     places = [(each.heading, each.ok, each.answer, None) for each in judged if isinstance(each.answer, Answer)]
-    worst = worst_places(subject, [*places, *limited])
-    return Section(title, (domain, table, *([worst] if worst is not None else []))), rules_mark(judged), found
+    return Section(title, (domain, table, *worst_places(subject, [*places, *limited]))), rules_mark(judged), found
 
 
 def rules_mark(judged: Sequence[Verdict]) -> Mark:
@@ -338,8 +326,8 @@ def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -
     return [(heading_of(name), each.ok, each, columns.get(name)) for name, each in answers.items()]
 
 
-def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> TableBlock | None:
-    """Return the table of the worst places of some rules, those that are not kept first, then by how far the limit is used.
+def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterator[TableBlock]:
+    """Yield the table of the worst places of some rules, if there are any: those not kept first, then by how far the limit is used.
 
     A limit that is kept and not used at all has no worst place.
     """
@@ -352,7 +340,8 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> TableB
         places = each.situation or "–", places_text(each.strokes, each.units)
         rows.append((rule, verdict_mark(ok), value_cell(subject, each, column), share, *places))
     heads = (said("rule"), said("result"), said("value"), said("limit used"), said("situation"), said("strokes"))
-    return TableBlock(said("The worst places"), heads, tuple(rows), "llrrmm") if rows else None
+    if rows:
+        yield TableBlock(said("The worst places"), heads, tuple(rows), "llrrmm")
 
 
 def value_cell(subject: ReportSubject, answer: Answer, column: Column | None) -> str:
@@ -373,13 +362,8 @@ def used(answer: Answer) -> float:
     question = answer.question
     if not isinstance(question, Constraint) or question.right.leaves:
         return 0.0
-    value, limit = float(answer.value), float(question.right.of(nothing_asked))
+    value, limit = float(answer.value), float(question.right.of(lambda leaf: np.nan))
     if limit == 0.0:
         return np.inf if answer.ok is False else 0.0
     of, by = map(abs, (value, limit) if question.symbol == "<=" else (limit, value))
     return np.inf if of > 0.0 and by == 0.0 else of / by if np.isfinite(by) else 0.0
-
-
-def nothing_asked(leaf: Leaf) -> float:
-    """Return nothing: a number has no leaves."""
-    raise AssertionError(leaf)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -39,7 +40,7 @@ class ReportSubject:
     machine: Mechanism
     run: Run
     count: int
-    over: Any
+    over: object
     judge: Judge
 
     @classmethod
@@ -107,10 +108,6 @@ class ReportSubject:
         """Return the values of all strokes at one of the poses of a motion."""
         return {name: float(np.broadcast_to(values, motion.shape)[place]) for name, values in motion.strokes.items()}
 
-    def moving_words(self, strokes: Mapping[str, float]) -> str:
-        """Return the values of the strokes that move, as text."""
-        return self.words({name: value for name, value in strokes.items() if name in self.run.ways})
-
     def words(self, strokes: Mapping[str, float]) -> str:
         """Return values of strokes as text: `S = 125 mm`."""
         units = {name: stroke_display_unit(self.machine.plan, name, "mm") for name in strokes}
@@ -132,8 +129,11 @@ class ReportSubject:
     @cached_property
     def member_columns(self) -> list[tuple[str, Column]]:
         """What members show of themselves at the poses of the curves, each with the member's name; nothing for one that is refused."""
-        with unwarned():
-            return [*member_tables(self.machine, self.curve)]
+        found: list[tuple[str, Column]] = []
+        for name, member in speakers(self.machine.plan, Tabled).items():
+            with unwarned(), suppress(LinkageError):
+                found += [(name, asked_by_name(name, column)) for column in member.columns(self.curve)]
+        return found
 
     @cached_property
     def quantities(self) -> dict[str, MeasuredQuantity]:
@@ -161,13 +161,3 @@ class ReportSubject:
         known = self.machine.plan.of_kind(LoadCase).get(name, self.judge.acting.case)
         label = known.label if isinstance(known, LoadCase) else said("own loads") if name == PLAIN_CASE else name
         return label if label == name or len(self.judge.cases) == 1 else f"{label} ({name})"
-
-
-def member_tables(machine: Mechanism, motion: Motion) -> Iterator[tuple[str, Column]]:
-    """Yield the columns that members show of themselves, each with the member's name; nothing for one that is refused."""
-    for name, member in speakers(machine.plan, Tabled).items():
-        try:
-            columns = member.columns(motion)
-        except LinkageError:
-            continue
-        yield from ((name, asked_by_name(name, column)) for column in columns)

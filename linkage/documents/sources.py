@@ -11,7 +11,7 @@ from textwrap import dedent
 
 from ..language import translated
 from ..mechanism import Mechanism
-from ..plan import Plan, plan_measure
+from ..plan import plan_measure
 from ..quantities import Dimension
 
 
@@ -21,8 +21,12 @@ def notes_of(machine: type[Mechanism]) -> dict[str, str]:
     for cls in reversed(machine.__mro__):
         if issubclass(cls, Mechanism) and cls is not Mechanism:
             found |= comments_in(cls)
-    kept = {name: translated(text) for name, text in found.items() if name in machine.plan.members}
-    return {name: text if is_without_unit(machine.plan, name) else without_unit(text) for name, text in kept.items()}
+    plan, kept = machine.plan, {name: translated(text) for name, text in found.items() if name in machine.plan.members}
+    for name, text in kept.items():
+        member = plan.members[name]
+        if not isinstance(member, Dimension) or member.unit or plan_measure(plan, name):  # else nothing but the note says what it measures
+            kept[name] = without_unit(text)
+    return kept
 
 
 SHOWN = ("m", "mm", "cm", "rad", "deg", "kg")
@@ -33,12 +37,6 @@ def without_unit(note: str) -> str:
     """Return a note without a unit in front or at its end: `cylinder stroke, m`."""
     units = "|".join((*SHOWN, *map(translated, SHOWN)))
     return re.sub(rf"^(?:{units})(?:, |$)|, (?:{units})$", "", note)
-
-
-def is_without_unit(plan: Plan, name: str) -> bool:
-    """Return whether nothing but its note says what a number of the design measures."""
-    member = plan.members[name]
-    return isinstance(member, Dimension) and not member.unit and not plan_measure(plan, name)
 
 
 def comments_in(cls: type) -> dict[str, str]:

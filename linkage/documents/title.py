@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import final
 
-from ..errors import DefinitionError, cited
+from ..checks import require
 from ..language import said
 
 
@@ -25,8 +25,8 @@ class TitleBlock:
     def __post_init__(self) -> None:
         for each in fields(self):
             value = getattr(self, each.name)
-            if not isinstance(value, str) or (value and not value.isprintable()):
-                raise DefinitionError(f'{each.name}={cited(value)}: a text in one line is expected, such as {each.name}="R-104".')
+            fits = isinstance(value, str) and value.isprintable()
+            require(fits, each.name, value, f'a text in one line is expected, such as {each.name}="R-104"')
 
     @property
     def entries(self) -> tuple[tuple[str, str], ...]:

@@ -25,7 +25,7 @@ from ..statics import applied_loads, axle_load, standing_supports
 from ..statics.holding import Holders, PressureLine, holders_of, same
 from ..vectors import FloatArray, Numbers, Scalar
 from .listing import GivenNumber, Listing, ListingLine
-from .rates import LineDerivatives
+from .rates import LineDerivatives, lines_needed
 from .symbolic import NUMBER, Term, Unit, term, unit_named
 from .words import Cross, Dot
 
@@ -101,8 +101,8 @@ class ForceLines:
         try:
             pushes, loads = element.pushes(self, Rates()), []
             loads = [] if pushes else element.loads(self)
-            terms = [self._terms(each.force) for each in loads]
-            thrusts = [term(np.asarray(each.thrust, object)[()]) for each in pushes]
+            terms = [[term(part) for part in np.asarray(each.force, object)] for each in loads]
+            thrusts = [scalar(each.thrust) for each in pushes]
         except Exception:  # whatever a law of a user's own stumbles on: it has numbers all the same
             yield from self._numbers(name)
             return
@@ -113,10 +113,6 @@ class ForceLines:
         live = [(load, parts) for load, parts in both if not all(self.equals(each, 0.0) for each in parts)]
         for load, (x, y) in live:
             yield self._pulled(name if len(live) == 1 else f"{name}_{load.point}", load.point, x, y)
-
-    def _terms(self, force: FloatArray) -> tuple[Term, Term]:
-        x, y = (term(part) for part in np.asarray(force, object))
-        return x, y
 
     def _pulled(self, title: str, point: str, x: Term, y: Term) -> Pulled:
         """Write the line of a load: a weight, an upward force, or a vector."""
@@ -154,7 +150,8 @@ class ForceLines:
         levers = {line: self._levers(line, strokes) for line in lines}
         needs = {stroke: self.listing.names.force(f"Q_{stroke}") for stroke in strokes}
         while left:
-            block, rows = next_block(left, list(needs), levers)
+            holding = {stroke: [line for line in left if levers[line][stroke] != 0] for stroke in needs}
+            block, rows = next(((held, [stroke]) for stroke, held in holding.items() if len(held) == 1), (list(left), list(needs)))
             for each, unit_thrust in zip(block, self._solved(block, rows, levers, needs), strict=True):
                 for cylinder in each.cylinders:
                     self.carry(cylinder, Term(unit_thrust * self._area(each, cylinder)))
@@ -184,12 +181,12 @@ class ForceLines:
         if line.changes_shares:
             names = " and ".join(each.name for each in line.cylinders)
             raise DefinitionError(f"{self.plan.title}: {names} share their load by the sides that work; take thrust(motion) of each.")
-        parts = {name: [self._area(line, each) * self._chains[name].growth(each) for each in line.cylinders] for name in strokes}
+        parts = {name: [self._area(line, each) * self._chains[name].growths[each.ends] for each in line.cylinders] for name in strokes}
         return {name: sympy.Add(*each) for name, each in parts.items()}
 
     def _area(self, line: PressureLine, cylinder: TwoPoint) -> sympy.Expr:
         """Return the thrust of a cylinder at a unit of its line's pressure; of one that is alone on its line at a unit of its own."""
-        return sympy.S.One if len(line.cylinders) == 1 else term(np.asarray(cylinder.area_written(self), object)[()]).expr
+        return sympy.S.One if len(line.cylinders) == 1 else scalar(cylinder.area_written(self)).expr
 
     def _unit_thrust(self, line: PressureLine) -> sympy.Expr:
         first = line.cylinders[0]
@@ -199,11 +196,12 @@ class ForceLines:
 
     def _stand(self, acting: Mapping[str, Sequence[Pulled]]) -> None:
         """Write two axle loads of a vehicle: by the moments about its first support, and by the sum across the ground; others are given."""
-        supports = standing_supports(self._somewhere())
+        motion = self._somewhere()
+        supports = standing_supports(motion)
         if not supports:
             return
         (first, start), *others = supports.items()
-        second = max(others, key=lambda each: self._apart(start, each[1]))[0]
+        second = max(others, key=lambda each: float(np.hypot(*(motion[name_of(each[1].point)] - motion[name_of(start.point)]))))[0]
         across, moment = Term(sympy.S.Zero), Term(sympy.S.Zero)
         pushes = {name: each.way(self) for name, each in supports.items()}
         self.about, self.shared = first, tuple(name for name in supports if name not in (first, second))
@@ -216,11 +214,6 @@ class ForceLines:
             across, moment = across + inner(force, pushes[first]), moment + self._lever(start, each.point, force, each)
         held = self._write(f"R_{second}", -moment / self._lever(start, supports[second].point, pushes[second]), "kN")
         self._write(f"R_{first}", -across - held * inner(pushes[second], pushes[first]), "kN")
-
-    def _apart(self, one: Support, other: Support) -> float:
-        """Return how far two supports are apart [m]."""
-        motion = self._somewhere()
-        return float(np.hypot(*(motion[name_of(other.point)] - motion[name_of(one.point)])))
 
     def _lever(self, start: Support, point: Reference, force: Any, load: Pulled | None = None) -> Any:
         """Return the moment of a force at a point about a support; of a load that is a vector as the product of both."""
@@ -238,7 +231,7 @@ class ForceLines:
         return Term(sympy.pi)
 
     def line(self, name: str, value: Scalar, unit: str = "") -> Scalar:
-        return self._write(name, term(np.asarray(value, object)[()]), unit)
+        return self._write(name, scalar(value), unit)
 
     def _write(self, name: str, value: Term, unit: str) -> Term:
         symbol = self.listing.names.force(name)
@@ -252,7 +245,7 @@ class ForceLines:
         return Term(symbol)
 
     def equals(self, value: Scalar, number: float) -> bool:
-        expr = term(np.asarray(value, object)[()]).expr.xreplace(self._values)
+        expr = scalar(value).expr.xreplace(self._values)
         return not expr.free_symbols and float(expr) == number
 
     @cached_property
@@ -314,18 +307,14 @@ class ForceLines:
         return np.array([Term(vector[0, 0]), Term(vector[1, 0])], object)
 
 
+def scalar(value: Scalar) -> Term:
+    """Return a number, or an array of one, as a term."""
+    return term(np.asarray(value, object)[()])
+
+
 def inner(a: FloatArray, b: FloatArray) -> Scalar:
     """Return the scalar product of two vectors of terms or numbers."""
     return a[0] * b[0] + a[1] * b[1]
-
-
-def next_block(lines: Sequence[PressureLine], strokes: Sequence[str], levers: Levers) -> tuple[list[PressureLine], list[str]]:
-    """Return lines and as many strokes that are solved next: one line that holds a stroke alone, else all that are left."""
-    for stroke in strokes:
-        holding = [line for line in lines if levers[line][stroke] != 0]
-        if len(holding) == 1:
-            return holding, [stroke]
-    return list(lines), list(strokes)
 
 
 def given_thrust(name: str, place: int) -> Callable[[Motion], FloatArray]:
@@ -344,6 +333,15 @@ def whole_numbers(expr: sympy.Expr) -> sympy.Expr:
     return expr.xreplace(whole)
 
 
+def given_rate(forces: ForceLines, target: str | Distance, stroke: str, by: sympy.Symbol) -> sympy.Symbol | sympy.MatrixSymbol:
+    """Return the derivative of a point, or of a length, that hangs on pins found together: a given number."""
+    names = forces.listing.names
+    vector = names.vector(target if isinstance(target, str) else joined_names(name_of(target.P), name_of(target.Q)))
+    symbol = names.derivative(vector, by) if isinstance(target, str) else names.stretching(vector, by)
+    forces.givens.append(GivenNumber(symbol, lambda motion: motion.ratio(target, wrt=stroke), NUMBER))
+    return symbol
+
+
 @final
 class Chain:
     """The derivatives by one stroke that forces need: of the points that carry loads, and of the lengths of members."""
@@ -357,39 +355,26 @@ class Chain:
         lengths = {member.ends: listing.value(Distance(*member.ends)).expr for member in [*held, *(each for each, _ in self._acting)]}
         points = {each.point: listing.at(each.point).expr for each in pulled}
         together = {names.vector(pin) for pin in listing.unknowns}
-        free = [each for each in (*points.values(), *lengths.values()) if not together & symbols_behind(listing.lines, each)]
+        behind = {
+            each: each.free_symbols.union(*(line.rhs.free_symbols for line in lines_needed(listing.lines, [each])))
+            for each in (*points.values(), *lengths.values())
+        }
+        free = [each for each, symbols in behind.items() if not together & symbols]
         rates = LineDerivatives(self.symbol, listing.units[stroke], names)
-        self.lines = rates.lines(needed_by(listing.lines, free))
+        self.lines = rates.lines(lines_needed(listing.lines, free))
         fixed = {line.lhs: line.rhs for line in self.lines if line.rhs.is_number}
         self.growths = {
-            ends: rates.number(length).xreplace(fixed) if length in free else self._given_growth(forces, stroke, ends)
+            ends: rates.number(length).xreplace(fixed) if length in free else given_rate(forces, Distance(*ends), stroke, self.symbol)
             for ends, length in lengths.items()
         }
         self.points = {name: rates.known[symbol] for name, symbol in points.items() if symbol in rates.known}
-        self.points |= {name: self._given_rate(forces, stroke, name) for name, symbol in points.items() if symbol not in free}
+        self.points |= {name: given_rate(forces, name, stroke, self.symbol) for name, symbol in points.items() if symbol not in free}
         is_only = len(forces.plan.strokes) == 1
         self._vertical = dict.fromkeys(each.point for each in pulled if is_only and each.way and each.point in self.points)
         self.lines += [ListingLine(names.ratio(name), self.points[name][1, 0], self._unit(name)) for name in self._vertical]
 
-    def _given_rate(self, forces: ForceLines, stroke: str, point: str) -> sympy.MatrixSymbol:
-        """Return the derivative of a point that hangs on pins found together: a given number."""
-        symbol = self.listing.names.derivative(self.listing.names.vector(point), self.symbol)
-        forces.givens.append(GivenNumber(symbol, lambda motion: motion.ratio(point, wrt=stroke), NUMBER))
-        return symbol
-
-    def _given_growth(self, forces: ForceLines, stroke: str, ends: tuple[str, str]) -> sympy.Symbol:
-        """Return how a length grows that hangs on pins found together: a given number."""
-        vector = self.listing.names.vector(joined_names(*ends))
-        symbol = self.listing.names.stretching(vector, self.symbol)
-        forces.givens.append(GivenNumber(symbol, lambda motion: motion.ratio(Distance(*ends), wrt=stroke), NUMBER))
-        return symbol
-
     def _unit(self, point: str) -> Unit:
         return next((each.unit for each in self.lines if each.lhs == self.points[point]), NUMBER)
-
-    def growth(self, member: TwoPinned) -> sympy.Expr:
-        """Return how a member's length grows on a unit of the stroke."""
-        return self.growths[member.ends]
 
     def rates_of(self, point: str) -> tuple[sympy.Expr, sympy.Expr]:
         """Return both parts of a point's derivative; the second by its own name I_G where it has one."""
@@ -406,19 +391,3 @@ class Chain:
         for member, thrust in self._acting:
             total -= thrust.expr * self.growths[member.ends]
         return Term(total)
-
-
-def symbols_behind(lines: Sequence[ListingLine], target: sympy.Basic) -> set[sympy.Basic]:
-    """Return the symbols that an expression is built from, those of the lines behind it too."""
-    return set(target.free_symbols).union(*(line.rhs.free_symbols for line in needed_by(lines, [target])))
-
-
-def needed_by(lines: Sequence[ListingLine], targets: Sequence[sympy.Basic]) -> list[ListingLine]:
-    """Return the lines that some expressions are built from, in order."""
-    wanted = set().union(*(each.free_symbols for each in targets)) if targets else set()
-    found = []
-    for line in reversed(lines):
-        if line.lhs in wanted:
-            wanted |= line.rhs.free_symbols
-            found.append(line)
-    return found[::-1]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import singledispatch
 from typing import Any, cast, final
 
 import numpy as np
@@ -40,25 +39,35 @@ X_AXIS = vector_symbol("i")
 """The unit vector of the x axis."""
 
 
-@singledispatch
 def symbolic_value(member: Member, reading: Listing) -> Any:
-    """Return what a member equals: a SymPy vector, or a term for a quantity."""
+    """Return what a member equals: a SymPy vector, or a term for a quantity; None for a point of plain coordinates."""
+    match member:
+        case CosineAngle():
+            return Term(Tcos(*(reading.value(side).expr for side in member.triangle)), ANGLE)
+        case Quantity():
+            return term(member.rule(cast(Where, reading)))
+        case Axis():
+            return x_axis_of(member.axes, reading)
+        case Turn():
+            length = None if member.scaled_to is None else reading.scaled(member, member.scaled_to)
+            base, angle = reading.arrow_line(member.base), reading.value(member.angle).as_angle()
+            return TurnV(base, angle.expr) if length is None else TurnVL(base, angle.expr, length.expr)
+        case Guide(Q=None):
+            own = None if member.angle is None or member.angle.is_constant else member.angle
+            angle = reading.input(f"{member.name}.angle") if own is None else reading.value(own).as_angle()
+            return TurnV(x_axis_of(member.axes, reading), (-1 if member.axes.mirrored else 1) * angle.expr)
+        case Guide():
+            P, Q = member.points
+            return TurnVL(reading.between(P, Q), sympy.S.Zero, sympy.S.One)
+        case Offset():
+            return reading.at(member.P).expr + reading.arrow_line(member.by)
+        case Point():
+            place, given = cast("Place | Vec", member.place(cast(Where, reading))), member.coordinates()
+            if not given or not getattr(member, "axes", FRAME_AXES).is_frame:
+                return vector_expr(place)
+            is_formula = any(not value.is_constant for _, value in given)
+            return sympy.ImmutableMatrix([term(place.x).expr, term(place.y).expr]) if is_formula else None
     raise NotImplementedError(f"{type(member).__name__} has no symbolic form")
-
-
-@symbolic_value.register(Quantity)
-def _(member: Quantity, reading: Listing) -> Term:
-    return term(member.rule(cast(Where, reading)))
-
-
-@symbolic_value.register(CosineAngle)
-def _(member: CosineAngle, reading: Listing) -> Term:
-    return Term(Tcos(*(reading.value(side).expr for side in member.triangle)), ANGLE)
-
-
-@symbolic_value.register(Axis)
-def _(member: Axis, reading: Listing) -> sympy.MatrixExpr:
-    return x_axis_of(member.axes, reading)
 
 
 def x_axis_of(axes: Axes, reading: Listing) -> sympy.MatrixExpr:
@@ -66,43 +75,6 @@ def x_axis_of(axes: Axes, reading: Listing) -> sympy.MatrixExpr:
     along = TurnVL(reading.between(*axes.carrier), sympy.S.Zero, sympy.S.One) if axes.carrier else X_AXIS
     own = -along if axes.mirrored else along
     return own if axes.is_level else TurnV(own, reading.value(axes.angle).as_angle().expr)
-
-
-@symbolic_value.register(Turn)
-def _(member: Turn, reading: Listing) -> sympy.MatrixExpr:
-    length = None if member.scaled_to is None else reading.scaled(member, member.scaled_to)
-    base, angle = reading.arrow_line(member.base), reading.value(member.angle).as_angle()
-    return TurnV(base, angle.expr) if length is None else TurnVL(base, angle.expr, length.expr)
-
-
-@symbolic_value.register(Guide)
-def _(member: Guide, reading: Listing) -> sympy.MatrixExpr:
-    """Return the guide's direction, of length one."""
-    if member.Q is not None:
-        P, Q = member.points
-        return TurnVL(reading.between(P, Q), sympy.S.Zero, sympy.S.One)
-    if member.angle is None or member.angle.is_constant:
-        angle = reading.input(f"{member.name}.angle")
-    else:
-        angle = reading.value(member.angle).as_angle()
-    sign = -1 if member.axes.mirrored else 1
-    return TurnV(x_axis_of(member.axes, reading), sign * angle.expr)
-
-
-@symbolic_value.register(Offset)
-def _(member: Offset, reading: Listing) -> sympy.MatrixExpr:
-    return reading.at(member.P).expr + reading.arrow_line(member.by)
-
-
-@symbolic_value.register(Point)
-def _(member: Point, reading: Listing) -> sympy.MatrixExpr | None:
-    """Return a point's place by its own rule; of one that is given by coordinates these where one is a formula, else None."""
-    place = cast("Place | Vec", member.place(cast(Where, reading)))
-    given = member.coordinates()
-    if not given or not getattr(member, "axes", FRAME_AXES).is_frame:
-        return vector_expr(place)
-    is_formula = any(not value.is_constant for _, value in given)
-    return sympy.ImmutableMatrix([term(place.x).expr, term(place.y).expr]) if is_formula else None
 
 
 # A line of the listing: what stands for what.
@@ -209,7 +181,6 @@ class Listing:
     def assign(self, each: Assignment) -> None:
         """Write one primitive of a step's expansion."""
         if isinstance(each.value, Quantity):
-            assert isinstance(each.value, Quantity)
             if not each.value.name and not isinstance(each.value, Variable):
                 self._labels.setdefault(id(each.value), each)
                 self.value(each.value)
@@ -282,19 +253,15 @@ class Listing:
     def _known(self, key: str | int, member: Quantity) -> Term:
         if key not in self._terms:
             found: Term = symbolic_value(member, self)
-            self._terms[key] = found if isinstance(key, int) and found.expr.is_Atom else self._line(key, member, found)
+            if isinstance(key, str) or not found.expr.is_Atom:
+                if isinstance(key, str):
+                    symbol = self.names.quantity(key)
+                else:
+                    symbol = (self.names.angle if found.unit == ANGLE else self.names.length)(self._labels[key].name)
+                self.lines.append(ListingLine(symbol, found.expr, found.unit))
+                found = Term(symbol, found.unit)
+            self._terms[key] = found
         return self._terms[key]
-
-    def _line(self, key: str | int, member: Quantity, found: Term) -> Term:
-        symbol = self._symbol(key, found.unit)
-        self.lines.append(ListingLine(symbol, found.expr, found.unit))
-        return Term(symbol, found.unit)
-
-    def _symbol(self, key: str | int, unit: Unit) -> sympy.Symbol:
-        if isinstance(key, str):
-            return self.names.quantity(key)
-        name = self._labels[key].name
-        return self.names.angle(name) if unit == ANGLE else self.names.length(name)
 
     def scaled(self, arrow: Member, length: Quantity) -> Term:
         """Return the length a vector is scaled to; an expression gets the vector's name: L_AB = L0 + S."""

@@ -40,9 +40,7 @@ class SymbolNames:
 
     def vector(self, name: str) -> sympy.MatrixSymbol:
         """Return the symbol of a point or a vector member, or of a vector named by its two points."""
-        text = self._text(name if name in self._placed else ("vector", name), name, self._vector_latex(name))
-        for axis in "xy":
-            self.latex.setdefault(f"{text}.{axis}", self._component_latex(name, axis))
+        text = self._vector_text(name if name in self._placed else ("vector", name), name)
         return point_symbol(text) if name in self.points or name in self._guides else vector_symbol(text)
 
     def quantity(self, name: str) -> sympy.Symbol:
@@ -100,10 +98,14 @@ class SymbolNames:
 
     def force_vector(self, name: str) -> sympy.MatrixSymbol:
         """Return the symbol of a force as a vector: F_pull."""
-        text = self._text(("force vector", name), name, self._vector_latex(name))
+        return vector_symbol(self._vector_text(("force vector", name), name))
+
+    def _vector_text(self, key: object, name: str) -> str:
+        """Return the text of a vector, whose LaTeX and that of its components are kept."""
+        text = self._text(key, name, self._vector_latex(name))
         for axis in "xy":
             self.latex.setdefault(f"{text}.{axis}", self._component_latex(name, axis))
-        return vector_symbol(text)
+        return text
 
     def _text(self, key: object, wanted: str, latex: str = "") -> str:
         """Return the text of a thing; a stroke is added where another thing has it already."""

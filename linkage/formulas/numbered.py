@@ -15,12 +15,11 @@ import numpy as np
 import sympy
 
 from ..checks import require, require_type, require_whole
-from ..errors import DefinitionError, cited, known_name
+from ..errors import DefinitionError, known_name
 from ..language import translated
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..motion.requests import stroke_of
 from ..plan import Part
-from ..quantities import is_whole
 from ..shown import Shown
 from ..units import SI, UNITS, factor, shown_in
 from ..vectors import Numbers, Scalar
@@ -51,13 +50,19 @@ def equations(
     Chuprynin, "Universality of the hitch of the power vehicle UES-2-250A" (Minsk, 2008), equations (4) to (27).
     """
     design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
-    check_given(design, start, at, ratio, dict(numbers=numbers, forces=forces))
+    require_mechanism(design)
+    require_whole("start", start, "the first equation's number is expected, a whole number from 1 on", least=1)
+    check_pose(design, at)
+    targets = [ratio] if isinstance(ratio, str) else ratio
+    require_type("ratio", targets, (list, tuple), 'the name of a point or an output is expected, ratio="G", or a list of them', of=str)
+    for flag, value in (("numbers", numbers), ("forces", forces)):
+        require(not np.ndim(value), flag, value, "True or False is expected")
     if wrt is not None:
         known_name("Stroke", wrt, design.plan.strokes, design.plan.title)
     listing = Listing(design.plan)
     listing.write_members(declared(type(design)))
     lines = by_parts(listing.lines, listing)
-    for target in [ratio] if isinstance(ratio, str) else ratio:
+    for target in targets:
         added = differentiated(design, listing, target, wrt)
         lines += by_parts([line for line in added if line.lhs not in {each.lhs for each in lines}], listing)
     written = ForceLines(design, listing) if forces else None
@@ -79,12 +84,12 @@ def by_parts(lines: Sequence[ListingLine], listing: Listing) -> list[ListingLine
     made = [{line.lhs} if hasattr(line.lhs, "name") else set() for line in lines]
     every = set[sympy.Basic]().union(*made)
     needs = [(line.rhs.free_symbols | line.lhs.free_symbols) & every - own for line, own in zip(lines, made, strict=True)]
+    owners = [part_of_line(line, listing) for line in lines]
     left, found, known = list(range(len(lines))), list[int](), set[sympy.Basic]()
 
-    def ready(owner: str) -> list[int]:
-        """Return the lines of a part that can be written now, one behind the other."""
-        have, ours = set(known), [place for place in left if part_of_line(lines[place], listing) == owner]
-        taken: list[int] = []
+    def ready(ours: Sequence[int]) -> list[int]:
+        """Return those of a part's lines that can be written now, one behind the other."""
+        have, taken = set(known), list[int]()
         for place in ours:
             if needs[place] <= have:
                 taken.append(place)
@@ -92,15 +97,14 @@ def by_parts(lines: Sequence[ListingLine], listing: Listing) -> list[ListingLine
         return taken
 
     while left:
-        owners = list(dict.fromkeys(part_of_line(lines[place], listing) for place in left))
-        owners.sort(key=lambda each: not each)
-        choices = {owner: ready(owner) for owner in owners}
-        counts = {owner: sum(part_of_line(lines[place], listing) == owner for place in left) for owner in owners}
-        whole = [owner for owner in owners if len(choices[owner]) == counts[owner]]
-        best = whole[0] if whole else next((owner for owner in owners if choices[owner]), None)
-        taken = choices[best] if best is not None else left[:1]
-        for place in taken:
-            known |= made[place]
+        owned: dict[str, list[int]] = {}
+        for place in left:
+            owned.setdefault(owners[place], []).append(place)
+        groups = [places for _, places in sorted(owned.items(), key=lambda each: not each[0])]
+        choices = [ready(places) for places in groups]
+        whole = (taken for taken, places in zip(choices, groups, strict=True) if len(taken) == len(places))
+        taken = next(whole, None) or next(filter(None, choices), left[:1])
+        known.update(*(made[place] for place in taken))
         found += taken
         left = [place for place in left if place not in taken]
     return [lines[place] for place in found]
@@ -110,19 +114,6 @@ def part_of_line(line: ListingLine, listing: Listing) -> str:
     """Return the part whose line it is; "" for the machine itself, whose are those of several parts, too."""
     owners = {listing.names.owners.get(each.name, "") for each in ([line.lhs] if hasattr(line.lhs, "name") else line.lhs.free_symbols)}
     return owners.pop() if len(owners) == 1 else ""
-
-
-def check_given(design: Mechanism, start: object, at: object, ratio: object, flags: Mapping[str, bool]) -> None:
-    """Raise DefinitionError for a wrong mechanism, first number, pose, name or flag."""
-    require_mechanism(design)
-    if not (isinstance(start, (int, np.integer)) and is_whole(start) and start >= 1):
-        raise DefinitionError(f"start={cited(start)}: the first equation's number is expected, a whole number from 1 on.")
-    check_pose(design, at)
-    names = [ratio] if isinstance(ratio, str) else ratio
-    if not isinstance(names, (list, tuple)) or not all(isinstance(name, str) for name in names):
-        raise DefinitionError(f'ratio={cited(ratio)}: the name of a point or an output is expected, ratio="G", or a list of them.')
-    for flag, value in flags.items():
-        require(not np.ndim(value), flag, value, "True or False is expected")
 
 
 def check_pose(design: Mechanism, at: object) -> None:
@@ -138,7 +129,7 @@ def differentiated(design: Mechanism, listing: Listing, target: str, wrt: str | 
     known_name("Point or output", target, known, where=plan.title)
     stroke = stroke_of(plan, wrt)
     together = {listing.names.vector(pin) for pin in listing.unknowns}
-    if together & {known[target], *(symbol for line in lines_needed(listing.lines, known[target]) for symbol in line.rhs.free_symbols)}:
+    if together & {known[target], *(symbol for line in lines_needed(listing.lines, [known[target]]) for symbol in line.rhs.free_symbols)}:
         pins = " ".join(listing.unknowns)
         raise DefinitionError(f"{plan.title}: {target} hangs on pins found together ({pins}): no chain of derivatives; take motion.ratio.")
     return ratio_lines(listing.lines, known[target], listing.names.quantity(stroke), listing.units[stroke], listing.names)
@@ -288,11 +279,12 @@ class Equations(Sequence[Equation], Shown):
     ) -> None:
         self.machine, self._listing, self._lines, self._poses, self._forces = machine, listing, tuple(lines), poses, forces
         strokes = [listing.names.quantity(name) for name in machine.plan.strokes]
-        numbered = enumerate(lines, start)
-        self._items = tuple(
-            Equation(number, line.lhs, line.rhs, line.unit, strokes_followed(line, strokes), part_of_line(line, listing))
-            for number, line in numbered
-        )
+        items: list[Equation] = []
+        for number, line in enumerate(lines, start):
+            is_own = line.lhs.is_Symbol and "/" not in line.lhs.name  # a scalar's own formula, which may name strokes: L_AB(S)
+            follows = tuple(stroke for stroke in strokes if is_own and stroke in line.rhs.free_symbols)
+            items.append(Equation(number, line.lhs, line.rhs, line.unit, follows, part_of_line(line, listing)))
+        self._items = tuple(items)
 
     def __len__(self) -> int:
         return len(self._items)
@@ -383,14 +375,13 @@ class Equations(Sequence[Equation], Shown):
         require_whole("limit", limit, "the number of operations is expected, such as 20000")
         target = self[known_name("Equation", name, [each.name for each in self._items], self.machine.plan.title)]
         known: dict[sympy.Symbol, sympy.Expr] = {}
-        for each in self._items[: self._items.index(target) + 1]:
-            written = tuple(part.xreplace(known) for part in explicit(each.rhs))
-            if each is target:
-                return written[0] if len(written) == 1 else written
+        for each in self._items[: self._items.index(target)]:
+            written = [part.xreplace(known) for part in explicit(each.rhs)]
             if sum(part.count_ops() for part in written) > limit:
                 raise DefinitionError(f"{name} has more than {limit} operations in closed form; use the equations one after the other.")
             known |= dict(zip(explicit(each.lhs), written, strict=True))
-        raise AssertionError(name)
+        found = tuple(part.xreplace(known) for part in explicit(target.rhs))
+        return found[0] if len(found) == 1 else found
 
     # -- text ------------------------------------------------------------------------------------------
 
@@ -479,18 +470,12 @@ class Equations(Sequence[Equation], Shown):
             if each.number in headings:
                 rows.append(rf"  \textbf{{{escaped_latex(headings[each.number])}}} & \notag")
             rows.append(rf"  {each.latex(words)} \tag{{{each.number}}}")
-        head = latex_legend(self) if definitions else []
+        used = [f"  {text}" for meant, text in LATEX if definitions and uses(self, meant)]
+        head = [r"\begin{align*}", " \\\\\n".join(used), r"\end{align*}"] if used else []
         return "\n".join([*head, r"\begin{align}", " \\\\\n".join(rows), r"\end{align}"])
 
     def _repr_latex_(self) -> str:
         return self.latex()
-
-
-def strokes_followed(line: ListingLine, strokes: Sequence[sympy.Symbol]) -> tuple[sympy.Symbol, ...]:
-    """Return the strokes that a scalar's own formula names: L_AB(S)."""
-    if not line.lhs.is_Symbol or "/" in line.lhs.name:
-        return ()
-    return tuple(stroke for stroke in strokes if stroke in line.rhs.free_symbols)
 
 
 # What stands in front of the equations: the words' definitions, the sign convention, and what is given.
@@ -556,21 +541,11 @@ def given_lines(equations: Equations, listing: Listing, values: dict[str, str], 
     strokes = [names.quantity(name) for name in plan.strokes]
     points = [names.vector(name) for name in listing.given_points if name not in listing.unknowns]
     dimensions = [names.quantity(name) for name in plan.table.entries]
-    groups = [[given_words(symbol, values) for symbol in group if symbol in used] for group in (strokes, points, dimensions, others)]
+    words = {name: f"{name} = {value}".replace(" ", TOGETHER) for name, value in values.items()}
+    groups = [[words.get(each.name, each.name) for each in group if each in used] for group in (strokes, points, dimensions, others)]
     listed = "; ".join(", ".join(group) for group in groups if group)
     lines = wrap(f"Given: {listed}.", width=WIDTH, subsequent_indent="  ", break_long_words=False) if listed else []
     return [line.replace(TOGETHER, " ") for line in lines]
-
-
-def given_words(symbol: sympy.Symbol | sympy.MatrixSymbol, values: dict[str, str]) -> str:
-    """Return a given symbol, with its value and unit where that is known."""
-    return f"{symbol.name} = {values[symbol.name]}".replace(" ", TOGETHER) if symbol.name in values else str(symbol.name)
-
-
-def latex_legend(equations: Equations) -> list[str]:
-    """Return the definitions as an unnumbered `align*` environment; nothing where none is used."""
-    rows = [text for words, text in LATEX if uses(equations, words)]
-    return [r"\begin{align*}", " \\\\\n".join(f"  {row}" for row in rows), r"\end{align*}"] if rows else []
 
 
 # Numbers for the equations: each line evaluated from those before it, on arrays or to any number of digits.
@@ -588,12 +563,10 @@ def evaluated(lines: Sequence[ListingLine], inputs: Mapping[sympy.Symbol, Any], 
     with mpmath.workdps(digits + 10):
         exact = {symbol: mpmath.mpf(repr(float(value))) for symbol, value in inputs.items()}
         found = _evaluated(lines, exact, "mpmath")
-    return {symbol: _rounded(value, digits) for symbol, value in found.items()}
-
-
-def _rounded(value: object, digits: int) -> Any:
-    """Return mpmath numbers as SymPy's, which keep their digits wherever they are shown."""
-    return tuple(_rounded(part, digits) for part in value) if isinstance(value, tuple) else sympy.Float(value, digits)
+    return {  # SymPy's numbers keep their digits wherever they are shown
+        symbol: tuple(sympy.Float(part, digits) for part in value) if isinstance(value, tuple) else sympy.Float(value, digits)
+        for symbol, value in found.items()
+    }
 
 
 def in_reals(value: Any) -> Any:

@@ -69,15 +69,11 @@ class Text(StrPrinter):  # type: ignore[misc]
         super().__init__()
         self.values = values or {}
 
-    def _print_Symbol(self, expr: sympy.Symbol) -> str:
-        return self._filled(expr.name)
-
-    def _print_MatrixSymbol(self, expr: sympy.MatrixSymbol) -> str:
-        return self._filled(expr.name)
-
-    def _filled(self, name: str) -> str:
-        found = self.values.get(name, name)
+    def _print_Symbol(self, expr: sympy.Symbol | sympy.MatrixSymbol) -> str:
+        found = self.values.get(expr.name, expr.name)
         return f"({found})" if found.startswith("-") else found
+
+    _print_MatrixSymbol = _print_Symbol
 
     def _print_MatrixElement(self, expr: MatrixElement) -> str:
         if expr.parent.name not in self.values:
@@ -89,11 +85,10 @@ class Text(StrPrinter):  # type: ignore[misc]
     def _print_Float(self, expr: sympy.Float) -> str:
         return plain_number(float(expr), 12)
 
-    def _print_Add(self, expr: sympy.Add, order: str | None = None) -> str:
+    def _print_Add(self, expr: sympy.Add | sympy.MatAdd, order: str | None = None) -> str:
         return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
-    def _print_MatAdd(self, expr: sympy.MatAdd) -> str:
-        return signed_sum([self._print(each) for each in reading_order(expr.args)])
+    _print_MatAdd = _print_Add
 
     def _print_MatMul(self, expr: sympy.MatMul) -> str:
         over, under, vector = factors(expr)
@@ -130,6 +125,9 @@ class Text(StrPrinter):  # type: ignore[misc]
         return f"|{self._print(expr.args[0])}|"
 
 
+HEADS = {TurnV: r"\operatorname{TurnV}", TurnVL: r"\operatorname{TurnV}_{L}", Tcos: r"\operatorname{Tcos}", Direction: r"\arg"}
+
+
 @final
 class Latex(LatexPrinter):  # type: ignore[misc]
     r"""LaTeX: `\overrightarrow{AB} = \operatorname{TurnV}_{L}\left(...\right)`. `words` holds the symbols' LaTeX.
@@ -161,11 +159,10 @@ class Latex(LatexPrinter):  # type: ignore[misc]
     def _print_Float(self, expr: sympy.Float) -> str:
         return number_latex(plain_number(float(expr), 12))
 
-    def _print_Add(self, expr: sympy.Add, order: str | None = None) -> str:
+    def _print_Add(self, expr: sympy.Add | sympy.MatAdd, order: str | None = None) -> str:
         return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
-    def _print_MatAdd(self, expr: sympy.MatAdd) -> str:
-        return signed_sum([self._print(each) for each in reading_order(expr.args)])
+    _print_MatAdd = _print_Add
 
     def _print_MatMul(self, expr: sympy.MatMul) -> str:
         over, under, vector = factors(expr)
@@ -175,17 +172,10 @@ class Latex(LatexPrinter):  # type: ignore[misc]
             return rf"\frac{{{self._print(over)}}}{{{self._print(under)}}}{self.times}{self._print(vector)}"
         return self._print(vector) if over == 1 else f"{self.parenthesize(over, PRECEDENCE['Mul'])}{self.times}{self._print(vector)}"
 
-    def _call(self, head: str, expr: sympy.Basic) -> str:
-        return rf"{head}\left({', '.join(map(self._print, expr.args))}\right)"
+    def _print_TurnV(self, expr: TurnV | Tcos | Direction, exp: str | None = None) -> str:
+        return rf"{HEADS[type(expr)]}\left({', '.join(map(self._print, expr.args))}\right)"
 
-    def _print_TurnV(self, expr: TurnV) -> str:
-        return self._call(r"\operatorname{TurnV}", expr)
-
-    def _print_TurnVL(self, expr: TurnVL) -> str:
-        return self._call(r"\operatorname{TurnV}_{L}", expr)
-
-    def _print_Tcos(self, expr: Tcos, exp: str | None = None) -> str:
-        return self._call(r"\operatorname{Tcos}", expr)
+    _print_TurnVL = _print_Tcos = _print_Direction = _print_TurnV
 
     def _print_Norm(self, expr: Norm) -> str:
         if self.values:
@@ -193,9 +183,6 @@ class Latex(LatexPrinter):  # type: ignore[misc]
             if not found.startswith("|"):
                 return number_latex(found)
         return rf"\left|{self._print(expr.args[0])}\right|"
-
-    def _print_Direction(self, expr: Direction) -> str:
-        return self._call(r"\arg", expr)
 
     def _print_Dot(self, expr: Dot) -> str:
         return r" \cdot ".join(map(self._factor, expr.args))

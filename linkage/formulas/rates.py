@@ -6,8 +6,7 @@ The cosine rule L3^2 = L1^2 + L2^2 - 2 L1 L2 cos(a) gives a'. Source: any text o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import singledispatchmethod
+from collections.abc import Iterable, Sequence
 from typing import final
 
 import sympy
@@ -66,21 +65,19 @@ class LineDerivatives:
 
     def _word(self, word: sympy.Expr) -> sympy.Expr:
         """Return the derivative of a number read off vectors."""
-        if isinstance(word, Tcos):
-            return self._cosine_rule(word, word)
-        if isinstance(word, MatrixElement):
-            rate = self.of(word.parent)
-            return sympy.S.Zero if rate == STILL else rate[word.i, 0]
-        if isinstance(word, Norm):
-            return self._stretching(word.args[0])
-        return self._turning(word.args[0]) if isinstance(word, Direction) else self._product(word)
-
-    def _product(self, word: Dot | Cross) -> sympy.Expr:
-        """Return the derivative of a scalar or vector product."""
-        a, b = word.args
+        match word:
+            case Tcos():
+                return self._cosine_rule(word, word)
+            case MatrixElement():
+                rate = self.of(word.parent)
+                return sympy.S.Zero if rate == STILL else rate[word.i, 0]
+            case Norm():
+                return self._stretching(word.args[0])
+            case Direction():
+                return self._turning(word.args[0])
+        a, b = word.args  # the factors of a scalar or vector product
         da, db = self.of(a), self.of(b)
-        terms = [type(word)(*pair) for pair, rate in (((da, b), da), ((a, db), db)) if rate != STILL]
-        return sympy.Add(*terms)
+        return sympy.Add(*(type(word)(*pair) for pair, rate in (((da, b), da), ((a, db), db)) if rate != STILL))
 
     def _turning(self, vector: sympy.MatrixExpr) -> sympy.Expr:
         """Return the rate at which a vector turns."""
@@ -104,34 +101,25 @@ class LineDerivatives:
 
     # -- vectors ---------------------------------------------------------------------------------------
 
-    @singledispatchmethod
     def of(self, vector: sympy.MatrixExpr) -> sympy.MatrixExpr:
         """Return the derivative of a vector; STILL where it does not follow the stroke."""
+        match vector:
+            case MatrixSymbol():
+                return self.known.get(vector, STILL)
+            case MatAdd():
+                return summed([rate for rate in map(self.of, vector.args) if rate != STILL])
+            case MatMul():
+                factor, (rest,) = vector.as_coeff_matrices()
+                rate, scaled = self.of(rest), self.number(factor)
+                turned = [] if rate == STILL else [MatMul(factor, rate)]
+                return summed(turned + ([] if scaled == 0 else [MatMul(scaled, rest)]))
+            case TurnV():
+                base, angle, *length = vector.args
+                turns = self.number(angle) + self._turning(base)
+                longer = self.number(length[0]) / length[0] if length else self._stretching(base) / Norm(base)
+                here = self._line.lhs if self._line is not None and vector == self._line.rhs else vector
+                return summed([MatMul(factor, part) for factor, part in ((turns, TurnV(here, Deg(90))), (longer, here)) if factor != 0])
         return sympy.ImmutableMatrix([self.number(each) for each in vector])
-
-    @of.register
-    def _(self, vector: MatrixSymbol) -> sympy.MatrixExpr:
-        return self.known.get(vector, STILL)
-
-    @of.register
-    def _(self, vector: MatAdd) -> sympy.MatrixExpr:
-        moving = [rate for rate in map(self.of, vector.args) if rate != STILL]
-        return summed(moving)
-
-    @of.register
-    def _(self, vector: MatMul) -> sympy.MatrixExpr:
-        factor, (rest,) = vector.as_coeff_matrices()
-        rate, scaled = self.of(rest), self.number(factor)
-        turned = [] if rate == STILL else [MatMul(factor, rate)]
-        return summed(turned + ([] if scaled == 0 else [MatMul(scaled, rest)]))
-
-    @of.register
-    def _(self, vector: TurnV) -> sympy.MatrixExpr:
-        base, angle, *length = vector.args
-        turned = self.number(angle) + self._turning(base)
-        longer = self.number(length[0]) / length[0] if length else self._stretching(base) / Norm(base)
-        here = self._line.lhs if self._line is not None and vector == self._line.rhs else vector
-        return summed([MatMul(factor, part) for factor, part in ((turned, TurnV(here, Deg(90))), (longer, here)) if factor != 0])
 
 
 def summed(vectors: Sequence[sympy.MatrixExpr]) -> sympy.MatrixExpr:
@@ -139,9 +127,9 @@ def summed(vectors: Sequence[sympy.MatrixExpr]) -> sympy.MatrixExpr:
     return (MatAdd(*vectors) if len(vectors) > 1 else vectors[0]) if vectors else STILL
 
 
-def lines_needed(lines: Sequence[ListingLine], target: sympy.Basic) -> list[ListingLine]:
-    """Return the lines that a symbol is built from, its own last."""
-    wanted, found = {target}, []
+def lines_needed(lines: Sequence[ListingLine], targets: Iterable[sympy.Basic]) -> list[ListingLine]:
+    """Return the lines that some expressions are built from, in order."""
+    wanted, found = set[sympy.Basic]().union(*(each.free_symbols for each in targets)), []
     for line in reversed(lines):
         if line.lhs in wanted:
             wanted |= line.rhs.free_symbols
@@ -153,7 +141,7 @@ def ratio_lines(
     lines: Sequence[ListingLine], target: sympy.Basic, stroke: sympy.Symbol, unit: Unit, names: SymbolNames
 ) -> list[ListingLine]:
     """Return the chain of derivatives that ends in a target's transfer ratio; for a point, I_G = dG_y/dS comes last."""
-    chain = LineDerivatives(stroke, unit, names).lines(lines_needed(lines, target))
+    chain = LineDerivatives(stroke, unit, names).lines(lines_needed(lines, [target]))
     if not chain or chain[-1].lhs != names.derivative(target, stroke) or not target.is_Matrix:
         return chain
     last = chain[-1]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, partial
 from math import isnan
 from typing import ClassVar, Protocol, final
 
@@ -212,18 +212,11 @@ def keeping_unit(function: Callable[..., sympy.Expr]) -> Callable[..., Term]:
     return lambda *terms: Term(function(*(each.expr for each in terms)), max(terms, key=lambda each: each.unit != NUMBER).unit)
 
 
-def sum_of(a: Term, b: Term) -> Term:
-    """Return a sum; a plain number beside an angle is one in degrees."""
+def sum_of(a: Term, b: Term, sign: int = 1) -> Term:
+    """Return a sum, or a difference by the sign -1; a plain number beside an angle is one in degrees."""
     if ANGLE in (a.unit, b.unit):
         a, b = a.as_angle(), b.as_angle()
-    return Term(a.expr + b.expr, b.unit if a.unit == NUMBER else a.unit)
-
-
-def difference_of(a: Term, b: Term) -> Term:
-    """Return a difference; a plain number beside an angle is one in degrees."""
-    if ANGLE in (a.unit, b.unit):
-        a, b = a.as_angle(), b.as_angle()
-    return Term(a.expr - b.expr, b.unit if a.unit == NUMBER else a.unit)
+    return Term(a.expr + sign * b.expr, b.unit if a.unit == NUMBER else a.unit)
 
 
 def power_of(a: Term, b: Term) -> Term:
@@ -240,7 +233,7 @@ def quotient_of(a: Term, b: Term) -> Term:
 
 FUNCTIONS: dict[str, Callable[..., Term]] = {
     "add": sum_of,
-    "subtract": difference_of,
+    "subtract": partial(sum_of, sign=-1),
     "multiply": lambda a, b: Term(a.expr * b.expr, a.unit.times(b.unit)),
     "divide": quotient_of,
     "true_divide": quotient_of,

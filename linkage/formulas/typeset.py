@@ -20,7 +20,6 @@ OPERATORS = {
     "cdot": "·", "times": "×", "leq": "≤", "le": "≤", "geq": "≥", "ge": "≥", "neq": "≠", "ne": "≠", "wedge": "∧", "vee": "\u2228",
     "neg": "¬", "pm": "±", "|": "‖",
 }  # fmt: skip
-FUNCTIONS = {"sin", "cos", "tan", "cot", "exp", "log", "ln", "min", "max", "arg", "arccos", "arcsin", "arctan", "sinh", "cosh", "tanh"}
 NAMES = {"operatorname": "name", "mathit": "word", "mathrm": "name", "text": "name", "mathbf": "name", "mathtt": "name"}
 FENCES = {"lvert": "|", "rvert": "|", "{": "{", "}": "}", "lfloor": "⌊", "rfloor": "⌋", "lceil": "⌈", "rceil": "⌉", ".": ""}
 SPACES = {",": 0.17, ":": 0.22, ";": 0.28, "quad": 1.0, " ": 0.3, "!": 0.0}
@@ -104,7 +103,7 @@ TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[{}^_&]|\d+(?:\.\d+)?|[^\W\d_]|\S", re.DOTA
 
 def boxes(latex: str) -> Box:
     """Return the boxes of a formula in LaTeX."""
-    return _Reader(latex).row(())
+    return _Reader(latex).boxes_until()
 
 
 def breakable(box: Box) -> list[Box]:
@@ -112,10 +111,11 @@ def breakable(box: Box) -> list[Box]:
     if not isinstance(box, BoxRow):
         return [box]
     cut: list[list[Box]] = [[]]
-    for place, part in enumerate(box.parts):
-        breaks = isinstance(part, Sign) and part.kind == "operator" and part.text in "+−·=×<>≤≥"
-        if breaks and place and cut[-1] and not (len(cut[-1]) == 1 and is_operator(cut[-1][0])):
-            cut.append([])
+    for part in box.parts:
+        match part, cut[-1]:
+            case Sign("operator", text), [_, *others] as before if text in "+−·=×<>≤≥":
+                if others or not isinstance(before[0], Sign) or before[0].kind != "operator":
+                    cut.append([])
         cut[-1].append(part)
     return [BoxRow(tuple(parts)) for parts in cut if parts]
 
@@ -141,11 +141,6 @@ def rough_width(box: Box) -> float:
     return sum(1.0 + max(map(rough_width, column)) for column in columns)
 
 
-def is_operator(box: Box) -> bool:
-    """Return whether a box is the sign of an operation."""
-    return isinstance(box, Sign) and box.kind == "operator"
-
-
 @final
 class _Reader:
     """Reads a formula token by token."""
@@ -157,7 +152,8 @@ class _Reader:
         found = TOKEN.search(self.text, self.place)
         return found.group() if found else ""
 
-    def take(self) -> str:
+    def token(self) -> str:
+        """Return the next token and go on behind it."""
         found = TOKEN.search(self.text, self.place)
         self.place = found.end() if found else len(self.text)
         return found.group() if found else ""
@@ -166,7 +162,7 @@ class _Reader:
         """Return the text of a group in braces as it is written; of one sign without braces."""
         start = self.text.find("{", self.place)
         if self.peek() != "{":
-            return self.take()
+            return self.token()
         depth, place = 0, start
         for place in range(start, len(self.text)):
             depth += {"{": 1, "}": -1}.get(self.text[place], 0)
@@ -175,13 +171,12 @@ class _Reader:
         self.place = place + 1
         return self.text[start + 1 : place]
 
-    def row(self, ends: tuple[str, ...]) -> Box:
+    def boxes_until(self, *ends: str) -> Box:
         """Return the boxes up to one of some tokens, which is not taken."""
         parts: list[Box] = []
         while (token := self.peek()) and token not in ends:
             if token in ("^", "_"):
-                base = parts.pop() if parts else BoxRow(())
-                parts.append(self.scripts(base))
+                parts.append(self.scripts(parts.pop() if parts else BoxRow(())))
             else:
                 parts.append(self.one())
         flat = [each for part in parts for each in (part.parts if isinstance(part, BoxRow) else (part,))]
@@ -189,20 +184,21 @@ class _Reader:
 
     def scripts(self, base: Box) -> Box:
         low = high = None
-        while (token := self.peek()) in ("^", "_"):
-            self.take()
-            found = self.one()
-            low, high = (found, high) if token == "_" else (low, found)
+        while self.peek() in ("^", "_"):
+            if self.token() == "_":
+                low = self.one()
+            else:
+                high = self.one()
         if high == Sign("variable", "°") and low is None:
             return BoxRow((base, Sign("name", "°")))
         return Script(base, low, high)
 
     def one(self) -> Box:
         """Return the next box."""
-        token = self.take()
+        token = self.token()
         if token == "{":
-            found = self.row(("}",))
-            self.take()
+            found = self.boxes_until("}")
+            self.token()
             return found
         if token.startswith("\\"):
             return self.command(token[1:])
@@ -214,48 +210,42 @@ class _Reader:
 
     def command(self, name: str) -> Box:
         """Return the box of a command."""
-        if name in ("frac", "dfrac", "tfrac"):
-            return Fraction(self.one(), self.one())
-        if name == "sqrt":
-            return Rooted(self.one())
-        if name in ("vec", "overrightarrow"):
-            return Arrowed(self.one(), name != "vec")
-        if name == "left":
-            return self.fenced()
-        if name == "begin":
-            return self.lines(self.raw())
+        match name:
+            case "frac" | "dfrac" | "tfrac":
+                return Fraction(self.one(), self.one())
+            case "sqrt":
+                return Rooted(self.one())
+            case "vec" | "overrightarrow":
+                return Arrowed(self.one(), name != "vec")
+            case "left":
+                left, body, _ = self.fence(), self.boxes_until("\\right"), self.token()
+                return Fenced(left, body, self.fence())
+            case "begin":
+                return self.lines(self.raw())
         if name in NAMES:
             text = self.raw().replace("\\_", "_").replace("\\ ", " ")
             return Sign("variable" if name == "mathit" and len(text) == 1 else NAMES[name], text)
         if name in GREEK:
             return Sign("variable", GREEK[name])
-        if name in FUNCTIONS:
-            return Sign("name", name)
         if name in SPACES:
             return Sign("space", str(SPACES[name]))
         return Sign("operator", OPERATORS[name]) if name in OPERATORS else Sign("name", FENCES.get(name, name))
 
     def fence(self) -> str:
-        token = self.take()
-        return FENCES.get(token[1:], token[1:]) if token.startswith("\\") else FENCES.get(token, token)
-
-    def fenced(self) -> Box:
-        left = self.fence()
-        body = self.row(("\\right",))
-        self.take()
-        return Fenced(left, body, self.fence())
+        name = self.token().removeprefix("\\")
+        return FENCES.get(name, name)
 
     def lines(self, kind: str) -> Box:
         r"""Return the rows of a matrix or of cases, up to the \end."""
         rows: list[list[Box]] = [[]]
         while (token := self.peek()) and token != "\\end":
-            rows[-1].append(self.row(("&", "\\\\", "\\end")))
+            rows[-1].append(self.boxes_until("&", "\\\\", "\\end"))
             if self.peek() == "&":
-                self.take()
+                self.token()
             elif self.peek() == "\\\\":
-                self.take()
+                self.token()
                 rows.append([])
-        self.take()
+        self.token()
         self.raw()
         table = Lines(tuple(tuple(row) for row in rows if row))
         left, right = {"pmatrix": ("(", ")"), "cases": ("{", "")}.get(kind, ("", ""))

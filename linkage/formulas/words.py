@@ -147,9 +147,6 @@ def explicit(expr: sympy.Basic) -> tuple[sympy.Expr, ...]:
     A vector's components are the symbols `AB.x` and `AB.y`.
     """
     entries = components_of(expr) if getattr(expr, "shape", None) == (2, 1) else (expr.doit(),)
-    return tuple(each.xreplace({part: component_symbol(part) for part in each.atoms(MatrixElement)}) for each in entries)
-
-
-def component_symbol(part: MatrixElement) -> sympy.Symbol:
-    """Return the plain symbol of one component of a vector."""
-    return sympy.Symbol(f"{part.parent.name}.{'xy'[int(part.i)]}", real=True)
+    parts = set().union(*(each.atoms(MatrixElement) for each in entries))
+    plain = {part: sympy.Symbol(f"{part.parent.name}.{'xy'[int(part.i)]}", real=True) for part in parts}
+    return tuple(each.xreplace(plain) for each in entries)

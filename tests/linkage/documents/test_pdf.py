@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from linkage import Crank, DefinitionError, Ground, Mechanism, Stroke, Weight, report
 from linkage.documents import pdf as writer
-from linkage.documents.content import Document, Equality, Formula, Illustration, Mark, Paragraph, Section, TableBlock
+from linkage.documents.content import Document, Equality, Formula, Illustration, Mark, Section, TableBlock
 from linkage.documents.pdf import document_data, pdf
 from linkage.documents.pictures import painted, picture_svg
 from linkage.documents.reporting import report_document
@@ -74,7 +74,7 @@ def test_every_sign_means_itself_wherever_it_stands(tmp_path):
     name = "".join(each for each in signs if each not in "{}\\ ")
     name_latex = rf"\mathit{{{name}}}"
     grid = TableBlock(signs, (signs, "y"), ((signs, Formula(name_latex)),), "ll")
-    content = pdf(paper(Paragraph(signs), grid, Equality(1, (name_latex, "1")), title=signs, number=signs))
+    content = pdf(paper(signs, grid, Equality(1, (name_latex, "1")), title=signs, number=signs))
     text = re.sub(r"\s", "", text_of(content, tmp_path))
     assert text.count(re.sub(r"\s", "", signs)) >= 4
     assert text.count(name) == 2  # in the table and in the equation

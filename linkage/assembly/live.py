@@ -63,11 +63,9 @@ def groups_text(plan: Plan, inputs: Inputs, dimensions: Sequence[str]) -> str:
         **{"ITERATIONS": ITERATIONS, "FIRST": FIRST, "TOUCH": TOUCH, "LINE": LINE},
     }
     constants = {"groups": f"[{groups}]", **{name: json_of(value) for name, value in numbers.items()}}
-    rules: list[tuple[str, int, Rule]] = [
-        ("ended", 3, newton_ended), ("predicted", 8, place_ahead), ("judged", 7, step_judged), ("goes", 4, goes_on),
-        ("between", 11, place_between),
-    ]  # fmt: skip
-    return "".join(f"const {name}={traced_rule(count, rule)};" for name, count, rule in rules) + constants_text(constants)
+    rules: dict[str, tuple[int, Rule]] = {"ended": (3, newton_ended), "predicted": (8, place_ahead), "judged": (7, step_judged)}
+    rules |= {"goes": (4, goes_on), "between": (11, place_between)}
+    return "".join(f"const {name}={traced_rule(count, rule)};" for name, (count, rule) in rules.items()) + constants_text(constants)
 
 
 def angles_text(plan: Plan, clipped: Callable[[Plan, Sequence[Node]], Sequence[Node]], inputs: Inputs) -> str:

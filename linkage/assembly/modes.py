@@ -132,7 +132,7 @@ def written_lines(
             continue
         place = pins.get(name, sketch.get(name))
         if isinstance(raw, Pin) and (raw.near is not None or is_drawn) and place is not None:
-            lines[name] = as_written(Pin(near=(rounded_to(place[0]), rounded_to(place[1]))), plan.turning)
+            lines[name] = as_written(Pin(near=rounded_to(place, 4)), plan.turning)
         elif isinstance(step := chosen[name], Step):
             lines[name] = as_written(sided_as(step, step.settled_side) if step.modes() else step, plan.turning).partition(", near=")[0]
             lines[name] += ")" * (lines[name].count("(") - lines[name].count(")"))
@@ -157,9 +157,10 @@ def is_sketched(member: Member | None) -> bool:
     return isinstance(member, (Step, Pin)) and getattr(member, "side", None) is None and (member.near or member.drawn_at) is not None
 
 
-def rounded_to(value: float, digits: int = 4) -> float:
-    """Return a number with so many digits."""
-    return float(f"{value:.{digits}g}")
+def rounded_to(place: Place, digits: int) -> Place:
+    """Return a place by so many digits."""
+    x, y = (float(f"{value:.{digits}g}") for value in place)
+    return x, y
 
 
 # Members as they are written on other sides.
@@ -184,7 +185,7 @@ def members_on_sides(plan: Plan, declared: Mapping[str, Member], sides: Mapping[
 def written_as(raw: Member, chosen: Member, place: Place | None) -> Member:
     """Return what is written for a point: a pin of links at its new rough place, where there is one, else its step on its side."""
     if isinstance(raw, Pin) and raw.near is not None and place is not None:
-        return Pin(near=(rounded_to(place[0], 6), rounded_to(place[1], 6)))
+        return Pin(near=rounded_to(place, 6))
     assert isinstance(chosen, Step)
     return chosen.renewed(side=chosen.side, near=None, drawn_at=None)
 
@@ -219,7 +220,7 @@ def with_own_groups(plan: Plan, pins: Mapping[str, tuple[float, float]]) -> dict
             moved = members[pin] = copy(plan.of_kind(Pin)[pin])
             moved.group = own
             if pin in pins:
-                moved.near, moved.drawn_at = (rounded_to(pins[pin][0], 6), rounded_to(pins[pin][1], 6)), None
+                moved.near, moved.drawn_at = rounded_to(pins[pin], 6), None
     return members
 
 

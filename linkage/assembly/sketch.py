@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError
 from ..plan import ArrayReading, Plan, missing_words, strokes_text
-from ..quantities import Member, Operand, Quantity, Ref, joined_names, name_of, quantity
+from ..quantities import Member, Operand, Quantity, joined_names, name_of, quantity
 from ..steps import Pin, Step
 from ..vectors import Numbers, Vec
 from .angle_continuation import NONE_SOLVED, with_angles
@@ -56,19 +56,18 @@ def finite_places(plan: Plan, inputs: Mapping[str, Numbers], strokes: Mapping[st
     """Return where all points are [m]; AssemblyError where they cannot be assembled."""
     with np.errstate(all="ignore"):
         reading = plan.read(inputs)
-    places = {name: (float(reading.at(name).x), float(reading.at(name).y)) for name in plan.points}
-    lost = [name for name, place in places.items() if not np.isfinite(place).all()]
-    if lost:
-        raise unplaced(plan, lost[0], reading, f"at {strokes_text(plan, strokes)}")
-    return places
+    return {name: finite_place(plan, name, reading, f"at {strokes_text(plan, strokes)}") for name in plan.points}
 
 
 @np.errstate(all="ignore")
-def unplaced(plan: Plan, name: str, reading: ArrayReading, where: str) -> AssemblyError:
-    """Return the error for a point that cannot be assembled at one pose, which `where` names."""
-    words, shortfall = missing_words(plan, name, reading, np.ones(1, bool))
-    text = f"{plan.title}: {name} cannot be assembled {where}: {words.removesuffix('.')}, or say drawn(...) with other strokes."
-    return AssemblyError(text, point=name, mask=np.ones((), bool), shortfall=shortfall)
+def finite_place(plan: Plan, name: str, reading: ArrayReading, where: str) -> Place:
+    """Return a point's place [m]; AssemblyError where it cannot be assembled at the one pose of a reading, which `where` names."""
+    place = float(reading.at(name).x), float(reading.at(name).y)
+    if not np.isfinite(place).all():
+        words, shortfall = missing_words(plan, name, reading, np.ones(1, bool))
+        text = f"{plan.title}: {name} cannot be assembled {where}: {words.removesuffix('.')}, or say drawn(...) with other strokes."
+        raise AssemblyError(text, point=name, mask=np.ones((), bool), shortfall=shortfall)
+    return place
 
 
 class Sketch:
@@ -83,21 +82,15 @@ class Sketch:
 
     def at(self, name: str) -> Place:
         """Return a point's place [m]; AssemblyError where it cannot be assembled in the sketch."""
-        place = self.reading.at(name)
-        x, y = float(place.x), float(place.y)
-        if not np.isfinite([x, y]).all():
-            where = f"at the sketch ({strokes_text(self.plan, self.plan.sketch_strokes)})"
-            raise unplaced(self.plan, name, self.reading, where)
-        return x, y
+        return finite_place(self.plan, name, self.reading, f"at the sketch ({strokes_text(self.plan, self.plan.sketch_strokes)})")
 
     def extended(self, given: Operand, drawn: float) -> Operand:
         """Return a length as it is given; a stroke alone that begins at zero is how far a cylinder is out of its drawn length [m]."""
         found = quantity(given)
-        name = found.name or (found.target if isinstance(found, Ref) else "")
-        stroke = self.plan.strokes.get(name)
+        stroke = self.plan.strokes.get(found.known_as)
         if stroke is None or min(stroke.start, stroke.end) > 0.0:
             return given
-        return drawn - self.plan.sketch_strokes[name] + found
+        return drawn - self.plan.sketch_strokes[stroke.name] + found
 
     def turned(self, angle: Quantity, x: float, y: float) -> Quantity:
         """Return an angle [rad] that is counted from where the drawing has a crank, whose vector is (x, y)."""

@@ -26,7 +26,6 @@ from ..quantities import (
     Number,
     Operation,
     Quantity,
-    Ref,
     Stroke,
     Sum,
     Variable,
@@ -307,10 +306,10 @@ class Members:
 
     def terms(self, given: Quantity) -> set[str]:
         """Return the names that a quantity is a sum of, through the members it goes by."""
-        name = given.name or (given.target if isinstance(given, Ref) else "")
+        name = given.known_as
         member = self.members.get(name, given) if name else given
-        parts = [part for part in member.parts() if isinstance(part, (str, Quantity))] if isinstance(member, (Sum, Negative)) else []
-        return ({name} if name else set()).union(*(self.terms(quantity(part)) for part in parts))
+        parts = (quantity(part) for part in member.parts()) if isinstance(member, (Sum, Negative)) else ()
+        return ({name} if name else set()).union(*map(self.terms, parts))
 
     @cached_property
     def turning(self) -> frozenset[str]:

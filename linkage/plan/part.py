@@ -167,10 +167,9 @@ class Part(Member):
             if isinstance(member, Point) and isinstance(value, (str, Member)):
                 found[f"{self.name}.{name}"] = name_of(value)
             elif isinstance(member, (Stroke, Dimension)) and not is_number(value):
-                target = quantity(value)
-                by_name = target.name or (target.target if isinstance(target, Ref) else "")
-                if by_name:
-                    found[f"{self.name}.{name}"] = by_name
+                target = quantity(value).known_as
+                if target:
+                    found[f"{self.name}.{name}"] = target
         inner = {f"{self.name}.{name}": f"{self.name}.{target}" for name, target in self.plan.aliases.items()}
         return found | {name: found.get(target, target) for name, target in inner.items()}
 

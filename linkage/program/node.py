@@ -249,15 +249,21 @@ class Graph:
         return unknowns
 
 
+def quotient(graph: Graph, a: Operand, b: Operand) -> Node:
+    """Return a / b: a product with a reciprocal, which others share."""
+    return graph.apply("multiply", a, graph.apply("reciprocal", b))
+
+
 COMPOSED: Mapping[str, Callable[..., Node]] = MappingProxyType(
     {
-        **dict.fromkeys(("divide", "true_divide"), lambda graph, a, b: graph.apply("multiply", a, graph.apply("reciprocal", b))),
+        "divide": quotient,
+        "true_divide": quotient,
         "power": lambda graph, base, exponent: graph.power(graph.node(base), exponent),
         "square": lambda graph, a: graph.apply("multiply", a, a),
         "hypot": lambda graph, a, b: graph.apply("sqrt", graph.node(a) ** 2 + graph.node(b) ** 2),
     }
 )
-"""The functions that are written by other operations; a quotient is a product with a reciprocal, which others share."""
+"""The functions that are written by other operations."""
 
 
 def operation_key(op: str, args: tuple[Node, ...]) -> tuple[object, ...]:

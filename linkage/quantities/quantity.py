@@ -9,7 +9,7 @@ import operator
 from abc import abstractmethod
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, NoReturn, TypeAlias, cast, final
+from typing import Any, ClassVar, NoReturn, TypeAlias, cast, final
 
 import numpy as np
 
@@ -161,9 +161,12 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
         return self.name or self
 
     @property
-    def is_constant(self) -> bool:
-        """Whether this is a plain number."""
-        return False
+    def known_as(self) -> str:
+        """The name of the member that it is, or stands for; "" where it has none."""
+        return self.name
+
+    is_constant: ClassVar[bool] = False
+    """Whether this is a plain number."""
 
     def text(self, measures: str = "") -> str:
         """Return this as it is written where it stands for what `measures` says: numbers of an `angle` are in degrees."""
@@ -253,12 +256,10 @@ class Number(Quantity):
     def identity(self) -> Hashable:
         return self.name or repr(self.number)
 
+    is_constant = True
+
     def rule(self, where: Where) -> Scalar:
         return float(self.number)
-
-    @property
-    def is_constant(self) -> bool:
-        return True
 
     @property
     def binds(self) -> int:
@@ -282,8 +283,10 @@ class Ref(Quantity):
     expects = (("target", "quantity"),)
 
     @property
-    def identity(self) -> Hashable:
+    def known_as(self) -> str:
         return self.name or self.target
+
+    identity = known_as
 
     def rule(self, where: Where) -> Scalar:
         return where.value(self.target)

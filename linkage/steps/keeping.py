@@ -368,7 +368,7 @@ class Construction:
         target = given.target if isinstance(given, Ref) else given.name
         found = self.members[target] if target else given
         assert isinstance(found, Quantity)
-        return found if found is given or not isinstance(found, Ref) else self._resolved(found)
+        return self._resolved(found) if isinstance(found, Ref) and found is not given else found
 
     def _atom(self, key: Hashable, follows: set[str] | frozenset[str]) -> Form:
         """Return what stands for itself in a sum."""

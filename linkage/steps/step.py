@@ -15,20 +15,7 @@ import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..quantities import (
-    Jointed,
-    Member,
-    Number,
-    Operand,
-    Quantity,
-    Reference,
-    Where,
-    is_number,
-    joined_names,
-    label,
-    name_of,
-    quantity,
-)
+from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, joined_names, label, name_of, quantity
 from ..units import deg, require_measure
 from ..vectors import Scalar, Side, Vec
 from .labels import DimensionTable, Slot, Spoken, match, relabelled, written_labels

@@ -110,8 +110,12 @@ class Members:
         self.table = Table(title)
         bound: dict[str, Member] = {}
         for name in order:
+            member = members[name]
             with about(name):
-                bound[name] = self._bound(name, members[name])
+                for variable, default, measured, unit in member.variables():
+                    self.table.add(variable, default, measured, f"{name} = {member}", unit)
+                member.enter(self.table)
+                bound[name] = member.bind(name, self.table)
         aliases = aliases_among(bound)
         self.members = named_by(bound, aliases)
         strokes = self.of_kind(Stroke)
@@ -122,13 +126,6 @@ class Members:
         for ends, length in self.table.lengths.items():
             self._check_terms(length, "length", f"{title}: {'-'.join(sorted(ends))} = {length}")
         self.members = named_by(with_bodies(self.members, self.table.lengths), aliases)
-
-    def _bound(self, name: str, member: Member) -> Member:
-        """Return a member with its dimensions entered in the table."""
-        for variable, default, kind, unit in member.variables():
-            self.table.add(variable, default, kind, f"{name} = {member}", unit)
-        member.enter(self.table)
-        return member.bind(name, self.table) if isinstance(member, Point) else member
 
     @property
     def aliases(self) -> Mapping[str, str]:
@@ -165,9 +162,9 @@ class Members:
         if isinstance(member, Stroke) and name in self.turning and abs(member.end - member.start) > TURNS * 2.0 * pi:
             text = f"{self.title}: {name} = {member} is an angle in radians, {abs(member.end - member.start) / (2.0 * pi):.3g} turns"
             raise DefinitionError(f"{text}; write Stroke({member.start:.6g} * deg, {member.end:.6g} * deg).")
-        if isinstance(member, Point) and member.is_fixed and self.moves(member):
-            text = f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank."
-            raise DefinitionError(text)
+        if member.is_fixed and self.moves(member):
+            remedy = "drive a point by OnGuide, Dyad or Crank"
+            raise DefinitionError(f"{self.title}: {name} = {member} follows a stroke, but is fixed; {remedy}.")
 
     def _check_amounts(self, name: str, member: Member) -> None:
         """Raise DefinitionError for an amount that stands for a length or an angle and measures something else, `20 * mm + phi`."""
@@ -176,7 +173,7 @@ class Members:
         for each, value in member.strokes.items() if isinstance(member, Drawn) else ():
             if each in self.strokes and isinstance(value, Amount):
                 require_measure(value, self.known_stroke_kind(each), f"{self.title}: {name} = drawn(...): {each}")
-        for _, coordinate in member.coordinates() if isinstance(member, Point) else ():
+        for _, coordinate in member.coordinates():
             self._check_terms(coordinate, "length", f"{self.title}: {name} = {member}")
         for part in self.with_parts(name):
             for angle in part.in_radians():

@@ -153,7 +153,7 @@ def along_poses_in_parts(plan: Schedule) -> list[str]:
         *indented(4, *(f"i{k} = x{k}[b]" for k in range(len(plan.pose_inputs))), *lines),
         *indented(4, *(f"s[{k * width} + b] = {name}" for k, name in enumerate(outputs)), *guard_counts(guards)),
         *indented(3, *(f"bad[{k}] += missed{k}" for k in range(len(plan.guards)))),
-        *(line for k in range(len(plan.outputs)) for line in copied_out(3, k, k * width)),
+        *(line for k in range(len(plan.outputs)) for line in copied_out(k, k * width)),
     ]
 
 
@@ -170,7 +170,7 @@ def along_designs(plan: Schedule) -> list[str]:
         *indented(4, *(f"c{k} = s[{k * width} + b]" for k in range(count)), *lines),
         *indented(4, *(f"s[{(count + k) * width} + b] = {name}" for k, name in enumerate(outputs)), *guard_counts(guards)),
         *indented(3, *(f"bad[{k}] += missed{k}" for k in range(len(plan.guards)))),
-        *(line for k in range(len(plan.outputs)) for line in copied_out(3, k, (count + k) * width)),
+        *(line for k in range(len(plan.outputs)) for line in copied_out(k, (count + k) * width)),
     ]
 
 
@@ -190,10 +190,10 @@ def guard_counts(guards: Sequence[str]) -> list[str]:
     return [f"missed{k} += 0 if {name} > 0.0 else 1" for k, name in enumerate(guards)]
 
 
-def copied_out(depth: int, output: int, place: int) -> list[str]:
+def copied_out(output: int, place: int) -> list[str]:
     """Return the loop that copies results to where they belong."""
     head = f"first = {output} * layer + row * line + start", f"t{output} = o[first:first + count]"
-    return indented(depth, *head, "for b in range(count):", f"    t{output}[b] = s[{place} + b]")
+    return indented(3, *head, "for b in range(count):", f"    t{output}[b] = s[{place} + b]")
 
 
 def indented(depth: int, *lines: str) -> list[str]:

@@ -78,17 +78,17 @@ class Axes:
             if not self.mirrored:
                 return inner
             x, y = inner.at
-            return Axes(inner.P, inner.Q, (x, negated(y)), plus(Number(np.pi), negated(inner.angle)), not inner.mirrored)
-        turn = negated(inner.angle) if self.mirrored else inner.angle
+            return Axes(inner.P, inner.Q, (x, y.opposite()), plus(Number(np.pi), inner.angle.opposite()), not inner.mirrored)
+        turn = inner.angle.opposite() if self.mirrored else inner.angle
         return Axes(self.P, self.Q, self.corner(*inner.at), plus(self.angle, turn), mirrored)
 
     def corner(self, x: Quantity, y: Quantity) -> tuple[Quantity, Quantity]:
         """Return the coordinates of a place of the part in the axes of what carries it."""
-        x = negated(x) if self.mirrored else x
+        x = x.opposite() if self.mirrored else x
         if not is_nothing(self.angle):
             angle = self.angle.number if isinstance(self.angle, Number) and not self.angle.name else self.angle
             cos, sin = np.cos(angle), np.sin(angle)  # type: ignore[call-overload]
-            x, y = plus(multiplied(x, cos), negated(multiplied(y, sin))), plus(multiplied(x, sin), multiplied(y, cos))
+            x, y = plus(multiplied(x, cos), multiplied(y, sin).opposite()), plus(multiplied(x, sin), multiplied(y, cos))
         return plus(self.at[0], x), plus(self.at[1], y)
 
     # -- in a reading ------------------------------------------------------------------------------------------
@@ -154,11 +154,6 @@ class Axes:
 
 
 FRAME_AXES = Axes()
-
-
-def negated(given: Quantity) -> Quantity:
-    """Return a quantity with its sign changed; a number as a number."""
-    return Number(-given.number if given.number else 0.0) if isinstance(given, Number) and not given.name else -given
 
 
 def multiplied(a: Quantity, factor: Quantity | float) -> Quantity:

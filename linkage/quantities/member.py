@@ -113,6 +113,17 @@ class Member:
                 object.__setattr__(changed, name, value)
         return changed
 
+    is_fixed: bool = False
+    """Whether it is a point of the frame."""
+
+    def bind(self, name: str, table: Any) -> Self:
+        """Return this member with its name, the names of what it hangs from and its dimensions settled."""
+        return self
+
+    def coordinates(self) -> tuple[tuple[str, Any], ...]:
+        """Return the names and values of both coordinates, where it is a point that is given by them."""
+        return ()
+
     def enter(self, table: Any) -> None:
         """Enter the labels of this member in the mechanism's table of dimensions."""
 
@@ -151,9 +162,21 @@ class Member:
         """Return those of its cuts that strokes change as well, as the oil that a stroke puts in."""
         return ()
 
+    handed: ClassVar[tuple[str, ...]] = ()
+    """Its attributes that hold quantities whose sign changes in a part that is mirrored."""
+
+    is_directed: ClassVar[bool] = False
+    """Whether its directions are counted in `axes` of its own, and nothing else is."""
+
     def in_axes(self, axes: Any) -> Self:
-        """Return this member of a part as the machine that has the part sees it; itself, where it has neither axes nor a side."""
-        return self
+        """Return this member of a part as the machine that has the part sees it; itself, where it has neither axes nor a side.
+
+        By itself it changes the signs of what is `handed`, and turns `axes` that its directions are counted in.
+        """
+        changes = {attribute: getattr(self, attribute).opposite() for attribute in self.handed if axes.mirrored}
+        if self.is_directed and not axes.are_upright:
+            changes["axes"] = axes.within(getattr(self, "axes", None))
+        return self.renewed(**changes) if changes else self
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
         """Return the triangle this member closes, as labelled lengths [m]; empty where it closes none."""

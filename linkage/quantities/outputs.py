@@ -57,15 +57,12 @@ class Angle(Output):
     Q: Reference
     axes: Axes = field(default=FRAME_AXES, repr=False)
     expects = (("P", "point"), ("Q", "point"))
-    measures = "angle"
-    word = "angle"
+    measures = word = "angle"
+    is_directed = True
 
     def __post_init__(self) -> None:
         if self.P is self.Q or (isinstance(self.P, str) and self.P == self.Q):
             raise DefinitionError(f"{self}: a direction leads from one point to another; name two points.")
-
-    def in_axes(self, axes: Axes) -> Angle:
-        return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
 
     def rule(self, where: Where) -> Scalar:
         v = self.axes.read_vector(where, where.direction(name_of(self.P), name_of(self.Q)))

@@ -168,6 +168,10 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
     is_constant: ClassVar[bool] = False
     """Whether this is a plain number."""
 
+    def opposite(self) -> Quantity:
+        """Return it with its sign changed; a number as a number."""
+        return -self
+
     def text(self, measures: str = "") -> str:
         """Return this as it is written where it stands for what `measures` says: numbers of an `angle` are in degrees."""
         return str(self)
@@ -265,6 +269,9 @@ class Number(Quantity):
     def binds(self) -> int:
         """A number with a sign is bracketed under a power only."""
         return 3 if str(self).startswith("-") else 9
+
+    def opposite(self) -> Quantity:
+        return -self if self.name else Number(-self.number if self.number else 0.0)
 
     def text(self, measures: str = "") -> str:
         return in_degrees(self.number) if measures == "angle" else repr(self.number)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Self
-
 from ..errors import DefinitionError
-from ..quantities import FRAME_AXES, Axes, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
+from ..quantities import FRAME_AXES, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Vec
 from .primitives import Axis, Offset, Turn
 from .step import UNBOUND, Assignment, Position, Step
@@ -24,6 +22,7 @@ class Crank(Step):
     further = radians = ("angle",)
     from_drawing = "turn"
     expects = (("P", "point"), ("angle", "quantity"))
+    is_directed = True
     axes = FRAME_AXES
     """The axes that its angle is counted in."""
 
@@ -38,9 +37,6 @@ class Crank(Step):
         super().check()
         if self.angle.is_constant:
             raise DefinitionError(f"{self.sentence()}: a crank needs a driven angle; a fixed point is a Ground, one on a body OnLink.")
-
-    def in_axes(self, axes: Axes) -> Self:
-        return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
 
     def place(self, where: Where) -> Vec:
         along = self.axes.vector(where, Vec(*where.turn(self.angle)))

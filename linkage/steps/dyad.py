@@ -25,6 +25,7 @@ class Dyad(Step):
     arms = ("P", "Q")
     closes = True
     chooses = "two circles meet in two points"
+    orientation = 1.0
     expects = (("P", "point"), ("Q", "point"), ("PX", "quantity"), ("QX", "quantity"))
 
     def __init__(
@@ -53,10 +54,6 @@ class Dyad(Step):
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         X = where.at(self.X)
         return where.at(self.P) - X, where.at(self.Q) - X
-
-    @property
-    def sense(self) -> float:
-        return float(self.settled_side)
 
     def expansion(self) -> tuple[Assignment, ...]:
         base = Vector(self.P, self.Q)

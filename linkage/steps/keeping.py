@@ -359,7 +359,7 @@ class Construction:
         for part in parts:
             if isinstance(part, Quantity):
                 behind |= self.behind(self.form(part))
-            elif not getattr(part, "is_fixed", False):
+            elif not part.is_fixed:
                 behind.add(POINTS)
         return self._atom(given.name or str(given), behind)
 

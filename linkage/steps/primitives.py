@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Self, final
+from typing import final
 
 import numpy as np
 
@@ -30,7 +30,6 @@ from ..quantities import (
     quantity,
     spelled,
 )
-from ..quantities.axes import negated
 from ..vectors import Line, Scalar, Vec
 from .step import Bar, Point, angle_given
 
@@ -73,14 +72,13 @@ class Vector(Arrow):
 class Axis(Arrow):
     """The unit vector of the x axis: what a crank's arm is turned from."""
 
+    is_directed = True
+
     def __init__(self, axes: Axes = FRAME_AXES) -> None:
         self.axes = axes
 
     def parts(self) -> tuple[Reference, ...]:
         return self.axes.parts()
-
-    def in_axes(self, axes: Axes) -> Self:
-        return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
 
     def vector(self, where: Where) -> Vec:
         return self.axes.vector(where, Vec(1.0, 0.0))
@@ -96,14 +94,11 @@ class Turn(Arrow):
     """A vector turned by an angle [rad], then scaled to a length [m]; the length is kept where none is given."""
 
     expects = (("base", "vector"), ("angle", "quantity"), ("scaled_to", "quantity"))
-    radians = ("angle",)
+    radians = handed = ("angle",)
 
     def __init__(self, vector: Reference, angle: Operand, length: Operand | None = None) -> None:
         self.base, self.angle = vector, angle_given(angle, "Turn")
         self.scaled_to = None if length is None else quantity(length)
-
-    def in_axes(self, axes: Axes) -> Self:
-        return self.renewed(angle=negated(self.angle)) if axes.mirrored else self
 
     def lengths(self) -> tuple[Quantity, ...]:
         return () if self.scaled_to is None else (self.scaled_to,)

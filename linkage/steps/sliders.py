@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Self
-
-from ..quantities import Axes, Joint, JointSide, Number, Operand, Quantity, Reference, Where, guided, quantity, spelled
-from ..quantities.axes import negated
+from ..quantities import Joint, JointSide, Number, Operand, Quantity, Reference, Where, guided, quantity, spelled
 from ..vectors import Line, Scalar, Side, Vec
 from .step import UNBOUND, Position, Step, angle_given
 
@@ -23,6 +20,7 @@ class SliderDyad(Step):
     closes = True
     arms = ("P",)
     chooses = "a circle meets a line in two points"
+    orientation = -1.0
     expects = (("P", "point"), ("guide", "guide"))
 
     def __init__(
@@ -43,10 +41,6 @@ class SliderDyad(Step):
 
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         return where.at(self.P) - where.at(self.X), where.line(self.guide).direction.left()
-
-    @property
-    def sense(self) -> float:
-        return -float(self.settled_side)
 
     def shortage(self, where: Where) -> tuple[str, Scalar]:
         line = where.line(self.guide)
@@ -69,8 +63,9 @@ class PinSlotDyad(Step):
     PX: Quantity = UNBOUND
     closes = True
     arms = ("P",)
-    further = ("offset",)
+    further = handed = ("offset",)
     chooses = "its pin may lie ahead of P or behind it"
+    orientation = 1.0
     expects = (("P", "point"), ("Q", "point"))
 
     def __init__(
@@ -79,9 +74,6 @@ class PinSlotDyad(Step):
     ) -> None:
         super().__init__(P, Q, labels=lengths, side=Side.RIGHT if side is None and near is None else side, near=near)
         self.offset = quantity(offset)
-
-    def in_axes(self, axes: Axes) -> Self:
-        return self.renewed(offset=negated(self.offset)) if axes.mirrored else self
 
     def place(self, where: Where) -> Vec:
         P, to_pin, e = where.at(self.P), where.direction(self.P, self.Q), where.value(self.offset)
@@ -98,10 +90,6 @@ class PinSlotDyad(Step):
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         P = where.at(self.P)
         return where.at(self.Q) - P, (where.at(self.X) - P).left()
-
-    @property
-    def sense(self) -> float:
-        return float(self.settled_side)
 
     def shortage(self, where: Where) -> tuple[str, Scalar]:
         gap = abs(where.value(self.offset)) - (where.at(self.Q) - where.at(self.P)).length()
@@ -132,7 +120,7 @@ class GuideCross(Step):
     guide: str
     other: str
     closes = True
-    sense = 1.0
+    orientation = 1.0
     parent_letters = ("guide", "other")
     expects = (("guide", "guide"), ("other", "guide"))
 
@@ -166,17 +154,14 @@ class YokeDyad(Step):
     P: str
     guide: str
     closes = True
-    sense = 1.0
+    orientation = 1.0
     parent_letters = ("P", "guide")
-    further = radians = ("angle",)
+    further = radians = handed = ("angle",)
     expects = (("P", "point"), ("guide", "guide"))
 
     def __init__(self, P: Reference, guide: Reference, *, angle: Operand = 1.5707963267948966) -> None:
         super().__init__(P, guide, labels={})
         self.angle = angle_given(angle, "YokeDyad")
-
-    def in_axes(self, axes: Axes) -> Self:
-        return self.renewed(angle=negated(self.angle)) if axes.mirrored else self
 
     def place(self, where: Where) -> Vec:
         line, (cos, sin) = where.line(self.guide), where.turn(self.angle)

@@ -79,15 +79,8 @@ class Point(Jointed):
     closes: ClassVar[bool] = False
     """Whether placing this point closes a loop, so that it can fail and become singular."""
 
-    is_fixed: bool = False
-    """Whether it belongs to the frame."""
-
     kind = "point"
     file_section = "points"
-
-    def bind(self, X: str, table: DimensionTable) -> Self:
-        """Return this step with its name, its parents' names and its dimensions settled."""
-        return self
 
     @abstractmethod
     def place(self, where: Where) -> Vec:
@@ -110,10 +103,6 @@ class Point(Jointed):
 
     def expansion(self) -> tuple[Assignment, ...]:
         """Return the primitives that this step stands for, in the vector method's order; empty where its own rule is written out."""
-        return ()
-
-    def coordinates(self) -> tuple[tuple[str, Quantity], ...]:
-        """Return the names and values of both coordinates, where it is given by them."""
         return ()
 
     @property
@@ -168,6 +157,8 @@ class Step(Point):
     """The letters of the parents that X hangs from by a link of its own: for P it has the length PX."""
     from_drawing: str = ""
     """What `at=(x, y)` supplies: the `distances` from both parents, one distance and the `angle`, or one and the `turn` of a drive."""
+    orientation: ClassVar[float] = 0.0
+    """Its `sense` on the left side, or where it has no side; 0 where nobody knows."""
     chooses: str = ""
     """Why a side must be said, in words; "" where there is one place only."""
 
@@ -182,6 +173,10 @@ class Step(Point):
             raise DefinitionError(f"{type(self).__name__}: side={cited(side)}; say side=LEFT or side=RIGHT.")
         self.near = position(near, f"{type(self).__name__}(near=...)")
         self.drawn_at = position(at, f"{type(self).__name__}(at=...)")
+
+    @property
+    def sense(self) -> float:
+        return self.orientation * (float(self.settled_side) if self.orientation and self.chooses else 1.0)
 
     def fitting(self) -> tuple[Slot, ...]:
         """Return its slots as their labels are spoken."""

@@ -33,7 +33,7 @@ from ..quantities import (
     quantity,
     spelled,
 )
-from ..quantities.axes import NOTHING, negated, plus
+from ..quantities.axes import NOTHING, plus
 from ..quantities.quantity import plain
 from ..steps import Link
 from ..units import require_measure
@@ -138,7 +138,7 @@ class Outline(Member):
 
     def in_axes(self, axes: Axes) -> Self:
         if len(self.carriers) == 2:  # the axes of a body go with its points, which are mirrored
-            return self.moved(lambda x, y: (x, negated(y)), axes) if axes.mirrored else self
+            return self.moved(lambda x, y: (x, y.opposite()), axes) if axes.mirrored else self
         if self.carriers and axes.carrier:
             what, own = f"{self.name} = {self} keeps directions of a part that is carried", self.name.rpartition(".")[2]
             remedy = f"let two points of a body carry it, on=({label(self._on[0])}, ...), or leave it out, Part(..., {own}=None)"

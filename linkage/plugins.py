@@ -47,16 +47,19 @@ def guarded(load: Callable[[], T], what: str) -> T:
     """Return what is loaded; whatever goes wrong in a user's module becomes a DefinitionError with its line."""
     try:
         return load()
-    except SyntaxError as error:
-        raise DefinitionError(f"{what} cannot be loaded: {error.filename}, line {error.lineno}: {error.msg}.") from error
-    except LinkageError as error:
-        raise DefinitionError(f"{what} cannot be loaded: {error}") from error
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # a script that leaves by sys.exit is one as well
         last = traceback.extract_tb(error.__traceback__)[-1]
         where = "" if last.filename.startswith("<") else f" ({last.filename}, line {last.lineno})"
-        raise DefinitionError(f"{what} cannot be loaded: {type(error).__name__}: {error}{where}.") from error
+        match error:
+            case SyntaxError():
+                why = f"{error.filename}, line {error.lineno}: {error.msg}."
+            case LinkageError():
+                why = str(error)
+            case _:
+                why = f"{type(error).__name__}: {error}{where}."
+        raise DefinitionError(f"{what} cannot be loaded: {why}") from error
 
 
 @final

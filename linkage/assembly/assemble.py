@@ -209,12 +209,15 @@ def assembled(members: Mapping[str, Member], title: str) -> dict[str, Member]:
 
 def drawn_in(value: object, defaults: Mapping[str, float]) -> Any:
     """Return a quantity with the numbers of the design that is drawn in the place of design variables."""
-    if isinstance(value, Variable) and value.variable in defaults:
-        return Number(defaults[value.variable])
-    if not isinstance(value, Quantity):
-        return tuple(drawn_in(each, defaults) for each in value) if isinstance(value, tuple) else value
-    own = {name: each for name, each in vars(value).items() if not getattr(each, "name", "")}  # what belongs to it alone
-    return value.renewed(**{name: drawn_in(each, defaults) for name, each in own.items() if isinstance(each, (tuple, Quantity))})
+    match value:
+        case Variable() if value.variable in defaults:
+            return Number(defaults[value.variable])
+        case Quantity():
+            own = {name: each for name, each in vars(value).items() if not getattr(each, "name", "")}  # what belongs to it alone
+            return value.renewed(**{name: drawn_in(each, defaults) for name, each in own.items() if isinstance(each, (tuple, Quantity))})
+        case tuple():
+            return tuple(drawn_in(each, defaults) for each in value)
+    return value
 
 
 def is_loose(member: Member) -> bool:

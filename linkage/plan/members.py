@@ -525,11 +525,12 @@ def written_out(plan: Members, values: Mapping[str, float] = MappingProxyType({}
 
 def as_written(member: Member, turning: frozenset[str]) -> str:
     """Return a member as it would be written; `turning` names the quantities that are angles, whose numbers are in degrees."""
-    if isinstance(member, Quantity):
-        return member.text("angle" if member.name in turning else "")
-    if isinstance(member, Drawn):
-        words = (f"{name}={in_degrees(value) if name in turning else repr(value)}" for name, value in member.strokes.items())
-        return f"drawn({', '.join(words)})"
+    match member:
+        case Quantity():
+            return member.text("angle" if member.name in turning else "")
+        case Drawn():
+            words = (f"{name}={in_degrees(value) if name in turning else repr(value)}" for name, value in member.strokes.items())
+            return f"drawn({', '.join(words)})"
     return str(member)
 
 

@@ -106,12 +106,13 @@ class Plan(Members):
         if isinstance(target, str) and target not in self.members:
             raise unknown("Name", target, self.named(), where=self.title)
         member = self.members[target] if isinstance(target, str) else target
-        if isinstance(member, Point):
-            return self.trace.components(self.trace.at(member))
-        if isinstance(member, Arrow):
-            return self.trace.components(self.trace.vector(member))
-        if isinstance(member, Quantity):
-            return (self.trace.graph.node(self.trace.value(member)),)
+        match member:
+            case Point():
+                return self.trace.components(self.trace.at(member))
+            case Arrow():
+                return self.trace.components(self.trace.vector(member))
+            case Quantity():
+                return (self.trace.graph.node(self.trace.value(member)),)
         raise DefinitionError(f"{self.title}: {target} has no value over the stroke; name a point, a vector or an output.")
 
     def derived(self, nodes: Sequence[Node], along: Sequence[str]) -> tuple[Node, ...]:

@@ -211,10 +211,10 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
         name = ufunc.__name__
         if any(isinstance(each, Arithmetic) for each in inputs):
             return NotImplemented  # type: ignore[no-any-return]
-        if method != "__call__" or options:
-            raise DefinitionError(f"{name} of a quantity is not provided in this form.")
-        if name not in UFUNCS and name not in FUNCTIONS:
-            raise DefinitionError(f"{name} of a quantity is not provided; use one of: {', '.join(FUNCTIONS)}.")
+        is_call = method == "__call__" and not options
+        if not is_call or (name not in UFUNCS and name not in FUNCTIONS):
+            remedy = f"; use one of: {', '.join(FUNCTIONS)}" if is_call else " in this form"
+            raise DefinitionError(f"{name} of a quantity is not provided{remedy}.")
         return self.applied(name, *inputs)
 
 

@@ -78,14 +78,16 @@ def match(labels: Mapping[str, Operand], slots: Iterable[Slot], what: str) -> di
     places = list(slots)
     found: dict[str, tuple[Slot, str, int, Operand]] = {}
     for spelling, value in labels.items():
-        fitting = [slot for slot in places if spelling in slot.spellings]
+        fitting, fault = [slot for slot in places if spelling in slot.spellings], ""
         if not fitting:
             valid = ", ".join("/".join(slot.spellings) for slot in places)
-            raise DefinitionError(f"{what}: the label {spelling!r} does not fit its points; valid labels: {valid}.")
-        if len(fitting) > 1:
-            raise DefinitionError(f"{what}: the label {spelling!r} can be read two ways; rename a point.")
+            fault = f"the label {spelling!r} does not fit its points; valid labels: {valid}"
+        elif len(fitting) > 1:
+            fault = f"the label {spelling!r} can be read two ways; rename a point"
+        elif fitting[0].attribute in found:
+            fault = f"{found[fitting[0].attribute][1]} and {spelling} are the same dimension; give it once"
+        if fault:
+            raise DefinitionError(f"{what}: {fault}.")
         slot = fitting[0]
-        if slot.attribute in found:
-            raise DefinitionError(f"{what}: {found[slot.attribute][1]} and {spelling} are the same dimension; give it once.")
         found[slot.attribute] = (slot, spelling, slot.spellings[spelling], value)
     return found

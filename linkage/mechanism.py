@@ -10,7 +10,6 @@ from copy import copy
 from dataclasses import replace
 from functools import wraps
 from inspect import isfunction
-from types import MethodType
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast, final
 
 import numpy as np
@@ -23,29 +22,12 @@ from .frozen import FrozenDict
 from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
 from .mobility import FourBar, Mobility, chain_graph, check, four_bars, mobility
-from .motion import (
-    OPTIONS,
-    Answer,
-    Column,
-    Featured,
-    Judge,
-    Motion,
-    Over,
-    PoseFunction,
-    Positions,
-    Question,
-    RequestLike,
-    Target,
-    at_values,
-    columns_of,
-    evaluate,
-    followed,
-    judge_verdicts,
-    positions_for,
-    require_motion,
-    source_of,
-    sweep_values,
-)
+from .motion import Answer, Featured, Positions, RequestLike, Target, at_values, followed, judge_verdicts, positions_for, sweep_values
+from .motion.evaluation import PoseFunction, evaluate, source_of
+from .motion.judge import Judge, Question
+from .motion.motion import Motion, require_motion
+from .motion.over import OPTIONS, Over
+from .motion.table import Column, columns_of
 from .plan import Body, Part, Plan, check_circuits, require_kinds, with_parts
 from .program import BackendName, FloatArray, Language, RunOptions
 from .quantities import Member, Stroke, is_name, keywords, needs
@@ -63,30 +45,17 @@ Result = TypeVar("Result")
 
 
 def of_a_design(method: Method) -> Method:
-    """Return a method of a design that says so in words where it is called on the class, which is the structure."""
-    return cast(Method, OfADesign(method))
+    """Return a method of a design that refuses in words to be called on the class, which is the structure, without a design."""
 
+    @wraps(method)
+    def checked(*given: object, **options: object) -> object:
+        if not (given and isinstance(given[0], Mechanism)):
+            name = method.__name__
+            said = f"{name}(...) is asked of a design, and this is the class, which is the structure; make one first"
+            raise DefinitionError(f"{said}, FourBar().{name}(...) for a class FourBar.")
+        return method(*given, **options)
 
-@final
-class OfADesign:
-    """A method that is bound to a design as any other; on the class it takes a design as its first argument, or refuses in words."""
-
-    def __init__(self, method: Callable[..., object]) -> None:
-        self.method = method
-        self.__doc__ = method.__doc__
-
-        @wraps(method)
-        def unbound(*given: object, **options: object) -> object:
-            if not (given and isinstance(given[0], Mechanism)):
-                name = method.__name__
-                said = f"{name}(...) is asked of a design, and this is the class, which is the structure; make one first"
-                raise DefinitionError(f"{said}, FourBar().{name}(...) for a class FourBar.")
-            return method(*given, **options)
-
-        self.unbound = unbound
-
-    def __get__(self, design: object, owner: type | None = None) -> Callable[..., object]:
-        return self.unbound if design is None else MethodType(self.method, design)
+    return cast(Method, checked)
 
 
 def of_own_motion(method: Callable[[Mechanism, Motion], Result]) -> Callable[[Mechanism, Motion], Result]:

@@ -15,24 +15,9 @@ from typing import Any, final
 import numpy as np
 
 from ..plan import Plan
-from ..program import (
-    FLOATS,
-    GUARDED,
-    HEAD,
-    NUMBA,
-    Dialect,
-    Graph,
-    Level,
-    Node,
-    ancestors,
-    compiled,
-    compiled_loop,
-    expanded,
-    lane_loop,
-    lowered,
-    pays_compiled,
-    replaced,
-)
+from ..program import FLOATS, GUARDED, Dialect, ancestors, compiled, compiled_loop, expanded, lowered, pays_compiled, replaced
+from ..program.loop import HEAD, NUMBA, lane_loop
+from ..program.node import Graph, Level, Node
 from ..steps import Group
 from .newton import ITERATIONS, Programs, largest_of, size_of
 from .rules import TINY, goes_on, interpolated, newton_ended, predicted, step_judged

@@ -12,22 +12,8 @@ import numpy.typing as npt
 
 from ..errors import AssemblyError, SingularError
 from ..plan import Plan, strokes_text
-from ..program import (
-    ARRAYS,
-    GUARDED,
-    FloatArray,
-    Kernel,
-    Level,
-    Node,
-    ancestors,
-    compiled,
-    expanded,
-    function_text,
-    is_zero,
-    jacobian,
-    replaced,
-    solve_arrays,
-)
+from ..program import ARRAYS, FloatArray, Kernel, Level, Node, ancestors, compiled, expanded, is_zero, jacobian, replaced, solve_arrays
+from ..program.text import GUARDED, function_text
 from ..steps import Group, Pin
 from ..units import mm
 from ..vectors import Numbers

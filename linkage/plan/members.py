@@ -13,31 +13,9 @@ from typing import Any, TypeVar, final
 from ..errors import DefinitionError, about, unknown
 from ..frozen import FrozenDict
 from ..language import translated
-from ..quantities import (
-    Dimension,
-    Distance,
-    Function,
-    Joint,
-    Jointed,
-    JointSide,
-    Length,
-    Member,
-    Negative,
-    Number,
-    Operation,
-    Quantity,
-    Stroke,
-    Sum,
-    Variable,
-    in_degrees,
-    name_of,
-    needs,
-    of_kind,
-    quantity,
-    reached,
-    signed_terms,
-    unnamed,
-)
+from ..quantities import Dimension, Distance, Joint, Jointed, JointSide, Length, Stroke, Variable
+from ..quantities.member import Member, name_of, needs, of_kind, reached, unnamed
+from ..quantities.quantity import Function, Negative, Number, Operation, Quantity, Sum, in_degrees, signed_terms
 from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, strokes_drawn, with_bodies
 from ..units import Amount, deg, require_measure
 from .bodies import Body, merged
@@ -305,8 +283,8 @@ class Members:
         """Return the names that a quantity is a sum of, through the members it goes by."""
         name = given.known_as
         member = self.members.get(name, given) if name else given
-        parts = (quantity(part) for part in member.parts()) if isinstance(member, (Sum, Negative)) else ()
-        return ({name} if name else set()).union(*map(self.terms, parts))
+        parts = member.parts() if isinstance(member, (Sum, Negative)) else ()
+        return ({name} if name else set()).union(*(self.terms(part) for part in parts if isinstance(part, Quantity)))
 
     @cached_property
     def turning(self) -> frozenset[str]:

@@ -13,28 +13,10 @@ import numpy as np
 
 from ..errors import DefinitionError, about, cited, is_yes, unknown
 from ..frozen import FrozenDict
-from ..quantities import (
-    FRAME_AXES,
-    Axes,
-    Coordinate,
-    Dimension,
-    Member,
-    Operand,
-    Quantity,
-    Ref,
-    Reference,
-    Stroke,
-    Variable,
-    is_number,
-    label,
-    name_of,
-    needs,
-    of_kind,
-    quantity,
-)
+from ..quantities import FRAME_AXES, Axes, Coordinate, Dimension, Operand, Quantity, Ref, Stroke, Variable, is_number, label, quantity
 from ..quantities import spelled as written
 from ..quantities.axes import is_nothing
-from ..quantities.member import word_arguments
+from ..quantities.member import Member, Reference, name_of, needs, of_kind, word_arguments
 from ..steps import Arrow, Drawn, Group, Link, Point, Step
 from ..steps.labels import Spoken
 from ..units import require_measure

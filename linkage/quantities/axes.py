@@ -61,7 +61,7 @@ class Axes:
         return -1.0 if self.mirrored else 1.0
 
     @property
-    def identity(self) -> Hashable:
+    def identity(self) -> tuple[Hashable, ...]:
         """What tells them from other axes."""
         return (self.carrier, *(each.identity for each in (*self.at, self.angle)), self.mirrored)
 
@@ -87,7 +87,7 @@ class Axes:
         x = x.opposite() if self.mirrored else x
         if not is_nothing(self.angle):
             angle = self.angle.number if isinstance(self.angle, Number) and not self.angle.name else self.angle
-            cos, sin = np.cos(angle), np.sin(angle)  # type: ignore[call-overload]
+            cos, sin = np.cos(angle), np.sin(angle)
             x, y = plus(multiplied(x, cos), multiplied(y, sin).opposite()), plus(multiplied(x, sin), multiplied(y, cos))
         return plus(self.at[0], x), plus(self.at[1], y)
 

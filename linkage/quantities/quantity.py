@@ -226,7 +226,7 @@ class Expression(Quantity):
     @property
     def identity(self) -> Hashable:
         """Its name, else that of its parts; itself where one of them has no other."""
-        identities = [(part, quantity(part).identity) for part in self.parts()]
+        identities = [(part, part.identity) for part in self.parts() if isinstance(part, Quantity)]
         is_itself = any(part is identity for part, identity in identities)
         return self.name or (self if is_itself else (self.symbol, *(identity for _, identity in identities)))
 

@@ -47,7 +47,8 @@ class Ground(Point):
         stands = axes.within(self.axes)
         if not stands.carrier:
             return self.renewed(axes=stands)
-        return Carried(*stands.carrier, self.x, self.y).renewed(_name=self.name, axes=stands)
+        P, Q = stands.carrier
+        return Carried(P, Q, self.x, self.y).renewed(_name=self.name, axes=stands)
 
     def __str__(self) -> str:
         return f"Ground({spelled(self.x)}, {spelled(self.y)})"

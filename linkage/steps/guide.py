@@ -7,26 +7,8 @@ from types import MappingProxyType
 from typing import Self
 
 from ..errors import DefinitionError
-from ..quantities import (
-    FRAME_AXES,
-    Axes,
-    Driven,
-    Joint,
-    Jointed,
-    JointSide,
-    Member,
-    Number,
-    Operand,
-    Quantity,
-    Reference,
-    Variable,
-    Where,
-    guided,
-    label,
-    name_of,
-    quantity,
-    spelled,
-)
+from ..quantities import FRAME_AXES, Axes, Member, Number, Operand, Quantity, Reference, Variable, Where, label, name_of, quantity, spelled
+from ..quantities.joint import Driven, Joint, Jointed, JointSide, guided
 from ..vectors import Line, Scalar, Vec
 from .step import Point, position
 

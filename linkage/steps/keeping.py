@@ -14,27 +14,8 @@ from functools import reduce
 from math import isclose, pi, remainder
 from typing import TypeAlias, final
 
-from ..quantities import (
-    Angle,
-    Axes,
-    CurveValue,
-    Distance,
-    Jointed,
-    Length,
-    Member,
-    Negative,
-    Number,
-    Operation,
-    Quantity,
-    Ref,
-    Reference,
-    Stroke,
-    Sum,
-    Variable,
-    name_of,
-    needs,
-    of_kind,
-)
+from ..quantities import Angle, Axes, CurveValue, Distance, Jointed, Length, Member, Reference, Stroke, Variable, name_of, needs, of_kind
+from ..quantities.quantity import Negative, Number, Operation, Quantity, Ref, Sum
 from .link import Link
 from .primitives import Arrow, Axis, CosineAngle, Offset, OffsetLinks, Turn, Vector
 from .step import Bar, Point

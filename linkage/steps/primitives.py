@@ -11,25 +11,8 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..frozen import refuses_changes
-from ..quantities import (
-    FRAME_AXES,
-    Axes,
-    Driven,
-    Joint,
-    JointSide,
-    Length,
-    Member,
-    Operand,
-    Quantity,
-    Reference,
-    Turning,
-    Where,
-    joined_names,
-    label,
-    name_of,
-    quantity,
-    spelled,
-)
+from ..quantities import FRAME_AXES, Axes, Driven, Joint, JointSide, Length, Operand, Quantity, label, quantity, spelled
+from ..quantities.member import Member, Reference, Turning, Where, joined_names, name_of
 from ..vectors import Line, Scalar, Vec
 from .step import Bar, Point, angle_given
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any, final
@@ -78,8 +78,13 @@ class Calculation:
         self.headings: dict[int, str] = {}
         """What stands over the columns that begin a part of the machine, by their places; none without parts."""
         self._known = self.equations._inputs(self.stroke_values, "nan")
-        for symbol, number, what in self._numbers():
-            self._add(CalculatedColumn("", number, what, "", symbol, None, self._spread(self._known[symbol])))
+        listing = self.equations._listing  # what no equation gives: pins found together, and what elements tell
+        vectors = [(pin, explicit(listing.names.vector(pin))) for pin in listing.unknowns]
+        pins = [(f"{pin}_{axis}", each) for pin, vector in vectors for axis, each in zip("xy", vector, strict=True)]
+        told = [(column_name(symbol.name), symbol) for given in self.equations._givens for symbol in explicit(given.symbol)]
+        for meaning, numbers in ((ITERATED, pins), (BY_ENGINE, told)):
+            for name, symbol in numbers:
+                self._add(CalculatedColumn("", name, meaning, "", symbol, None, self._spread(self._known[symbol])))
         for each in self.equations:
             if each.number in self.equations.headings:
                 self.headings[len(self.columns)] = self.equations.headings[each.number]
@@ -88,8 +93,12 @@ class Calculation:
     # -- what there is to write ------------------------------------------------------------------------
 
     def _equations(self) -> Equations:
-        """Return the equations with as much of ratios and forces as has some."""
-        targets = self._ratio_targets()
+        """Return the equations with as much as has some of the forces and of the ratios of outputs and of the last point that is built."""
+        plan = self.design.plan
+        written = members_with_lines(equations(self.design)._listing)
+        outputs = [name for name, each in plan.of_kind(Quantity).items() if not isinstance(each, (Stroke, Dimension))]
+        moving = [name for name in (*outputs, *plan.moving[-1:]) if self.run.stroke in plan.reaches(name)]
+        targets = [name for name in moving if name in written]
         try:
             return equations(self.design, ratio=targets, wrt=self.run.stroke, forces=True)
         except DefinitionError:
@@ -109,49 +118,27 @@ class Calculation:
             forces = False
         return equations(self.design, ratio=found, wrt=self.run.stroke, forces=forces)
 
-    def _ratio_targets(self) -> list[str]:
-        """Return the outputs that move with the run and have an equation, and the last point that is built."""
-        plan = self.design.plan
-        written = members_with_lines(equations(self.design)._listing)
-        outputs = [name for name, each in plan.of_kind(Quantity).items() if not isinstance(each, (Stroke, Dimension))]
-        return [name for name in (*outputs, *plan.moving[-1:]) if name in written and self.run.stroke in plan.reaches(name)]
-
-    def _numbers(self) -> Iterator[tuple[Any, str, str]]:
-        """Yield what no equation gives: pins found together, and what elements tell."""
-        listing = self.equations._listing
-        for pin in listing.unknowns:
-            for axis, symbol in zip("xy", explicit(listing.names.vector(pin)), strict=True):
-                yield symbol, f"{pin}_{axis}", ITERATED
-        for given in self.equations._givens:
-            for symbol in explicit(given.symbol):
-                yield symbol, column_name(symbol.name), BY_ENGINE
-
     # -- columns ---------------------------------------------------------------------------------------
 
     def _write(self, each: Equation) -> None:
         """Add the columns of an equation: one of a number, two of a vector; before them the directions that it takes."""
         rhs = each.rhs
         for place, word in enumerate(sorted(rhs.atoms(Direction), key=str)):
-            rhs = rhs.xreplace({word: self._direction(each, word, "abcdefgh"[place % 8])})
+            symbol, text = sympy.Symbol(str(word), real=True), str(each).partition(" = ")[0]
+            if symbol not in self._known:
+                meaning = f"the direction that {text} takes, without jumps"
+                numbered = f"({each.number}{'abcdefgh'[place % 8]})"
+                self._column(numbered, str(Text().doprint(word)), meaning, "rad", symbol, explicit(word)[0], turns=0)
+            rhs = rhs.xreplace({word: symbol})
         number, unit = f"({each.number})", "rad" if each.unit.si == "deg" else each.unit.si
         if not (each.lhs.is_Symbol or (each.lhs.is_Matrix and hasattr(each.lhs, "name"))):
             (left,), (right,) = explicit(each.lhs), explicit(rhs)
-            self._column(number, f"{each.name} - ({right})" if right != 0 else each.name, f"{each}: zero where it holds", unit,
-                         sympy.Dummy(real=True), left - right, checks=True)  # fmt: skip
+            name = f"{each.name} - ({right})" if right != 0 else each.name
+            self._column(number, name, f"{each}: zero where it holds", unit, sympy.Dummy(real=True), left - right, checks=True)
             return
         for symbol, expr in zip(explicit(each.lhs), explicit(rhs), strict=True):
             self._column(number, column_name(symbol.name), str(each), unit, symbol, expr)
         self._compare(each)
-
-    def _direction(self, each: Equation, word: Direction, letter: str) -> sympy.Expr:
-        """Return the symbol of a vector's direction, with a column of its own, in which it does not jump."""
-        symbol = sympy.Symbol(str(word), real=True)
-        if symbol not in self._known:
-            (expr,) = explicit(word)
-            text = str(each).partition(" = ")[0]
-            name = str(Text().doprint(word))
-            self._column(f"({each.number}{letter})", name, f"the direction that {text} takes, without jumps", "rad", symbol, expr, turns=0)
-        return symbol
 
     def _column(
         self, number: str, name: str, meaning: str, unit: str, symbol: sympy.Symbol, expr: sympy.Expr,

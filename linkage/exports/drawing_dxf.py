@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from .extras import missing_extra
-from .geometry import LAYERS, Circle, Lettering, Measured, Part, Polyline, PoseDrawing
+from .geometry import LAYERS, Circle, Lettering, Measured, Part, Polyline
 
 MILLIMETRES = 4
 """What $INSUNITS says."""
 
 
-def dxf(poses: Sequence[PoseDrawing], paths: Sequence[Part]) -> bytes:
+def dxf(poses: Sequence[tuple[str, Sequence[Part]]], paths: Sequence[Part]) -> bytes:
     """Return the bytes of a .dxf file; DefinitionError where ezdxf is not installed.
 
     Of several poses the first has the plain layers, the others `pose2_bodies` and so on.
@@ -27,11 +27,10 @@ def dxf(poses: Sequence[PoseDrawing], paths: Sequence[Part]) -> bytes:
     document.header["$MEASUREMENT"] = 1
     document.header["$LUNITS"] = 2
     space = document.modelspace()
-    for number, pose in enumerate(poses, 1):
-        for part in pose.parts:
-            draw_part(document, space, part, part.layer if number == 1 else f"pose{number}_{part.layer}")
-    for part in paths:
-        draw_part(document, space, part, part.layer)
+    for number, parts in enumerate([*(parts for _, parts in poses), paths], 1):
+        prefix = f"pose{number}_" if 1 < number <= len(poses) else ""
+        for part in parts:
+            draw_part(document, space, part, f"{prefix}{part.layer}")
     stream = io.StringIO()
     document.write(stream)
     return stream.getvalue().encode("utf-8")
@@ -44,17 +43,18 @@ def draw_part(document: Any, space: Any, part: Part, layer: str) -> None:
         if part.layer == "centre_lines":
             made.dxf.linetype = "CENTER"
     look = {"layer": layer}
-    if isinstance(part, Polyline):
-        bulges = part.bulges or (0.0,) * len(part.vertices)
-        rows = [(float(x), float(y), bulge) for (x, y), bulge in zip(part.vertices, bulges, strict=True)]
-        space.add_lwpolyline(rows, format="xyb", close=part.closed, dxfattribs=look)
-    elif isinstance(part, Circle):
-        space.add_circle(tuple(map(float, part.centre)), part.radius, dxfattribs=look)
-    elif isinstance(part, Lettering):
-        space.add_text(part.text, height=part.height, dxfattribs={**look, "insert": tuple(map(float, part.place)), "style": "OpenSans"})
-    elif isinstance(part, Measured):
-        high = part.height
-        style = {"dimtxt": high, "dimasz": high, "dimexe": 0.5 * high, "dimexo": 0.5 * high, "dimgap": 0.4 * high, "dimtad": 1, "dimdec": 1,
-                 "dimlfac": 1.0, "dimclrd": 256, "dimclre": 256, "dimclrt": 256}  # fmt: skip
-        ends = tuple(map(float, part.start)), tuple(map(float, part.end))
-        space.add_aligned_dim(*ends, distance=part.aside, override=style, dxfattribs=look, text=f"{part.name} = <>").render()
+    match part:
+        case Polyline():
+            rows = [(float(x), float(y), bulge) for (x, y), bulge in zip(part.vertices, part.bulges, strict=True)]
+            space.add_lwpolyline(rows, format="xyb", close=part.closed, dxfattribs=look)
+        case Circle():
+            space.add_circle(tuple(map(float, part.centre)), part.radius, dxfattribs=look)
+        case Lettering():
+            place = tuple(map(float, part.place))
+            space.add_text(part.text, height=part.height, dxfattribs={**look, "insert": place, "style": "OpenSans"})
+        case Measured():
+            high = part.height
+            style = {"dimtxt": high, "dimasz": high, "dimexe": 0.5 * high, "dimexo": 0.5 * high, "dimgap": 0.4 * high}
+            style |= {"dimtad": 1, "dimdec": 1, "dimlfac": 1.0, "dimclrd": 256, "dimclre": 256, "dimclrt": 256}
+            ends = tuple(map(float, part.start)), tuple(map(float, part.end))
+            space.add_aligned_dim(*ends, distance=part.aside, override=style, dxfattribs=look, text=f"{part.name} = <>").render()

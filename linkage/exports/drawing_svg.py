@@ -9,7 +9,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from ..program import FloatArray
-from .geometry import LAYERS, Circle, Lettering, Measured, Part, Polyline, PoseDrawing
+from .geometry import LAYERS, Circle, Lettering, Measured, Part, Polyline
 
 PAGE_MARGIN = 0.05
 """Room around the drawing, as a share of its greater side."""
@@ -18,9 +18,9 @@ STROKE = 0.0022
 FILLS = {"bodies": "#DCE8F5", "cylinders": "#DDEFE4", "frame": "#EEF1F4", "pins": "#FFFFFF"}
 
 
-def svg(poses: Sequence[PoseDrawing], paths: Sequence[Part], title: str) -> bytes:
-    """Return the bytes of an .svg file."""
-    drawn = [(f"pose{number}", pose.title, pose.parts) for number, pose in enumerate(poses, 1)] + [("paths", "paths", tuple(paths))]
+def svg(poses: Sequence[tuple[str, Sequence[Part]]], paths: Sequence[Part], title: str) -> bytes:
+    """Return the bytes of an .svg file of poses, each in words and its parts, and of paths."""
+    drawn = [(f"pose{number}", *pose) for number, pose in enumerate(poses, 1)] + [("paths", "paths", paths)]
     corners = np.concatenate([reach(part) for _, _, parts in drawn for part in parts])
     (left, bottom), (right, top) = corners.min(axis=0), corners.max(axis=0)
     greater = max(right - left, top - bottom)
@@ -43,7 +43,7 @@ def pose_group(key: str, title: str, parts: Sequence[Part], faint: bool) -> str:
     """Return the parts of one pose, a group a layer."""
     inside = []
     for layer, (_, colour) in LAYERS.items():
-        own = [each for each in parts if each.layer == layer and not isinstance(each, Measured)]
+        own = [each for each in parts if each.layer == layer and layer != "dimensions"]
         if own:
             fill, share = FILLS.get(layer, "none"), 0.6 if layer in FILLS else 1.0
             inside.append(f'<g class={quoteattr(layer)} stroke="{colour}" fill="{fill}" style="fill-opacity: {share}">')
@@ -56,24 +56,26 @@ def pose_group(key: str, title: str, parts: Sequence[Part], faint: bool) -> str:
 def svg_element(part: Part, colour: str) -> str:
     """Return one part; y goes down on a page."""
     name = f"data-name={quoteattr(part.name)}"
-    if isinstance(part, Circle):
-        x, y = part.centre
-        return f'<circle {name} cx="{svg_number(x)}" cy="{svg_number(-y)}" r="{svg_number(part.radius)}"/>'
-    if isinstance(part, Lettering):
-        x, y = map(svg_number, part.place * np.array([1.0, -1.0]))
-        size = svg_number(part.height)
-        return f'<text {name} x="{x}" y="{y}" font-size="{size}" fill="{colour}">{escape(part.text)}</text>'
-    assert isinstance(part, Polyline)
-    open_line = "" if part.closed else ' fill="none"'
-    return f'<path {name} d="{path_text(part)}"{open_line}/>'
+    match part:
+        case Circle():
+            x, y = part.centre
+            return f'<circle {name} cx="{svg_number(x)}" cy="{svg_number(-y)}" r="{svg_number(part.radius)}"/>'
+        case Lettering():
+            x, y = map(svg_number, part.place * np.array([1.0, -1.0]))
+            size = svg_number(part.height)
+            return f'<text {name} x="{x}" y="{y}" font-size="{size}" fill="{colour}">{escape(part.text)}</text>'
+        case Polyline():
+            open_line = "" if part.closed else ' fill="none"'
+            return f'<path {name} d="{path_text(part)}"{open_line}/>'
+        case Measured():
+            return ""
 
 
 def path_text(part: Polyline) -> str:
     """Return a line's commands, bulges as arcs."""
-    bulges = part.bulges or (0.0,) * len(part.vertices)
     text = "M" + xy(part.vertices[0])
     following = np.roll(part.vertices, -1, axis=0) if part.closed else part.vertices[1:]
-    for start, end, bulge in zip(part.vertices, following, bulges, strict=False):
+    for start, end, bulge in zip(part.vertices, following, part.bulges, strict=False):
         if bulge == 0.0:
             text += f" L{xy(end)}"
         else:
@@ -94,10 +96,12 @@ def svg_number(value: float) -> str:
 
 def reach(part: Part) -> FloatArray:
     """Return corners of what a part covers, shape (n, 2) [mm]."""
-    if isinstance(part, Polyline):
-        return part.vertices
-    if isinstance(part, Circle):
-        return np.array([part.centre - part.radius, part.centre + part.radius])
-    if isinstance(part, Lettering):
-        return np.array([part.place, part.place + part.height * np.array([0.7 * len(part.text), 1.0])])
-    return np.array([part.start, part.end])
+    match part:
+        case Polyline():
+            return part.vertices
+        case Circle():
+            return np.array([part.centre - part.radius, part.centre + part.radius])
+        case Lettering():
+            return np.array([part.place, part.place + part.height * np.array([0.7 * len(part.text), 1.0])])
+        case Measured():
+            return np.array([part.start, part.end])

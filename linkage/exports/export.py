@@ -25,7 +25,7 @@ from ..study import WorkingField
 from .calculation import Calculation, reached_somewhere
 from .drawing_dxf import dxf
 from .drawing_svg import svg
-from .geometry import PoseDrawing, path_parts, pose_parts
+from .geometry import Part, path_parts, pose_parts
 from .load_chart import chart_content
 from .workbook import check_count, workbook
 
@@ -209,13 +209,11 @@ def export(
     if isinstance(what, WorkingField):
         check_place(path)
         content = chart_content(what, file.suffix.lower(), file.name)
-        with replacing(path) as stream:
-            stream.write(content)
-        return file
-    exporter = exporter_of(file, format)
-    check_exportable(what, exporter, at, trace, columns)
-    check_place(path)
-    content = exporter.content(ExportJob(what, file.name, at, check_count(count), trace, columns))
+    else:
+        exporter = exporter_of(file, format)
+        check_exportable(what, exporter, at, trace, columns)
+        check_place(path)
+        content = exporter.content(ExportJob(what, file.name, at, check_count(count), trace, columns))
     with replacing(path) as stream:
         stream.write(content)
     return file
@@ -260,8 +258,11 @@ def over_strokes(machine: Mechanism, at: Mapping[str, Any], count: int) -> Motio
     return reached_somewhere(machine.at(unreachable="nan", **strokes, **unknown_names))
 
 
-def drawing_of(job: ExportJob) -> tuple[list[PoseDrawing], tuple[Any, ...], str]:
-    """Return the poses, the paths and the title of a drawing: paths through the poses of a motion, of a machine over its first stroke."""
+def drawing_of(job: ExportJob) -> tuple[list[tuple[str, tuple[Part, ...]]], tuple[Part, ...], str]:
+    """Return the poses, each in words and its parts, the paths and the title of a drawing.
+
+    Paths go through the poses of a motion, of a machine over its first stroke.
+    """
     motion = path = job.motion
     if isinstance(job.what, Mechanism) and job.trace:
         first = first_stroke(job.what)
@@ -272,7 +273,7 @@ def drawing_of(job: ExportJob) -> tuple[list[PoseDrawing], tuple[Any, ...], str]
     indices = [int(each) for each in np.flatnonzero(np.broadcast_to(motion.reached, motion.shape).ravel())] if motion.shape else [0]
     if len(indices) > MOST_POSES:
         raise DefinitionError(f"{motion.plan.title}: {len(indices)} poses do not go into one drawing; choose up to {MOST_POSES}.")
-    poses = [PoseDrawing(pose_words(motion, index), pose_parts(motion, index)) for index in indices]
+    poses = [(pose_words(motion, index), tuple(pose_parts(motion, index))) for index in indices]
     return poses, path_parts(path, job.trace), motion.plan.heading
 
 

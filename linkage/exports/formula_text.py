@@ -19,7 +19,7 @@ LONGEST_FORMULA = 8000
 """Characters; a spreadsheet takes 8192."""
 FUNCTION_NAMES: Mapping[str, str] = {
     "sin": "SIN", "cos": "COS", "tan": "TAN", "acos": "ACOS", "asin": "ASIN", "atan": "ATAN", "Abs": "ABS", "exp": "EXP", "log": "LN",
-    "sign": "SIGN", "Min": "MIN", "Max": "MAX",
+    "sign": "SIGN", "Min": "MIN", "Max": "MAX", "And": "AND", "Or": "OR", "Not": "NOT",
 }  # fmt: skip
 
 
@@ -58,13 +58,9 @@ class FormulaText(StrPrinter):  # type: ignore[misc]
         text = ""
         for each in reading_order(expr.args):
             negative = each.could_extract_minus_sign()
-            part = self._bare(-each) if negative else self._bare(each)
+            part = self.parenthesize(-each if negative else each, PRECEDENCE["Mul"], strict=True)
             text += f"-{part}" if negative and text else f"+{part}" if text else self._print(each)
         return text
-
-    def _bare(self, expr: sympy.Expr) -> str:
-        """Return a term of a sum behind its sign."""
-        return str(self.parenthesize(expr, PRECEDENCE["Mul"], strict=True))
 
     def _print_Mul(self, expr: sympy.Mul) -> str:
         if expr.could_extract_minus_sign():
@@ -96,7 +92,7 @@ class FormulaText(StrPrinter):  # type: ignore[misc]
     def _print_Function(self, expr: sympy.Function) -> str:
         return f"{FUNCTION_NAMES[type(expr).__name__]}({','.join(map(self._print, expr.args))})"
 
-    _print_Abs = _print_Min = _print_Max = _print_Function
+    _print_Abs = _print_Min = _print_Max = _print_And = _print_Or = _print_Not = _print_Function
 
     def _print_Piecewise(self, expr: sympy.Piecewise) -> str:
         (value, condition), *others = expr.args
@@ -108,15 +104,6 @@ class FormulaText(StrPrinter):  # type: ignore[misc]
     def _print_Relational(self, expr: sympy.Rel) -> str:
         sign = {"==": "=", "!=": "<>"}.get(expr.rel_op, expr.rel_op)
         return f"{self.parenthesize(expr.lhs, PRECEDENCE['Add'])}{sign}{self.parenthesize(expr.rhs, PRECEDENCE['Add'])}"
-
-    def _print_And(self, expr: sympy.And) -> str:
-        return f"AND({','.join(map(self._print, expr.args))})"
-
-    def _print_Or(self, expr: sympy.Or) -> str:
-        return f"OR({','.join(map(self._print, expr.args))})"
-
-    def _print_Not(self, expr: sympy.Not) -> str:
-        return f"NOT({self._print(expr.args[0])})"
 
     def _print_BooleanTrue(self, expr: object) -> str:
         return "TRUE"

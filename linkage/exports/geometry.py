@@ -46,13 +46,18 @@ PIN = 0.5
 @final
 @dataclass(frozen=True, eq=False)
 class Polyline:
-    """A line through vertices, shape (n, 2) [mm]; `bulges` are the tangents of a quarter of the arcs that follow each, 0 straight."""
+    """A line through vertices, shape (n, 2) [mm]; `arcs` are the tangents of a quarter of the arcs that follow each, 0 straight."""
 
     layer: str
     name: str
     vertices: FloatArray
-    bulges: tuple[float, ...] = ()
+    arcs: tuple[float, ...] = ()
     closed: bool = False
+
+    @property
+    def bulges(self) -> tuple[float, ...]:
+        """The tangent of a quarter of the arc that follows each vertex."""
+        return self.arcs or (0.0,) * len(self.vertices)
 
 
 @final
@@ -94,30 +99,35 @@ class Measured:
 Part = Polyline | Circle | Lettering | Measured
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class PoseDrawing:
-    """The parts of a mechanism at one pose, and the pose in words."""
-
-    title: str
-    parts: tuple[Part, ...]
-
-
-def pose_parts(motion: Motion, pose: int) -> tuple[Part, ...]:
-    """Return the parts of a mechanism at a pose of a motion, by its flat index. DefinitionError for a batch of designs."""
+def pose_parts(motion: Motion, pose: int) -> Iterator[Part]:
+    """Yield the parts of a mechanism at a pose of a motion, by its flat index. DefinitionError for a batch of designs."""
     scene = Scene(motion)
     there = scene.at(pose)
     at, size = {name: place / mm for name, place in there.items()}, scene.size / mm
-    return (
-        *frame_parts(scene, at, size),
-        *mark_parts("bodies", scene.blocks, there),
-        *body_parts(scene, at, size),
-        *cylinder_parts(scene, there),
-        *mark_parts("elements", scene.straights, there),
-        *pin_parts(scene, at, size),
-        *(Lettering("text", name, at[name] + 0.9 * size, name, 1.6 * size) for name in motion.plan.points),
-        *dimension_parts(scene, at, size),
-    )
+    for name in scene.grounds:  # a triangle under each pin on the frame, then the tracks
+        foot = at[name] + size * np.array([[-1.9, -3.2], [1.9, -3.2]])
+        yield Polyline("frame", name, np.array([at[name], *foot]), closed=True)
+    for track in scene.tracks:
+        yield Polyline("frame" if track.fixed else "bodies", track.name, np.array([at[name] for name in track.ends]))
+    yield from mark_parts("bodies", scene.blocks, there)
+    for corners, points in zip(scene.hulls, scene.bodies, strict=True):  # an outline, and centre lines from pin to pin
+        name, places = body_name(points), np.array([at[point] for point in corners])
+        yield outline_around(name, places, ROUND * size)
+        if len(corners) > 1:
+            yield Polyline("centre_lines", name, places, closed=len(corners) > 2)
+    for cylinder in scene.cylinders:
+        mark = cylinder.mark(scene.size)
+        yield from mark_parts("cylinders", [mark], there)
+        ends = mark.placed(np.array([[0.0, cylinder.aside], [mark.axes(there)[2], cylinder.aside]]), there)
+        yield Polyline("centre_lines", mark.name, ends / mm)
+    yield from mark_parts("elements", scene.straights, there)
+    bearings = {str(getattr(each.point, "name", each.point)): each for each in motion.plan.of_kind(PinFriction).values()}
+    for name in motion.plan.points:  # pins of their bearing's radius where friction declares one; other points are small
+        declared = float(np.ravel(bearings[name].number(motion, "radius"))[0]) / mm if name in bearings else 0.0
+        yield Circle("pins", name, at[name], declared or (PIN if name in scene.pins else 0.5 * PIN) * size)
+    for name in motion.plan.points:
+        yield Lettering("text", name, at[name] + 0.9 * size, name, 1.6 * size)
+    yield from dimension_parts(scene, at, size)
 
 
 def path_parts(motion: Motion, points: Sequence[str]) -> tuple[Part, ...]:
@@ -128,32 +138,6 @@ def path_parts(motion: Motion, points: Sequence[str]) -> tuple[Part, ...]:
         path = motion[name].reshape(2, -1).T / mm
         found.append(Polyline("paths", name, path[np.isfinite(path).all(axis=1)]))
     return tuple(found)
-
-
-# The frame, with the tracks on it.
-
-
-def frame_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
-    """Yield a triangle under each pin on the frame, and the fixed tracks."""
-    for name in scene.grounds:
-        foot = at[name] + size * np.array([[-1.9, -3.2], [1.9, -3.2]])
-        yield Polyline("frame", name, np.array([at[name], *foot]), closed=True)
-    for track in scene.tracks:
-        layer = "frame" if track.fixed else "bodies"
-        yield Polyline(layer, track.name, np.array([at[name] for name in track.ends]))
-
-
-# Bodies: an outline about the outermost pins, and centre lines from pin to pin.
-
-
-def body_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
-    """Yield outlines and centre lines."""
-    for corners, points in zip(scene.hulls, scene.bodies, strict=True):
-        name = body_name(points)
-        places = np.array([at[point] for point in corners])
-        yield outline_around(name, places, ROUND * size)
-        if len(corners) > 1:
-            yield Polyline("centre_lines", name, places, closed=len(corners) > 2)
 
 
 def outline_around(name: str, corners: FloatArray, distance: float) -> Polyline:
@@ -168,41 +152,11 @@ def outline_around(name: str, corners: FloatArray, distance: float) -> Polyline:
     return Polyline("bodies", name, vertices, tuple(bulges.tolist()), closed=True)
 
 
-def unit_vector(start: FloatArray, end: FloatArray) -> FloatArray:
-    """Return the unit vector from one place to another, shape (2,)."""
-    return np.asarray((end - start) / (np.hypot(*(end - start)) or 1.0))
-
-
-# What is drawn as marks: blocks, cylinders, springs, dampers and struts.
-
-
 def mark_parts(layer: str, marks: Iterable[DrawnMark], at: Places) -> Iterator[Part]:
     """Yield the lines of marks at the places of their points [m]."""
     for mark in marks:
         for line, drawn in zip(mark.lines, mark.drawn(at), strict=True):
             yield Polyline(layer, mark.name, drawn / mm, closed=line.closed)
-
-
-def cylinder_parts(scene: Scene, at: Places) -> Iterator[Part]:
-    """Yield the lines of each cylinder at the places of its points [m], and its line from pin to pin."""
-    for cylinder in scene.cylinders:
-        mark = cylinder.mark(scene.size)
-        yield from mark_parts("cylinders", [mark], at)
-        ends = mark.placed(np.array([[0.0, cylinder.aside], [mark.axes(at)[2], cylinder.aside]]), at)
-        yield Polyline("centre_lines", mark.name, ends / mm)
-
-
-# Pins and lengths.
-
-
-def pin_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
-    """Yield a circle for each pin, of its bearing's radius where friction declares one, and a small one for each other point."""
-    motion = scene.motion
-    radii = {str(getattr(each.point, "name", each.point)): each for each in motion.plan.of_kind(PinFriction).values()}
-    for name in motion.plan.points:
-        is_pin = name in scene.pins
-        declared = float(np.ravel(radii[name].number(motion, "radius"))[0]) / mm if name in radii else 0.0
-        yield Circle("pins", name, at[name], declared or (PIN if is_pin else 0.5 * PIN) * size)
 
 
 def dimension_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
@@ -225,7 +179,7 @@ def dimension_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
 
 def along_one_line(one: tuple[FloatArray, FloatArray], other: tuple[FloatArray, FloatArray], size: float) -> bool:
     """Return whether two stretches lie along one line and overlap; closer than a size [mm] counts as on it."""
-    along = unit_vector(*one)
+    along = (one[1] - one[0]) / (np.hypot(*(one[1] - one[0])) or 1.0)
     across = np.array([-along[1], along[0]])
     off = [abs(float((place - one[0]) @ across)) for place in other]
     reach = sorted(float((place - one[0]) @ along) for place in other)

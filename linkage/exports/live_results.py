@@ -18,7 +18,6 @@ import numpy as np
 import sympy
 
 from ..errors import LinkageError, SingularWarning
-from ..mechanism import Mechanism
 from ..motion import Column
 from ..program import FloatArray
 from ..reports import results
@@ -68,7 +67,7 @@ class FormulaSearch:
 
     def found(self) -> list[LiveResult]:
         """Return each column with the first formula that gives it everywhere."""
-        self.here = self._trial(self.calculation.design, self.calculation.stroke_values)
+        self.here = self._trial({}, self.calculation.stroke_values)
         self.changed = self._first(self._changes(all_of=True))
         self.beside = self._first(self._changes(all_of=False))
         found = [self._live(place, self._named(place)) for place in range(len(self.table))]
@@ -85,12 +84,8 @@ class FormulaSearch:
             if is_given(self.changed, place, expr) or (self.changed is None and expr in own):
                 return LiveResult(column, expr)
             if is_given(self.beside, place, expr):
-                return LiveResult(column, expr, self._needed(place, expr))
+                return LiveResult(column, expr, tuple(name for name in self.neutral if not is_given(self._alone[name], place, expr)))
         return LiveResult(column)
-
-    def _needed(self, place: int, expr: sympy.Expr) -> tuple[str, ...]:
-        """Return the dimensions that must stay 0 or 1 for a formula to give a column."""
-        return tuple(name for name in self.neutral if not is_given(self._alone[name], place, expr))
 
     @cached_property
     def _alone(self) -> dict[str, Trial | None]:
@@ -117,22 +112,19 @@ class FormulaSearch:
         if self.here is not None:
             table, known = self.here
             for each in self.calculation.columns:
-                if each.expr is not None:
-                    yield from self._scaled(table[place], each.symbol, known[each.symbol])
+                if each.expr is None:
+                    continue
+                with np.errstate(all="ignore"):
+                    shares = table[place] / known[each.symbol]
+                if not np.isfinite(shares).all() or np.ptp(shares) > EQUAL * abs(shares[0]):
+                    continue
+                for dimension, name in self.calculation.dimension_symbols.items():
+                    value = self.calculation.design.dimensions[name]
+                    if name not in self.neutral and abs(value - shares[0]) <= EQUAL * abs(value):
+                        yield each.symbol * dimension
+                    elif name not in self.neutral and abs(value * shares[0] - 1.0) <= EQUAL:
+                        yield each.symbol / dimension
         yield from (a - b for a, b in permutations(simple, 2))
-
-    def _scaled(self, wanted: FloatArray, symbol: sympy.Symbol, values: FloatArray) -> Iterator[sympy.Expr]:
-        """Yield a symbol times or over a dimension, where that is what is wanted."""
-        with np.errstate(all="ignore"):
-            shares = wanted / values
-        if not np.isfinite(shares).all() or np.ptp(shares) > EQUAL * abs(shares[0]):
-            return
-        for dimension, name in self.calculation.dimension_symbols.items():
-            value = self.calculation.design.dimensions[name]
-            if name not in self.neutral and abs(value - shares[0]) <= EQUAL * abs(value):
-                yield symbol * dimension
-            elif name not in self.neutral and abs(value * shares[0] - 1.0) <= EQUAL:
-                yield symbol / dimension
 
     def _own(self, column: Column) -> list[sympy.Expr]:
         """Return the symbols of a column's own name."""
@@ -150,16 +142,13 @@ class FormulaSearch:
 
     def _first(self, changes: Iterable[Mapping[str, float]]) -> Trial | None:
         """Return the trial of the first change that goes together."""
-        return next((trial for trial in map(self._trial_of, changes) if trial is not None), None)
+        trials = (self._trial(change, self.poses) for change in changes)
+        return next((trial for trial in trials if trial is not None), None)
 
-    def _trial_of(self, change: Mapping[str, float]) -> Trial | None:
+    def _trial(self, change: Mapping[str, float], poses: Mapping[str, object]) -> Trial | None:
+        """Return the trial of a changed design at some poses; None where it does not go together."""
         try:
-            return self._trial(self.calculation.design.replaced(**change), self.poses)
-        except LinkageError:
-            return None
-
-    def _trial(self, design: Mechanism, poses: Mapping[str, object]) -> Trial | None:
-        try:
+            design = self.calculation.design.replaced(**change)
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", SingularWarning)
                 motion, known = self.calculation.at_design(design, poses)

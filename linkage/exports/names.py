@@ -18,7 +18,8 @@ def cell_names(texts: Iterable[str]) -> dict[str, str]:
     names: dict[str, str] = {}
     taken: set[str] = set()
     for text in texts:
-        name = wanted = cell_name(text)
+        plain = re.sub(r"\W", "_", text)[:LONGEST_NAME] or "_"
+        name = wanted = f"_{plain}" if plain[0].isdigit() or LIKE_A_CELL.fullmatch(plain) else plain
         count = 1
         while name.lower() in taken:
             count += 1
@@ -26,9 +27,3 @@ def cell_names(texts: Iterable[str]) -> dict[str, str]:
         taken.add(name.lower())
         names[text] = name
     return names
-
-
-def cell_name(text: str) -> str:
-    """Return a text as the name of a cell: letters, digits and underscores, not read as a place."""
-    name = re.sub(r"\W", "_", text)[:LONGEST_NAME] or "_"
-    return f"_{name}" if name[0].isdigit() or LIKE_A_CELL.fullmatch(name) else name

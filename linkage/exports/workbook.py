@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from datetime import datetime
 from functools import cached_property
 from inspect import cleandoc
+from string import ascii_uppercase
 from typing import TYPE_CHECKING, final
 
 import numpy as np
@@ -16,7 +17,7 @@ from ..checks import require_whole
 from ..formulas.numbered import CONVENTION, DEFINITIONS, uses
 from ..motion import stroke_display_unit, stroke_unit
 from ..pictures.strokes import column_among
-from ..reports import Run, dimension_unit
+from ..reports import dimension_unit
 from ..units import deg, factor
 from .calculation import CalculatedColumn, Calculation
 from .extras import missing_extra
@@ -60,7 +61,8 @@ class Sheets:
     """The sheets of one workbook; texts are written as texts, whatever they begin with."""
 
     def __init__(self, book: Workbook, calculation: Calculation) -> None:
-        self.book, self.calculation = book, calculation
+        self.book, self.calculation, self.design = book, calculation, calculation.design
+        self.strokes = list(self.design.strokes)
         self.results = live_results(calculation)
         self.count = calculation.motion.shape[0]
         self.top = int(bool(calculation.headings))
@@ -69,8 +71,8 @@ class Sheets:
         head = {"bold": True, "bg_color": pale, "font_color": ink, "border": 1, "border_color": "#C9D1D9", "valign": "top"}
         self.head = book.add_format(head)
         self.wrapped = book.add_format({**head, "bold": False, "text_wrap": True, "font_size": 9})
-        self.dead_head = book.add_format({**head, "italic": True, "font_color": "#8A5A00"})
         dead = {"italic": True, "font_color": "#8A5A00"}
+        self.dead_head = book.add_format({**head, **dead})
         self.dead_wrapped = book.add_format({**head, **dead, "bold": False, "text_wrap": True, "font_size": 9})
         self.title = book.add_format({"bold": True, "font_size": 14, "font_color": ink})
         self.text = book.add_format({"font_color": ink})
@@ -95,7 +97,7 @@ class Sheets:
             else:
                 sheet.fit_to_pages(1, 0)
         middle.repeat_rows(0, self.above - 1)
-        middle.repeat_columns(0, len(self.calculation.design.strokes))
+        middle.repeat_columns(0, len(self.strokes))
         last.repeat_rows(0, RESULT_ROWS_ABOVE - 1)
         self._dimensions(first)
         self._strokes(strokes)
@@ -108,9 +110,8 @@ class Sheets:
     @cached_property
     def defined_names(self) -> dict[sympy.Symbol, str]:
         """The names of the cells of dimensions, by the dimension, and of the ends of strokes, by (stroke, "from" or "to")."""
-        calculation = self.calculation
-        shown = {name: calculation.equations._listing.names.quantity(name).name for name in calculation.design.dimensions}
-        ends = {(stroke, end): f"{stroke}_{end}" for stroke in calculation.design.strokes for end in ("from", "to")}
+        shown = {name: self.calculation.equations._listing.names.quantity(name).name for name in self.design.dimensions}
+        ends = {(stroke, end): f"{stroke}_{end}" for stroke in self.strokes for end in ("from", "to")}
         keys = [*shown, *ends]
         texts = [*shown.values(), *ends.values()]
         unique = [text if texts.index(text) == place else f"{text}_{place}" for place, text in enumerate(texts)]
@@ -119,11 +120,9 @@ class Sheets:
 
     def _dimensions(self, sheet: Worksheet) -> None:
         """Write the design variables: the value that is typed in, in its unit, and beside it in SI, by the name that formulas use."""
-        design = self.calculation.design
-        sheet.set_column(0, 0, 30)
-        sheet.set_column(1, 3, 15)
-        sheet.set_column(4, 4, 30)
-        sheet.set_column(5, 5, 70)
+        design, names = self.design, self.defined_names
+        for first, last, width in ((0, 0, 30), (1, 3, 15), (4, 4, 30), (5, 5, 70)):
+            sheet.set_column(first, last, width)
         sheet.write_string(0, 0, design.plan.heading, self.title)
         about = cleandoc(type(design).__doc__ or "").splitlines()
         sheet.write_string(1, 0, about[0] if about else "", self.muted)
@@ -146,9 +145,9 @@ class Sheets:
             sheet.write_number(row, 1, tidy(value / factor(unit)), self.input)
             sheet.write_string(row, 2, unit, self.muted)
             sheet.write_formula(row, 3, f"=B{row + 1}{to_si(unit)}", self.plain, float(value))
-            sheet.write_string(row, 4, self.defined_names[name], self.muted)
+            sheet.write_string(row, 4, names[name], self.muted)
             sheet.write_string(row, 5, self._note(name, entry.where), self.muted)
-            self.book.define_name(self.defined_names[name], f"=Dimensions!$D${row + 1}")
+            self.book.define_name(names[name], f"=Dimensions!$D${row + 1}")
         sheet.freeze_panes(5, 1)
         self._agreement(sheet, row + 2)
         for place, text in enumerate(self._remarks()):
@@ -191,15 +190,16 @@ class Sheets:
 
     def _strokes(self, sheet: Worksheet) -> None:
         """Write the ends of the stroke that runs and the others' values, then all strokes at every pose."""
-        calculation, strokes = self.calculation, list(self.calculation.design.strokes)
-        plan, run = calculation.design.plan, calculation.run
+        calculation, strokes = self.calculation, self.strokes
+        plan, run = self.design.plan, calculation.run
         sheet.set_column(0, 6, 15)
         for column, text in enumerate(("Stroke", "From", "To", "Unit", "From, SI", "To, SI", "Note")):
             sheet.write_string(0, column, text, self.head)
         for row, name in enumerate(strokes, 1):
             unit, runs = stroke_display_unit(plan, name, "mm"), name in run.ways
             sheet.write_string(row, 0, name, self.text)
-            for column, (end, value) in enumerate(stroke_ends_of(run, name).items()):
+            ends = {"from": run.ways[name][0], "to": run.ways[name][-1]} if runs else {"from": run.held[name]}
+            for column, (end, value) in enumerate(ends.items()):
                 sheet.write_number(row, 1 + column, tidy(value / factor(unit)), self.input)
                 sheet.write_formula(row, 4 + column, f"={'BC'[column]}{row + 1}{to_si(unit)}", self.plain, value)
                 self.book.define_name(self.defined_names[name, end], f"=Strokes!${'EF'[column]}${row + 1}")
@@ -212,32 +212,27 @@ class Sheets:
             sheet.write_number(top + pose, 0, pose, self.plain)
             for column, name in enumerate(strokes, 1):
                 value = float(np.broadcast_to(calculation.stroke_values[name], (self.count,))[pose])
-                sheet.write_formula(top + pose, column, f"={self._stroke_text(name, top + pose + 1)}", self.plain, value)
-
-    def _stroke_text(self, name: str, row: int) -> str:
-        start = self.defined_names[name, "from"]
-        if name not in self.calculation.run.ways or self.count == 1:
-            return start
-        return f"{start}+({self.defined_names[name, 'to']}-{start})*A{row}/{self.count - 1}"
+                text = start = self.defined_names[name, "from"]
+                if name in run.ways:
+                    text += f"+({self.defined_names[name, 'to']}-{start})*A{top + pose + 1}/{self.count - 1}"
+                sheet.write_formula(top + pose, column, f"={text}", self.plain, value)
 
     @property
     def _stroke_head(self) -> int:
         """The rows of the strokes' sheet above the poses."""
-        return len(self.calculation.design.strokes) + 3
+        return len(self.strokes) + 3
 
     # -- the equations ---------------------------------------------------------------------------------
 
     def _sheet_column(self, column: int) -> int:
         """Return where a column of the calculation stands in its sheet: behind the pose and the strokes."""
-        return 1 + len(self.calculation.design.strokes) + column
+        return 1 + len(self.strokes) + column
 
     @cached_property
     def _letters(self) -> dict[sympy.Symbol, str]:
         """The letter of the column of each symbol of the calculation's sheet."""
-        from xlsxwriter.utility import xl_col_to_name
-
         symbols = [*self.calculation.stroke_symbols.values(), *(each.symbol for each in self.calculation.columns)]
-        return {symbol: str(xl_col_to_name(1 + place)) for place, symbol in enumerate(symbols)}
+        return {symbol: column_letters(1 + place) for place, symbol in enumerate(symbols)}
 
     def _cell_formula(self, expr: sympy.Expr, sheet: str = "") -> str | None:
         """Return an expression as a formula with ROW_MARK where the row's number goes; None for one that is too long.
@@ -254,7 +249,7 @@ class Sheets:
 
     def _calculation(self, sheet: Worksheet) -> None:
         """Write a column for each equation, two for a vector, in their order: number, name, unit, meaning, and a formula a pose."""
-        plan, strokes = self.calculation.design.plan, list(self.calculation.design.strokes)
+        plan, strokes = self.design.plan, self.strokes
         sheet.set_row(3 + self.top, 75)
         sheet.set_column(0, 0, 7)
         sheet.set_column(1, self._sheet_column(len(self.calculation.columns)), 16)
@@ -266,7 +261,7 @@ class Sheets:
             sheet.write_formula(row, 0, f"=Strokes!A{self._stroke_head + pose + 1}", self.plain, pose)
             for column, name in enumerate(strokes, 1):
                 value = float(np.broadcast_to(self.calculation.stroke_values[name], (self.count,))[pose])
-                text = f"=Strokes!{'ABCDEFGHIJKLMNOPQRSTUVWXYZ'[column]}{self._stroke_head + pose + 1}"
+                text = f"=Strokes!{column_letters(column)}{self._stroke_head + pose + 1}"
                 sheet.write_formula(row, column, text, self._format(1.0, False), value)
         for place, text in self.calculation.headings.items():
             sheet.write_string(0, self._sheet_column(place), text, self.part)
@@ -281,14 +276,16 @@ class Sheets:
             sheet.write_string(self.top + row, column, text, lower if row == 3 else upper)
 
     def _write_column(self, sheet: Worksheet, place: int, each: CalculatedColumn) -> None:
-        """Write one column's formulas with their values, or its values alone."""
+        """Write one column's formulas with their values, or its values alone; a direction goes on from the cell above without a jump."""
         look = self._format(float(np.nanmax(np.abs(each.values), initial=0.0)), each.expr is None)
         template = None if each.expr is None else self._cell_formula(each.expr)
         for pose, value in enumerate(each.values.tolist()):
             row = self.above + pose
             text = None if template is None else template.replace(ROW_MARK, str(row + 1))
-            if text is not None and each.turns is not None:
-                text = without_jump(text, each.turns, f"{self._letters[each.symbol]}{row}" if pose else "")
+            if text is not None and each.turns is not None and pose:
+                text += f"-2*PI()*ROUND(({text[1:]}-{self._letters[each.symbol]}{row})/(2*PI()),0)"
+            elif text is not None and each.turns:
+                text += f"+2*PI()*({each.turns})"
             self._number(sheet, row, place, text, value, look)
 
     def _number(self, sheet: Worksheet, row: int, column: int, text: str | None, value: float, look: Format) -> None:
@@ -300,7 +297,7 @@ class Sheets:
             sheet.write_string(row, column, "", look)
 
     def _format(self, size: float, dead: bool) -> Format:
-        """Return how numbers up to a size are shown."""
+        """Return the format of numbers up to a size."""
         text = "0.00000E+00" if size >= 1e7 or 0.0 < size < 1e-3 else "0.00" if size >= 1e4 else "0.0000" if size >= 100.0 else "0.000000"
         return self._look(text, dead)
 
@@ -318,10 +315,9 @@ class Sheets:
         sheet.set_column(0, max(len(self.results) - 1, 0), 14)
         for column, result in enumerate(self.results):
             dead = result.expr is None
-            kept = ", ".join(f"{name} = {self.calculation.design.dimensions[name]:g}" for name in result.kept)
+            kept = ", ".join(f"{name} = {self.design.dimensions[name]:g}" for name in result.kept)
             says = "a number, not a formula" if dead else f"while {kept}" if kept else ""
-            texts = (result.column.name, result.column.unit, says)
-            for row, text in enumerate(texts):
+            for row, text in enumerate((result.column.name, result.column.unit, says)):
                 sheet.write_string(row, column, text, (self.dead_wrapped if dead else self.wrapped) if row == 2 else self.head)
             shown = np.broadcast_to(result.column.shown, self.calculation.motion.shape)
             look = self._look(f"0.{'0' * result.column.digits}" if result.column.digits else "0", dead)
@@ -340,30 +336,27 @@ class Sheets:
         shown = f"{body}{from_si(result.column.unit)}"
         if not result.kept:
             return f"={shown}"
-        own = self.calculation.design.dimensions
-        tests = ",".join(f"{self.defined_names[name]}={own[name]:g}" for name in result.kept)
+        tests = ",".join(f"{self.defined_names[name]}={self.design.dimensions[name]:g}" for name in result.kept)
         return f"=IF(AND({tests}),{shown},NA())"
 
     def _chart(self, sheet: Worksheet) -> None:
         """Draw what the machine is about over its stroke."""
-        columns = [result.column for result in self.results]
-        over_stroke = next((place for place, each in enumerate(columns) if each.name == self.calculation.run.stroke), None)
-        drawn = column_among(self.calculation.design, columns, None).name
-        shown = next(place for place, each in enumerate(columns) if each.name == drawn)
+        columns, stroke = [result.column for result in self.results], self.calculation.run.stroke
+        names = [each.name for each in columns]
+        shown = names.index(column_among(self.design, columns, None).name)
+        y = columns[shown]
+        if stroke in names:
+            x = columns[names.index(stroke)]
+            name, along, across = x.heading, x.shown, self._range("Results", names.index(stroke), RESULT_ROWS_ABOVE)
+        else:
+            name, along = f"{stroke}, {stroke_unit(self.design.plan, stroke)}", self.calculation.stroke_values[stroke]
+            across = self._range("Calculation", 1 + self.strokes.index(stroke), self.above)
         chart = self.book.add_chart({"type": "scatter", "subtype": "straight"})
-        x, y = columns[over_stroke] if over_stroke is not None else None, columns[shown]
-        stroke = self._range("Calculation", 1 + list(self.calculation.design.strokes).index(self.calculation.run.stroke), self.above)
-        chart.add_series({
-            "name": y.heading,
-            "categories": f"={stroke if over_stroke is None else self._range('Results', over_stroke, RESULT_ROWS_ABOVE)}",
-            "values": f"={self._range('Results', shown, RESULT_ROWS_ABOVE)}",
-            "line": {"color": "#1F5FA8", "width": 2.25},
-        })  # fmt: skip
-        unit = stroke_unit(self.calculation.design.plan, self.calculation.run.stroke)
+        values = self._range("Results", shown, RESULT_ROWS_ABOVE)
+        line = {"color": "#1F5FA8", "width": 2.25}
+        chart.add_series({"name": y.heading, "categories": f"={across}", "values": f"={values}", "line": line})
         axis = {"num_font": {"size": 10}, "major_gridlines": {"visible": True, "line": {"color": "#E1E5EA", "width": 0.75}}}
-        chart.set_title({"name": f"{self.calculation.design.plan.heading}: {y.heading}", "name_font": {"size": 13}, "overlay": False})
-        along = x.shown if x is not None else self.calculation.stroke_values[self.calculation.run.stroke]
-        name = x.heading if x is not None else f"{self.calculation.run.stroke}, {unit}"
+        chart.set_title({"name": f"{self.design.plan.heading}: {y.heading}", "name_font": {"size": 13}, "overlay": False})
         ends = {"min": tidy(float(np.min(along))), "max": tidy(float(np.max(along)))}
         chart.set_x_axis({"name": name, **ends, "label_position": "low", "crossing": "min", **axis})
         chart.set_y_axis({"name": y.heading, "label_position": "low", "crossing": "min", **axis})
@@ -373,16 +366,14 @@ class Sheets:
         sheet.hide_gridlines(2)
 
     def _range(self, sheet: str, column: int, head: int) -> str:
-        from xlsxwriter.utility import xl_col_to_name
-
-        letter = xl_col_to_name(column)
+        letter = column_letters(column)
         return f"{sheet}!${letter}${head + 1}:${letter}${head + self.count}"
 
 
-def stroke_ends_of(run: Run, name: str) -> Mapping[str, float]:
-    """Return the two ends of a stroke that runs [SI], or the value of one that is held."""
-    way = run.ways.get(name)
-    return {"from": run.held[name]} if way is None else {"from": way[0], "to": way[-1]}
+def column_letters(place: int) -> str:
+    """Return the letters of a column by its place, A for 0, AA for 26."""
+    rest, last = divmod(place, 26)
+    return (column_letters(rest - 1) if rest else "") + ascii_uppercase[last]
 
 
 def tidy(value: float) -> float:
@@ -398,13 +389,6 @@ def to_si(unit: str) -> str:
 def from_si(unit: str) -> str:
     """Return what turns SI into a number in a unit, as the end of a formula."""
     return "*180/PI()" if unit and factor(unit) == deg else "" if factor(unit) == 1.0 else f"/{factor(unit)!r}"
-
-
-def without_jump(text: str, turns: int, before: str) -> str:
-    """Return the formula of a direction that goes on from the cell before without a jump; of the first one with its whole turns."""
-    if not before:
-        return f"{text}+2*PI()*({turns})" if turns else text
-    return f"{text}-2*PI()*ROUND(({text[1:]}-{before})/(2*PI()),0)"
 
 
 def check_count(count: object) -> int:

@@ -19,11 +19,10 @@ from ..motion.requests import NodeRequest
 from ..plan import Plan, opening, plan_measure, require_kind
 from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
-from ..reports import NOTHING, At, column_requests, run_along, run_of
+from ..reports import NOTHING, At, LiveColumn, column_requests, run_along, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, ground_loads, pin_force, pin_forces, traced_loads
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
-from ..verdict import Verdict
-from .browser_file import MACHINE, START, page_part, page_text
+from .browser_file import MACHINE, START, PageData, page_part, page_text
 from .browser_judge import LiveQuestions
 from .curves import check_poses, limit_of, typeset
 from .labels import offsets
@@ -59,12 +58,7 @@ def track_number(track: SlideTrack, part: str, axis: str) -> NodeRequest:
     return NodeRequest(text=f"the {part} of {track.name}", key=("track", track.name, part, axis), nodes_of=nodes, names_of=names)
 
 
-def force_part(kind: str, place: int, axis: int) -> LawRequest:
-    """Return the request for a part of one of the machine's own loads ("load") or of what the ground puts on it ("ground") [N]."""
-    return LawRequest(formula=partial(force_part_of, kind, place, axis), text=f"{kind} {place}", known=(kind, place, axis))
-
-
-def force_part_of(kind: str, place: int, axis: int, motion: AnyMotion) -> FloatArray:
+def force_part(kind: str, place: int, axis: int, motion: AnyMotion) -> FloatArray:
     """Return a part of a load, by its place among all of its kind, over a motion [N]; of the machine's own loads over a traced one."""
     if kind == "ground":
         return cast(FloatArray, ground_loads(motion, PLAIN)[place].force[axis])
@@ -134,14 +128,6 @@ class PageRequests:
         found = {name: limit_of(each, self.columns[name][0].unit) for name, each in (known | given).items()}
         return {name: (float(each.value), each.text, each.fails) for name, each in found.items()}
 
-    def said_otherwise(self, name: str) -> str:
-        """Return in Russian what a limit says, where the machine has said it; a limit that was given says what it says."""
-        with language("ru"):
-            known = self.machine.featured().limits.get(name)
-        plain = self.featured.limits.get(name)
-        own = plain is not None and known is not None and limit_of(plain).text == self.limits[name][1]
-        return limit_of(known).text if own and known is not None else self.limits[name][1]
-
     def _ask(self) -> None:
         """Note all that is asked of the program."""
         self.by_name |= self.questions.by_name
@@ -167,17 +153,22 @@ class PageRequests:
         try:
             with unwarned():
                 joints = pin_forces(poses).joints
-        except LinkageError:
+            kept = self.plan.made(("traced loads",), lambda twin: twin)
+            loads = traced_loads(TracedMotion(kept, kept.trace.view()), PLAIN, AT_REST).loads
+        except LinkageError:  # no forces, or loads that have no program
             return []
-        loads = acting_points(self.plan)
         if not loads:
             return []
         forces = [each for each in joints if each.has_force and each.place is None]  # an arrow of the page begins at a point
         told = [each for each in forces if alone_on(each, forces)]
         found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False) for each in told]
-        ground = enumerate(ground_loads(poses, PLAIN))
-        found += [(each.load.point, force_part("ground", k, 0), force_part("ground", k, 1), False) for k, each in ground]
-        return found + [(point, force_part("load", k, 0), force_part("load", k, 1), True) for k, point in loads]
+        for kind, acting in (("ground", ground_loads(poses, PLAIN)), ("load", loads)):
+            for k, each in enumerate(acting):
+                x, y = (
+                    LawRequest(formula=partial(force_part, kind, k, axis), text=f"{kind} {k}", known=(kind, k, axis)) for axis in (0, 1)
+                )
+                found.append((each.load.point, x, y, kind == "load"))
+        return found
 
 
 def alone_on(joint: JointForce, joints: Sequence[JointForce]) -> str:
@@ -192,16 +183,6 @@ def joint_part(joint: JointForce, joints: Sequence[JointForce], axis: str) -> Re
     asked = pin_force(joint.point, body, axis)
     found: Request = asked if body == joint.on else -1.0 * asked
     return found
-
-
-def acting_points(plan: Plan) -> list[tuple[int, str]]:
-    """Return the places of a machine's own loads among all that act, with their points; none where they have no program."""
-    try:
-        kept = plan.made(("traced loads",), lambda twin: twin)
-        acting = traced_loads(TracedMotion(kept, kept.trace.view()), PLAIN, AT_REST)
-    except LinkageError:
-        return []
-    return [(k, each.load.point) for k, each in enumerate(acting.loads)]
 
 
 def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float] | None] | None:
@@ -240,14 +221,14 @@ def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[fl
     return low, high
 
 
-def chosen_columns(machine: Mechanism, motion: Motion, given: Any) -> dict[str, tuple[Column, RequestLike, str]]:
+def chosen_columns(machine: Mechanism, motion: Motion, given: Any) -> dict[str, LiveColumn]:
     """Return the columns of a page by name: each, what asks for it, and why it is not followed in the page, or ""."""
     if given is None:
         return column_requests(machine, motion)
     if not isinstance(given, (list, tuple)) or not given:
         raise DefinitionError(f'{machine.plan.title}: columns={cited(given)}: a list of columns is expected, such as ["tilt"].')
     own = column_requests(machine, motion) if any(isinstance(each, (str, Column)) for each in given) else {}
-    found: dict[str, tuple[Column, RequestLike, str]] = {}
+    found: dict[str, LiveColumn] = {}
     for each in given:
         if isinstance(each, str):
             found[each] = own[known_name("Column", each, own, where=machine.plan.title)]
@@ -263,19 +244,22 @@ def chosen_columns(machine: Mechanism, motion: Motion, given: Any) -> dict[str, 
 # -- the data ------------------------------------------------------------------------------------------------
 
 
-def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
+def page_data(requests: PageRequests, live: LiveText) -> PageData:
     """Return all that the page's script reads, as plain data: lengths in m, angles in rad, forces in N."""
     machine, plan = requests.machine, requests.plan
     dims = dimension_data(requests, live)
     names = [each[0] for each in dims]
     columns = [column_data(name, each, live, requests.motion) for name, each in requests.columns.items()]
     run, used = requests.run, {*(each[3] for each in dims), *(str(each[1]) for each in columns)}
+    points = list(enumerate(plan.points))
+    with language("ru"):
+        russian_title = plan.heading
     return {
         "count": requests.count,
         "dims": dims,
         "units": {typeset(unit): factor(unit) for unit in ("", *UNITS) if typeset(unit) in used},
         "shown": [names.index(name) for name in shown_first(requests, names)],
-        "strokes": [*(stroke_data(requests, name) for name in machine.strokes), *([path_data(requests)] if run.is_path else [])],
+        "strokes": stroke_data(requests),
         "run": len(machine.strokes) if run.is_path else list(machine.strokes).index(run.stroke),
         "columns": columns,
         "column": list(requests.columns).index(requests.column),
@@ -293,10 +277,11 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "arrows": arrow_data(requests, live),
         "paths": [list(plan.points).index(name) for name in requests.trace],
         "grips": grip_data(requests, names),
-        "moving": moving_data(plan),
+        # a joint of a part lies over what it carries
+        "moving": sorted((place for place, name in points if name in plan.moving), key=lambda place: -points[place][1].count(".")),
         "meets": meeting_data(plan, names),
         "class": type(machine).__name__,
-        "title": plan.heading, "titleRu": russian_heading(plan),
+        "title": plan.heading, "titleRu": russian_title,
         "defaults": {name: plan.defaults[name] for name, value, *_ in dims if value != plan.defaults[name]},
         "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
         "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items()},
@@ -308,13 +293,13 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
     }
 
 
-def machine_text(requests: PageRequests, live: LiveText, data: dict[str, Any], parts: Sequence[str], language: str) -> str:
+def machine_text(requests: PageRequests, live: LiveText, data: PageData, parts: Sequence[str], language: str) -> str:
     """Return the HTML of a page of a machine, with the program that works it out and the parts that a kind of page adds."""
     most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
     return page_text(requests.plan.heading, data, (*MACHINE, *parts, START), language=language, most=most, text=text)
 
 
-def unit_data(unit: str) -> dict[str, Any]:
+def unit_data(unit: str) -> PageData:
     """Return the unit that values of a unit are shown in, and its factor."""
     return {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))}
 
@@ -336,7 +321,13 @@ def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
         measure = plan_measure(requests.plan, name)
         unit = shown_in(entry.unit or display_unit(measure, "mm"))
         given = (requests.vary or {}).get(name)
-        ends = list(given) if given else four_digits(usual_reach(value, entry.kind, measure, unit, size))
+        if entry.kind == "coordinate" or (measure == "length" and value == 0.0):  # how far its slider goes to either side [SI]
+            reach = 0.15 * size
+        elif measure == "angle":
+            reach = 20 * deg
+        else:
+            reach = (0.25 if measure == "length" else 0.5) * abs(value) or factor(unit)
+        ends = list(given) if given else four_digits(reach)
         where = entry.where if entry.kind in STEPS else ""
         found.append([name, value, ends, typeset(unit), int(entry.kind == "length"), where][: None if where else 5])
     return found
@@ -345,17 +336,6 @@ def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
 def four_digits(value: float) -> float:
     """Return a number to four digits."""
     return float(f"{value:.4g}")
-
-
-def usual_reach(value: float, kind: str, measure: str, unit: str, size: float) -> float:
-    """Return how far a slider goes to either side of a value [SI]: a coordinate by the machine's size, others by it."""
-    if kind == "coordinate":
-        return 0.15 * size
-    if measure == "angle":
-        return 20 * deg
-    if value == 0.0:
-        return 0.15 * size if measure == "length" else factor(unit)
-    return (0.25 if measure == "length" else 0.5) * abs(value)
 
 
 def shown_first(requests: PageRequests, names: Sequence[str]) -> list[str]:
@@ -373,28 +353,30 @@ def shown_first(requests: PageRequests, names: Sequence[str]) -> list[str]:
     return [*lengths, *others, *rest[: SHOWN - len(lengths) - len(others)]]
 
 
-def stroke_data(requests: PageRequests, name: str) -> dict[str, Any]:
-    """Return a stroke: its range, where it stands, its unit, and whether it goes round."""
-    stroke, run = requests.machine.strokes[name], requests.run
-    unit = shown_in(stroke_display_unit(requests.plan, name, "mm"))
-    way = run.ways.get(name, (run.held.get(name, 0.0),))
-    runs = name == run.stroke and not run.is_path
-    start, end = (way[0], way[-1]) if runs else (stroke.start, stroke.end)
-    turn = runs and is_turn(requests.machine, run) and bool(requests.motion.reached.all()) and ends_where_begun(requests.motion)
-    return {"name": name, "start": start, "end": end, "at": way[0], "unit": unit, "factor": factor(unit), "turn": int(turn)}
+def stroke_data(requests: PageRequests) -> list[PageData]:
+    """Return the strokes: their ranges, where they stand, their units, and whether they go round.
+
+    A path is one more: the numbers of its places, and the values of the strokes that it drives, by their places.
+    """
+    run, found = requests.run, list[PageData]()
+    names = list(requests.machine.strokes)
+    for name, stroke in requests.machine.strokes.items():
+        unit = shown_in(stroke_display_unit(requests.plan, name, "mm"))
+        way = run.ways.get(name, (run.held.get(name, 0.0),))
+        runs = name == run.stroke and not run.is_path
+        start, end = (way[0], way[-1]) if runs else (stroke.start, stroke.end)
+        turn = runs and is_turn(requests.machine, run) and bool(requests.motion.reached.all()) and ends_where_begun(requests.motion)
+        found.append({"name": name, "start": start, "end": end, "at": way[0], "unit": unit, "factor": factor(unit), "turn": int(turn)})
+    if run.is_path:
+        first, last = requests.first + 1, requests.first + len(requests.ends)
+        turn = all(abs(way[-1] - way[0]) <= ROUND * np.ptp(way) for way in run.ways.values())
+        path = {names.index(name): list(way) for name, way in run.ways.items()}
+        place = {"name": ALONG, "start": first, "end": last, "at": first, "unit": "", "factor": 1.0}
+        found.append(place | {"turn": int(turn), "path": path})
+    return found
 
 
-def path_data(requests: PageRequests) -> dict[str, Any]:
-    """Return the path as one more stroke: the numbers of its places, and the values of the strokes that it drives, by their places."""
-    run, names = requests.run, list(requests.machine.strokes)
-    first, last = requests.first + 1, requests.first + len(requests.ends)
-    turn = all(abs(way[-1] - way[0]) <= ROUND * np.ptp(way) for way in run.ways.values())
-    path = {names.index(name): list(way) for name, way in run.ways.items()}
-    given = {"name": ALONG, "start": first, "end": last, "at": first, "unit": "", "factor": 1.0}
-    return given | {"turn": int(turn), "path": path}
-
-
-def column_data(name: str, found: tuple[Column, RequestLike, str], live: LiveText, motion: Motion) -> list[Any]:
+def column_data(name: str, found: LiveColumn, live: LiveText, motion: Motion) -> list[Any]:
     """Return a column: its name, unit and row, -1 for none, its name in Russian; without a row its values, and why it has none."""
     column, _, why = found
     with language("ru"):
@@ -411,7 +393,11 @@ def column_data(name: str, found: tuple[Column, RequestLike, str], live: LiveTex
 def limit_data(requests: PageRequests, name: str) -> list[Any]:
     """Return a column's limit [SI], its words, the side that fails, and its words in Russian where they are others."""
     value, text, fails = requests.limits[name]
-    russian = requests.said_otherwise(name)
+    plain, russian = requests.featured.limits.get(name), text
+    with language("ru"):
+        known = requests.machine.featured().limits.get(name)
+    if plain is not None and known is not None and limit_of(plain).text == text:  # the machine has said it; a limit given says what it says
+        russian = limit_of(known).text
     return [value, typeset(text), fails, *([typeset(russian)] if russian != text else [])]
 
 
@@ -438,18 +424,6 @@ def coordinate_pairs(plan: Plan, names: Sequence[str]) -> dict[str, tuple[str, s
     return {name: pair for name, pair in pairs.items() if set(pair) <= set(names)}
 
 
-def russian_heading(plan: Plan) -> str:
-    """Return a machine's name as words in Russian, as it is where no catalogue has it."""
-    with language("ru"):
-        return plan.heading
-
-
-def moving_data(plan: Plan) -> list[int]:
-    """Return the places of the points that move and can be dragged, those of parts first: a joint lies over what it carries."""
-    moving = [(place, name) for place, name in enumerate(plan.points) if name in plan.moving]
-    return [place for place, _ in sorted(moving, key=lambda each: -each[1].count("."))]
-
-
 def meeting_data(plan: Plan, names: Sequence[str]) -> dict[int, list[int]]:
     """Return, for every point that moves, which of the dimensions are lengths and angles of it, by their places.
 
@@ -460,7 +434,11 @@ def meeting_data(plan: Plan, names: Sequence[str]) -> dict[int, list[int]]:
     lengths = {joined_names(*pair): pair for pair in permutations(points, 2)}
     found: dict[int, list[int]] = defaultdict(list)
     for name, place in own.items():
-        ends = lengths.get(name, ()) if entries[name].kind == "length" else angle_points(name, points, lengths)
+        ends: Sequence[str] = lengths.get(name, ())
+        if entries[name].kind == "angle":  # of three points, whose names it joins
+            begun = [pair for word, pair in lengths.items() if name.startswith(word)]
+            triples = ((*pair, last) for pair in begun for last in points if last not in pair)
+            ends = next((each for each in triples if joined_names(*each) == name), ())
         for each in ends:
             if each in plan.moving:
                 found[points.index(each)].append(place)
@@ -469,13 +447,7 @@ def meeting_data(plan: Plan, names: Sequence[str]) -> dict[int, list[int]]:
     return dict(found)
 
 
-def angle_points(name: str, points: Sequence[str], lengths: Mapping[str, tuple[str, str]]) -> tuple[str, ...]:
-    """Return the three points that the name of an angle joins; none where it is no such name."""
-    found = ((*pair, last) for word, pair in lengths.items() if name.startswith(word) for last in points if last not in pair)
-    return next((each for each in found if joined_names(*each) == name), ())
-
-
-def arrow_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]]:
+def arrow_data(requests: PageRequests, live: LiveText) -> list[PageData]:
     """Return the arrows whose both parts the program has."""
     points, found = list(requests.plan.points), []
     for k, (point, _, _, is_load) in enumerate(requests.arrows):
@@ -486,7 +458,7 @@ def arrow_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]]:
     return found
 
 
-def cylinder_data(scene: Scene, rows: Mapping[str, int]) -> list[dict[str, Any]]:
+def cylinder_data(scene: Scene, rows: Mapping[str, int]) -> list[PageData]:
     """Return the cylinders: where they hang, and the rows of what is read of them, of those that there are."""
     plan = scene.motion.plan
     points = list(plan.points)
@@ -513,7 +485,7 @@ GAUGES = ("thrust", "pressure", "most", "reserve", "closed", "stroke")
 """What is read of a cylinder; see `Tabled.gauges`."""
 
 
-def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> dict[str, Any]:
+def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> PageData:
     """Return what is drawn, by the points' places in `names`; `lines` are the rows of each track's origin and direction."""
     names = list(scene.motion.plan.points)
     index = {name: place for place, name in enumerate(names)}
@@ -539,7 +511,7 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> dict[str, An
     } | ({"letters": [letters.get(name, name) for name in names], "legend": scene.letter_legend} if letters else {})
 
 
-def body_data(plate: Plate, points: Sequence[str], index: Mapping[str, int]) -> dict[str, Any]:
+def body_data(plate: Plate, points: Sequence[str], index: Mapping[str, int]) -> PageData:
     """Return a body: its points, of which it is the hull, or where it has another form its corners' shares of them."""
     if len(plate.shares) <= len(plate.points) and np.all((plate.shares == 0.0) | (plate.shares == 1.0)):
         return {"points": [index[name] for name in points]}
@@ -549,7 +521,7 @@ def body_data(plate: Plate, points: Sequence[str], index: Mapping[str, int]) -> 
     }
 
 
-def mark_data(mark: DrawnMark, index: Mapping[str, int], near: float = 0.0) -> dict[str, Any]:
+def mark_data(mark: DrawnMark, index: Mapping[str, int], near: float = 0.0) -> PageData:
     """Return a mark: its points, and its lines as rows of ways along and across [m], and a share of the distance where they stretch.
 
     Of lines that keep their form points are left out that lie so near to the line of their neighbours [m]; `hatched` on their right.
@@ -590,19 +562,24 @@ def label_offsets(scene: Scene) -> list[list[float]]:
     return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
 
 
+MARKS = {True: 1, False: 0, None: 2}
+"""How verdicts are told: those that are kept, those that are not, and what is only said."""
+
+
 def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> list[list[Any]]:
     """Return the machine's verdicts over all that a judge looks at, as they stand for the design that is delivered.
 
     Each is 1 where it is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence, then
     what differs in Russian.
     """
-    said = {}
+    said: dict[str, list[tuple[int, str, str]]] = {}
     for name in ("en", "ru"):
         with language(name), unwarned():
             try:
-                said[name] = [verdict_parts(each) for each in verdicts_of(machine, judge, along)]
+                found = verdicts_of(machine, judge, along)
+                said[name] = [(3 if each.is_rule and each.ok is None else MARKS[each.ok], each.heading, each.sentence) for each in found]
             except LinkageError as error:
-                said[name] = [(2, "", str(error))]
+                said[name] = [(MARKS[None], "", str(error))]
     pairs = zip(said["en"], said["ru"], strict=True) if len(said["en"]) == len(said["ru"]) else [(each, each) for each in said["en"]]
     return [
         [*english, *(() if russian == english else (russian[1],) if russian[2] == english[2] else russian[1:])]
@@ -610,7 +587,7 @@ def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> list
     ]
 
 
-def verdicts_shown(requests: PageRequests) -> dict[str, Any]:
+def verdicts_shown(requests: PageRequests) -> PageData:
     """Return the verdicts of the page, and what they say in each system of units, in English and Russian; 0 where it is as delivered."""
     machine, along = requests.machine, requests.along
     judge = machine.judge(requests.over if along is None else along)
@@ -621,9 +598,3 @@ def verdicts_shown(requests: PageRequests) -> dict[str, Any]:
         pairs = zip(told, plain, strict=True) if len(told) == len(plain) else ((each, each) for each in plain)
         found[name] = [0 if each[2:] == other[2:] else [each[2], *each[4:]] for each, other in pairs]
     return {"verdicts": plain, "verdictsIn": found}
-
-
-def verdict_parts(verdict: Verdict) -> tuple[int, str, str]:
-    """Return whether a verdict is kept, what it is called and what it says."""
-    mark = int(verdict.ok) if verdict.ok is not None else 3 if verdict.is_rule else 2
-    return mark, verdict.heading, verdict.sentence

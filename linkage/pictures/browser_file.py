@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from hashlib import sha256
 from html import escape
 from importlib.resources import files
-from typing import Any
+from typing import Any, TypeAlias
 from zlib import compress
 
 from ..errors import known_name
@@ -17,6 +17,8 @@ from ..language import language as spoken_language
 from ..language import translated
 from . import style
 
+PageData: TypeAlias = dict[str, Any]
+"""What a page's script reads: numbers, texts, lists and further data by name."""
 COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
 LANGUAGES = ("en", "ru")
 MACHINE = ("machine.html", "page.css", "mechanism.js", "page.js", "hands.js", "leave.js")
@@ -26,7 +28,7 @@ SAID = re.compile(r'\bsay\("((?:[^"\\]|\\.)*)"|\bdata-(?:say|tip|name)="([^"]+)"
 """Where the program and the text of a page have what is translated."""
 
 
-def page_text(title: str, data: dict[str, Any], parts: Sequence[str], *, language: str, most: int = 0, text: str = "") -> str:
+def page_text(title: str, data: PageData, parts: Sequence[str], *, language: str, most: int = 0, text: str = "") -> str:
     """Return the HTML of a page: its title, its data, and its parts, the files of its body (.html), styles and program.
 
     `text` is a program before them, `most` the highest place in the palette that is used, `language` the one it begins with.

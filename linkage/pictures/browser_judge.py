@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import reduce
-from typing import Any, final
+from typing import TypeAlias, final
 
 import numpy as np
 
@@ -14,8 +14,8 @@ from ..errors import DefinitionError, LawError, LinkageError, UntracedError, unw
 from ..language import heading_of, language
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
-from ..motion import Condition, HasVerdicts, LiveText, Motion, Request, RequestLike, least, most, speakers
-from ..motion.judge import measures_of
+from ..motion import Condition, HasVerdicts, LiveText, Motion, Over, Request, RequestLike, least, most, speakers
+from ..motion.judge import Sought, measures_of
 from ..motion.measures import (
     At,
     CombinedMeasure,
@@ -30,12 +30,15 @@ from ..motion.measures import (
 from ..motion.over import ALLOWED
 from ..motion.requests import NodeRequest, bound
 from ..plan import Plan
-from ..program import FloatArray, Node
+from ..program import Node
 from ..quantities import is_number, quantity
-from ..reports import is_column
+from ..reports import LiveColumn, is_column
 from ..units import display_unit, factor, shown_in
+from .browser_file import PageData
 from .curves import limit_of, typeset
 
+Piece: TypeAlias = tuple[int, Sought, str]
+"""The place of an `Over` among those of the judge, what is sought over it, and the name of its row."""
 MOST = 5000
 """Poses that a page looks at for all its questions together."""
 TRUTHS = {"gaps": "where it has a bound", "assumed": "where it is true"}
@@ -58,12 +61,14 @@ def where_true(request: Request, which: str) -> NodeRequest:
 class LiveQuestions:
     """The questions of a page, and the rows that they ask the program for, by names of their own."""
 
-    def __init__(self, machine: Mechanism, limits: Mapping[str, Any], columns: Mapping[str, Any], over: Any) -> None:
+    def __init__(
+        self, machine: Mechanism, limits: Mapping[str, Sequence[object]], columns: Mapping[str, LiveColumn], over: object
+    ) -> None:
         self.machine, self.judge = machine, machine.judge(over)
         self.by_name: dict[str, RequestLike] = {}
-        self.only = [self.rows_of_conditions(place.over.only) for place in self.judge.places]
+        self.only = [[self.row(each.margin, " only") for each in place.over.only] for place in self.judge.places]
         self.ends = [self.rows_of_ends(place.over.strokes) for place in self.judge.places]
-        self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Any]]]] = []
+        self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Piece]]]] = []
         with unwarned():
             for rule, condition in self.conditions().items():
                 self.ask(rule, condition)
@@ -94,7 +99,13 @@ class LiveQuestions:
             return
         self.asked.append((rule, constraints, pieces))
 
-    def pieces(self, leaf: Leaf) -> list[Any]:
+    def row(self, request: RequestLike, kind: str = "") -> str:
+        """Return the name of a new row, of a kind, that a request asks for."""
+        name = f"judge {len(self.by_name)}{kind}"
+        self.by_name[name] = request
+        return name
+
+    def pieces(self, leaf: Leaf) -> list[Piece]:
         """Return the pieces of a leaf with the names of their rows, over every `Over`; of a value at one pose the row alone."""
         if isinstance(leaf, Integral):
             raise DefinitionError(f"{leaf}: an integral is not followed in the page.")
@@ -103,41 +114,26 @@ class LiveQuestions:
             if is_column(leaf.quantity) and PLAIN_CASE not in place.cases(self.judge.acting):
                 continue  # a table's own column is under the machine's own loads, which do not occur here
             for row in self.judge.sought(leaf, place):
-                found.append((number, row, self.named_row(row.request)))
+                name = self.row(row.request)
+                with suppress(LawError, UntracedError):  # it is left out of the program then, and its question with it
+                    looked_up = bound(self.machine.plan, row.request)
+                    self.by_name |= {f"{name} {which}": where_true(looked_up, which) for which in TRUTHS}
+                found.append((number, row, name))
         return found
 
-    def named_row(self, request: Any) -> str:
-        """Return the name of a request's row; those beside it tell where it has a bound, and where its program is true."""
-        name = f"judge {len(self.by_name)}"
-        self.by_name[name] = request
-        with suppress(LawError, UntracedError):  # it is left out of the program then, and its question with it
-            looked_up = bound(self.machine.plan, request)
-            self.by_name |= {f"{name} {which}": where_true(looked_up, which) for which in TRUTHS}
-        return name
-
-    def rows_of_conditions(self, only: Any) -> list[str]:
-        """Return the rows of conditions on poses."""
-        names = []
-        for each in only:
-            name = f"judge {len(self.by_name)} only"
-            self.by_name[name] = each.margin
-            names.append(name)
-        return names
-
-    def rows_of_ends(self, strokes: Mapping[str, Any]) -> dict[tuple[str, int], str]:
+    def rows_of_ends(self, strokes: Mapping[str, object]) -> dict[tuple[str, int], str]:
         """Return the rows of the ends and places that follow the design, by their strokes and places among them."""
         spellings, names = self.machine.plan.table.spellings, {}
         for name, given in strokes.items():
             for k, each in enumerate(given if isinstance(given, tuple) else (given,)):
                 if not is_number(each):
-                    names[name, k] = f"judge {len(self.by_name)} end"
                     owned = isinstance(each, str) and each in spellings
-                    self.by_name[names[name, k]] = dimension_value(*spellings[each]) if owned else quantity(each)
+                    names[name, k] = self.row(dimension_value(*spellings[each]) if owned else quantity(each), " end")
         return names
 
     # -- as data -----------------------------------------------------------------------------------------
 
-    def data(self, live: LiveText) -> dict[str, Any]:
+    def data(self, live: LiveText) -> PageData:
         """Return what `judge.js` reads: the overs, the questions that the program can answer, and the greatest number of poses."""
         can_look = all(name in live.rows for names in (*self.only, *(ends.values() for ends in self.ends)) for name in names)
         asked = [self.question(live, *each) for each in self.asked] if can_look else []
@@ -148,14 +144,13 @@ class LiveQuestions:
         ]
         return {"overs": overs, "questions": [each for each in asked if each], "most": MOST}
 
-    def question(
-        self, live: LiveText, rule: str, constraints: list[Constraint], pieces: Mapping[Leaf, list[Any]]
-    ) -> dict[str, Any]:
+    def question(self, live: LiveText, rule: str, constraints: list[Constraint], pieces: Mapping[Leaf, list[Piece]]) -> PageData:
         """Return a question as data; nothing where the program does not give one of its pieces."""
-        names = [name for each in pieces.values() for _, _, name in each]
-        if not all(f"{name}{kind}" in live.rows for name in names for kind in ("", " gaps", " assumed")):
-            return {}
-        leaves = list(pieces)
+        leaves, found = list(pieces), list[PageData]()
+        for leaf, own in pieces.items():
+            if not all(f"{name}{kind}" in live.rows for _, _, name in own for kind in ("", " gaps", " assumed")):
+                return {}
+            found.append({"at": int(isinstance(leaf, At)), "pieces": [piece_data(live, *each) for each in own]})
         unit = display_unit(measures_of(self.machine.plan, constraints[0]), "mm")
         with language("ru"):
             russian = heading_of(rule)
@@ -163,14 +158,14 @@ class LiveQuestions:
             "rule": typeset(rule),
             "ru": typeset(russian),
             "unit": {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))},
-            "leaves": [{"at": int(isinstance(leaf, At)), "pieces": [piece_of(live, *each) for each in pieces[leaf]]} for leaf in leaves],
+            "leaves": found,
             "constraints": [
                 {"symbol": each.symbol, "left": tree(each.left, leaves), "right": tree(each.right, leaves)} for each in constraints
             ],
         }
 
 
-def piece_of(live: LiveText, number: int, row: Any, name: str) -> dict[str, Any]:
+def piece_data(live: LiveText, number: int, row: Sought, name: str) -> PageData:
     """Return a piece as data: its `Over`, its rows, its situation."""
     situation = row.situation
     return {
@@ -180,7 +175,7 @@ def piece_of(live: LiveText, number: int, row: Any, name: str) -> dict[str, Any]
     }  # fmt: skip
 
 
-def tree(measure: Measure, leaves: list[Leaf]) -> Any:
+def tree(measure: Measure, leaves: list[Leaf]) -> object:
     """Return a measure as data: a number, the place of a leaf, or an operator with its two sides."""
     if isinstance(measure, Given):
         return measure.value
@@ -189,25 +184,21 @@ def tree(measure: Measure, leaves: list[Leaf]) -> Any:
     return {"leaf": next(place for place, each in enumerate(leaves) if each is measure)}
 
 
-def over_data(over: Any, motion: Motion, rows: Mapping[tuple[str, int], int]) -> dict[str, Any]:
+def over_data(over: Over, motion: Motion, rows: Mapping[tuple[str, int], int]) -> PageData:
     """Return an `Over` as data: the ends of a box, or the places of a path or of poses, stroke by stroke [m or rad].
 
     What follows the design is a row of the program, with the value of the delivered one: [row, value].
     """
     found = {"name": over.name, "shape": over.shape, "lost": int(over.lost == ALLOWED)}
     values = {name: np.broadcast_to(np.asarray(value, float), motion._stroke_shape).ravel() for name, value in motion.strokes.items()}
-    if over.shape == "box":
-        values = {name: ends_as_given(over.strokes.get(name), value) for name, value in values.items()}
     listed = []
     for name, value in values.items():
-        held = not isinstance(over.strokes.get(name), tuple)
+        given = over.strokes.get(name)
+        held = not isinstance(given, tuple)
+        if over.shape == "box":  # the two ends, in the order in which they are given where one of them is a number
+            value = np.array([value.min(), value.max()])
+            numbers = [float(each) if is_number(each) else None for each in given] if isinstance(given, tuple) else []
+            value = value[::-1] if numbers and (numbers[0] == value[1] or numbers[1] == value[0]) else value
         keys = [(name, 0 if held else k) for k in range(len(value))]
         listed.append([[rows[key], number] if key in rows else number for key, number in zip(keys, value.tolist(), strict=True)])
     return found | {"ends" if over.shape == "box" else "places": listed}
-
-
-def ends_as_given(given: Any, values: FloatArray) -> FloatArray:
-    """Return the two ends of a stroke in a box, in the order in which they are given where one of them is a number."""
-    ends = np.array([values.min(), values.max()])
-    numbers = [float(each) if is_number(each) else None for each in given] if isinstance(given, tuple) else []
-    return ends[::-1] if numbers and (numbers[0] == ends[1] or numbers[1] == ends[0]) else ends

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..language import heading_of, language
-from ..motion import Motion, stroke_display_unit
-from ..program import FloatArray
+from ..motion import stroke_display_unit
 from ..study import WorkingField
 from ..units import factor, shown_in, unit_sign
 from .browser_data import cylinder_data, scene_data, signs, unit_data
-from .browser_file import LANGUAGES, page_text
+from .browser_file import LANGUAGES, PageData, page_text
 from .curves import typeset
 from .load_chart import ChartText
 from .scene import Scene
 
+Kind = TypeVar("Kind", bound=np.generic)
 PARTS = ("chart.html", "page.css", "chart.css", "mechanism.js", "chart.js")
 DIGITS = 10
 """The decimals of the places of points [m], and of the directions of tracks."""
@@ -27,31 +28,30 @@ NO_LIMIT = "\N{INFINITY}"
 
 def chart_page(field: WorkingField, begins: str) -> str:
     """Return the HTML of a working field's page, in the language that it begins with."""
-    scene = Scene(cell_poses(field))
+    reached, pose_of = as_printed(field, field.reached), field.search.loads.motion
+    strokes = {name: as_printed(field, values)[reached] for name, values in field.strokes.items()}
+    if not reached.any():  # the pose of the sketch
+        strokes = {name: np.array([value]) for name, value in field.machine.plan.sketch_strokes.items()}
+    scene = Scene(pose_of(strokes))
     with language(begins):
         title = ChartText(field).title
     return page_text(title, chart_data(field, scene), PARTS, language=begins, most=max(scene.colours, default=0))
 
 
-def as_printed(field: WorkingField, values: Any) -> Any:
+def as_printed(field: WorkingField, values: NDArray[Kind]) -> NDArray[Kind]:
     """Return what stands in the cells as the chart is printed, from above and ascending, shape (cells,)."""
     return values[np.ix_(np.argsort(-field.y, kind="stable"), np.argsort(field.x, kind="stable"))].ravel()
 
 
-def cell_poses(field: WorkingField) -> Motion:
-    """Return the poses of the cells that are reached, as they are printed; that of the sketch where none is."""
-    reached = as_printed(field, field.reached)
-    if not reached.any():
-        return field.search.loads.motion({name: np.array([value]) for name, value in field.machine.plan.sketch_strokes.items()})
-    return field.search.loads.motion({name: as_printed(field, values)[reached] for name, values in field.strokes.items()})
-
-
-def chart_data(field: WorkingField, scene: Scene) -> dict[str, Any]:
+def chart_data(field: WorkingField, scene: Scene) -> PageData:
     """Return all that the page's script reads: cells as they are printed, lengths in m, angles in rad, loads in N."""
     text, plan, names = ChartText(field), field.machine.plan, list(dict.fromkeys((*field.of, *field.limiters)))
     units = {name: shown_in(stroke_display_unit(plan, name, "mm")) for name in field.strokes}
     known = as_printed(field, field.reached)
-    values, lines = point_rows(scene)
+    # rows over all poses: x and y of each point [m], then each track's origin [m] and direction
+    values = [scene.places[name] for name in plan.points]
+    lines = {track.name: [2 * len(values) + 4 * k + row for row in range(4)] for k, track in enumerate(scene.tracks)}
+    values += [each for track in scene.tracks for each in (track.origin, track.along)]
     drawn = scene_data(scene, lines)
     left, right, bottom, top = drawn["box"]
     drawn["box"] = [min(left, field.x.min()), max(right, field.x.max()), min(bottom, field.y.min()), max(top, field.y.max())]
@@ -73,19 +73,11 @@ def chart_data(field: WorkingField, scene: Scene) -> dict[str, Any]:
         "said": {name: words_of_chart(field, names, name) for name in LANGUAGES},
         "signs": signs({*units.values(), shown_in("m")}),
         "rows": {"points": [[2 * k, 2 * k + 1] for k in range(len(plan.points))]},
-        "values": np.round(values, DIGITS).tolist(),
+        "values": np.round(np.concatenate(values), DIGITS).tolist(),
         "scene": drawn,
         "cylinders": cylinder_data(scene, {}),
         "border": np.round(field.border.reshape(-1, 4), 4).tolist(),
     }
-
-
-def point_rows(scene: Scene) -> tuple[FloatArray, dict[str, list[int]]]:
-    """Return rows over all poses, x and y of each point [m], then each track's origin [m] and direction, and the rows of the tracks."""
-    places = [scene.places[name] for name in scene.motion.plan.points]
-    tracks = [each for track in scene.tracks for each in (track.origin, track.along)]
-    lines = {track.name: [2 * len(places) + 4 * k + row for row in range(4)] for k, track in enumerate(scene.tracks)}
-    return np.concatenate([*places, *tracks]), lines
 
 
 def number_or_none(load: float) -> float | str | None:
@@ -93,7 +85,7 @@ def number_or_none(load: float) -> float | str | None:
     return None if np.isnan(load) else NO_LIMIT if np.isinf(load) else load
 
 
-def words_of_chart(field: WorkingField, names: list[str], name: str) -> dict[str, Any]:
+def words_of_chart(field: WorkingField, names: list[str], name: str) -> PageData:
     """Return what a chart says in a language: of itself, of its limiters, of each cell that is out of reach."""
     with language(name):
         spoken = replace(field, remarks=field.search.remarks(field.failing))

@@ -6,8 +6,9 @@ import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import combinations, pairwise, product
+from operator import methodcaller
 from typing import TypeAlias, final
 
 import numpy as np
@@ -21,32 +22,8 @@ from ..quantities import Quantity, Where, is_whole, joined_names, needs
 from ..steps import Arrow, Guide, Point
 from ..surroundings import Outline
 from ..vectors import Line
-from . import style
-from .shapes import (
-    APART,
-    BLOCK,
-    HALF,
-    LONG,
-    MARKS,
-    ON_BODIES,
-    OUTLINES,
-    SLOT,
-    DrawnLine,
-    accumulators,
-    cylinder,
-    hatches,
-    hull,
-    nested_tubes,
-    plate_form,
-    pulley,
-    staged_tubes,
-    stages,
-    tangent,
-    telescope_sections,
-    tube,
-    turning_with,
-    yokes,
-)
+from . import shapes, style
+from .shapes import HALF, DrawnLine
 
 # What points slide along: fixed rails and slots on moving bodies, each as long as the travel asks.
 
@@ -77,51 +54,27 @@ class SlideTrack:
         away = np.concatenate([((places[name] - self.origin) * self.along).sum(axis=0) for name in self.riders])
         return float(np.nanmin(away, initial=np.inf)), float(np.nanmax(away, initial=-np.inf))
 
-    def placed(self, travel: tuple[float, float], size: float) -> dict[str, FloatArray]:
-        """Return the two ends at every pose, shape (2, n) each [m], for a travel and a margin of so many sizes [m]."""
-        low, high = travel if travel[0] <= travel[1] else (0.0, 0.0)
-        start, end = self.ends
-        pad = MARGIN * size
-        return {start: self.origin + (low - pad) * self.along, end: self.origin + (high + pad) * self.along}
 
-
-def slide_tracks(motion: Motion) -> tuple[SlideTrack, ...]:
-    """Return the tracks that something slides on."""
-    return (*guides(motion), *slots(motion))
-
-
-def guides(motion: Motion) -> Iterator[SlideTrack]:
-    """Yield the guides that points slide on."""
-    plan = motion.plan
-    for name, guide in plan.of_kind(Guide).items():
+def slide_tracks(motion: Motion) -> Iterator[SlideTrack]:
+    """Yield the tracks that something slides on: the guides, then the slots of bodies, each of a step of its own with the pin in it."""
+    plan, guides = motion.plan, motion.plan.of_kind(Guide)
+    found: list[tuple[str, tuple[str, ...], bool, Callable[[Where], Line]]] = []
+    for name, guide in guides.items():
         joints = (joint for member in plan.holding.values() for joint in member.joints())
         riders = tuple(dict.fromkeys(joint.point for joint in joints if joint.track == (name,)))
-        if riders:
-            fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
-            line = motion._reading.line(guide)
-            origin, along = pose_rows(motion, line.origin.x, line.origin.y), pose_rows(motion, line.direction.x, line.direction.y)
-            yield SlideTrack(name, origin, along, riders, fixed, partial(reading_line, guide))
-
-
-def reading_line(guide: Guide, where: Where) -> Line:
-    """Return a guide's line."""
-    return where.line(guide)
-
-
-def slots(motion: Motion) -> Iterator[SlideTrack]:
-    """Yield the slots of bodies: each of a step of its own, with the pin in it."""
-    guides = motion.plan.of_kind(Guide)
-    for name, step in motion.plan.points.items():
+        fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
+        found += [(name, riders, fixed, methodcaller("line", guide))] if riders else []
+    for name, step in plan.points.items():
         for joint in step.joints():
             if joint.track and joint.line is not None and joint.track[0] not in guides:
-                line = joint.line(motion._reading)
-                along = pose_rows(motion, line.direction.x, line.direction.y)
-                yield SlideTrack(f"{name}|slot", pose_rows(motion, line.origin.x, line.origin.y), along, (joint.point,), False, joint.line)
-
-
-def pose_rows(motion: Motion, x: object, y: object) -> FloatArray:
-    """Return two components over all poses, shape (2, n)."""
-    return np.array([np.broadcast_to(np.asarray(each, float), motion.shape).ravel() for each in (x, y)])
+                found.append((f"{name}|slot", (joint.point,), False, joint.line))
+    for name, riders, fixed, line in found:
+        there = line(motion._reading)
+        origin, along = (
+            np.array([np.broadcast_to(np.asarray(each, float), motion.shape).ravel() for each in (vector.x, vector.y)])
+            for vector in (there.origin, there.direction)
+        )
+        yield SlideTrack(name, origin, along, riders, fixed, line)
 
 
 Places: TypeAlias = dict[str, FloatArray]
@@ -196,11 +149,6 @@ class DrawnMark:
         origin, ways, _ = self.axes(at)
         return np.asarray(origin + points @ ways)
 
-    def seen(self, place: FloatArray, at: Places) -> FloatArray:
-        """Return where a place (2,) [m] of the plane stands in its axes."""
-        origin, ways, _ = self.axes(at)
-        return np.asarray(ways @ (place - origin))
-
     def drawn(self, at: Places) -> list[FloatArray]:
         """Return its lines at a pose, shape (n, 2) each [m]."""
         origin, ways, length = self.axes(at)
@@ -234,7 +182,7 @@ class DrawnCylinder:
 
     def mark(self, size: float) -> DrawnMark:
         """Return it drawn in a size [m]: the eye, the barrel cut open, the rod, its piston, and the cap at the barrel's mouth."""
-        lines = tuple(line.moved(self.aside) for line in cylinder(self.bottom, self.mouth, size))
+        lines = tuple(line.moved(self.aside) for line in shapes.cylinder(self.bottom, self.mouth, size))
         return DrawnMark(joined_names(self.P, self.Q), (self.P, self.Q), lines, 0.4, cylinder=self)
 
 
@@ -242,11 +190,7 @@ CROWDED = 20
 """More dotted names than so many crowd a picture."""
 PRIMES = 3
 """The points of so many parts are told apart by primes, those of further ones by raised numbers."""
-
-
-def raised(number: int) -> str:
-    """Return a whole number in small raised figures."""
-    return "".join("\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[int(each)] for each in str(number))
+RAISED = str.maketrans("0123456789", "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079")
 
 
 @final
@@ -310,17 +254,16 @@ class Scene:
     @cached_property
     def bodies(self) -> tuple[tuple[str, ...], ...]:
         """The points of each moving body; bars that close a triangle are one."""
-        links = [body.points for body in self.motion.plan.links if not body.fixed and len(body.points) > 1]
-        return rigid_together([points for link in links for points in self._drawn_apart(link)])
-
-    def _drawn_apart(self, link: tuple[str, ...]) -> list[tuple[str, ...]]:
-        """Return the points of a body, of a member of two bodies those that stand out of each: the member itself is drawn as it is."""
-        for member, halved in self._halves:
-            if {*member.ends, *halved.points} <= set(link):
+        found: list[tuple[str, ...]] = []
+        for link in [body.points for body in self.motion.plan.links if not body.fixed and len(body.points) > 1]:
+            member = next((member for member, halved in self._halves if {*member.ends, *halved.points} <= set(link)), None)
+            if member is None:
+                found.append(link)
+            else:  # of a member of two bodies, what stands out of each: the member itself is drawn as it is
                 sides = member_sides(self.motion.plan, member.ends, link)
                 halves = (tuple(point for point in link if point in side and point not in self.inner) for side in sides)
-                return [points for points in halves if len(points) > 1]
-        return [link]
+                found += [points for points in halves if len(points) > 1]
+        return rigid_together(found)
 
     @cached_property
     def _halves(self) -> tuple[tuple[TwoPoint, Halves], ...]:
@@ -328,11 +271,6 @@ class Scene:
         plan = self.motion.plan
         found = ((member, member.halves(plan.members)) for member in plan.of_kind(TwoPoint).values())
         return tuple((member, halves) for member, halves in found if halves is not None)
-
-    @cached_property
-    def glands(self) -> dict[frozenset[str], str]:
-        """The points at which the first bodies of members of two end, by the members' ends."""
-        return {frozenset(member.ends): halves.points[0] for member, halves in self._halves}
 
     @cached_property
     def inner(self) -> frozenset[str]:
@@ -348,10 +286,6 @@ class Scene:
         asked = {name for each in numbers for name in needs(each)} - joined
         return frozenset(name for name in plan.points if name in asked and name not in plan.moving)
 
-    def _between(self, P: str, Q: str) -> float:
-        """Return the distance of two points of one body [m]; 0 where no pose is reached."""
-        return next((float(np.hypot(*(at[Q] - at[P]))) for at in self.some(1)), 0.0)
-
     @cached_property
     def colours(self) -> list[int]:
         """The colour of each moving body, its place in the palette of the style: those of a part are of one family."""
@@ -362,7 +296,7 @@ class Scene:
         """The points of parts by their letters in the part with primes, `B'`, where so many dotted names would crowd; nothing else."""
         dotted = [name for name in self.places if "." in name]
         owners = list(dict.fromkeys(name.rpartition(".")[0] for name in dotted))
-        signs = {owner: "'" * count if count <= PRIMES else raised(count) for count, owner in enumerate(owners, 1)}
+        signs = {owner: "'" * count if count <= PRIMES else str(count).translate(RAISED) for count, owner in enumerate(owners, 1)}
         short = {name: name.rpartition(".")[2] + signs[name.rpartition(".")[0]] for name in dotted}
         return short if len(dotted) > CROWDED else {}
 
@@ -380,7 +314,7 @@ class Scene:
             return tuple(Plate(points, np.eye(len(points))[:2]) for points in self.bodies)
         pins = set(self.pins)
         return tuple(
-            Plate(points, plate_form(np.array([shown[0][name] for name in points]), self.size, [name in pins for name in points]))
+            Plate(points, shapes.plate_form(np.array([shown[0][name] for name in points]), self.size, [name in pins for name in points]))
             for points in self.bodies
         )
 
@@ -390,7 +324,7 @@ class Scene:
         shown = self.some(1)
         if not shown:
             return tuple(points[:2] for points in self.bodies)
-        return tuple(tuple(points[i] for i in hull(np.array([shown[0][name] for name in points]))) for points in self.bodies)
+        return tuple(tuple(points[i] for i in shapes.hull(np.array([shown[0][name] for name in points]))) for points in self.bodies)
 
     @cached_property
     def glyphs(self) -> tuple[tuple[ForceElement, Glyph], ...]:
@@ -414,24 +348,22 @@ class Scene:
             if glyph.drawn_as not in HALF or len(pair) != 2:
                 continue
             P, Q = glyph.points
-            drawn = TwoForceMember(P, Q, glyph.drawn_as, ends=self._ends_of_stages(glyph))
+            ends = () if glyph.stages is None else tuple(float(np.ravel(each)[0]) for each in glyph.stages(self.motion))
+            drawn = TwoForceMember(P, Q, glyph.drawn_as, ends=ends)
             if element.holds and pair in driven:
                 driven.discard(pair)
                 by_pair[pair] = [drawn if drawn.ends else each for each in by_pair[pair]]
             else:
                 by_pair.setdefault(pair, []).append(drawn)
-        placed = [each for members in by_pair.values() for each in side_by_side(members)]
-        return tuple(replace(each, aside=BESIDE) if self._covers(each) else each for each in placed)
-
-    def _ends_of_stages(self, glyph: Glyph) -> tuple[float, ...]:
-        """Return the closed length of a glyph's cylinder and the lengths at which its stages are out [m]; empty where it has none."""
-        return () if glyph.stages is None else tuple(float(np.ravel(each)[0]) for each in glyph.stages(self.motion))
-
-    def _covers(self, member: TwoForceMember) -> bool:
-        """Return whether a member on its points' line lies along a body, at all poses."""
-        if member.aside or not self._whole.reached:
-            return False
-        return any(self._lies_along(member, points) for points in self.bodies if not {member.P, member.Q} <= set(points))
+        placed = []
+        for members in by_pair.values():  # side by side about the line between their points; a single one stays on it
+            for place, each in enumerate(members):
+                sense = 1.0 if each.P == members[0].P else -1.0
+                aside = sense * shapes.APART * (0.5 * (len(members) - 1) - place)
+                if not aside and any(self._lies_along(each, points) for points in self.bodies):
+                    aside = BESIDE
+                placed.append(replace(each, aside=aside))
+        return tuple(placed)
 
     @cached_property
     def _whole(self) -> Scene:
@@ -439,7 +371,9 @@ class Scene:
         return self if self.over is None else Scene(self.over)
 
     def _lies_along(self, member: TwoForceMember, points: tuple[str, ...]) -> bool:
-        """Return whether two points of a body stand on a member's line, and a good part of it between them."""
+        """Return whether two points of another body stand on a member's line at all poses, and a good part of it between them."""
+        if {member.P, member.Q} <= set(points) or not self._whole.reached:
+            return False
         for at in self._whole.some(5):
             P, along = at[member.P], at[member.Q] - at[member.P]
             length = float(np.hypot(*along))
@@ -459,7 +393,7 @@ class Scene:
     def _is_telescope(self, member: TwoForceMember) -> bool:
         """Return whether a cylinder comes out farther than one stage can."""
         short, long = self._lengths(member.P, member.Q)
-        return member.drawn_as == "cylinder" and bool(long) and (bool(member.ends) or stages(short, long) > 1)
+        return member.drawn_as == "cylinder" and bool(long) and (bool(member.ends) or shapes.stages(short, long) > 1)
 
     def _cylinder(self, member: TwoForceMember) -> DrawnCylinder:
         """Return a cylinder whose piston stays in its barrel over the stroke, as far as its lengths allow."""
@@ -469,7 +403,9 @@ class Scene:
         size = min(self.size, 0.12 * short)
         bottom, least = 1.4 * size, 2.0 * size
         outermost = max(0.68 * short, short - 1.2 * size)
-        ends_at = self._between(member.P, self.glands.get(frozenset((member.P, member.Q)), member.P))
+        glands = {frozenset(each.ends): halves.points[0] for each, halves in self._halves}  # where the first of two bodies ends
+        gland = glands.get(frozenset((member.P, member.Q)), member.P)
+        ends_at = next((float(np.hypot(*(at[gland] - at[member.P]))) for at in self.some(1)), 0.0)
         mouth = min(ends_at, outermost) if ends_at else float(np.clip(least + long - short + 1.5 * size, 0.68 * short, outermost))
         return DrawnCylinder(member.P, member.Q, aside, bottom, mouth, short - least, least, mouth - 0.9 * size)
 
@@ -479,22 +415,25 @@ class Scene:
         found = []
         for member in self.two_force:
             short, long = self._lengths(member.P, member.Q)
-            shape = nested_tubes if self._is_telescope(member) else OUTLINES.get(member.drawn_as)
-            aside = member.aside * self.size
-            if member.ends and long:
-                found += self._staged(member, aside)
-                shape = None
+            shape = shapes.nested_tubes if self._is_telescope(member) else shapes.OUTLINES.get(member.drawn_as)
+            aside, name, on = member.aside * self.size, joined_names(member.P, member.Q), (member.P, member.Q)
+            if member.ends and long:  # a mark for each stage, the thinnest first, each moved as far as its stages are out
+                shape, (closed, *outs) = None, member.ends
+                tubes = shapes.staged_tubes(closed, len(outs), self.size)
+                for tube, out in zip(tubes, [*reversed(outs), closed], strict=True):
+                    moved = DrawnCylinder(member.P, member.Q, aside, rod=closed, most=out - closed)
+                    found.append(DrawnMark(name, on, tuple(line.moved(aside) for line in tube), cylinder=moved))
             lines = [line.moved(aside) for line in shape(short, long, self.size)] if shape and long else []
-            lines += yokes(aside, self.size) if aside else ()
+            lines += shapes.yokes(aside, self.size) if aside else ()
             if lines:
-                found.append(DrawnMark(joined_names(member.P, member.Q), (member.P, member.Q), tuple(lines)))
+                found.append(DrawnMark(name, on, tuple(lines)))
         return (*found, *self.fed, *self.pulleys, *self.ropes)
 
     @cached_property
     def pulleys(self) -> tuple[DrawnMark, ...]:
         """The pulleys that ropes run over, as circles."""
         given = [(glyph.points[0], self._radii(glyph)[0]) for _, glyph in self.glyphs if glyph.drawn_as == "pulley"]
-        return tuple(DrawnMark(point, (point,), (pulley(radius),), 0.35) for point, radius in given if radius > 0.0)
+        return tuple(DrawnMark(point, (point,), (shapes.circle(radius),), 0.35) for point, radius in given if radius > 0.0)
 
     @cached_property
     def ropes(self) -> tuple[DrawnMark, ...]:
@@ -505,24 +444,12 @@ class Scene:
             for (P, p), (Q, q) in pairwise(zip(glyph.points, radii, strict=False)):
                 short, long = self._lengths(P, Q)
                 if long:
-                    found.append(DrawnMark(joined_names(P, Q), (P, Q), (tangent(p, q, 0.5 * (short + long)),), 0.45, 1.1))
+                    found.append(DrawnMark(joined_names(P, Q), (P, Q), (shapes.tangent(p, q, 0.5 * (short + long)),), 0.45, 1.1))
         return tuple(found)
 
     def _radii(self, glyph: Glyph) -> list[float]:
         """Return the signed radii of what a glyph runs over [m], at the first pose."""
         return [float(np.ravel(np.asarray(each, float))[0]) for each in glyph.radii(self.motion)]
-
-    def _staged(self, member: TwoForceMember, aside: float) -> list[DrawnMark]:
-        """Return a telescope as a mark for each stage, the thinnest first, each moved as far as its stages are out."""
-        closed, *outs = member.ends
-        tubes = staged_tubes(closed, len(outs), self.size)
-        stops = [*reversed(outs), closed]
-        moved = [DrawnCylinder(member.P, member.Q, aside, rod=closed, most=out - closed) for out in stops]
-        name, on = joined_names(member.P, member.Q), (member.P, member.Q)
-        return [
-            DrawnMark(name, on, tuple(line.moved(aside) for line in lines), cylinder=each)
-            for lines, each in zip(tubes, moved, strict=True)
-        ]
 
     @cached_property
     def fed(self) -> tuple[DrawnMark, ...]:
@@ -534,7 +461,7 @@ class Scene:
                 start = min(2.6 * self.size, 0.3 * self._lengths(member.P, member.Q)[0])
                 side = self._free_side(member)
                 across = (member.aside + side * HALF["cylinder"] * 0.85) * self.size
-                lines = accumulators(min(max(glyph.count, 1), MOST_SHOWN), start, across, self.size)
+                lines = shapes.accumulators(min(max(glyph.count, 1), MOST_SHOWN), start, across, self.size)
                 found.append(DrawnMark(joined_names(member.P, member.Q), (member.P, member.Q), lines))
         return tuple(found)
 
@@ -551,44 +478,37 @@ class Scene:
 
     @cached_property
     def load_marks(self) -> tuple[DrawnMark, ...]:
-        """The signs of weights, forces and supports at their points, each kind once a point."""
-        kinds = dict.fromkeys((glyph.drawn_as, glyph.points, glyph.way) for _, glyph in self.glyphs if glyph.drawn_as in MARKS)
-        at_points = [self._load_mark(points, MARKS[kind](self.size, way)) for kind, points, way in kinds]
-        return (*at_points, *self._on_bodies())
-
-    def _load_mark(self, points: tuple[str, ...], lines: tuple[DrawnLine, ...]) -> DrawnMark:
-        """Return the sign of a load, under the circle of a pin and over a point's dot."""
-        return DrawnMark(points[0], points, lines, 0.7 if points[0] in self.pins else 0.9, 0.9)
-
-    def _on_bodies(self) -> Iterator[DrawnMark]:
-        """Yield the signs of masses and moments of rigid bodies, each at its place in the body's axes."""
+        """The signs of weights, forces and supports at their points, each kind once a point; of masses and moments at places in bodies."""
+        glyphs = [glyph for _, glyph in self.glyphs]
+        kinds = dict.fromkeys((each.drawn_as, each.points, each.way) for each in glyphs if each.drawn_as in shapes.MARKS)
+        found = [(points, shapes.MARKS[kind](self.size, way)) for kind, points, way in kinds]
         shown = self._whole.some(3)
-        given = [each for _, each in self.glyphs if each.drawn_as in ON_BODIES]
-        for kind, points, away in dict.fromkeys((each.drawn_as, each.points, each.away) for each in given):
-            frame = DrawnMark(points[0], points[:2], ())
-            ways = np.array([[frame.seen(at[name], at) for name in points] for at in shown]) if len(points) > 1 else np.empty(0)
+        on_bodies = dict.fromkeys((each.drawn_as, each.points, each.away) for each in glyphs if each.drawn_as in shapes.ON_BODIES)
+        for kind, points, away in on_bodies:
+            frames = [(at, *DrawnMark(points[0], points[:2], ()).axes(at)[:2]) for at in shown] if len(points) > 1 else []
+            ways = np.array([[axes @ (at[name] - origin) for name in points] for at, origin, axes in frames])
             if ways.size and np.isfinite(ways).all() and np.ptp(ways, axis=0).max() < 1e-6 * self.size:
                 place = np.append(0.0, ways[0].mean(axis=0) if away is None else away)
-                lines = (DrawnLine(line.rows + place, line.fill, line.closed, line.bold) for line in ON_BODIES[kind](0.8 * self.size, 0.0))
-                yield self._load_mark(points[:2], tuple(lines))
+                lines = shapes.ON_BODIES[kind](0.8 * self.size, 0.0)
+                found.append((points[:2], tuple(replace(line, rows=line.rows + place) for line in lines)))
+        # under the circle of a pin, and over a point's dot
+        return tuple(DrawnMark(points[0], points, lines, 0.7 if points[0] in self.pins else 0.9, 0.9) for points, lines in found)
 
     @cached_property
     def surroundings(self) -> tuple[DrawnMark, ...]:
-        """The outlines that the machine declares of what stands around it."""
-        return tuple(self._surrounding(name, each) for name, each in self.motion.plan.of_kind(Outline).items())
-
-    def _surrounding(self, name: str, given: Outline) -> DrawnMark:
-        """Return an outline with the design's dimensions."""
+        """The outlines that the machine declares of what stands around it, with the design's dimensions."""
 
         def value(quantity: Quantity) -> float:
             return float(np.ravel(np.asarray(self.motion._reading.value(quantity), float))[0])
 
-        lines = given.lines(value)
-        fill = "GRID" if given.filled else ""
-        drawn = tuple(DrawnLine(np.column_stack([np.zeros(len(line)), line]), fill=fill, closed=given.closed) for line in lines)
-        ends = [np.concatenate([line, line[:1]]) if given.closed else line for line in lines] if given.hatched else []
-        lengthy = np.concatenate([np.empty((0, 2, 2)), *(hatches(line, 0.9 * self.size) for line in ends)])
-        return DrawnMark(name, given.carriers, drawn, -2.0, 0.9, "AROUND", lengthy, given.under(value))
+        found = []
+        for name, given in self.motion.plan.of_kind(Outline).items():
+            lines = given.lines(value)
+            drawn = tuple(shapes.keeping(line, fill="GRID" if given.filled else "", closed=given.closed) for line in lines)
+            ends = [np.concatenate([line, line[:1]]) if given.closed else line for line in lines] if given.hatched else []
+            hatched = np.concatenate([np.empty((0, 2, 2)), *(shapes.hatches(line, 0.9 * self.size) for line in ends)])
+            found.append(DrawnMark(name, given.carriers, drawn, -2.0, 0.9, "AROUND", hatched, given.under(value)))
+        return tuple(found)
 
     @cached_property
     def sections(self) -> tuple[DrawnMark, ...]:
@@ -600,7 +520,7 @@ class Scene:
             body = next((points for points in self.bodies if origin in points and self._reach(origin, point, points) > 0.0), ())
             if origin and body:
                 short, long = self._lengths(origin, point)
-                lines = telescope_sections(short, long, self._reach(origin, point, body), self.size)
+                lines = shapes.telescope_sections(short, long, self._reach(origin, point, body), self.size)
                 found.append(DrawnMark(origin + point, (origin, point), lines, -0.1))
         return tuple(found)
 
@@ -618,7 +538,8 @@ class Scene:
     def contours(self) -> tuple[DrawnMark, ...]:
         """What steps draw of themselves, behind the bodies."""
         found = [each for step in self.motion.plan.points.values() for each in step.outline(self.motion._reading)]
-        return tuple(DrawnMark(joined_names(each.P, each.Q), (each.P, each.Q), (turning_with(each),), -0.1) for each in found)
+        forms = [(each.P, each.Q, shapes.keeping(np.column_stack(each.corners), fill="ROD", closed=True)) for each in found]
+        return tuple(DrawnMark(joined_names(P, Q), (P, Q), (form,), -0.1) for P, Q, form in forms)
 
     def _lengths(self, P: str, Q: str) -> tuple[float, float]:
         """Return the least and the greatest distance of two points over the motions and the declared strokes' ends [m]; inf, 0 for none."""
@@ -637,15 +558,15 @@ class Scene:
     @cached_property
     def tracks(self) -> tuple[SlideTrack, ...]:
         """The guides and slots that something slides on."""
-        return slide_tracks(self.motion)
+        return tuple(slide_tracks(self.motion))
 
     @cached_property
     def blocks(self) -> tuple[DrawnMark, ...]:
         """The slider blocks: on a fixed rail above it, in a slot as wide as the slot."""
         found = []
         for track in self.tracks:
-            level, half = (0.17, BLOCK) if track.fixed else (0.32, SLOT)
-            lines = (tube(0.0, -LONG * self.size, 0.0, LONG * self.size, half * self.size, "RULE"),)
+            level, half = (0.17, shapes.BLOCK) if track.fixed else (0.32, shapes.SLOT)
+            lines = (shapes.tube(0.0, -shapes.LONG * self.size, 0.0, shapes.LONG * self.size, half * self.size, "RULE"),)
             found += [DrawnMark(rider, (rider, *track.ends), lines, level, 1.0) for rider in track.riders]
         return tuple(found)
 
@@ -658,13 +579,13 @@ class Scene:
     @cached_property
     def rims(self) -> Places:
         """The two ends of every track at every pose, shape (2, n) each [m]."""
-        wide = [] if self.over is None else list(zip(slide_tracks(self.over), self.tracks, strict=True))
-        reach = {track.name: track.travel(self.places) for track in self.tracks}
-        for other, track in wide:
-            low, high = other.travel(Scene(self.over).places) if self.over is not None else reach[track.name]
-            reach[track.name] = min(low, reach[track.name][0]), max(high, reach[track.name][1])
-        placed = [track.placed(reach[track.name], self.size) for track in self.tracks]
-        return {name: place for each in placed for name, place in each.items()}
+        found, pad = {}, MARGIN * self.size
+        for track, other in zip(self.tracks, self._whole.tracks, strict=True):
+            lows, highs = zip(track.travel(self.places), other.travel(self._whole.places), strict=True)
+            low, high = (min(lows), max(highs)) if min(lows) <= max(highs) else (0.0, 0.0)
+            start, end = track.ends
+            found |= {start: track.origin + (low - pad) * track.along, end: track.origin + (high + pad) * track.along}
+        return found
 
     @cached_property
     def stays(self) -> tuple[tuple[str, str], ...]:
@@ -713,7 +634,10 @@ class Scene:
     def extent(self) -> Bounds:
         """The least and greatest x and y of all points over all poses [m]."""
         places = [place for name, place in self.places.items() if name not in self.idle]
-        every = np.concatenate([np.empty((2, 0)), *places, *map(self._swept, self.contours)], axis=1)
+        for contour in self.contours:  # the box that it turns in about its first point
+            reach = max(float(np.max(np.hypot(*line.rows.T[1:]), initial=0.0)) for line in contour.lines)
+            places += [self.places[contour.on[0]] + reach * np.array([[x], [y]]) for x, y in product((-1.0, 1.0), repeat=2)]
+        every = np.concatenate([np.empty((2, 0)), *places], axis=1)
         every = every[:, np.isfinite(every).all(axis=0)]
         if not every.size:
             raise DefinitionError(f"{self.motion.plan.title}: there is nothing to draw, no point stands anywhere.")
@@ -723,25 +647,14 @@ class Scene:
             warnings.warn(f"{said}, write 500 * mm if these are millimetres.", stacklevel=2)
         return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
-    def _swept(self, contour: DrawnMark) -> FloatArray:
-        """Return the box that a contour turns in about its first point, its corners at every pose, shape (2, n) [m]."""
-        reach = max(float(np.max(np.hypot(*line.rows.T[1:]), initial=0.0)) for line in contour.lines)
-        place = self.places[contour.on[0]]
-        return np.concatenate([place + reach * np.array([[x], [y]]) for x, y in product((-1.0, 1.0), repeat=2)], axis=1)
-
     @cached_property
     def size(self) -> float:
         """The radius of a bar's round end [m]: a small share of the whole, smaller where pins stand close."""
         left, right, bottom, top = self.extent
         whole = float(np.hypot(right - left, top - bottom)) or 1.0
-        return float(np.clip(0.3 * self._nearest, 0.0055 * whole, 0.0125 * whole))
-
-    @cached_property
-    def _nearest(self) -> float:
-        """The least distance of two joined points [m]."""
         pairs = [(P, Q) for points in self.bodies for P in points for Q in points if P < Q]
         gaps = [float(np.hypot(*(self.places[P] - self.places[Q])[:, pose])) for pose in self.picks(3) for P, Q in pairs]
-        return min((gap for gap in gaps if gap > 0), default=np.inf)
+        return float(np.clip(0.3 * min((gap for gap in gaps if gap > 0), default=np.inf), 0.0055 * whole, 0.0125 * whole))
 
     def box(self, margin: float = 5.0) -> Bounds:
         """Return the extent with a margin around it, in sizes [m], and as much of the surroundings as leaves the mechanism large."""
@@ -751,7 +664,9 @@ class Scene:
         ends = ends[:, np.isfinite(ends).all(axis=0)]
         (x0, y0), (x1, y1) = np.min(ends - near, axis=1, initial=np.inf), np.max(ends + near, axis=1, initial=-np.inf)
         own = min(left - pad, float(x0)), max(right + pad, float(x1)), min(bottom - pad, float(y0)), max(top + pad, float(y1))
-        return self._grown(self._grown(own, self.straights_reach, 1.0), self._around(), SHARE)
+        outside = (*self.fed, *self.pulleys)  # these stand outside the points that carry them
+        corners = np.concatenate([np.empty((0, 2)), *(each.placed(each.corners, at) for at in self.some(5) for each in outside)])
+        return self._grown(self._grown(own, corners, 1.0), self._around(), SHARE)
 
     def _grown(self, box: Bounds, points: FloatArray, share: float) -> Bounds:
         """Return a box that holds some points as well, each side moved by a share of the box's larger side at most.
@@ -766,12 +681,6 @@ class Scene:
         wanted = np.maximum([left - x0, x1 - right, bottom - y0, y1 - top], 0.0)
         out_left, out_right, down, up = np.where(wanted <= 1.5 * most, wanted, most).tolist()
         return left - out_left, right + out_right, bottom - down, top + up
-
-    @cached_property
-    def straights_reach(self) -> FloatArray:
-        """The corners of all accumulators and pulleys, at some poses, shape (n, 2) [m]: they stand outside the points that carry them."""
-        marks = (*self.fed, *self.pulleys)
-        return np.concatenate([np.empty((0, 2)), *(each.placed(each.corners, at) for at in self.some(5) for each in marks)])
 
     def _around(self) -> FloatArray:
         """Return the points of the surroundings that the sheet should show, shape (n, 2) [m]: of an open line the nearest ones alone."""
@@ -822,13 +731,3 @@ def united(bodies: list[tuple[str, ...]]) -> Iterator[tuple[tuple[str, ...], ...
         pins = sharing[one, other], sharing[one, third], sharing[other, third]
         if all(pins) and len(set().union(*pins)) == 3:
             yield one, other, third
-
-
-def side_by_side(members: list[TwoForceMember]) -> list[TwoForceMember]:
-    """Return members on the same two points side by side about the line between these; a single one stays on it."""
-    middle = 0.5 * (len(members) - 1)
-    placed = []
-    for place, each in enumerate(members):
-        sense = 1.0 if each.P == members[0].P else -1.0
-        placed.append(replace(each, aside=sense * APART * (middle - place)))
-    return placed

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from types import MappingProxyType
 from typing import final
@@ -11,7 +11,6 @@ from typing import final
 import numpy as np
 
 from ..program import FloatArray
-from ..steps import Contour
 
 ARC = np.radians(11.3)  # no part of a right angle, so that rounding does not change how many steps a corner takes
 
@@ -31,14 +30,13 @@ def _chain(points: FloatArray, order: list[int], slack: float) -> list[int]:
     """Return one side of the hull."""
     chain: list[int] = []
     for index in order:
-        while len(chain) > 1 and _turn(points[chain[-2]], points[chain[-1]], points[index]) <= slack:
+        while len(chain) > 1:
+            a, b, c = (points[each] for each in (*chain[-2:], index))
+            if (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > slack:
+                break
             chain.pop()
         chain.append(index)
     return chain
-
-
-def _turn(a: FloatArray, b: FloatArray, c: FloatArray) -> float:
-    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 
 
 def rounded_outline(corners: FloatArray, radius: float) -> FloatArray:
@@ -51,18 +49,17 @@ def rounded_outline(corners: FloatArray, radius: float) -> FloatArray:
         around = np.linspace(0.0, 2 * np.pi, 33)
         return np.asarray(corners[0] + radius * np.column_stack([np.cos(around), np.sin(around)]))
     along = np.roll(corners, -1, axis=0) - corners
-    normal = np.arctan2(-along[:, 0], along[:, 1])
-    pieces = [corners[i] + radius * _corner(normal[i - 1], normal[i]) for i in range(len(corners))]
+    normals = np.arctan2(-along[:, 0], along[:, 1])
+    pieces = []
+    for corner, start, end in zip(corners, np.roll(normals, 1), normals, strict=True):
+        swing = (end - start) % (2 * np.pi)
+        if swing < 1.05 * np.pi:
+            angles, reach = start + np.linspace(0.0, swing, 2 + int(swing / ARC)), 1.0
+        else:  # inwards, where both sides meet
+            angles = np.array([start + 0.5 * (swing - 2 * np.pi)])
+            reach = 1.0 / max(float(np.cos(0.5 * (2 * np.pi - swing))), 0.2)
+        pieces.append(corner + radius * reach * np.column_stack([np.cos(angles), np.sin(angles)]))
     return np.concatenate([*pieces, pieces[0][:1]])
-
-
-def _corner(start: float, end: float) -> FloatArray:
-    """Return the way around a corner between two normals' angles, shape (m, 2): an arc, or inwards the point where both sides meet."""
-    swing = (end - start) % (2 * np.pi)
-    if swing < 1.05 * np.pi:
-        return _arc(start, end)
-    middle, half = start + 0.5 * (swing - 2 * np.pi), 0.5 * (2 * np.pi - swing)
-    return np.asarray(np.array([[np.cos(middle), np.sin(middle)]]) / max(float(np.cos(half)), 0.2))
 
 
 OBTUSE = np.radians(100.0)
@@ -85,18 +82,13 @@ def plate_form(points: FloatArray, size: float, joints: Sequence[bool]) -> Float
         lengths = float(np.hypot(*one)), float(np.hypot(*two))
         turn = float(np.arccos(np.clip(one @ two / (lengths[0] * lengths[1]), -1.0, 1.0)))
         if joints[vertex] and turn > OBTUSE and np.sin(turn) * min(lengths) > 0.8 * size:
-            arms = bell_crank(np.eye(len(points)), (a, vertex, b), lengths)
+            eye, web = np.eye(len(points)), WEB * min(lengths)  # there along the outside, back along the web's hollow
+            start = eye[vertex] + web / lengths[1] * (eye[b] - eye[vertex])
+            end = eye[vertex] + web / lengths[0] * (eye[a] - eye[vertex])
+            hollow = [(1 - t) ** 2 * start + 2 * t * (1 - t) * eye[vertex] + t**2 * end for t in np.linspace(0.0, 1.0, 6)]
+            arms = np.array([eye[a], eye[vertex], eye[b], *hollow])
             return arms if covers(arms @ points, points, size) else shares
     return shares
-
-
-def bell_crank(eye: FloatArray, corners: tuple[int, int, int], lengths: tuple[float, float]) -> FloatArray:
-    """Return the shares of two arms with a web between them, shape (k, n): there along the outside, back along the web's hollow."""
-    (a, vertex, b), web = corners, WEB * min(lengths)
-    start = eye[vertex] + web / lengths[1] * (eye[b] - eye[vertex])
-    end = eye[vertex] + web / lengths[0] * (eye[a] - eye[vertex])
-    hollow = [(1 - t) ** 2 * start + 2 * t * (1 - t) * eye[vertex] + t**2 * end for t in np.linspace(0.0, 1.0, 6)]
-    return np.array([eye[a], eye[vertex], eye[b], *hollow])
 
 
 def covers(corners: FloatArray, points: FloatArray, size: float) -> bool:
@@ -116,13 +108,6 @@ def hatches(line: FloatArray, size: float) -> FloatArray:
         right = np.array([along[1], -along[0]])
         found += [(start + (s + size) * along, start + s * along + size * right) for s in np.arange(0.0, long - size, 1.6 * size)]
     return np.array(found).reshape(-1, 2, 2)
-
-
-def _arc(start: float, end: float) -> FloatArray:
-    """Return the directions from one angle to the next, counter-clockwise, shape (m, 2)."""
-    swing = (end - start) % (2 * np.pi)
-    angles = start + np.linspace(0.0, swing, 2 + int(swing / ARC))
-    return np.column_stack([np.cos(angles), np.sin(angles)])
 
 
 def segment(start: FloatArray, end: FloatArray, step: float) -> FloatArray:
@@ -164,7 +149,7 @@ class DrawnLine:
         """Return it moved to the left [m]."""
         rows = self.rows.copy()
         rows[:, 2] += aside
-        return DrawnLine(rows, self.fill, self.closed, self.bold)
+        return replace(self, rows=rows)
 
 
 def outline(*rows: tuple[float, ...], fill: str = "", closed: bool = False, bold: bool = False) -> DrawnLine:
@@ -172,10 +157,14 @@ def outline(*rows: tuple[float, ...], fill: str = "", closed: bool = False, bold
     return DrawnLine(np.array(rows), fill, closed, bold)
 
 
-def turning_with(contour: Contour) -> DrawnLine:
-    """Return a step's contour as a line that moves with its two points."""
-    along, across = contour.corners
-    return DrawnLine(np.column_stack([np.zeros_like(along), along, across]), fill="ROD", closed=True)
+def keeping(points: FloatArray, *, fill: str = "", closed: bool = False, bold: bool = False) -> DrawnLine:
+    """Return a line that keeps its form, through points along and across, shape (n, 2) [m]."""
+    return DrawnLine(np.column_stack([np.zeros(len(points)), points]), fill, closed, bold)
+
+
+def circle(radius: float, fill: str = "") -> DrawnLine:
+    """Return a circle of a radius [m]."""
+    return keeping(rounded_outline(np.zeros((1, 2)), radius), fill=fill, closed=True)
 
 
 def spring(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
@@ -205,14 +194,6 @@ def strut(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
     """Return a thin bar."""
     half = HALF["strut"] * size
     return (outline((0.0, 0.0, half), (1.0, 0.0, half), (1.0, 0.0, -half), (0.0, 0.0, -half), fill="ROD", closed=True),)
-
-
-# Ropes and the pulleys that they run over.
-
-
-def pulley(radius: float) -> DrawnLine:
-    """Return a circle of a radius [m]."""
-    return DrawnLine(np.column_stack([np.zeros(33), rounded_outline(np.zeros((1, 2)), radius)]), closed=True)
 
 
 def tangent(start: float, end: float, length: float) -> DrawnLine:
@@ -324,7 +305,7 @@ def accumulators(count: int, start: float, across: float, size: float) -> tuple[
         foot, top = run + side * 0.7 * size, run + side * (0.7 * size + tall)
         found.append(outline((0.0, place, run), (0.0, place, foot)))
         shell = rounded_outline(np.array([[place, foot + side * half], [place, top - side * half]]), half)
-        found.append(DrawnLine(np.column_stack([np.zeros(len(shell)), shell]), fill="ROD", closed=True))
+        found.append(keeping(shell, fill="ROD", closed=True))
         middle = 0.5 * (foot + top)
         found.append(outline((0.0, place - half, middle), (0.0, place + half, middle)))
         tip = middle + side * 0.55 * half  # the gas's triangle points at the membrane's fluid, hollow
@@ -338,14 +319,12 @@ def accumulators(count: int, start: float, across: float, size: float) -> tuple[
 
 def weight_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
     """Return the sign of a centre of gravity: a circle of four quarters, two of them dark."""
-
-    def quarter(start: float) -> DrawnLine:
+    quarters = []
+    for start, fill in ((0.0, "INK"), (0.5 * np.pi, "PAPER"), (np.pi, "INK"), (1.5 * np.pi, "PAPER")):
         ways = start + np.linspace(0.0, 0.5 * np.pi, 9)
         arc = 0.95 * size * np.column_stack([np.cos(ways), np.sin(ways)])
-        rows = np.concatenate([[[0.0, 0.0]], arc])
-        return DrawnLine(np.column_stack([np.zeros(len(rows)), rows]), fill="INK" if start in (0.0, np.pi) else "PAPER", closed=True)
-
-    return tuple(quarter(start) for start in (0.0, 0.5 * np.pi, np.pi, 1.5 * np.pi))
+        quarters.append(keeping(np.concatenate([[[0.0, 0.0]], arc]), fill=fill, closed=True))
+    return tuple(quarters)
 
 
 def support_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
@@ -361,17 +340,16 @@ def support_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
 
 def force_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
     """Return a ring where a force acts."""
-    ring = rounded_outline(np.zeros((1, 2)), 0.68 * size)
-    return (DrawnLine(np.column_stack([np.zeros(len(ring)), ring]), fill="ACCENT", closed=True),)
+    return (circle(0.68 * size, "ACCENT"),)
 
 
 def moment_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
     """Return a curved arrow about the place where a moment is written; it says no sense."""
     ways = np.radians(np.linspace(-140.0, 100.0, 25))
-    arc = 1.5 * size * np.column_stack([np.zeros(25), np.cos(ways), np.sin(ways)])
-    out, along = arc[-1] / (1.5 * size), np.array([0.0, -np.sin(ways[-1]), np.cos(ways[-1])])
+    arc = 1.5 * size * np.column_stack([np.cos(ways), np.sin(ways)])
+    out, along = arc[-1] / (1.5 * size), np.array([-np.sin(ways[-1]), np.cos(ways[-1])])
     head = np.array([arc[-1] + 0.9 * size * along, arc[-1] + 0.5 * size * out, arc[-1] - 0.5 * size * out])
-    return DrawnLine(arc, bold=True), DrawnLine(head, fill="INK", closed=True)
+    return keeping(arc, bold=True), keeping(head, fill="INK", closed=True)
 
 
 ON_BODIES: Mapping[str, Callable[[float, float], tuple[DrawnLine, ...]]] = MappingProxyType({"mass": weight_mark, "moment": moment_mark})

@@ -14,9 +14,11 @@ from ..motion.measures import words_of
 from ..plan import Plan
 from ..quantities import Quantity
 from ..reports import results
-from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
+from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis
 from ..synthesis.synthesis import miss_unit
+from ..synthesis.tasks import Task
 from .browser_data import PageRequests, machine_text, page_data, unit_data
+from .browser_file import PageData
 from .sheet import grown
 from .strokes import frame_count
 
@@ -35,7 +37,10 @@ def task_page(found: Synthesis, *, count: int, language: str, at: Mapping[str, A
     fit = found.fit_of(best)
     run = {**fit.held, fit.timing.stroke: (fit.timing.start, fit.timing.start + fit.timing.span)}
     given = {name: value for name, value in given.items() if value is not None}
-    given = {"vary": ranges_searched(found, best)} | given
+    space, owners = found.problem.space, best.machine.plan.table.spellings
+    named: dict[str, tuple[float, float] | None] = {each.name: (each.low, each.high) for each in space.variables if each.span > 0.0}
+    searched = named | {name: None for names in space.names for name in names if name in owners}  # those of rows without a range
+    given = {"vary": searched} | given
     is_function = isinstance(task, FunctionTask)
     given = (columns_with(found, run) if is_function else {"trace": [task.of.split()[0]]}) | given
     requests = PageRequests(best.machine, frame_count(count), at=run, over=found.problem.over, **given)
@@ -48,15 +53,7 @@ def task_page(found: Synthesis, *, count: int, language: str, at: Mapping[str, A
     return machine_text(requests, live, data, ("task.js",), language)
 
 
-def ranges_searched(found: Synthesis, best: SynthesisedMachine) -> dict[str, tuple[float, float] | None]:
-    """Return the dimensions that were searched, with their ranges [SI]; those of rows without."""
-    space = found.problem.space
-    owners = best.machine.plan.table.spellings
-    named: dict[str, tuple[float, float] | None] = {each.name: (each.low, each.high) for each in space.variables if each.span > 0.0}
-    return named | {name: None for names in space.names for name in names if name in owners}
-
-
-def columns_with(found: Synthesis, run: Mapping[str, object]) -> dict[str, Any]:
+def columns_with(found: Synthesis, run: Mapping[str, object]) -> dict[str, object]:
     """Return the columns of a page on which the task's quantity stands, that one shown first."""
     task, machine = found.task, found.machine
     motion = machine.at(unreachable="nan", **{name: np.array(ends) for name, ends in run.items()})
@@ -67,7 +64,7 @@ def columns_with(found: Synthesis, run: Mapping[str, object]) -> dict[str, Any]:
     return {"columns": [asked, *names], "column": words_of(asked)}
 
 
-def task_data(found: Synthesis, data: Mapping[str, Any]) -> dict[str, Any]:
+def task_data(found: Synthesis, data: PageData) -> PageData:
     """Return the task and the answers as the page's script reads them [SI]: of each design the values of the page's dimensions."""
     task, best = found.task, found.best
     fit, plan = found.fit_of(best), best.machine.plan
@@ -81,13 +78,15 @@ def task_data(found: Synthesis, data: Mapping[str, Any]) -> dict[str, Any]:
     return kept | wanted_data(task, plan, fit.rows.weights[-1], data)
 
 
-def wanted_data(task: Any, plan: Plan, weight: float, data: Mapping[str, Any]) -> dict[str, Any]:
+def wanted_data(task: Task, plan: Plan, weight: float, data: PageData) -> PageData:
     """Return what is wanted [SI]: points and of which, angles with the length that weighs them, or values and in which column."""
     points = list(plan.points)
-    if isinstance(task, PathTask):
-        return {"points": task.points.tolist(), "point": points.index(task.of)}
-    if isinstance(task, PoseTask):
-        first, second = (points.index(name) for name in task.of.split())
-        places = np.stack([task.x, task.y], axis=1).tolist()
-        return {"points": places, "angles": task.angle.tolist(), "point": first, "second": second, "long": float(weight)}
-    return {"values": task.values.tolist(), "column": data["column"], "turns": measure_of(plan, task.of) == "angle"}
+    match task:
+        case PathTask():
+            return {"points": task.points.tolist(), "point": points.index(task.of)}
+        case PoseTask():
+            first, second = (points.index(name) for name in task.of.split())
+            places = np.stack([task.x, task.y], axis=1).tolist()
+            return {"points": places, "angles": task.angle.tolist(), "point": first, "second": second, "long": float(weight)}
+        case FunctionTask():
+            return {"values": task.values.tolist(), "column": data["column"], "turns": measure_of(plan, task.of) == "angle"}

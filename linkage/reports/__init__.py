@@ -1,7 +1,7 @@
 """Results as text: tables, values with units, stroke ranges in words."""
 
 from ..star import declare_public
-from .live_columns import column_requests, is_column
+from .live_columns import LiveColumn, column_requests, is_column
 from .ranges import (
     NOTHING,
     At,

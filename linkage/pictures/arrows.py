@@ -14,6 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
+from matplotlib.transforms import Bbox
 
 from ..language import translated
 from ..program import FloatArray
@@ -46,7 +47,6 @@ class VectorArrow:
     vector: FloatArray
     colour: str
     text: str = ""
-    shows_value: bool = True
 
     @property
     def length(self) -> float:
@@ -90,11 +90,6 @@ class ArrowLayer:
         """How the unit is written in the language that is spoken."""
         return translated(self.unit)
 
-    def moment_words(self, moment: float) -> str:
-        """Return a moment's size in words [Nm]: in the unit of the forces times m, in a chosen system in its own."""
-        unit = shown_in("kNm") if current_system() else {"N": "Nm", "kN": "kNm"}[self.unit]
-        return f"{significant(abs(moment) / factor(unit))} {translated(unit)}"
-
     @property
     def largest(self) -> float:
         """The longest vector [SI]."""
@@ -111,8 +106,7 @@ class ArrowLayer:
 
     def words(self, arrow: VectorArrow) -> str:
         """Return what stands at an arrow."""
-        value = f"{self.value(arrow.length)} {self.sign}" if arrow.shows_value else ""
-        return " ".join(part for part in (value, arrow.text) if part)
+        return f"{self.value(arrow.length)} {self.sign} {arrow.text}".rstrip()
 
     def tips(self, scale: float) -> FloatArray:
         """Return the tips of the arrows, shape (n, 2) [m]."""
@@ -140,8 +134,15 @@ def draw_arrows(ax: Axes, layer: ArrowLayer, scale: float, size: float, level: f
             patch = Polygon(outline, facecolor=each.colour, edgecolor=edge, linewidth=0.6, joinstyle="round", zorder=level)
         patch.set_gid(each.name)
         added(ax, patch)
-    for turn in layer.turning:
-        draw_turning(ax, turn, size, level)
+    for turn in layer.turning:  # a moment is a curved arrow about its point
+        curve = turning_line(turn, size)
+        line = Line2D(*curve.T, color=turn.colour, linewidth=2.2, solid_capstyle="butt", zorder=level)
+        line.set_gid(turn.name)
+        ax.add_line(line)
+        end, out = curve[-1], (curve[-1] - turn.at) / (turn.radius * size)
+        along = np.array([-out[1], out[0]]) * np.sign(turn.moment)
+        corners = np.array([end + HEAD * size * along, end + BARB * size * out, end - BARB * size * out])
+        added(ax, Polygon(corners, facecolor=turn.colour, edgecolor=turn.colour, joinstyle="round", zorder=level))
     return arrow_points(layer, scale, size)
 
 
@@ -172,18 +173,6 @@ def turning_line(turn: TurningArrow, size: float) -> FloatArray:
     """Return the line of a curved arrow from its tail to its head, shape (n, 2) [m]."""
     angles = TURN_ANGLES if turn.moment > 0.0 else np.pi - TURN_ANGLES
     return np.asarray(turn.at + turn.radius * size * np.column_stack([np.cos(angles), np.sin(angles)]))
-
-
-def draw_turning(ax: Axes, turn: TurningArrow, size: float, level: float) -> None:
-    """Draw a moment as a curved arrow about its point."""
-    circle = turning_line(turn, size)
-    line = Line2D(*circle.T, color=turn.colour, linewidth=2.2, solid_capstyle="butt", zorder=level)
-    line.set_gid(turn.name)
-    ax.add_line(line)
-    end, out = circle[-1], (circle[-1] - turn.at) / (turn.radius * size)
-    along = np.array([-out[1], out[0]]) * np.sign(turn.moment)
-    corners = np.array([end + HEAD * size * along, end + BARB * size * out, end - BARB * size * out])
-    added(ax, Polygon(corners, facecolor=turn.colour, edgecolor=turn.colour, joinstyle="round", zorder=level))
 
 
 # Values at the arrows, where they cover nothing.
@@ -224,12 +213,11 @@ def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
     found = []
     for each in layer.arrows:
         way = each.vector / each.length if each.length > TINY * layer.largest else np.array([0.0, 1.0])
-        if layer.words(each):
-            found.append(
-                Wording(layer.words(each), each.at + scale * each.vector, way, style.mixed(each.colour, style.INK, 0.4), each.name)
-            )
-    for turn in layer.turning:
-        text = f"{layer.moment_words(turn.moment)} {turn.text}".strip()
+        colour = style.mixed(each.colour, style.INK, 0.4)
+        found.append(Wording(layer.words(each), each.at + scale * each.vector, way, colour, each.name))
+    for turn in layer.turning:  # in the unit of the forces times m, in a chosen system in its own
+        unit = shown_in("kNm") if current_system() else {"N": "Nm", "kN": "kNm"}[layer.unit]
+        text = f"{significant(abs(turn.moment) / factor(unit))} {translated(unit)} {turn.text}".strip()
         at = turn.at + np.array([0.0, turn.radius * size])
         found.append(Wording(text, at, np.array([0.0, 1.0]), style.mixed(turn.colour, style.INK, 0.4), turn.name))
     return found
@@ -239,14 +227,14 @@ def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
 class PlacedWording:
     """A text that is written, the spots it may stand at, shape (n, 2) [pixels], and which of them it has chosen."""
 
-    def __init__(self, text: Text, anchor: FloatArray, half: FloatArray, spots: FloatArray) -> None:
-        self.text, self.anchor, self.half, self.spots = text, anchor, half, spots
-        self.place = -1
-
-    @property
-    def is_placed(self) -> bool:
-        """Whether it has chosen a spot."""
-        return self.place >= 0
+    def __init__(self, text: Text, anchor: FloatArray, size: FloatArray, way: FloatArray) -> None:
+        """Take the text at a place [pixels], its width and height [pixels], and the way on which it stands if it can, shape (2,)."""
+        self.text, self.anchor, self.half, self.place = text, anchor, 0.5 * size + CLEAR, -1
+        start = float(np.arctan2(way[1], way[0]))
+        turned = sorted(AROUND, key=lambda angle: abs(np.angle(np.exp(1j * (angle - start)))))
+        ways = np.array([[np.cos(angle), np.sin(angle)] for angle in turned])
+        aside = self.half * np.clip(np.sqrt(2.0) * ways, -1.0, 1.0)
+        self.spots = anchor + np.concatenate([far * 0.5 * size[1] * ways + aside for far in FAR_OUT])
 
     @property
     def box(self) -> FloatArray:
@@ -266,10 +254,14 @@ class PlacedWording:
         nearest = np.clip(self.anchor, far - self.half, far + self.half)
         return np.asarray(nearest[:, None] + ALONG_LEADER * (self.anchor - nearest)[:, None])
 
-    def choose(self, boxes: Sequence[FloatArray], points: FloatArray, inside: object) -> None:
-        """Choose the spot that covers least, and whose line crosses no text."""
+    def choose(self, boxes: Sequence[FloatArray], points: FloatArray, inside: Bbox) -> None:
+        """Choose the spot that covers least, other texts above all, and whose line crosses no text; it hangs over no sheet's edge."""
         texts = np.array(boxes).reshape(-1, 4)
-        costs = spot_costs(self.spots, self.half, texts, points, inside) + 0.04 * np.arange(len(self.spots))
+        low, high = (self.spots - self.half)[:, None], (self.spots + self.half)[:, None]
+        over = ((low < texts[:, 2:]) & (texts[:, :2] < high)).all(axis=2).sum(axis=1)
+        covered = ((points > low) & (points < high)).all(axis=2).sum(axis=1)
+        outside = ((low < inside.min) | (high > inside.max)).any(axis=(1, 2))
+        costs = COVERED_TEXT * over + 1.0 * covered + OFF_SHEET * outside + 0.04 * np.arange(len(self.spots))
         inner = (self.leaders[:, :, None] > texts[:, :2]) & (self.leaders[:, :, None] < texts[:, 2:])
         costs[FIRST_LED :] += LEADING + CROSSED_TEXT * np.any(np.all(inner, axis=3), axis=1).sum(axis=1)
         self.place = int(np.argmin(costs))
@@ -292,51 +284,32 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font
     renderer = renderer_of(figure_of(ax))
     ax.apply_aspect()
     inside = ax.get_window_extent(renderer)
-    taken = [text.get_window_extent(renderer) for text in ax.texts if text.get_visible() and text.get_text()]
-    boxes = [np.array([each.x0, each.y0, each.x1, each.y1]) for each in taken]
+    boxes = [each.extents for each in text_boxes(ax)]
     points = ax.transData.transform(covered) if covered.size else np.empty((0, 2))
     chosen: list[PlacedWording] = []
-    for each in sorted(texts, key=lambda text: -crowding(points, ax.transData.transform(text.at))):
+    near = [np.count_nonzero(np.hypot(*(points - ax.transData.transform(each.at)).T) < 40.0) for each in texts]
+    for each in (texts[place] for place in np.argsort(-np.array(near, int), kind="stable")):  # the most crowded places first
         text = ax.text(
             0.0, 0.0, each.text, fontsize=font, color=each.colour, ha="center", va="center", zorder=20.0, clip_on=False,
             path_effects=[withStroke(linewidth=2.2, foreground=style.PAPER)],
         )  # fmt: skip
         text.set_gid(f"{each.name} value")
-        extent = text.get_window_extent(renderer)
-        half = 0.5 * np.array([extent.width, extent.height]) + CLEAR
-        anchor = np.asarray(ax.transData.transform(each.at))
-        chosen.append(PlacedWording(text, anchor, half, anchor + spots_around(half, each.way, 0.5 * extent.height)))
+        size = np.asarray(text.get_window_extent(renderer).size)
+        chosen.append(PlacedWording(text, np.asarray(ax.transData.transform(each.at)), size, each.way))
     for _ in range(AGAIN):
         for one in chosen:
-            others = [*boxes, *(other.box for other in chosen if other is not one and other.is_placed)]
-            lines = [other.leader for other in chosen if other is not one and other.is_placed]
-            one.choose(others, np.concatenate([points, *lines]), inside)
+            others = [other for other in chosen if other is not one and other.place >= 0]
+            lines = [other.leader for other in others]
+            one.choose([*boxes, *(other.box for other in others)], np.concatenate([points, *lines]), inside)
     for one in chosen:
         one.write(ax)
     return [one.text for one in chosen]
 
 
-def crowding(points: FloatArray, at: FloatArray) -> float:
-    """Return how many points lie within 40 pixels of a place."""
-    return float(np.count_nonzero(np.hypot(*(points - at).T) < 40.0)) if points.size else 0.0
-
-
-def spots_around(half: FloatArray, way: FloatArray, gap: float) -> FloatArray:
-    """Return the offsets [pixels], shape (n, 2), at which a text of that half size may stand, those along the way and near first."""
-    start = float(np.arctan2(way[1], way[0]))
-    turned = sorted(AROUND, key=lambda angle: abs(np.angle(np.exp(1j * (angle - start)))))
-    ways = [np.array([np.cos(angle), np.sin(angle)]) for angle in turned]
-    return np.array([far * gap * each + half * np.clip(np.sqrt(2.0) * each, -1.0, 1.0) for far, each in product(FAR_OUT, ways)])
-
-
-def spot_costs(spots: FloatArray, half: FloatArray, boxes: FloatArray, points: FloatArray, inside: object) -> FloatArray:
-    """Return how much a text at each spot would cover: other texts above all, then points; and what hangs over the sheet's edge."""
-    low, high = (spots - half)[:, None], (spots + half)[:, None]
-    over = ((low < boxes[:, 2:]) & (boxes[:, :2] < high)).all(axis=2).sum(axis=1)
-    covered = ((points > low) & (points < high)).all(axis=2).sum(axis=1)
-    x0, y0, x1, y1 = (getattr(inside, name) for name in ("x0", "y0", "x1", "y1"))
-    outside = ((low < (x0, y0)) | (high > (x1, y1))).any(axis=(1, 2))
-    return np.asarray(COVERED_TEXT * over + 1.0 * covered + OFF_SHEET * outside)
+def text_boxes(ax: Axes) -> list[Bbox]:
+    """Return what the texts that are written on a sheet cover [pixels]."""
+    renderer = renderer_of(figure_of(ax))
+    return [text.get_window_extent(renderer) for text in ax.texts if text.get_visible() and text.get_text()]
 
 
 # The bar that says the scale, and what colours mean.
@@ -350,13 +323,16 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray) ->
     """Draw a bar of a round value where the sheet is empty, in a corner if one is; return points that cover it, shape (n, 2) [m]."""
     if not scale > 0.0:
         return np.empty((0, 2))
-    value = round_value(0.8 * layer.largest / layer.factor)
+    most = 0.8 * layer.largest / layer.factor
+    power = 10.0 ** float(np.floor(np.log10(most)))
+    value = max(each * power for each in (1.0, 2.0, 5.0) if each * power <= most * (1.0 + 1e-12))
     length = value * layer.factor * scale
     (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
     pad, high = 0.02 * (x1 - x0), style.SMALL * 1.25 / points_a_metre(ax)
     across = np.linspace(x1 - pad - length, x0 + pad, 7)
     up = np.linspace(y0 + pad, y1 - pad - 1.5 * high, 9)
-    taken = np.concatenate([covered, *text_grids(ax)])
+    shares, back = np.array(list(product(np.linspace(0.0, 1.0, 9), np.linspace(0.0, 1.0, 4)))), ax.transData.inverted()
+    taken = np.concatenate([covered, *(back.transform(each.min + shares * each.size) for each in text_boxes(ax))])
 
     def cost(spot: tuple[int, int]) -> float:
         low = np.array([across[spot[0]] - pad, up[spot[1]] - 0.8 * pad])
@@ -379,20 +355,7 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray) ->
     return np.array([x, y]) + np.linspace(-0.3 * pad, length + 0.3 * pad, 60)[:, None] * [1.0, 0.0]
 
 
-def text_grids(ax: Axes) -> list[FloatArray]:
-    """Return points that cover each text that is written on a sheet, shape (n, 2) [m]."""
-    renderer, back = renderer_of(figure_of(ax)), ax.transData.inverted()
-    boxes = [text.get_window_extent(renderer) for text in ax.texts if text.get_visible() and text.get_text()]
-    shares = np.array(list(product(np.linspace(0.0, 1.0, 9), np.linspace(0.0, 1.0, 4))))
-    return [np.asarray(back.transform(box.min + shares * box.size)) for box in boxes]
-
-
-def round_value(value: float) -> float:
-    """Return the largest 1, 2 or 5 times a power of ten that is not above a value."""
-    power = 10.0 ** np.floor(np.log10(value))
-    return float(max(each * power for each in (1.0, 2.0, 5.0) if each * power <= value * (1.0 + 1e-12)))
-
-
-def colour_keys(layer: ArrowLayer) -> list[Line2D]:
-    """Return a key for each colour of a layer, for the legend."""
-    return [Line2D([], [], color=colour, linewidth=2.4, label=text) for colour, text in layer.keys]
+def add_keys(ax: Axes, layer: ArrowLayer) -> None:
+    """Add a key for each colour of a layer to what a legend says."""
+    for colour, text in layer.keys:
+        ax.add_line(Line2D([], [], color=colour, linewidth=2.4, label=text))

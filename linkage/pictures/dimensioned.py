@@ -151,11 +151,13 @@ def placed_dimensions(scene: Scene, at: Places, pose: int, scale: float, box: Bo
 
     `scale` are printer's points a metre.
     """
-    letter = LETTERS / scale
+    letter, low, high = LETTERS / scale, np.array(box[::2]), np.array(box[1::2])
     taken = [cloud(scene, at)]
     for ends, corner, text in given_dimensions(scene.motion, at, pose):
         places = line_choices(text, *ends, letter) if corner is None else arc_choices(text, corner, *ends, letter)
-        choices: list[LengthLine | AngleArc] = [each for each in places if is_within(each.covered, box)]
+        choices: list[LengthLine | AngleArc] = [
+            each for each in places if np.all((each.covered > low) & (each.covered < high))
+        ]
         points = np.concatenate(taken)
         costs = [covering(each, points) + 1.2 * (rank // 2) for rank, each in enumerate(choices)]
         if costs and min(costs) < MOST:
@@ -215,12 +217,6 @@ def arc_choices(text: str, corner: FloatArray, P: FloatArray, Q: FloatArray, let
     for radius in RADII:
         if sweep > 1e-6 and least > 0.7 * radius * letter:
             yield AngleArc(text, corner, start, start + sweep, radius * letter, letter)
-
-
-def is_within(points: FloatArray, box: Bounds) -> bool:
-    """Return whether all points lie in a box."""
-    (x, y), (left, right, bottom, top) = points.T, box
-    return bool(np.all((x > left) & (x < right) & (y > bottom) & (y < top)))
 
 
 def covering(each: LengthLine | AngleArc, taken: FloatArray) -> float:

@@ -224,14 +224,3 @@ def drawn_body(found: PinForces, name: str) -> str:
     if body not in found.on_bodies:
         raise unknown("Body", name, found.on_bodies, where=found.motion.plan.title)
     return body
-
-
-def imbalance(layer: ArrowLayer) -> tuple[FloatArray, float]:
-    """Return the sum of all forces of a layer, shape (2,) [N], and of their moments about the first one's point [Nm]."""
-    if not layer.arrows:
-        return np.zeros(2), sum(each.moment for each in layer.turning)
-    origin = layer.arrows[0].at
-    total = sum((each.vector for each in layer.arrows), np.zeros(2))
-    arms = [each.at - origin for each in layer.arrows]
-    moments = [arm[0] * each.vector[1] - arm[1] * each.vector[0] for arm, each in zip(arms, layer.arrows, strict=True)]
-    return total, float(sum(moments) + sum(each.moment for each in layer.turning))

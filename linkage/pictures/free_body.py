@@ -10,23 +10,10 @@ from matplotlib.figure import Figure
 
 from ..language import said
 from ..motion import Motion
-from ..program import FloatArray
-from . import style
-from .arrows import (
-    ARROW,
-    ArrowLayer,
-    VectorArrow,
-    Wording,
-    arrow_outline,
-    colour_keys,
-    draw_arrows,
-    place_wordings,
-    scale_bar,
-    significant,
-    wordings,
-)
+from . import arrows, style
+from .arrows import ArrowLayer, Wording
 from .drawing import BodyPart, MarkPart, pin
-from .force_arrows import FRAME, ForceQuestion, ForcesAt, drawn_body, force_layer, forces_at_pose, imbalance, short_name
+from .force_arrows import FRAME, ForceQuestion, drawn_body, force_layer, forces_at_pose, short_name
 from .labels import LabelPart, offsets
 from .overlays import sheet_note
 from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, write_title
@@ -52,8 +39,16 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     body = drawn_body(forces.found, question.body)
     layer = force_layer(forces, body) if not forces.refusal else ArrowLayer((), "kN", ())
     at = scene.at(pose)
-    free = FreeBodyPicture(body, points_on(forces, body), scene, at, layer)
-    figure, ax, beside = free_page(free.box())
+    points = next((each.points for each in forces.found._structure.bodies if each.name == body), None)
+    if points is None:  # the frame: all at which something acts
+        points = tuple(point for point in forces.found.on_bodies[body] if point in motion.plan.points)
+    free = FreeBodyPicture(body, points, scene, at, layer)
+    figure = empty_figure(FREE_WIDTH, FREE_HEIGHT)
+    low, high, wide = BOTTOM / FREE_HEIGHT, (FREE_HEIGHT - BOTTOM - TOP) / FREE_HEIGHT, FREE_WIDTH - POLYGON - LEFT - 2.0 * RIGHT
+    ax = figure.add_axes((LEFT / FREE_WIDTH, low, wide / FREE_WIDTH, high))
+    sheet(ax, free.box())
+    beside = figure.add_axes((1.0 - (POLYGON + RIGHT) / FREE_WIDTH, low, POLYGON / FREE_WIDTH, high))
+    beside.set_axis_off()
     free.draw(ax)
     draw_polygon(beside, layer)
     sheet_note(ax, [said("No forces here: {why}", why=forces.refusal)] if forces.refusal else forces.found.remarks)
@@ -65,37 +60,20 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     return figure
 
 
-def points_on(forces: ForcesAt, body: str) -> tuple[str, ...]:
-    """Return the points of a body: those it is made of, of the frame all at which something acts."""
-    structure = forces.found._structure
-    for each in structure.bodies:
-        if each.name == body:
-            return each.points
-    return tuple(point for point in forces.found.on_bodies[body] if point in forces.found.motion.plan.points)
-
-
 def closing_words(layer: ArrowLayer, body: str) -> str:
     """Return how well the forces on a body balance, in words; of a frame that stands on no supports what the ground holds."""
     if not layer.largest > 0.0:
         return ""
-    total, moment = imbalance(layer)
-    force, arm = float(np.hypot(*total)), max(float(np.hypot(*(each.at - layer.arrows[0].at))) for each in layer.arrows)
+    total = sum((each.vector for each in layer.arrows), np.zeros(2))
+    arms = [each.at - layer.arrows[0].at for each in layer.arrows]
+    moments = [float(a[0] * each.vector[1] - a[1] * each.vector[0]) for a, each in zip(arms, layer.arrows, strict=True)]
+    moment = sum(moments) + sum(each.moment for each in layer.turning)
+    force, arm = float(np.hypot(*total)), max(float(np.hypot(*each)) for each in arms)
     if body == FRAME:
-        value = significant(force / layer.factor)
+        value = arrows.significant(force / layer.factor)
         return said("The ground holds the frame: what is left over, {force}, is the sum of all loads.", force=f"{value} {layer.sign}")
     parts = force / layer.largest, abs(moment) / (layer.largest * (arm or 1.0))
     return said("Forces and moments balance to {share} of the largest.", share=f"{max(*parts, 1e-17):.0e}")
-
-
-def free_page(box: Bounds) -> tuple[Figure, Axes, Axes]:
-    """Return a figure with a sheet that fits a box [m], and beside it empty axes with equal scales."""
-    figure = empty_figure(FREE_WIDTH, FREE_HEIGHT)
-    wide, high = FREE_WIDTH - POLYGON - LEFT - 2.0 * RIGHT, FREE_HEIGHT - BOTTOM - TOP
-    ax = figure.add_axes((LEFT / FREE_WIDTH, BOTTOM / FREE_HEIGHT, wide / FREE_WIDTH, high / FREE_HEIGHT))
-    sheet(ax, box)
-    beside = figure.add_axes((1.0 - (POLYGON + RIGHT) / FREE_WIDTH, BOTTOM / FREE_HEIGHT, POLYGON / FREE_WIDTH, high / FREE_HEIGHT))
-    beside.set_axis_off()
-    return figure, ax, beside
 
 
 @final
@@ -125,14 +103,18 @@ class FreeBodyPicture:
         """Draw it."""
         for part in self.parts(ax):
             part.update(self.at)
-        outline = self.outline()
-        covered = draw_arrows(ax, self.layer, self.scale, self.size)
-        self.name_points(ax, np.concatenate([outline, covered]))
-        everything = np.concatenate([outline, np.repeat(covered, ARROW, axis=0)])
-        bar = scale_bar(ax, self.layer, self.scale, everything)
-        place_wordings(ax, wordings(self.layer, self.scale, self.size), np.concatenate([everything, bar]))
-        for line in colour_keys(self.layer):
-            ax.add_line(line)
+        places = [self.at[name] for name in self.points]
+        lines = [segment(P, Q, 0.8 * self.size) for P, Q in zip(places, [*places[1:], places[0]], strict=True) if not np.array_equal(P, Q)]
+        outline = np.concatenate([*lines, np.array(places)])
+        covered = arrows.draw_arrows(ax, self.layer, self.scale, self.size)
+        scale, own = points_a_metre(ax), {name: self.at[name] for name in self.points}
+        gap = 1.15 * self.size * scale + 1.5
+        for name, spot in offsets(list(own), [own], [np.concatenate([outline, covered])], scale, gap).items():
+            LabelPart(ax, name, spot, gap, STRONG).update(self.at)
+        everything = np.concatenate([outline, np.repeat(covered, arrows.ARROW, axis=0)])
+        bar = arrows.scale_bar(ax, self.layer, self.scale, everything)
+        arrows.place_wordings(ax, arrows.wordings(self.layer, self.scale, self.size), np.concatenate([everything, bar]))
+        arrows.add_keys(ax, self.layer)
 
     def parts(self, ax: Axes) -> list[MovingPart]:
         """Return the body's own parts: a plate or a bar, a cylinder, a spring, a block, and its pins."""
@@ -153,27 +135,13 @@ class FreeBodyPicture:
             parts.append(BodyPart(ax, Plate(self.points, np.eye(len(places))[list(hull(places))]), self.size, style.BODIES[0], STRONG))
         return [*parts, *(pin(ax, name, self.size, STRONG) for name in self.points)]
 
-    def outline(self) -> FloatArray:
-        """Return points that cover the body, shape (n, 2) [m]."""
-        places = [self.at[name] for name in self.points]
-        lines = [segment(P, Q, 0.8 * self.size) for P, Q in zip(places, [*places[1:], places[0]], strict=True) if not np.array_equal(P, Q)]
-        return np.concatenate([*lines, np.array(places)])
-
-    def name_points(self, ax: Axes, covered: FloatArray) -> None:
-        """Write the points' names where they cover nothing."""
-        scale = points_a_metre(ax)
-        own = {name: self.at[name] for name in self.points}
-        gap = 1.15 * self.size * scale + 1.5
-        spots = offsets(list(own), [own], [covered], scale, gap)
-        for name, spot in spots.items():
-            LabelPart(ax, name, spot, gap, STRONG).update(self.at)
-
 
 def draw_polygon(ax: Axes, layer: ArrowLayer) -> None:
     """Draw the forces head to tail, in the order of their directions; they close where the body is in equilibrium."""
-    chain = sorted((each for each in layer.arrows if each.length > 1e-9 * layer.largest), key=arrow_angle)
+    chain = [each for each in layer.arrows if each.length > 1e-9 * layer.largest]
     if not chain:
         return
+    chain = [chain[place] for place in np.argsort([np.arctan2(*each.vector[::-1]) for each in chain], kind="stable")]
     ends = np.cumsum([np.zeros(2), *(each.vector / layer.factor for each in chain)], axis=0)
     low, high = ends.min(axis=0), ends.max(axis=0)
     pad = 0.22 * float(np.max(high - low))
@@ -185,15 +153,10 @@ def draw_polygon(ax: Axes, layer: ArrowLayer) -> None:
     for each, tail, tip in zip(chain, ends, ends[1:], strict=False):
         edge = style.mixed(each.colour, style.INK, 0.35)
         patch = polygon(ax, 10.0, facecolor=each.colour, edgecolor=edge, linewidth=0.6, joinstyle="round")
-        patch.set_xy(arrow_outline(tail, tip, size))
+        patch.set_xy(arrows.arrow_outline(tail, tip, size))
         patch.set_gid(f"polygon {each.name}")
         covered.append(np.linspace(tail, tip, 24))
         across = np.array([tip[1] - tail[1], tail[0] - tip[0]]) / float(np.hypot(*(tip - tail)))
         texts.append(Wording(layer.words(each), 0.5 * (tail + tip), across, edge, f"polygon {each.name}"))
-    place_wordings(ax, texts, np.concatenate(covered))
+    arrows.place_wordings(ax, texts, np.concatenate(covered))
     ax.text(0.5, 1.0, said("head to tail"), transform=ax.transAxes, fontsize=style.TEXT, color=style.MUTED, ha="center", va="bottom")
-
-
-def arrow_angle(arrow: VectorArrow) -> float:
-    """Return the direction of an arrow [rad]."""
-    return float(np.arctan2(arrow.vector[1], arrow.vector[0]))

@@ -84,10 +84,7 @@ def offsets(
     halves = {name: half_of(letters.get(name, name), font * (MINOR if name in minor else 1.0)) for name in names}
     tried = {name: candidates(halves[name], gap, far) for name in names}
     edges = np.array(sheet) * scale
-    alone = {
-        name: own_costs(name, tried[name], halves[name], anchors, taken, gap) + over_edge(tried[name], halves[name], anchors[name], edges)
-        for name in names
-    }
+    alone = {name: own_costs(name, tried[name], halves[name], anchors, taken, gap, edges) for name in names}
     spots: dict[str, FloatArray] = {}
     order = sorted(names, key=lambda each: -float(np.median(alone[each])))
     for _ in range(ROUNDS):
@@ -95,9 +92,9 @@ def offsets(
         for name in order:
             others = [other for other in spots if other != name]
             costs = alone[name]
-            for other in others:
-                over = overlaps(tried[name], halves[name], spots[other], halves[other], anchors[name], anchors[other])
-                costs = costs + OVERLAP * over
+            for other in others:  # at which share of the poses each place covers another label
+                between = (anchors[name] - anchors[other])[:, None] + tried[name] - spots[other]
+                costs = costs + OVERLAP * is_inside(between, halves[name] + halves[other] + 0.5).mean(axis=0)
             spots[name] = tried[name][int(np.argmin(costs))]
         if before and all(np.array_equal(before[name], spots[name]) for name in names):
             break
@@ -116,9 +113,18 @@ def candidates(half: FloatArray, gap: float, far: float = np.inf) -> FloatArray:
 
 
 def own_costs(
-    name: str, spots: FloatArray, half: FloatArray, anchors: Mapping[str, FloatArray], taken: Sequence[FloatArray], gap: float
+    name: str,
+    spots: FloatArray,
+    half: FloatArray,
+    anchors: Mapping[str, FloatArray],
+    taken: Sequence[FloatArray],
+    gap: float,
+    edges: FloatArray,
 ) -> FloatArray:
-    """Return what each place of a label costs by itself, shape (c,): what it covers, a pose, and the other pins that it is nearer to."""
+    """Return what each place of a label costs by itself, shape (c,).
+
+    That is what it covers, a pose, the other pins that it is nearer to, and that it hangs over the edges of the sheet.
+    """
     poses, away = max(len(taken), 1), distance_to_box(spots, half)
     costs = 0.02 * np.arange(len(spots)) + 1.2 * np.maximum(away / gap - LED, 0.0)
     for pose, points in enumerate(taken):
@@ -132,16 +138,10 @@ def own_costs(
             if other != name and np.isfinite(place).all() and np.hypot(*place) > TOGETHER * gap:
                 beside = distance_to_box(place - spots, half)
                 costs = costs + STRAY / poses * (beside < 1.05 * away) + 4.0 / poses * (beside < 0.8 * gap)
-    return costs
-
-
-def over_edge(spots: FloatArray, half: FloatArray, anchors: FloatArray, edges: FloatArray) -> FloatArray:
-    """Return what it costs a label at each of its places to hang over the edges of the sheet, shape (c,)."""
-    places = anchors[:, None] + spots
-    low, high = places - half, places + half
+    places = anchors[name][:, None] + spots
     with np.errstate(invalid="ignore"):
-        out = ((low < edges[[0, 2]]) | (high > edges[[1, 3]])).any(axis=2)
-    return np.asarray(OVERLAP * out.mean(axis=0))
+        out = ((places - half < edges[[0, 2]]) | (places + half > edges[[1, 3]])).any(axis=2)
+    return np.asarray(costs + OVERLAP * out.mean(axis=0))
 
 
 def distance_to_box(away: FloatArray, half: FloatArray) -> FloatArray:
@@ -153,11 +153,3 @@ def is_inside(away: FloatArray, half: FloatArray) -> Mask:
     """Return which ways, shape (..., 2), end within a box about their start; `half` its width and height."""
     wide, high = np.broadcast_to(half, 2)
     return np.asarray((np.abs(away[..., 0]) < wide) & (np.abs(away[..., 1]) < high))
-
-
-def overlaps(
-    spots: FloatArray, half: FloatArray, other: FloatArray, other_half: FloatArray, anchors: FloatArray, others: FloatArray
-) -> FloatArray:
-    """Return at which share of the poses a label at each of its places covers another one, shape (c,)."""
-    between = (anchors - others)[:, None] + spots - other
-    return np.asarray(is_inside(between, half + other_half + 0.5).mean(axis=0))

@@ -28,7 +28,11 @@ def cloud(scene: Scene, at: Places) -> FloatArray:
     edges = [(P, Q) for each in corners if np.isfinite(each).all() for P, Q in zip(each, np.roll(each, -1, axis=0), strict=True)]
     lines = [(segment(P, Q, 0.8 * scene.size), 1.0) for P, Q in edges]
     lines += [(segment(at[P], at[Q], 0.8 * scene.size), half) for P, Q, half in pairs if np.isfinite([at[P], at[Q]]).all()]
-    wide = [line + offset * half * scene.size * _normal(line) for line, half in lines for offset in (-1.0, 0.0, 1.0)]
+    wide = []
+    for line, half in lines:
+        along = line[-1] - line[0]
+        normal = np.array([-along[1], along[0]]) / (np.hypot(*along) or 1.0)
+        wide += [line + offset * half * scene.size * normal for offset in (-1.0, 0.0, 1.0)]
     there = [each for each in (*scene.fed, *scene.load_marks) if np.isfinite([at[name] for name in each.on]).all()]
     beside = [each.placed(each.corners, at) for each in there]
     points = [place[None] for place in at.values() if np.isfinite(place).all()]
@@ -47,12 +51,6 @@ def surrounding_points(scene: Scene, at: Places) -> FloatArray:
     return np.concatenate(found)
 
 
-def _normal(line: FloatArray) -> FloatArray:
-    """Return the unit normal of a line of points."""
-    along = line[-1] - line[0]
-    return np.array([-along[1], along[0]]) / (np.hypot(*along) or 1.0)
-
-
 def props(scene: Scene) -> dict[str, float]:
     """Return the direction in which each ground symbol stands away from its pin [rad]: down where there is room."""
     shown = scene.some(7) or [scene.at(0)]
@@ -61,8 +59,13 @@ def props(scene: Scene) -> dict[str, float]:
     ways: dict[str, float] = {}
     for name, pin in pins.items():
         others = [symbol(place, ways.get(other, DOWN), scene.size) for other, place in pins.items() if other != name]
-        crowd = np.concatenate([covered, *(np.tile(other, (len(shown), 1)) for other in others)]) - pin
-        ways[name] = min(WORTH, key=lambda way: _crowding(crowd / scene.size, way) / len(shown) + WORTH[way])
+        crowd = (np.concatenate([covered, *(np.tile(other, (len(shown), 1)) for other in others)]) - pin) / scene.size
+        costs = {}
+        for way, worth in WORTH.items():  # how many points lie where the symbol would stand
+            along, across = crowd @ np.array([np.cos(way), np.sin(way)]), crowd @ np.array([-np.sin(way), np.cos(way)])
+            inside = (along > 1.2) & (along < 4.6) & (np.abs(across) < 0.6 + 0.65 * along)
+            costs[way] = float(np.count_nonzero(inside)) / len(shown) + worth
+        ways[name] = min(costs, key=costs.__getitem__)
     return ways
 
 
@@ -77,10 +80,3 @@ def label_free(scene: Scene, poses: Sequence[Places]) -> list[FloatArray]:
     symbols = [np.tile(symbol(scene.at(0)[name], way, scene.size), (2, 1)) for name, way in props(scene).items()]
     rails = [segment(start, end, 0.5 * scene.size) for lines in hatched(scene) for start, end in lines]
     return [np.concatenate([cloud(scene, at), *symbols, *rails]) for at in poses]
-
-
-def _crowding(crowd: FloatArray, way: float) -> float:
-    """Return how many points [in sizes, from the pin] lie where a ground symbol would stand."""
-    along = crowd @ np.array([np.cos(way), np.sin(way)])
-    across = crowd @ np.array([-np.sin(way), np.cos(way)])
-    return float(np.count_nonzero((along > 1.2) & (along < 4.6) & (np.abs(across) < 0.6 + 0.65 * along)))

@@ -17,20 +17,8 @@ from ..program import FloatArray
 from ..quantities import as_mapping
 from ..statics import loose_movements
 from ..units import factor, mm, show, shown_in
-from . import style
-from .arrows import (
-    ARROW,
-    ArrowLayer,
-    VectorArrow,
-    Wording,
-    arrow_points,
-    colour_keys,
-    draw_arrows,
-    place_wordings,
-    scale_bar,
-    significant,
-    wordings,
-)
+from . import arrows, style
+from .arrows import ArrowLayer, VectorArrow, Wording
 from .force_arrows import ForceQuestion, force_layer, forces_at_pose, why_no_forces
 from .gap_marks import GapMark, draw_gap, gap_mark, worst_pose
 from .paper import footnote
@@ -103,8 +91,14 @@ class Overlays:
     def centrodes(self, ax: Axes, swept: Motion) -> None:
         """Draw the paths of the poles that are asked for over a motion."""
         if self.pole not in (None, False) and swept.reached.size > 2 and not any(map(np.ndim, (self.rates or {}).values())):
-            for body, other in asked_poles(swept, self.pole):
-                centrode(ax, swept, body, other, self.rates)
+            for body, other in asked_poles(swept, self.pole):  # a thin line, where the sheet shows it
+                with unwarned():
+                    path = swept.pole(body, other, rates=self.rates).reshape(2, -1)
+                path = np.where(np.isfinite(path), path, np.nan)
+                jumps = np.hypot(*np.diff(path)) > 3.0 * np.hypot(np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim()))
+                path[:, 1:][:, jumps] = np.nan
+                line = ax.plot(*path, color=POLE, linewidth=1.1, linestyle=(0, (1.0, 1.6)), zorder=14.0)
+                line[0].set_gid(f"centrode of {body}")
 
 
 NO_OVERLAYS = Overlays()
@@ -156,7 +150,7 @@ class Overlay:
 
     def covered(self, size: float) -> FloatArray:
         """Return points along the arrows, where no name should stand, shape (n, 2) [m]; `size` is that of a pin [m]."""
-        lines = [np.empty((0, 2)), *(arrow_points(layer, layer.scale(self.sheet), size) for layer in self.layers)]
+        lines = [np.empty((0, 2)), *(arrows.arrow_points(layer, layer.scale(self.sheet), size) for layer in self.layers)]
         lines += [gap.outer(0.0) for gap in self.gaps]
         return np.concatenate([*lines, *(mark.at[None] for mark in self.marks if mark.is_near(self.sheet))])
 
@@ -165,8 +159,8 @@ class Overlay:
         covered, texts = [keep_clear], []
         for layer in self.layers:
             scale = layer.scale(self.sheet)
-            covered.append(np.repeat(draw_arrows(ax, layer, scale, size), ARROW, axis=0))
-            texts += wordings(layer, scale, size)
+            covered.append(np.repeat(arrows.draw_arrows(ax, layer, scale, size), arrows.ARROW, axis=0))
+            texts += arrows.wordings(layer, scale, size)
         for mark in self.marks:
             texts += draw_pole(ax, mark, self.sheet, size)
             covered.append(np.repeat(mark.at[None], 12 * mark.is_near(self.sheet), axis=0))
@@ -175,12 +169,12 @@ class Overlay:
             covered.append(np.repeat(gap.outer(size), 6, axis=0))
         sheet_note(ax, self.sentences)
         for layer in self.layers:
-            covered.append(np.repeat(scale_bar(ax, layer, layer.scale(self.sheet), np.concatenate(covered)), ARROW, axis=0))
+            covered.append(np.repeat(arrows.scale_bar(ax, layer, layer.scale(self.sheet), np.concatenate(covered)), arrows.ARROW, axis=0))
         everything = np.concatenate(covered)
         footnote(figure_of(ax), " ".join(layer.sense for layer in self.layers if layer.sense))
-        place_wordings(ax, texts, everything)
-        for line in (key for layer in self.layers for key in colour_keys(layer)):
-            ax.add_line(line)
+        arrows.place_wordings(ax, texts, everything)
+        for layer in self.layers:
+            arrows.add_keys(ax, layer)
 
 
 def sheet_note(ax: Axes, sentences: Sequence[str]) -> None:
@@ -203,8 +197,8 @@ def loose_layers(motion: Motion) -> list[ArrowLayer]:
     found = []
     for number, way in enumerate(loose_movements(motion)):
         colour = (VELOCITY, POLE)[number % 2]
-        arrows = tuple(VectorArrow(f"loose {number + 1} {name}", motion[name], 10.0 * mm * each, colour) for name, each in way.items())
-        found.append(ArrowLayer(arrows, shown_in("mm"), ((colour, said("loose movement {number}", number=number + 1)),)))
+        moves = tuple(VectorArrow(f"loose {number + 1} {name}", motion[name], 10.0 * mm * each, colour) for name, each in way.items())
+        found.append(ArrowLayer(moves, shown_in("mm"), ((colour, said("loose movement {number}", number=number + 1)),)))
     return found
 
 
@@ -213,7 +207,7 @@ def loose_layers(motion: Motion) -> list[ArrowLayer]:
 
 def velocity_layer(motion: Motion, pose: int, rates: Mapping[str, Any]) -> ArrowLayer:
     """Return the velocities of the moving points at a pose as arrows, in m/s; in mm/s where all are slower than 0.1 m/s."""
-    arrows = []
+    moving = []
     at, varied = one_pose(motion, pose), any(np.ndim(rate) for rate in rates.values())  # rates may be arrays over the poses
     notes: tuple[str, ...] = ()
     for name in motion.plan.moving:
@@ -227,22 +221,19 @@ def velocity_layer(motion: Motion, pose: int, rates: Mapping[str, Any]) -> Arrow
             notes = (said("No velocities here: {why}", why=error),)
             continue
         if np.isfinite(v).all():
-            arrows.append(VectorArrow(f"velocity {name}", at[name], v, VELOCITY))
-    most = max((each.length for each in arrows), default=0.0)
-    shown = tuple(each for each in arrows if each.length > 1e-9 * most)
+            moving.append(VectorArrow(f"velocity {name}", at[name], v, VELOCITY))
+    most = max((each.length for each in moving), default=0.0)
+    shown = tuple(each for each in moving if each.length > 1e-9 * most)
     unit = shown_in("m/s" if most >= 0.1 else "mm/s")
-    words = ", ".join(f"{name} {rate_words(motion, name, rate)}" for name, rate in rates.items())
-    return ArrowLayer(shown, unit, ((VELOCITY, said("velocity at {rates}", rates=words)),), notes=notes)
-
-
-def rate_words(motion: Motion, stroke: str, rate: Any) -> str:
-    """Return a stroke's rate in words."""
-    if np.ndim(rate):
-        return said("as given")
-    turns = motion.plan.strokes[stroke].name in motion.plan.turning
-    if turns:
-        return f"{float(rate):.3g} {translated('rad')}/{translated('s')}"
-    return show(float(rate), "m/s", 3)
+    words = []
+    for name, rate in rates.items():
+        if np.ndim(rate):
+            words.append(f"{name} {said('as given')}")
+        elif name in motion.plan.turning:
+            words.append(f"{name} {float(rate):.3g} {translated('rad')}/{translated('s')}")
+        else:
+            words.append(f"{name} {show(float(rate), 'm/s', 3)}")
+    return ArrowLayer(shown, unit, ((VELOCITY, said("velocity at {rates}", rates=", ".join(words))),), notes=notes)
 
 
 def one_pose(motion: Motion, pose: int) -> Motion:
@@ -260,8 +251,15 @@ def pole_marks(motion: Motion, pose: int, asked: Any, rates: Mapping[str, Any] |
     at = one_pose(motion, pose)
     if rates is not None and any(np.ndim(rate) for rate in rates.values()):
         rates = {name: float(np.broadcast_to(rate, motion.shape).ravel()[pose]) for name, rate in rates.items()}
-    pairs = list(asked_poles(motion, asked))
-    return [mark for body, other in pairs for mark in poles_of_pair(at, body, other, rates)]
+    found = []
+    for body, other in asked_poles(motion, asked):
+        if other == "frame":
+            found.append(mark_of(at, body, other, rates, tuple(at[name] for name in whole_body(at.plan, body))))
+        else:  # the pole of two bodies and each one's own stand in one line
+            own = [mark_of(at, each, "frame", rates, ()) for each in (body, other) if each != "frame"]
+            ends = tuple(mark.at for mark in own if np.isfinite(mark.at).all())
+            found += [mark_of(at, body, other, rates, ends), *own]
+    return found
 
 
 def asked_poles(motion: Motion, asked: object) -> Iterator[tuple[str, str]]:
@@ -277,17 +275,6 @@ def asked_poles(motion: Motion, asked: object) -> Iterator[tuple[str, str]]:
         yield str(asked[0]), str(asked[1])
     else:
         raise DefinitionError(f'{title}: pole={cited(asked)}: a body, pole="EDF", two of them, pole=("EDF", "FKG"), or True is expected.')
-
-
-def poles_of_pair(at: Motion, body: str, other: str, rates: Mapping[str, object] | None) -> Iterator[PoleMark]:
-    """Yield the pole of a body against the frame; of two bodies their pole and each one's own, which stand in one line."""
-    if other == "frame":
-        yield mark_of(at, body, other, rates, tuple(at[name] for name in whole_body(at.plan, body)))
-        return
-    own = [mark_of(at, each, "frame", rates, ()) for each in (body, other) if each != "frame"]
-    ends = tuple(mark.at for mark in own if np.isfinite(mark.at).all())
-    yield mark_of(at, body, other, rates, ends)
-    yield from own
 
 
 def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, object] | None, ends: tuple[FloatArray, ...]) -> PoleMark:
@@ -329,24 +316,9 @@ def far_words(mark: PoleMark, sheet: Bounds) -> list[str]:
         return []
     left, right, bottom, top = sheet
     away = mark.at - np.array([0.5 * (left + right), 0.5 * (bottom + top)])
-    far, x, y = (length_words(part) for part in (float(np.hypot(*away)), *mark.at.tolist()))
-    degrees = f"{float(np.degrees(np.arctan2(away[1], away[0]))):.0f}".replace("-", "\N{MINUS SIGN}")
+    unit, minus = shown_in("m"), "\N{MINUS SIGN}"
+    lengths = (arrows.significant(part / factor(unit), 4) for part in (float(np.hypot(*away)), *mark.at.tolist()))
+    far, x, y = (f"{length} {translated(unit)}".replace("-", minus) for length in lengths)
+    degrees = f"{float(np.degrees(np.arctan2(away[1], away[0]))):.0f}".replace("-", minus)
     place = {"far": far, "degrees": degrees, "x": x, "y": y}
     return [said("{name}: off the sheet, {far} away towards {degrees}°, at x = {x}, y = {y}.", name=mark.name, **place)]
-
-
-def length_words(value: float) -> str:
-    """Return a length [m] with four digits, in m or in the unit of a chosen system."""
-    unit = shown_in("m")
-    return f"{significant(value / factor(unit), 4)} {translated(unit)}".replace("-", "\N{MINUS SIGN}")
-
-
-def centrode(ax: Axes, swept: Motion, body: str, other: str, rates: Mapping[str, object] | None) -> None:
-    """Draw the path of a body's pole over a motion as a thin line, where the sheet shows it."""
-    with unwarned():
-        path = swept.pole(body, other, rates=rates).reshape(2, -1)
-    path = np.where(np.isfinite(path), path, np.nan)
-    jumps = np.hypot(*np.diff(path)) > 3.0 * np.hypot(np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim()))
-    path[:, 1:][:, jumps] = np.nan
-    line = ax.plot(*path, color=POLE, linewidth=1.1, linestyle=(0, (1.0, 1.6)), zorder=14.0)
-    line[0].set_gid(f"centrode of {body}")

@@ -28,12 +28,12 @@ from .formulas.mathml import mathml
 from .formulas.typeset import boxes, breakable
 from .language import said
 from .mechanism import Mechanism
-from .motion import Column, Motion, columns_of
+from .motion import Motion, columns_of
 from .motion.limits import Limits
 from .pictures import draw, page_html
 from .pictures.dimensioned import dimensioned
 from .pictures.sheet import Picture
-from .reports import NOTHING, design_rows, stroke_rows
+from .reports import NOTHING, design_rows, stroke_middles, stroke_rows
 from .reports.table import column_texts, flat
 from .shown import Shown, ShownList
 from .statics import PinForces, max_table
@@ -103,14 +103,10 @@ def inline_svg(figure: Figure) -> str:
     with rc_context({"svg.fonttype": "none", "svg.hashsalt": f"linkage {next(PLACES)}"}):
         figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     text = stream.getvalue().decode()
-    return f'<div style="max-width:{figure.get_figwidth() * 96:.0f}px;background:#fff">{responsive(text[text.index("<svg") :])}</div>'
-
-
-def responsive(text: str) -> str:
-    """Return an SVG element that takes the width of its place."""
-    head, _, rest = text.partition(">")
+    head, _, rest = text[text.index("<svg") :].partition(">")
     kept = " ".join(part for part in head.split() if not part.startswith(("width=", "height=")))
-    return f'{kept} style="width:100%;height:auto">{rest}'
+    svg = f'{kept} style="width:100%;height:auto">{rest}'
+    return f'<div style="max-width:{figure.get_figwidth() * 96:.0f}px;background:#fff">{svg}</div>'
 
 
 # -- machines and motions ----------------------------------------------------------------------------------
@@ -118,42 +114,32 @@ def responsive(text: str) -> str:
 
 @html_of.register
 def _(machine: Mechanism) -> str:
-    parts = [html_drawing(machine)] if not any(map(np.ndim, machine.dimensions.values())) else [html_text_block(repr(machine))]
-    strokes = html_table((said("stroke"), "range"), stroke_rows(machine))
-    dimensions = html_table((said("dimension"), said("value")), (row[:2] for row in design_rows(machine)))
-    return html_titled(machine.plan.heading, *parts, strokes, dimensions)
-
-
-def html_drawing(machine: Mechanism) -> str:
-    """Return a machine with its dimensions, its strokes in their middle; where that is out of reach, why."""
     figure = Picture(figsize=(WIDTH, HEIGHT), facecolor="white")
     FigureCanvasAgg(figure)
-    try:
-        middles: dict[str, Any] = {name: 0.5 * (stroke.start + stroke.end) for name, stroke in machine.strokes.items()}
-        dimensioned(figure.add_axes((0.08, 0.08, 0.9, 0.9)), machine.at(**middles))
-    except LinkageError as error:
-        return html_text_block(str(error))
-    return inline_svg(figure)
+    if any(map(np.ndim, machine.dimensions.values())):
+        shown = html_text_block(repr(machine))
+    else:
+        middles: dict[str, Any] = stroke_middles(machine)
+        try:  # with its dimensions, its strokes in their middle; where that is out of reach, why
+            dimensioned(figure.add_axes((0.08, 0.08, 0.9, 0.9)), machine.at(**middles))
+            shown = inline_svg(figure)
+        except LinkageError as error:
+            shown = html_text_block(str(error))
+    strokes = html_table((said("stroke"), "range"), stroke_rows(machine))
+    dimensions = html_table((said("dimension"), said("value")), (row[:2] for row in design_rows(machine)))
+    return html_titled(machine.plan.heading, shown, strokes, dimensions)
 
 
 @html_of.register
 def _(motion: Motion) -> str:
     if motion._design_shape:
         return html_text_block(repr(motion))
-    columns = columns_of(motion)
-    return html_text_block(repr(motion)) + column_table(columns[:MOST_COLUMNS], columns_left_out(len(columns)))
-
-
-def columns_left_out(there: int) -> str:
-    """Return how many columns are left out, in words."""
-    return f"{MOST_COLUMNS} / {there}" if there > MOST_COLUMNS else ""
-
-
-def column_table(columns: Sequence[Column], caption: str = "") -> str:
-    """Return columns as a table, at some of their poses spread over all."""
+    there = columns_of(motion)
+    columns, caption = there[:MOST_COLUMNS], f"{MOST_COLUMNS} / {len(there)}" if len(there) > MOST_COLUMNS else ""
     texts = [column_texts(column, values) for column, values in zip(columns, flat(columns), strict=True)]
     poses = np.unique(np.linspace(0, len(texts[0]) - 1, MOST_ROWS).round().astype(int)).tolist() if texts[0] else []
-    return html_table([column.heading for column in columns], ([text[pose] for text in texts] for pose in poses), caption)
+    rows = ([text[pose] for text in texts] for pose in poses)
+    return html_text_block(repr(motion)) + html_table([column.heading for column in columns], rows, caption)
 
 
 @html_of.register
@@ -163,21 +149,18 @@ def _(limits: Limits) -> str:
 
 @html_of.register
 def _(equations: Equations) -> str:
-    lines = []
-    for each in equations.sheet():
-        lines += [*([f"<p><b>{escape(each.heading)}</b></p>"] if each.heading else []), html_equation(each.number, each.steps)]
-    return "".join(lines)
-
-
-def html_equation(number: int, steps: Iterable[str]) -> str:
-    """Return an equation with its numbers and its own number, as MathML that may break between its terms."""
     form = '<math xmlns="http://www.w3.org/1998/Math/MathML" displaystyle="true">'
-    parts = []
-    for place, step in enumerate(steps):
-        for first, piece in enumerate(breakable(boxes(step))):
-            sign = "<mo>=</mo>" if place and not first else ""
-            parts.append(f"{form}{sign}{mathml(piece)}</math>")
-    return f'<div style="display:flex;gap:1em;margin:.3em 0"><span>({number})</span><div>{" ".join(parts)}</div></div>'
+    lines = []
+    for each in equations.sheet():  # as MathML that may break between its terms
+        parts = []
+        for place, step in enumerate(each.steps):
+            for first, piece in enumerate(breakable(boxes(step))):
+                sign = "<mo>=</mo>" if place and not first else ""
+                parts.append(f"{form}{sign}{mathml(piece)}</math>")
+        lines += [f"<p><b>{escape(each.heading)}</b></p>"] if each.heading else []
+        written = f'<span>({each.number})</span><div>{" ".join(parts)}</div>'
+        lines.append(f'<div style="display:flex;gap:1em;margin:.3em 0">{written}</div>')
+    return "".join(lines)
 
 
 @html_of.register

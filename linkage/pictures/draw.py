@@ -37,20 +37,14 @@ if TYPE_CHECKING:
     from ..loads import Case, Loads
     from .drawing import Drawing
 
+    Drawable = Mechanism | Motion | Optimum | Synthesis | Burmester | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism]
+
 
 @overload
 def draw(machine: Motion, *, ax: Axes, pose: int | tuple[int, ...] = ..., faint: bool = ...) -> Drawing: ...
 @overload
-def draw(machine: Optimum, *, count: int = ...) -> Figure: ...
-@overload
-def draw(machine: Synthesis, *, count: int = ..., answers: int = ...) -> Figure: ...
-@overload
-def draw(machine: Sequence[Assembly]) -> Figure: ...
-@overload
-def draw(machine: Sequence[Mechanism], at: object = ..., path: Sequence[str] = ..., count: int = ...) -> Figure: ...
-@overload
 def draw(
-    machine: Mechanism | Motion,
+    machine: Drawable,
     at: object = ...,
     path: Sequence[str] = ...,
     count: int = ...,
@@ -67,13 +61,10 @@ def draw(
     pole: bool | str | tuple[str, str] = ...,
     clearance: bool | tuple[str, str] = ...,
     freedom: bool = ...,
+    answers: int | None = ...,
 ) -> Figure: ...
-@overload
-def draw(machine: Burmester) -> Figure: ...
-@overload
-def draw(machine: nx.MultiGraph) -> Figure: ...
 def draw(
-    machine: Mechanism | Motion | Optimum | Synthesis | Burmester | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism],
+    machine: Drawable,
     at: object = None,
     path: Sequence[str] = (),
     count: int = 101,
@@ -163,19 +154,6 @@ def draw(
     return draw_machine(machine, at, path, count, overlays, ax=ax, pose=pose, faint=faint)
 
 
-@overload
-def plot(motion: Optimum | WorkingField) -> Figure: ...
-@overload
-def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[object]] | None = ...) -> Figure: ...
-@overload
-def plot(
-    motion: Mechanism,
-    columns: Sequence[Column | RequestLike] = ...,
-    *,
-    limits: Mapping[str, Sequence[object]] | None = ...,
-    at: Mapping[str, object] = ...,
-    count: int = ...,
-) -> Figure: ...
 def plot(
     motion: Motion | Mechanism | Optimum | WorkingField,
     columns: Sequence[Column | RequestLike] = (),

@@ -72,7 +72,7 @@ def animate(
         raise DefinitionError(f"progress={cited(progress)} is no function; give one of (done, total).")
     target, poses = Path(path), frame_count(count)
     kind = target.suffix.lower()
-    if kind not in (*KINDS, ".html"):
+    if kind not in (".gif", ".mp4", ".html"):
         raise DefinitionError(f"{target.name}: an animation is written as .gif, .mp4 or .html; give a name with one of these endings.")
     trace = named_points(machine, machine.featured().path if trace is None else trace, "trace")
     if limit is not None:
@@ -88,27 +88,15 @@ def animate(
     played = playback(machine, poses, column, at=at)
     if limit is None:
         limit = machine.featured().limits.get(played.column.name)
-    KINDS[kind](played, target, trace, limit, report)
+    if kind == ".gif":  # a pose that comes twice is drawn once
+        stage = Stage(played, trace, limit, GIF_DPI)
+        sample = np.concatenate([stage.frame(pose) for pose in (played.order[0], played.order[len(played.order) // 2])])
+        write_gif(target, drawn_frames(stage, list(dict.fromkeys(played.order)), report), played.order, sample)
+    else:
+        stage = Stage(played, trace, limit, MP4_DPI)
+        width, height = stage.canvas.get_width_height()
+        write_mp4(target, drawn_frames(stage, played.order, report), (width, height))
     return target
-
-
-def gif(played: Playback, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
-    """Write a GIF; a pose that comes twice is drawn once."""
-    stage = Stage(played, trace, limit, GIF_DPI)
-    sample = np.concatenate([stage.frame(pose) for pose in (played.order[0], played.order[len(played.order) // 2])])
-    poses = list(dict.fromkeys(played.order))
-    write_gif(target, drawn_frames(stage, poses, progress), played.order, sample)
-
-
-def mp4(played: Playback, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
-    """Write an MP4."""
-    stage = Stage(played, trace, limit, MP4_DPI)
-    width, height = stage.canvas.get_width_height()
-    write_mp4(target, drawn_frames(stage, played.order, progress), (width, height))
-
-
-KINDS = {".gif": gif, ".mp4": mp4}
-"""An ending -> what writes it."""
 
 
 def drawn_frames(stage: Stage, poses: Sequence[int], progress: Progress) -> Iterator[npt.NDArray[np.uint8]]:
@@ -143,7 +131,12 @@ class Stage:
         self.drawing = self._mechanism(paths)
         self.live = self._curve(bound)
         self.stroke = self.figure.text(SHEET[0] + SHEET[2], TITLE, "", fontsize=style.TITLE, color=style.INK, ha="right", va="center")
-        self._remarks()
+        held, lost = self.along.held, unreached_words(playback.motion, self.along.name)
+        at_left = SHEET[0], said("at {place}", place=held) if held else "", style.MUTED, "left"
+        at_right = SHEET[0] + SHEET[2], lost, style.ACCENT, "right"
+        for x, text, colour, side in (at_left, at_right):
+            if text:
+                self.figure.text(x, 0.91, text, fontsize=style.SMALL, color=colour, va="center", ha=side)
         for artist in self._moving:
             artist.set_animated(True)
         self.canvas.draw()
@@ -173,17 +166,6 @@ class Stage:
         self._title(CURVE[0], typeset(self.playback.column.heading))
         self.value = self.figure.text(CURVE[0] + CURVE[2], TITLE, "", fontsize=style.TITLE, color=style.CURVE, ha="right", va="center")
         return tuple(sorted([*ax.lines, *ax.texts], key=lambda artist: artist.get_zorder()))
-
-    def _remarks(self) -> None:
-        """Write under the title the strokes that are held, and what is not reached."""
-        held = self.along.held
-        texts = (
-            (SHEET[0], said("at {place}", place=held) if held else "", style.MUTED, "left"),
-            (SHEET[0] + SHEET[2], unreached_words(self.playback.motion, self.along.name), style.ACCENT, "right"),
-        )
-        for x, text, colour, side in texts:
-            if text:
-                self.figure.text(x, 0.91, text, fontsize=style.SMALL, color=colour, va="center", ha=side)
 
     def _title(self, left: float, text: str) -> None:
         self.figure.text(left, TITLE, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from string import ascii_uppercase
+from textwrap import TextWrapper
 from typing import Any, final
 
 import numpy as np
@@ -129,7 +130,8 @@ def plot_field(field: WorkingField) -> Figure:
     across, down = np.argsort(field.x, kind="stable"), np.argsort(-field.y, kind="stable")
     wide, tall = len(across) * CELL[0], len(down) * CELL[1]
     width = max(LEFT + wide + 0.2, 7.0)
-    lines = [part for line in text.legend() for part in folded(line, int((width - 0.3) * 13.5))]
+    fold = TextWrapper(int((width - 0.3) * 13.5), subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
+    lines = [part for line in text.legend() for part in fold.wrap(line)]
     height = TOP + tall + 0.25 + LINE * len(lines) + 0.15
     figure, (ax,) = panels((width, height), 1)
     figure.set_layout_engine("none")
@@ -164,16 +166,3 @@ def draw_cell(ax: Axes, text: ChartText, colours: Mapping[str, str], corner: tup
     ink: dict[str, Any] = {"color": style.INK, "va": "center", "zorder": 6.0}
     ax.text(x + (0.40 if letter else 0.5) * CELL[0], y, text.load(load), fontsize=style.SMALL, ha="center", **ink)
     ax.text(x + 0.93 * CELL[0], y - 0.02, letter, fontsize=style.SMALL - 1.5, ha="right", **ink)
-
-
-def folded(line: str, most: int) -> Sequence[str]:
-    """Return a line in pieces of at most so many characters, parted between words."""
-    pieces, piece = [], ""
-    for word in line.split(" "):
-        if piece and len(piece) + 1 + len(word) > most:
-            pieces.append(piece)
-            piece = f"    {word}"
-        else:
-            piece = f"{piece} {word}" if piece else word
-    return [*pieces, piece]
-

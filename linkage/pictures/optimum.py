@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-from ..checks import require_type, require_whole
+from ..checks import require_whole
 from ..errors import DefinitionError
 from ..motion import Column, Motion, stroke_display_unit
 from ..motion.measures import At, Leaf, Measure, words_of
@@ -50,7 +50,6 @@ def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
     Of several strokes it is the first, the others in the middle of their ranges. Where the machine before cannot be assembled its frame
     alone is drawn.
     """
-    require_optimum(optimum)
     require_whole("count", count, "a whole number of poses is expected, at least 2", least=2)
     name = next(iter(optimum.machine.strokes))
     before, after = (optimum.problem.along(each, name, count) for each in (optimum.start, optimum.machine))
@@ -64,20 +63,13 @@ def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
     return figure
 
 
-def require_optimum(optimum: object) -> None:
-    """Raise DefinitionError for anything but an optimum."""
-    require_type("", optimum, Optimum, "is no result of a search; give what optimise(...) returns")
-
-
 def overlaid(ax: Axes, before: Motion, after: Motion, pose: int) -> None:
     """Draw a machine before and after at a pose, and how far its pins moved."""
     old, new = Scene(before), Scene(after)
-    shadow = Drawing(ax, old, FAINT)
-    shadow.ground()
-    shadow.update(pose)
-    bold = Drawing(ax, new, STRONG)
-    bold.ground()
-    bold.update(pose)
+    for scene, look in ((old, FAINT), (new, STRONG)):
+        drawing = Drawing(ax, scene, look)
+        drawing.ground()
+        drawing.update(pose)
     here, there = old.at(pose), new.at(pose)
     if not np.isfinite(list(there.values())).all():
         return
@@ -149,7 +141,6 @@ def plot_optimum(optimum: Optimum, count: int = POSES) -> Figure:
 
     Of several strokes it is the first that a quantity depends on; of the others that value counts which is the worst.
     """
-    require_optimum(optimum)
     courses = list(courses_of(optimum, count))
     if not courses:
         title = optimum.problem.plan.title

@@ -57,23 +57,23 @@ def write_title(figure: Figure, text: str, beside: str = "") -> None:
     top = 1.0 - 0.24 / float(figure.get_figheight())
     figure.text(LEFT / float(figure.get_figwidth()), top, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
     if beside:
-        figure.text(
-            1.0 - RIGHT / float(figure.get_figwidth()), top, beside, fontsize=style.TEXT, color=style.MUTED, va="center", ha="right"
-        )
+        at_right(figure, top, beside, style.TEXT, style.MUTED)
+
+
+def at_right(figure: Figure, level: float, text: str, size: float, colour: str) -> None:
+    """Write a text that ends where a sheet does, at a share of the figure's height."""
+    figure.text(1.0 - RIGHT / float(figure.get_figwidth()), level, text, fontsize=size, color=colour, va="center", ha="right")
 
 
 def remark(figure: Figure, ax: Axes, text: str) -> None:
     """Write in a warning colour, above the sheet's right end, what the picture does not show."""
     if text:
-        level = ax.get_position(original=True).y1 + 0.13 / float(figure.get_figheight())
-        right = 1.0 - RIGHT / float(figure.get_figwidth())
-        figure.text(right, level, text, fontsize=style.TEXT, color=style.ACCENT, va="center", ha="right")
+        at_right(figure, ax.get_position(original=True).y1 + 0.13 / float(figure.get_figheight()), text, style.TEXT, style.ACCENT)
 
 
 def footnote(figure: Figure, text: str) -> None:
     """Write in small letters, below the sheet's right end, how to read the picture."""
-    level = 0.11 / float(figure.get_figheight())
-    figure.text(1.0 - RIGHT / float(figure.get_figwidth()), level, text, fontsize=style.SMALL, color=style.MUTED, va="center", ha="right")
+    at_right(figure, 0.11 / float(figure.get_figheight()), text, style.SMALL, style.MUTED)
 
 
 def legend_row(ax: Axes, keys: Sequence[Any], texts: Sequence[str], columns: int = 6) -> None:

@@ -51,7 +51,13 @@ def faint_poses(machine: Mechanism, tried: Motion, bold: int) -> list[int]:
     """Return up to two poses beside the bold one: the ends of what the machine is about, the farther one last, else the opposite one."""
     steps, reached = tried.reached.size, tried.reached.ravel()
     found: list[int] = []
-    for pose in sorted(ends_of_featured(machine, tried), key=lambda pose: -int(way_round(pose, bold, steps))):
+    try:
+        with unwarned():
+            values = column_shown(machine, tried, None).drawn
+    except LinkageError:  # what the machine is about is not to be had
+        values = np.zeros(1)
+    ends = [int(np.nanargmin(values)), int(np.nanargmax(values))] if is_changing(values) else []
+    for pose in sorted(ends, key=lambda pose: -int(way_round(pose, bold, steps))):
         if min(STEP * way_round(pose, other, steps) for other in [bold, *found]) >= SEPARATE:
             found.append(pose)
     opposite = (bold + steps // 2) % steps
@@ -82,7 +88,10 @@ def most_open(tried: Motion, scene: Scene, dead: FloatArray) -> int:
     poses = tried.reached.size
     shares = np.arange(poses) / poses
     degrees = STEP * poses * np.min([way_round(shares, each, 1.0) for each in dead] or [np.ones(poses)], axis=0)
-    nearest = least_distances(scene)
+    places = [scene.places[name] for name in (*scene.pins, *scene.dots)]
+    apart = np.array([np.hypot(*(P - Q)) for P, Q in combinations(places, 2)])
+    apart = apart[np.nanmax(np.ptp(apart, axis=1, keepdims=True), axis=1) > 1e-9 * np.nanmax(apart)]  # not what stays together
+    nearest = np.min(apart, axis=0, initial=np.inf) if apart.size else np.full(poses, np.inf)
     best = float(np.nanmax(np.where(tried.reached.ravel(), nearest, np.nan)))
     is_roomy = nearest >= min(ROOM * scene.size, 0.8 * best) * (1.0 - 1e-9)
     is_clear = degrees > CLEAR
@@ -92,14 +101,6 @@ def most_open(tried: Motion, scene: Scene, dead: FloatArray) -> int:
             break
     open_by = openness(scene) * (np.minimum(nearest / best, 1.0) if 0.0 < best < np.inf else 1.0)
     return int(np.argmax(np.where(allowed, open_by, -np.inf)))
-
-
-def least_distances(scene: Scene) -> FloatArray:
-    """Return how near the two nearest pins are at every pose, shape (n,) [m], of those whose distance changes or is not zero."""
-    places = [scene.places[name] for name in (*scene.pins, *scene.dots)]
-    apart = np.array([np.hypot(*(P - Q)) for P, Q in combinations(places, 2)])
-    apart = apart[np.nanmax(np.ptp(apart, axis=1, keepdims=True), axis=1) > 1e-9 * np.nanmax(apart)]
-    return np.asarray(np.min(apart, axis=0, initial=np.inf) if apart.size else np.full(scene.motion.reached.size, np.inf))
 
 
 def openness(scene: Scene) -> FloatArray:
@@ -121,15 +122,3 @@ def angle_arms(scene: Scene) -> Iterator[tuple[FloatArray, FloatArray]]:
     for one, other in combinations(bodies, 2):
         for pin in set(one) & set(other):
             yield from ((at[P] - at[pin], at[Q] - at[pin]) for P in set(one) - {pin} for Q in set(other) - {pin})
-
-
-def ends_of_featured(machine: Mechanism, tried: Motion) -> list[int]:
-    """Return the poses at which what the machine is about is least and greatest; none where it does not change or is not to be had."""
-    try:
-        with unwarned():
-            values = column_shown(machine, tried, None).drawn
-    except LinkageError:
-        return []
-    if not is_changing(values):
-        return []
-    return [int(np.nanargmin(values)), int(np.nanargmax(values))]

@@ -60,25 +60,21 @@ def draw_machine(
             raise DefinitionError(
                 f"{machine.plan.title}: a motion is drawn at one of its poses, pose=; at=, path= and count= go with a machine."
             )
-        return draw_pose(machine, pose, overlays, ax=ax, faint=faint)
+        return mechanism(ax, machine, pose, faint=faint) if ax is not None else draw_pose(machine, pose, overlays, faint)
     require_mechanism(machine)
     if ax is not None:
         raise DefinitionError(f"{machine.plan.title}: ax= takes a motion, which has poses; write draw(machine.at(...), ax=ax).")
     return draw_strokes(machine, at, path, count, overlays)
 
 
-def draw_pose(
-    motion: Motion, pose: int | tuple[int, ...] = 0, overlays: Overlays = NO_OVERLAYS, *, ax: Axes | None = None, faint: bool = False
-) -> Figure | Drawing:
-    """Return a motion drawn at a pose: as a figure of its own, or as what can be updated on the axes `ax`."""
-    if ax is not None:
-        return mechanism(ax, motion, pose, faint=faint)
+def draw_pose(motion: Motion, pose: int | tuple[int, ...], overlays: Overlays, faint: bool) -> Figure:
+    """Return a figure of a motion at a pose, with what is laid over it."""
     scene = Scene(motion)
     index = scene.index(pose)
     if overlays.forces is not None and overlays.forces.body:
         return draw_free_body(motion, index, overlays.forces)
     if overlays:
-        figure = draw_laid_over(motion, motion, index, overlays)
+        figure = draw_laid_over(motion, index, overlays)
     else:
         figure, own = empty_page(scene.box())
         mechanism(own, motion, pose, faint=faint)
@@ -115,11 +111,15 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
         at = poses.at(last)
         laid.draw(ax, whole.size, np.concatenate([cloud(whole, at), surrounding_points(whole, at), *faint]))
     write_heading(figure, ax, shown, moving)
-    remark(figure, ax, unreached_words(swept, moving[0]) if len(moving) == 1 else unreached_on_the_way(swept))
+    lost = int(np.count_nonzero(~swept.reached))
+    if len(moving) == 1:
+        remark(figure, ax, unreached_words(swept, moving[0]))
+    elif lost:
+        remark(figure, ax, said("not reached at {lost} of {all} poses on the way", lost=lost, all=swept.reached.size))
     return figure
 
 
-def draw_laid_over(motion: Motion, swept: Motion, pose: int, overlays: Overlays) -> Figure:
+def draw_laid_over(motion: Motion, pose: int, overlays: Overlays) -> Figure:
     """Return a figure of a motion at a pose, a flat index, with what is laid over it and what its colours mean."""
     scene = Scene(motion)
     laid = overlays.over(motion, pose, scene.box())
@@ -132,7 +132,7 @@ def draw_laid_over(motion: Motion, swept: Motion, pose: int, overlays: Overlays)
     if pose in scene.reached:
         drawing.label([scene.at(pose)], [laid.covered(scene.size)])
     drawing.update(pose)
-    overlays.centrodes(ax, swept)
+    overlays.centrodes(ax, motion)
     at = scene.at(pose)
     laid.draw(ax, scene.size, np.concatenate([cloud(scene, at), surrounding_points(scene, at)]))
     legend_row(ax, *ax.get_legend_handles_labels())
@@ -203,12 +203,6 @@ def draw_poses(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[Floa
     bold.ground()
     bold.label([scene.at(last)], [points[np.isfinite(points).all(axis=1)] for points in keep_clear])
     bold.update(last)
-
-
-def unreached_on_the_way(swept: Motion) -> str:
-    """Return how much of a way along several strokes is not reached, in words; empty where all of it is."""
-    lost = int(np.count_nonzero(~swept.reached))
-    return said("not reached at {lost} of {all} poses on the way", lost=lost, all=swept.reached.size) if lost else ""
 
 
 def write_heading(figure: Figure, ax: Axes, shown: Motion, moving: Sequence[str]) -> None:

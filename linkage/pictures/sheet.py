@@ -166,14 +166,6 @@ class Picture(Figure):
         wide, high = (round(SCREEN * inches) for inches in self.get_size_inches())
         return drawn.getvalue(), {"width": wide, "height": high}
 
-    def check_pixels(self, path: Path, kind: str, dpi: object) -> None:
-        """Raise DefinitionError where a file of pixels would be too large to draw; `dpi` are its pixels an inch, or the figure's own."""
-        fine = dpi if is_number(dpi) else self.dpi
-        wide, high = (round(min(inches * fine, 1e9)) for inches in self.get_size_inches())
-        if kind.lower() not in VECTORS and not 0 < wide * high <= MOST_PIXELS:
-            most = int(fine * (MOST_PIXELS / (wide * high)) ** 0.5) if wide * high > 0 else int(self.dpi)
-            raise DefinitionError(f"{path}: {pixels_text(wide, high)}; save it with dpi={most} at most, or as .svg or .pdf.")
-
     def savefig(self, fname: Any, **options: Any) -> None:
         """Write the picture into a file, in the format that its name's ending says, or into a stream."""
         if not isinstance(fname, (str, os.PathLike)):
@@ -183,7 +175,12 @@ class Picture(Figure):
         kind = options.pop("format", None) or path.suffix[1:] or str(rcParams["savefig.format"])
         path = path if path.suffix else path.with_name(f"{path.name}.{kind}")
         check_place(path)
-        self.check_pixels(path, kind, options.get("dpi"))
+        dpi = options.get("dpi")
+        fine = dpi if is_number(dpi) else self.dpi
+        wide, high = (round(min(inches * fine, 1e9)) for inches in self.get_size_inches())
+        if kind.lower() not in VECTORS and not 0 < wide * high <= MOST_PIXELS:
+            most = int(fine * (MOST_PIXELS / (wide * high)) ** 0.5) if wide * high > 0 else int(self.dpi)
+            raise DefinitionError(f"{path}: {pixels_text(wide, high)}; save it with dpi={most} at most, or as .svg or .pdf.")
         drawn = BytesIO()
         super().savefig(drawn, format=kind, **options)
         with replacing(path) as stream:

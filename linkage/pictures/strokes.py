@@ -82,26 +82,18 @@ def pose_words(motion: Motion, pose: int, names: Iterable[str] | None = None) ->
 
 
 def others_in_words(motion: Motion, moving: str) -> str:
-    """Return the strokes beside the one that moves, as text, those that move too from where to where; empty for none."""
-    return ", ".join(way_words(motion, name) for name in motion.strokes if name != moving)
-
-
-def way_words(motion: Motion, name: str) -> str:
-    """Return the value of a stroke in a motion as text, or its first, its last, and those where it turns back between."""
-    values = np.ravel(motion.strokes[name])
-    first, *others = (stroke_words(motion.plan, name, float(values[index])) for index in turning_points(values))
-    for text in others:
-        first = said("{low} to {high}", low=first, high=text.removeprefix(f"{name} = "))
-    return first
-
-
-def turning_points(values: FloatArray) -> list[int]:
-    """Return the indices of values, shape (n,), at which they begin, turn back, and end; the first alone where they stand still."""
-    steps = np.flatnonzero(np.diff(values))
-    if not steps.size:
-        return [0]
-    ways = np.sign(np.diff(values)[steps])
-    return [0, *(steps[:-1][ways[1:] != ways[:-1]] + 1).tolist(), len(values) - 1]
+    """Return the strokes beside the one that moves, as text; those that move too from where to where and where they turn back."""
+    found = []
+    for name in [each for each in motion.strokes if each != moving]:
+        values = np.ravel(motion.strokes[name])
+        steps = np.flatnonzero(np.diff(values))
+        ways = np.sign(np.diff(values)[steps])
+        stops = [0, *(steps[:-1][ways[1:] != ways[:-1]] + 1).tolist(), *([len(values) - 1] if steps.size else [])]
+        text, *others = (stroke_words(motion.plan, name, float(values[index])) for index in stops)
+        for other in others:
+            text = said("{low} to {high}", low=text, high=other.removeprefix(f"{name} = "))
+        found.append(text)
+    return ", ".join(found)
 
 
 def unreached_words(motion: Motion, moving: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import final
@@ -95,10 +95,13 @@ class ShownAnswer:
     @cached_property
     def wanted(self) -> FloatArray:
         """The places that the task wants, shape (n, 2) [m]; none for a function."""
-        task = self.task
-        if isinstance(task, PathTask):
-            return task.points
-        return np.stack([task.x, task.y], axis=1) if isinstance(task, PoseTask) else np.empty((0, 2))
+        match self.task:
+            case PathTask(points=points):
+                return points
+            case PoseTask(x=x, y=y):
+                return np.stack([x, y], axis=1)
+            case FunctionTask():
+                return np.empty((0, 2))
 
     @property
     def point(self) -> str:
@@ -121,15 +124,27 @@ def draw_synthesis(found: Synthesis, answers: int = 3, count: int = 101) -> Figu
     if not found.solutions:
         raise StudyError(str(found))
     shown = [ShownAnswer(found, each, place, count) for place, each in enumerate(found.solutions[:answers], 1)]
-    has_curve = isinstance(found.task, FunctionTask)
-    figure, sheets, curves = sheets_beside([each.box() for each in shown], has_curve=has_curve)
+    figure, sheets, curves = sheets_beside([each.box() for each in shown], has_curve=isinstance(found.task, FunctionTask))
     stretch = stretched(shown, [float(np.ptp(ax.get_xlim())) for ax in sheets])
-    for place, (each, ax) in enumerate(zip(shown, sheets, strict=True)):
-        DRAWERS[type(found.task)](ax, each, stretch)
-        write_answer(curves[place] if has_curve else ax, each, alone=len({one.answer.machine.plan.title for one in shown}) == 1)
-        if has_curve:
-            draw_wanted_curve(curves[place], each)
-    write_head(figure, found, stretch)
+    alone = len({one.answer.machine.plan.title for one in shown}) == 1
+    for each, ax, top in zip(shown, sheets, curves or sheets, strict=True):
+        match each.task:
+            case PathTask():
+                draw_path_task(ax, each, stretch)
+            case PoseTask() as task:
+                draw_pose_task(ax, each, task, stretch)
+            case FunctionTask() as task:
+                draw_function_task(ax, top, each, task)
+        write_answer(top, each, alone=alone)
+    heading = said_of(len(found.classes), "{n} class", "{n} classes") if found.classes else found.start.plan.heading
+    write_title(figure, heading, task_words(found))
+    keys, texts = legend_of(found, stretch)
+    width, height = (float(each) for each in figure.get_size_inches())
+    figure.legend(
+        keys, texts, loc="upper left", bbox_to_anchor=(LEFT / width, 1.0 - 0.34 / height), ncols=len(texts), frameon=False,
+        borderaxespad=0.0, borderpad=0.1, fontsize=style.TEXT, labelcolor=style.INK, handlelength=1.6, columnspacing=1.8,
+        handletextpad=0.6,
+    )  # fmt: skip
     return figure
 
 
@@ -149,27 +164,16 @@ def stretched(shown: Sequence[ShownAnswer], sides: Sequence[float]) -> float:
     return float(max((step for step in STRETCHES if step * most <= SEEN), default=1.0))
 
 
-def write_head(figure: Figure, found: Synthesis, stretch: float) -> None:
-    """Write the title, the task in words, and what lines mean."""
-    heading = said_of(len(found.classes), "{n} class", "{n} classes") if found.classes else found.start.plan.heading
-    write_title(figure, heading, task_words(found))
-    keys, texts = legend_of(found, stretch)
-    width, height = (float(each) for each in figure.get_size_inches())
-    figure.legend(
-        keys, texts, loc="upper left", bbox_to_anchor=(LEFT / width, 1.0 - 0.34 / height), ncols=len(texts), frameon=False,
-        borderaxespad=0.0, borderpad=0.1, fontsize=style.TEXT, labelcolor=style.INK, handlelength=1.6, columnspacing=1.8,
-        handletextpad=0.6,
-    )  # fmt: skip
-
-
 def task_words(found: Synthesis) -> str:
     """Return a task in words."""
     task, n = found.task, found.fits[0].rows.count
-    if isinstance(task, PathTask):
-        return said_of(n, "path of {point} through {n} point", "path of {point} through {n} points", point=task.of, n=n)
-    if isinstance(task, PoseTask):
-        return said_of(n, "{n} pose of the body of {points}", "{n} poses of the body of {points}", points=task.of, n=n)
-    return said_of(n, "{quantity} at {n} stroke", "{quantity} at {n} strokes", quantity=words_of(task.of), n=n)
+    match task:
+        case PathTask():
+            return said_of(n, "path of {point} through {n} point", "path of {point} through {n} points", point=task.of, n=n)
+        case PoseTask():
+            return said_of(n, "{n} pose of the body of {points}", "{n} poses of the body of {points}", points=task.of, n=n)
+        case FunctionTask():
+            return said_of(n, "{quantity} at {n} stroke", "{quantity} at {n} strokes", quantity=words_of(task.of), n=n)
 
 
 def legend_of(found: Synthesis, stretch: float) -> tuple[list[Line2D], list[str]]:
@@ -271,10 +275,9 @@ def number_points(ax: Axes, shown: ShownAnswer, ends: FloatArray) -> FloatArray:
 CORNERS = ((-1, -1), (-1, 1), (0, 0), (1, -1), (1, 1))
 
 
-def draw_pose_task(ax: Axes, shown: ShownAnswer, stretch: float) -> None:
+def draw_pose_task(ax: Axes, shown: ShownAnswer, task: PoseTask, stretch: float) -> None:
     """Draw the machine at the first pose, its body faint at the others, and the wanted poses as lines along the body."""
-    task, scene = shown.task, shown.scene
-    assert isinstance(task, PoseTask)
+    scene = shown.scene
     first, second = task.of.split()
     trace(ax, shown.swept[first].reshape(2, -1))
     bodies = [(plate, style.PALETTE[place]) for plate, place in zip(scene.plates, scene.colours, strict=True)]
@@ -289,17 +292,12 @@ def draw_pose_task(ax: Axes, shown: ShownAnswer, stretch: float) -> None:
     draw_machine_at(ax, shown, [draw_wanted(ax, shown, stretch), ends])
 
 
-def draw_function_task(ax: Axes, shown: ShownAnswer, _: float) -> None:
-    """Draw the machine at the first of the task's strokes."""
-    draw_machine_at(ax, shown, [])
-    words = stroke_words(shown.answer.machine.plan, shown.stroke, float(shown.answer.strokes[0]))
-    ax.set_title(words, fontsize=style.SMALL, color=style.MUTED, loc="right", pad=3)
-
-
-def draw_wanted_curve(ax: Axes, shown: ShownAnswer) -> None:
-    """Draw what a machine gives over its stroke, the wanted values, and what is missed at each."""
-    task, plan = shown.task, shown.answer.machine.plan
-    assert isinstance(task, FunctionTask)
+def draw_function_task(sheet: Axes, ax: Axes, shown: ShownAnswer, task: FunctionTask) -> None:
+    """Draw the machine at the first of the task's strokes, what it gives over its stroke, the wanted values and the misses."""
+    plan = shown.answer.machine.plan
+    draw_machine_at(sheet, shown, [])
+    words = stroke_words(plan, shown.stroke, float(shown.answer.strokes[0]))
+    sheet.set_title(words, fontsize=style.SMALL, color=style.MUTED, loc="right", pad=3)
     unit = shown_in(stroke_display_unit(plan, shown.stroke, "mm"))
     measure = measure_of(plan, task.of)
     name, by = typeset(words_of(task.of)), factor(unit)
@@ -320,10 +318,3 @@ def draw_wanted_curve(ax: Axes, shown: ShownAnswer) -> None:
     )  # fmt: skip
     stroke_panel(ax, StrokeAxis(shown.stroke, unit, along / by, ""), "", axis_range(column))
     ax.set_ylabel(column.heading, fontsize=style.TEXT, color=style.MUTED)
-
-
-DRAWERS: dict[type, Callable[[Axes, ShownAnswer, float], None]] = {
-    PathTask: draw_path_task,
-    PoseTask: draw_pose_task,
-    FunctionTask: draw_function_task,
-}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 from textwrap import fill
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,7 +17,7 @@ from ..motion.measures import Leaf
 from ..program import FloatArray
 from ..study.measured import number_bound
 from ..study.monte_carlo import Band, MonteCarlo, share_words
-from ..study.sensitivity import Effect, Tornado
+from ..study.sensitivity import Tornado
 from ..study.tolerances import tolerance_words
 from ..units import factor, show, shown_in, unit_or_none, unit_sign
 from . import style
@@ -51,7 +51,7 @@ def plot_bands(found: MonteCarlo, names: Sequence[str] = (), *, units: Mapping[s
     for ax, band in zip(cells, shown, strict=True):
         unit = unit_or_none((units or {}).get(band.quantity, band.unit), where="units")
         limits = [limit_on(each, partial(is_same, found, band)) for each in found.conditions]
-        band_panel(ax, along, BandShown.of(band, unit), [each for each in limits if each is not None])
+        band_panel(ax, along, band, unit, [each for each in limits if each is not None])
     good = f"; {share_words(found.yield_rate)} are good" if found.conditions else ""
     text = fill(f"{found.count} machines with {words}{good}", int(LETTERS * figure.get_figwidth()))
     legend = figure.legend(
@@ -68,61 +68,41 @@ def is_same(found: MonteCarlo, band: Band, leaf: Leaf) -> bool:
     return leaf.quantity is found.of[band.quantity] if one is None or other is None else one.key == other.key
 
 
-class BandShown(NamedTuple):
-    """A band in the unit it is drawn in, less the nominal curve where it is `narrow`."""
+def band_panel(ax: Axes, along: StrokeAxis, band: Band, unit: str, limits: Sequence[Limit]) -> None:
+    """Draw a band over the stroke: its worst case, the percentiles in pairs from outside, the median, the nominal curve, its limits.
 
-    band: Band
-    unit: str
-    narrow: bool
+    A narrow band is drawn less the nominal curve.
+    """
+    at, narrow = along.values, bool(np.nanmax(band.high - band.low) < NARROW * np.ptp(band.nominal))
 
-    @classmethod
-    def of(cls, band: Band, unit: str) -> BandShown:
-        """Return a band in a unit; whether it is drawn as a deviation follows from its width."""
-        return cls(band, unit, bool(np.nanmax(band.high - band.low) < NARROW * np.ptp(band.nominal)))
+    def drawn(values: FloatArray | float) -> FloatArray:
+        return np.asarray((values - band.nominal * narrow) / factor(shown_in(unit)))
 
-    def values(self, values: FloatArray | float) -> FloatArray:
-        """Return values [SI] as they are drawn."""
-        return np.asarray((values - self.band.nominal * self.narrow) / factor(shown_in(self.unit)))
-
-    @property
-    def heading(self) -> str:
-        """What is drawn, with its unit."""
-        text = self.band.quantity + (", deviation from nominal" if self.narrow else "")
-        return fill(typeset(f"{text}, {unit_sign(self.unit)}" if self.unit else text), WIDEST)
-
-
-def band_panel(ax: Axes, along: StrokeAxis, drawn: BandShown, limits: Sequence[Limit]) -> None:
-    """Draw a band over the stroke: its worst case, the percentiles in pairs from outside, the median, the nominal curve, its limits."""
-    band, at = drawn.band, along.values
-    low, high = drawn.values(band.low), drawn.values(band.high)
+    low, high = drawn(band.low), drawn(band.high)
     ax.fill_between(at, low, high, color=style.CURVE, alpha=0.12, linewidth=0, zorder=2.0, label="worst case")
     for edge in (low, high):
         ax.plot(at, edge, color=style.CURVE, linewidth=style.THIN, alpha=0.6, zorder=2.5)
     outside = sorted(band.percentiles)
     for least, most in zip(outside[: len(outside) // 2], outside[::-1], strict=False):
-        lower, upper = drawn.values(band.percentiles[least]), drawn.values(band.percentiles[most])
+        lower, upper = drawn(band.percentiles[least]), drawn(band.percentiles[most])
         ax.fill_between(at, lower, upper, color=style.CURVE, alpha=0.30, linewidth=0, zorder=3.0, label=f"{least:g} to {most:g} %")
     middle, word = (band.percentiles[50.0], "median") if 50.0 in band.percentiles else (band.mean, "mean")
-    ax.plot(at, drawn.values(middle), color=style.CURVE, linewidth=style.BOLD, zorder=5.0, label=word)
-    ax.plot(at, drawn.values(band.nominal), color=style.INK, linewidth=1.0, linestyle=(0, (4, 3)), zorder=5.5, label="nominal")
+    ax.plot(at, drawn(middle), color=style.CURVE, linewidth=style.BOLD, zorder=5.0, label=word)
+    ax.plot(at, drawn(band.nominal), color=style.INK, linewidth=1.0, linestyle=(0, (4, 3)), zorder=5.5, label="nominal")
     air = 0.12 * float(np.nanmax(high) - np.nanmin(low)) or 1.0
-    stroke_panel(ax, along, drawn.heading, (float(np.nanmin(low)) - air, float(np.nanmax(high)) + air))
-    for limit in limits:
-        limit_line(ax, at, drawn, limit)
-
-
-def limit_line(ax: Axes, at: FloatArray, drawn: BandShown, limit: Limit) -> None:
-    """Draw a limit over the stroke and shade the side that fails; the panel keeps its range, widened by as much again at most."""
-    line = np.broadcast_to(drawn.values(limit.value), at.shape)
-    bottom, top = ax.get_ylim()
-    if not drawn.narrow:
-        bottom, top = max(min(bottom, line.min()), 2.0 * bottom - top), min(max(top, line.max()), 2.0 * top - bottom)
-        ax.set_ylim(bottom, top)
-    if not np.any((line > bottom) & (line < top)):
-        return
-    beyond, where = (top, line < top) if limit.fails == "above" else (bottom, line > bottom)
-    ax.fill_between(at, line, beyond, where=where, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0, interpolate=True)
-    ax.plot(at, line, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.0)
+    text = band.quantity + (", deviation from nominal" if narrow else "")
+    heading = fill(typeset(f"{text}, {unit_sign(unit)}" if unit else text), WIDEST)
+    stroke_panel(ax, along, heading, (float(np.nanmin(low)) - air, float(np.nanmax(high)) + air))
+    for limit in limits:  # the panel keeps its range, widened by as much again at most
+        line = np.broadcast_to(drawn(limit.value), at.shape)
+        bottom, top = ax.get_ylim()
+        if not narrow:
+            bottom, top = max(min(bottom, line.min()), 2.0 * bottom - top), min(max(top, line.max()), 2.0 * top - bottom)
+            ax.set_ylim(bottom, top)
+        if np.any((line > bottom) & (line < top)):
+            beyond, where = (top, line < top) if limit.fails == "above" else (bottom, line > bottom)
+            ax.fill_between(at, line, beyond, where=where, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0, interpolate=True)
+            ax.plot(at, line, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.0)
 
 
 # A tornado: a bar for each dimension, the longest at the top.
@@ -141,7 +121,11 @@ def plot_tornado(found: Tornado) -> Figure:
     figure, (ax,) = panels((7.6, ROW * len(bars) + 1.9), 1, w_pad=0.12, h_pad=0.12)
     scale, unit = factor(shown_in(found.unit)), f", {unit_sign(found.unit)}" if found.unit else ""
     for place, bar in enumerate(bars):
-        draw_bar(ax, bar, place, scale)
+        for change, linear, colour in ((bar.low, bar.linear_low, style.CURVE), (bar.high, bar.linear_high, style.ACCENT)):
+            if np.isfinite(change):
+                ax.barh(place, change / scale, height=0.62, color=colour, alpha=0.85, linewidth=0, zorder=4.0)
+            ax.plot([linear / scale], [place], "|", color=style.INK, markersize=11, markeredgewidth=1.6, zorder=5.0)
+        note(ax, f"{100.0 * bar.share:.0f} %", (1.0, place), (-4, 0), style.MUTED, ("axes fraction", "data"))
     ax.axvline(0.0, color=style.INK, linewidth=1.0, zorder=6.0)
     ax.set_yticks(range(len(bars)), [tolerance_words(found.plan, bar.name, bar.tolerance) for bar in bars])
     ax.tick_params(axis="y", labelsize=style.TEXT, labelcolor=style.INK)
@@ -160,12 +144,3 @@ def plot_tornado(found: Tornado) -> Figure:
     handles.append(ax.plot([], [], "|", color=style.INK, markersize=9, markeredgewidth=1.6, label="as the gradient tells")[0])
     figure.legend(handles=handles, loc="outside lower right", ncols=3, fontsize=style.SMALL, frameon=False, labelcolor=style.INK)
     return figure
-
-
-def draw_bar(ax: Axes, bar: Effect, place: int, scale: float) -> None:
-    """Draw a bar: the changes at either limit, marks of the linear ones, and its share of the variance."""
-    for change, linear, colour in ((bar.low, bar.linear_low, style.CURVE), (bar.high, bar.linear_high, style.ACCENT)):
-        if np.isfinite(change):
-            ax.barh(place, change / scale, height=0.62, color=colour, alpha=0.85, linewidth=0, zorder=4.0)
-        ax.plot([linear / scale], [place], "|", color=style.INK, markersize=11, markeredgewidth=1.6, zorder=5.0)
-    note(ax, f"{100.0 * bar.share:.0f} %", (1.0, place), (-4, 0), style.MUTED, ("axes fraction", "data"))

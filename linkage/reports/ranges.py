@@ -60,14 +60,14 @@ def spans_in_words(spans: Sequence[Range], stroke: str, unit: str = "m") -> str:
     for span in spans if isinstance(spans, (list, tuple)) else [spans]:
         if not (isinstance(span, (list, tuple)) and len(span) == 2 and all(map(is_number, span))):
             raise DefinitionError(f"{cited(span)} is no range; give a list of (start, end) [m or rad].")
-    return with_and(_span_words(low, high, stroke, unit) for low, high in spans)
-
-
-def _span_words(low: float, high: float, stroke: str, unit: str) -> str:
-    first, last = shown_number(low, unit, ".4f"), show(high, unit, ".4f")
-    if low < high:
-        return said("from {name} = {range}", name=stroke, range=said("{low} to {high}", low=first, high=last))
-    return said("at {place}", place=f"{stroke} = {show(low, unit, '.4f')}")
+    words = []
+    for low, high in spans:
+        if low < high:
+            ends = said("{low} to {high}", low=shown_number(low, unit, ".4f"), high=show(high, unit, ".4f"))
+            words.append(said("from {name} = {range}", name=stroke, range=ends))
+        else:
+            words.append(said("at {place}", place=f"{stroke} = {show(low, unit, '.4f')}"))
+    return with_and(words)
 
 
 # What a picture of the whole runs over: one stroke from end to end or several together, the others held.

@@ -69,14 +69,10 @@ def text_table(columns: Sequence[Column], width: int | None = None) -> Iterator[
     for number, block in enumerate(column_blocks(columns, texts, checked_width(width), len(GAP))):
         if number:
             yield ""
-        yield from _lines([columns[index].heading for index in block], [texts[index] for index in block])
-
-
-def _lines(headings: Sequence[str], texts: Sequence[Sequence[str]]) -> Iterator[str]:
-    sizes = [max(map(len, (heading, *text))) for heading, text in zip(headings, texts, strict=True)]
-    yield GAP.join(heading.rjust(size) for heading, size in zip(headings, sizes, strict=True))
-    for row in zip(*texts, strict=True):
-        yield GAP.join(cell.rjust(size) for cell, size in zip(row, sizes, strict=True))
+        listed = [(columns[index].heading, *texts[index]) for index in block]
+        sizes = [max(map(len, each)) for each in listed]
+        for row in zip(*listed, strict=True):
+            yield GAP.join(cell.rjust(size) for cell, size in zip(row, sizes, strict=True))
 
 
 # Results as tables for a terminal.
@@ -105,9 +101,8 @@ def rich_tables(columns: Sequence[Column], width: int | None = None) -> Iterator
 CHUNK = 10_000
 
 
-def as_text(heading: str) -> str:
-    """Return a heading that no spreadsheet takes for a formula: an apostrophe goes before one that begins like one."""
-    return f"'{heading}" if heading[:1] in ("=", "+", "-", "@", "\t", "\r") else heading
+FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
+"""What a spreadsheet's formula begins with: an apostrophe goes before a heading that begins so."""
 
 
 def write_csv(columns: Sequence[Column], stream: TextIO, progress: Callable[[int, int], None] | None = None) -> None:
@@ -120,7 +115,8 @@ def write_csv(columns: Sequence[Column], stream: TextIO, progress: Callable[[int
         raise DefinitionError(f'{cited(stream)} is no open file; write into open("table.csv", "w", newline="").')
     total = len(values[0])
     writer = csv.writer(stream)
-    writer.writerow(as_text(column.heading) for column in columns)
+    headings = [column.heading for column in columns]
+    writer.writerow(f"'{each}" if each.startswith(FORMULA_STARTS) else each for each in headings)
     for start in range(0, total, CHUNK):
         rows = zip(*(each[start : start + CHUNK].tolist() for each in values), strict=True)
         writer.writerows([["" if value != value else repr(value) for value in row] for row in rows])

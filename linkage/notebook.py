@@ -29,7 +29,6 @@ from .formulas.typeset import boxes, breakable
 from .language import said
 from .mechanism import Mechanism
 from .motion import Motion, columns_of
-from .motion.limits import Limits
 from .pictures import draw, page_html
 from .pictures.dimensioned import dimensioned
 from .pictures.sheet import Picture
@@ -143,11 +142,6 @@ def _(motion: Motion) -> str:
 
 
 @html_of.register
-def _(limits: Limits) -> str:
-    return html_text_block(str(limits))
-
-
-@html_of.register
 def _(equations: Equations) -> str:
     form = '<math xmlns="http://www.w3.org/1998/Math/MathML" displaystyle="true">'
     lines = []
@@ -158,7 +152,7 @@ def _(equations: Equations) -> str:
                 sign = "<mo>=</mo>" if place and not first else ""
                 parts.append(f"{form}{sign}{mathml(piece)}</math>")
         lines += [f"<p><b>{escape(each.heading)}</b></p>"] if each.heading else []
-        written = f'<span>({each.number})</span><div>{" ".join(parts)}</div>'
+        written = f"<span>({each.number})</span><div>{' '.join(parts)}</div>"
         lines.append(f'<div style="display:flex;gap:1em;margin:.3em 0">{written}</div>')
     return "".join(lines)
 

@@ -141,8 +141,15 @@ class Calculation:
         self._compare(each)
 
     def _column(
-        self, number: str, name: str, meaning: str, unit: str, symbol: sympy.Symbol, expr: sympy.Expr,
-        turns: int | None = None, checks: bool = False,
+        self,
+        number: str,
+        name: str,
+        meaning: str,
+        unit: str,
+        symbol: sympy.Symbol,
+        expr: sympy.Expr,
+        turns: int | None = None,
+        checks: bool = False,
     ) -> None:
         i = dict(zip(explicit(X_AXIS), (sympy.S.One, sympy.S.Zero), strict=True))
         exact = expr.xreplace({symbol: value for symbol, value in i.items() if symbol not in self._known})

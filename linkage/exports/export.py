@@ -57,6 +57,12 @@ class ExportJob:
             return self.what
         return reached_somewhere(self.what.at(unreachable="nan", **drawn_strokes(self.what, self.at)))
 
+    @property
+    def machine(self) -> Mechanism:
+        """The machine, where no motion can be written."""
+        assert isinstance(self.what, Mechanism)
+        return self.what
+
 
 class Exporter(ABC):
     """A kind of file. A package adds its own by an entry point of `hydrolinkage.exporters`, whose name is the format's.
@@ -89,12 +95,10 @@ class Workbook(Exporter):
     of_machines = "a workbook follows its dimensions"
 
     def content(self, job: ExportJob) -> bytes:
-        assert isinstance(job.what, Mechanism)
-        return workbook(Calculation(job.what, run_of(job.what, job.at), job.count), job.name)
+        return workbook(Calculation(job.machine, run_of(job.machine, job.at), job.count), job.name)
 
     def poses(self, job: ExportJob) -> Motion:
-        assert isinstance(job.what, Mechanism)
-        return job.what.at(unreachable="nan", **run_of(job.what, job.at).over(np.linspace(0.0, 1.0, job.count)))
+        return job.machine.at(unreachable="nan", **run_of(job.machine, job.at).over(np.linspace(0.0, 1.0, job.count)))
 
 
 @final
@@ -219,7 +223,7 @@ def export(
     return file
 
 
-def check_exportable(what: Any, exporter: Exporter, at: Any, trace: Any, columns: Any) -> None:
+def check_exportable(what: Mechanism | Motion, exporter: Exporter, at: object, trace: object, columns: object) -> None:
     """Raise DefinitionError for what is neither a machine nor a motion, and for what does not go with a kind of file."""
     if not isinstance(what, Motion):
         require_mechanism(what)

@@ -250,7 +250,7 @@ class PlacedWording:
     @cached_property
     def leaders(self) -> FloatArray:
         """Points along the leading lines of its far spots, shape (k, n, 2) [pixels]."""
-        far = self.spots[FIRST_LED :]
+        far = self.spots[FIRST_LED:]
         nearest = np.clip(self.anchor, far - self.half, far + self.half)
         return np.asarray(nearest[:, None] + ALONG_LEADER * (self.anchor - nearest)[:, None])
 
@@ -263,7 +263,7 @@ class PlacedWording:
         outside = ((low < inside.min) | (high > inside.max)).any(axis=(1, 2))
         costs = COVERED_TEXT * over + 1.0 * covered + OFF_SHEET * outside + 0.04 * np.arange(len(self.spots))
         inner = (self.leaders[:, :, None] > texts[:, :2]) & (self.leaders[:, :, None] < texts[:, 2:])
-        costs[FIRST_LED :] += LEADING + CROSSED_TEXT * np.any(np.all(inner, axis=3), axis=1).sum(axis=1)
+        costs[FIRST_LED:] += LEADING + CROSSED_TEXT * np.any(np.all(inner, axis=3), axis=1).sum(axis=1)
         self.place = int(np.argmin(costs))
 
     def write(self, ax: Axes) -> None:

@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ..checks import require
 from ..disk import check_place, replacing_text
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError
 from ..mechanism import Mechanism, played_along, require_mechanism
 from ..motion import Column, Motion, RequestLike, live_text
 from ..reports import NOTHING, At
@@ -66,8 +67,8 @@ def page(
     """
     if not isinstance(machine, (Motion, WorkingField, Synthesis)):
         require_mechanism(machine)
-    if not isinstance(path, (str, os.PathLike)) or Path(path).suffix.lower() != ".html":
-        raise DefinitionError(f"{cited(path)} is no name of a page; give one that ends in .html.")
+    is_page = isinstance(path, (str, os.PathLike)) and Path(path).suffix.lower() == ".html"
+    require(is_page, "", path, "is no name of a page; give one that ends in .html")
     target = Path(path)
     if isinstance(machine, WorkingField):
         if any(each is not None for each in (vary, columns, column, trace, limit)) or at or count != COUNT:

@@ -10,6 +10,7 @@ from typing import Any, cast, final
 
 import numpy as np
 
+from ..checks import require, require_type
 from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, unwarned
 from ..language import heading_of, language, translated
 from ..loads import AT_REST, PLAIN, TwoPoint
@@ -189,9 +190,8 @@ def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float]
     """Return the dimensions chosen with their ranges [SI] where they are given; None where nothing is chosen."""
     if vary is None:
         return None
-    if not isinstance(vary, (list, tuple, Mapping)):
-        said = f"{machine.plan.title}: vary={cited(vary)}: dimensions are expected"
-        raise DefinitionError(f'{said}, vary=["OB"] or vary=dict(OB=(0.28, 0.34)).')
+    expected = 'dimensions are expected, vary=["OB"] or vary=dict(OB=(0.28, 0.34))'
+    require_type(f"{machine.plan.title}: vary", vary, (list, tuple, Mapping), expected)
     given = dict(vary) if isinstance(vary, Mapping) else dict.fromkeys(vary)
     found: dict[str, tuple[float, float] | None] = {}
     for name, ends in given.items():
@@ -207,16 +207,16 @@ def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float]
 
 def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[float, float]:
     """Return a range that has the design's own value in it; DefinitionError for anything else."""
-    if not isinstance(ends, (list, tuple)) or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
-        said = f"{machine.plan.title}: vary: {name}={cited(ends)}"
-        raise DefinitionError(f"{said}: the least and the greatest value are expected, (0.28, 0.34).")
-    require_kind(machine.plan, name, ends, f"{machine.plan.title}: vary: {name}")
-    if machine.plan.table.entries[name].kind == "length" and ends[0] <= 0.0:
-        raise DefinitionError(f"{machine.plan.title}: vary: {name}={cited(ends)}: a length is above zero; give a least value that is.")
+    what = f"{machine.plan.title}: vary: {name}"
+    is_range = isinstance(ends, (list, tuple)) and len(ends) == 2 and all(map(is_number, ends)) and ends[0] < ends[1]
+    require(is_range, what, ends, "the least and the greatest value are expected, (0.28, 0.34)")
+    require_kind(machine.plan, name, ends, what)
+    is_length = machine.plan.table.entries[name].kind == "length"
+    require(not is_length or ends[0] > 0.0, what, ends, "a length is above zero; give a least value that is")
     low, high = sorted(sign * float(end) for end in ends)
     value = float(machine.dimensions[name])
     if not low <= value <= high:
-        said = f"{machine.plan.title}: vary: {name}={cited(ends)} leaves out the design's own value, {sign * value:.6g}"
+        said = f"{what}={cited(ends)} leaves out the design's own value, {sign * value:.6g}"
         raise DefinitionError(f"{said}; give a range around it in SI, or set the dimension first.")
     return low, high
 
@@ -225,19 +225,20 @@ def chosen_columns(machine: Mechanism, motion: Motion, given: Any) -> dict[str, 
     """Return the columns of a page by name: each, what asks for it, and why it is not followed in the page, or ""."""
     if given is None:
         return column_requests(machine, motion)
-    if not isinstance(given, (list, tuple)) or not given:
-        raise DefinitionError(f'{machine.plan.title}: columns={cited(given)}: a list of columns is expected, such as ["tilt"].')
+    is_list, expected = isinstance(given, (list, tuple)) and given, 'a list of columns is expected, such as ["tilt"]'
+    require(is_list, f"{machine.plan.title}: columns", given, expected)
     own = column_requests(machine, motion) if any(isinstance(each, (str, Column)) for each in given) else {}
     found: dict[str, LiveColumn] = {}
     for each in given:
-        if isinstance(each, str):
-            found[each] = own[known_name("Column", each, own, where=machine.plan.title)]
-        elif isinstance(each, Column):
-            check_poses(each, motion)
-            found[each.name] = own.get(each.name, (each, each.name, "its values were given, and not what asks for them"))
-        else:
-            column = Column.of(motion, each)
-            found[column.name] = column, each, ""
+        match each:
+            case str():
+                found[each] = own[known_name("Column", each, own, where=machine.plan.title)]
+            case Column():
+                check_poses(each, motion)
+                found[each.name] = own.get(each.name, (each, each.name, "its values were given, and not what asks for them"))
+            case _:
+                column = Column.of(motion, each)
+                found[column.name] = column, each, ""
     return found
 
 
@@ -281,7 +282,8 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "moving": sorted((place for place, name in points if name in plan.moving), key=lambda place: -points[place][1].count(".")),
         "meets": meeting_data(plan, names),
         "class": type(machine).__name__,
-        "title": plan.heading, "titleRu": russian_title,
+        "title": plan.heading,
+        "titleRu": russian_title,
         "defaults": {name: plan.defaults[name] for name, value, *_ in dims if value != plan.defaults[name]},
         "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
         "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items()},

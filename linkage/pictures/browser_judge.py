@@ -61,9 +61,7 @@ def where_true(request: Request, which: str) -> NodeRequest:
 class LiveQuestions:
     """The questions of a page, and the rows that they ask the program for, by names of their own."""
 
-    def __init__(
-        self, machine: Mechanism, limits: Mapping[str, Sequence[object]], columns: Mapping[str, LiveColumn], over: object
-    ) -> None:
+    def __init__(self, machine: Mechanism, limits: Mapping[str, Sequence[object]], columns: Mapping[str, LiveColumn], over: object) -> None:
         self.machine, self.judge = machine, machine.judge(over)
         self.by_name: dict[str, RequestLike] = {}
         self.only = [[self.row(each.margin, " only") for each in place.over.only] for place in self.judge.places]

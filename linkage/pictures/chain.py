@@ -76,9 +76,7 @@ def node_places(graph: nx.MultiGraph) -> dict[Any, FloatArray]:
     return {name: np.array([place.real, place.imag]) for name, place in turned.items()}
 
 
-def joint(
-    ax: Axes, name: str, data: dict[str, Any], a: FloatArray, b: FloatArray, bow: float, taken: Sequence[FloatArray]
-) -> FloatArray:
+def joint(ax: Axes, name: str, data: dict[str, Any], a: FloatArray, b: FloatArray, bow: float, taken: Sequence[FloatArray]) -> FloatArray:
     """Return where the mark of a joint stands, shape (2,): on the line between its bodies, bent by a share of its length."""
     bent = 0.5 * (a + b) + 2.0 * bow * np.array([a[1] - b[1], b[0] - a[0]])
     path = Path([a, bent, b], [Path.MOVETO, Path.CURVE3, Path.CURVE3])

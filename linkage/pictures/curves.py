@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..checks import require_type
+from ..checks import require, require_type
 from ..errors import DefinitionError, cited, known_name, unknown
 from ..language import said, translated
 from ..mechanism import Mechanism
@@ -20,7 +20,7 @@ from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..motion.measures import Constraint, Given, Leaf, Least, Most
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
-from ..reports import NOTHING, At, results, run_of
+from ..reports import At, results, run_of
 from ..units import factor, require_measure
 from . import style
 from .sheet import panels, quiet
@@ -35,7 +35,7 @@ LETTERS_AN_INCH = 8.0
 """How many letters of a heading an inch has room for."""
 
 
-def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[object]] | None = None) -> Figure:
+def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], limits: Mapping[str, Sequence[object]] | None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; see `plot`."""
     along, columns = StrokeAxis.of(motion), columns_named(motion, columns)
     if limits is not None:
@@ -54,11 +54,7 @@ def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], *, limi
 
 
 def plot_machine(
-    machine: Mechanism,
-    columns: Sequence[Column | RequestLike] = (),
-    limits: Mapping[str, Sequence[object]] | None = None,
-    at: At = NOTHING,
-    count: int = 101,
+    machine: Mechanism, columns: Sequence[Column | RequestLike], limits: Mapping[str, Sequence[object]] | None, at: At, count: int
 ) -> Figure:
     """Return a figure of a machine's results over the run that `at` says, those it is about unless others are named."""
     featured = machine.featured()
@@ -68,7 +64,8 @@ def plot_machine(
     if isinstance(shown, (list, tuple)):
         shown = [own.get(each, each) if isinstance(each, str) else each for each in shown]
     names = [each.name if isinstance(each, Column) else str(each) for each in shown]
-    return plot_motion(motion, shown, limits={name: limit for name, limit in featured.limits.items() if name in names} | dict(limits or {}))
+    own_limits = {name: limit for name, limit in featured.limits.items() if name in names}
+    return plot_motion(motion, shown, own_limits | dict(limits or {}))
 
 
 def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> list[Column]:
@@ -140,8 +137,8 @@ class Limit(NamedTuple):
 def limit_of(given: Sequence[object], unit: str = "") -> Limit:
     """Return a limit from a tuple of its parts; DefinitionError for a side that is neither above nor below, and for another `unit`."""
     parts = tuple(given) if isinstance(given, (list, tuple)) else ()
-    if not 1 <= len(parts) <= 3 or not is_number(parts[0]) or not all(isinstance(each, str) for each in parts[1:]):
-        raise DefinitionError(f'{cited(given)} is no limit; write (value [SI], text) or (value, text, "below").')
+    is_limit = 1 <= len(parts) <= 3 and is_number(parts[0]) and all(isinstance(each, str) for each in parts[1:])
+    require(is_limit, "", given, 'is no limit; write (value [SI], text) or (value, text, "below")')
     found = Limit(*parts)
     if unit:
         require_measure(found.value, unit, f"the limit {found.text}".rstrip())

@@ -19,12 +19,11 @@ from ..program import FloatArray
 from ..quantities import Quantity, Stroke, spelled
 from ..units import shown_number
 from . import style
-from .drawing import Drawing
+from .drawing import draw_scene
 from .layout import cloud
 from .scene import Bounds, Places, Scene
 from .shapes import segment
 from .sheet import points_a_metre, sheet
-from .style import STRONG
 
 AWAY = (1.7, 2.7, 3.8, 5.0, 6.4, 8.0)
 """The distances from the link that a dimension line tries, in heights of its letters."""
@@ -52,11 +51,8 @@ def dimensioned(ax: Axes, motion: Motion, pose: int = 0) -> None:
     (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
     index = scene.index(pose)
     at = scene.at(index)
-    drawing = Drawing(ax, scene, STRONG)
-    drawing.ground()
     placed = list(placed_dimensions(scene, at, index, points_a_metre(ax), (left, right, bottom, top)))
-    drawing.label([at], [each.covered for each in placed])
-    drawing.update(index)
+    draw_scene(ax, scene, index, [each.covered for each in placed])
     for each in placed:
         each.draw(ax)
 
@@ -155,9 +151,7 @@ def placed_dimensions(scene: Scene, at: Places, pose: int, scale: float, box: Bo
     taken = [cloud(scene, at)]
     for ends, corner, text in given_dimensions(scene.motion, at, pose):
         places = line_choices(text, *ends, letter) if corner is None else arc_choices(text, corner, *ends, letter)
-        choices: list[LengthLine | AngleArc] = [
-            each for each in places if np.all((each.covered > low) & (each.covered < high))
-        ]
+        choices: list[LengthLine | AngleArc] = [each for each in places if np.all((each.covered > low) & (each.covered < high))]
         points = np.concatenate(taken)
         costs = [covering(each, points) + 1.2 * (rank // 2) for rank, each in enumerate(choices)]
         if costs and min(costs) < MOST:

@@ -36,12 +36,13 @@ if TYPE_CHECKING:
 
     from ..loads import Case, Loads
     from .drawing import Drawing
+    from .scene import Pose
 
     Drawable = Mechanism | Motion | Optimum | Synthesis | Burmester | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism]
 
 
 @overload
-def draw(machine: Motion, *, ax: Axes, pose: int | tuple[int, ...] = ..., faint: bool = ...) -> Drawing: ...
+def draw(machine: Motion, *, ax: Axes, pose: Pose = ..., faint: bool = ...) -> Drawing: ...
 @overload
 def draw(
     machine: Drawable,
@@ -50,7 +51,7 @@ def draw(
     count: int = ...,
     *,
     ax: None = ...,
-    pose: int | tuple[int, ...] = ...,
+    pose: Pose = ...,
     faint: bool = ...,
     forces: bool | str = ...,
     loads: Loads = ...,
@@ -70,7 +71,7 @@ def draw(
     count: int = 101,
     *,
     ax: Axes | None = None,
-    pose: int | tuple[int, ...] = 0,
+    pose: Pose = 0,
     faint: bool = False,
     forces: bool | str = False,
     loads: Loads = None,
@@ -151,7 +152,7 @@ def draw(
             raise DefinitionError(f"{title}: a search's result is drawn at the ends of its stroke; it takes count= alone.")
         return draw_optimum(machine, count)
     overlays = Overlays(force_question(forces, loads, case, direction, drive, velocities), velocities, pole, clearance, freedom)
-    return draw_machine(machine, at, path, count, overlays, ax=ax, pose=pose, faint=faint)
+    return draw_machine(machine, at, path, count, overlays, ax, pose, faint)
 
 
 def plot(
@@ -185,4 +186,4 @@ def plot(
         return plot_machine(motion, columns, limits, at, count)
     if at or count != 101:
         raise DefinitionError("plot(motion, ...): a motion has its poses; at= and count= go with a machine, plot(machine, at=...).")
-    return plot_motion(motion, columns, limits=limits)
+    return plot_motion(motion, columns, limits)

@@ -23,14 +23,14 @@ from ..program import FloatArray
 from . import style
 from .labels import LabelPart, offsets
 from .layout import label_free, props
-from .scene import DrawnMark, Places, Plate, Scene
+from .scene import DrawnMark, Places, Plate, Pose, Scene
 from .shapes import rounded_outline
 from .sheet import MOST_PIXELS, pixels_text, points_a_metre, sheet
 from .style import FAINT, STRONG, Look
 from .symbols import MovingPart, SlotPart, added, ground, polygon, rails
 
 
-def mechanism(ax: Axes, motion: Motion, pose: int | tuple[int, ...] = 0, *, faint: bool = False) -> Drawing:
+def mechanism(ax: Axes, motion: Motion, pose: Pose = 0, *, faint: bool = False) -> Drawing:
     """Return the mechanism drawn on axes at a pose of a motion; `update` moves it to another.
 
     The pose is an index into the strokes, an int for the flat one. Empty axes become a sheet with equal scales that
@@ -42,11 +42,20 @@ def mechanism(ax: Axes, motion: Motion, pose: int | tuple[int, ...] = 0, *, fain
     index = scene.index(pose)
     if not ax.has_data():
         sheet(ax, scene.box())
-    drawing = Drawing(ax, scene, FAINT if faint else STRONG)
+    return draw_scene(ax, scene, index, None, FAINT) if faint else draw_scene(ax, scene, index, ())
+
+
+def draw_scene(ax: Axes, scene: Scene, pose: int, keep_clear: Sequence[FloatArray] | None, look: Look = STRONG, **names: Any) -> Drawing:
+    """Return a mechanism drawn at a pose, a flat index, with its ground and the names of its points.
+
+    These keep clear of points, shape (n, 2) each [m], and `names` says more of them, as `Drawing.label` takes it; without points to keep
+    clear of, None, there are no names.
+    """
+    drawing = Drawing(ax, scene, look)
     drawing.ground()
-    if not faint:
-        drawing.label([scene.at(index)] if index in scene.reached else [])
-    drawing.update(index)
+    if keep_clear is not None:
+        drawing.label([scene.at(pose)] if pose in scene.reached else [], keep_clear, **names)
+    drawing.update(pose)
     return drawing
 
 

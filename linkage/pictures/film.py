@@ -17,9 +17,9 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 from PIL import Image
 
-from ..checks import require_type
+from ..checks import require, require_type
 from ..disk import check_place, replacing, spoken
-from ..errors import DefinitionError, FileError, LinkageError, cited
+from ..errors import DefinitionError, FileError, LinkageError
 from ..language import said
 from ..mechanism import Mechanism, played_along, require_mechanism
 from ..motion import Motion
@@ -68,8 +68,8 @@ def animate(
         machine, at = played_along(machine, at)
     require_mechanism(machine)
     require_type("", path, (str, os.PathLike), "is no path of a file; give one that ends in .gif, .mp4 or .html")
-    if progress is not None and (not callable(progress) or isinstance(progress, type)):
-        raise DefinitionError(f"progress={cited(progress)} is no function; give one of (done, total).")
+    is_function = progress is None or (callable(progress) and not isinstance(progress, type))
+    require(is_function, "progress", progress, "is no function; give one of (done, total)")
     target, poses = Path(path), frame_count(count)
     kind = target.suffix.lower()
     if kind not in (".gif", ".mp4", ".html"):

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, final
+from typing import TypeAlias, final
 
 import numpy as np
 
 from ..checks import require_type
 from ..errors import AssemblyError, DefinitionError, SingularError, unknown, unwarned
 from ..language import noted, said, translated
-from ..loads import ForceElement
+from ..loads import Case, ForceElement, Loads
 from ..motion import Motion
 from ..program import FloatArray
 from ..quantities import joined_names
@@ -24,6 +24,7 @@ PIN, LOAD, MEMBER, GROUND = "#0072b2", "#d55e00", "#007f5c", "#000000"
 """The colours of pin forces, loads, the ends of cylinders and springs, and of the ground under supports: Okabe and Ito's, one darker."""
 
 FRAME = "frame"
+Rates: TypeAlias = Mapping[str, object] | None
 
 SENSE = noted("A pin force is drawn as it acts on the body named; where none is named, from the frame on what it holds.")
 
@@ -34,18 +35,18 @@ class ForceQuestion:
     """Which forces are drawn: all, or those on one body; and of which loads, as `pin_forces` takes them."""
 
     body: str = ""
-    loads: Any = None
-    case: Any = None
+    loads: Loads = None
+    case: Case = None
     direction: str = "frictionless"
     drive: str | None = None
-    rates: Mapping[str, Any] | None = None
+    rates: Rates = None
 
     def asked(self, motion: Motion) -> PinForces:
         """Return the forces of a motion."""
         return pin_forces(motion, self.loads, case=self.case, direction=self.direction, drive=self.drive, rates=self.rates)
 
 
-def force_question(forces: object, loads: Any, case: Any, direction: str, drive: str | None, rates: Any) -> ForceQuestion | None:
+def force_question(forces: object, loads: Loads, case: Case, direction: str, drive: str | None, rates: Rates) -> ForceQuestion | None:
     """Return what `draw(forces=...)` asks for, None where it asks for nothing; DefinitionError for what is neither."""
     if forces is False or forces is None:
         given = {"loads": loads, "case": case, "drive": drive}

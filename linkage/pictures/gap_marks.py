@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from ..errors import DefinitionError, cited, unwarned
+from ..checks import require, require_type
+from ..errors import unwarned
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import Motion, Request, clearance, gap, least, nearest_places, pair_at
@@ -59,10 +60,10 @@ def asked_pair(given: object, plan: Plan) -> tuple[str, str] | None:
     """Return the two bodies that `draw(clearance=...)` names, None for those that come nearest; DefinitionError for what is neither."""
     if given is True:
         return None
-    if isinstance(given, (list, tuple)) and len(given) == 2 and all(isinstance(each, str) for each in given):
-        return str(given[0]), str(given[1])
-    what = f"{plan.title}: clearance={cited(given)}"
-    raise DefinitionError(f'{what}: say clearance=True for what the machine\'s Planes keep apart, or two bodies, clearance=("OBC", "MK").')
+    expected = 'say clearance=True for what the machine\'s Planes keep apart, or two bodies, clearance=("OBC", "MK")'
+    pair = require_type(f"{plan.title}: clearance", given, (list, tuple), expected, of=str)
+    require(len(pair) == 2, f"{plan.title}: clearance", given, expected)
+    return str(pair[0]), str(pair[1])
 
 
 def gap_request(given: object, plan: Plan) -> Request:

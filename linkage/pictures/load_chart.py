@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import cached_property
 from string import ascii_uppercase
 from textwrap import TextWrapper
 from typing import Any, final
@@ -33,80 +31,44 @@ LEFT, TOP = 0.85, 0.95
 
 
 @final
-@dataclass(frozen=True, eq=False)
 class ChartText:
-    """What a field says in its units: loads, radii, heights, letters, lines of the legend."""
+    """What a field says in the units and the language that are spoken: loads, radii, heights, letters, lines of the legend.
 
-    field: WorkingField
+    A load that hangs is shown as a mass, as `is_weight` says. `load_size` is the load that is printed as 1 [N]. Each limiter that occurs
+    has one of `letters`; `counts` says in how many cells it limits. `axes` stand across and down the chart.
+    """
 
-    @property
-    def is_weight(self) -> bool:
-        """Whether the load hangs, so that it is shown as a mass."""
-        return is_steady(self.field.along) and self.field.along == (0.0, 1.0)
-
-    @property
-    def unit(self) -> str:
-        """The unit of the loads."""
-        return "t" if self.is_weight else "kN"
-
-    @cached_property
-    def letters(self) -> Mapping[str, str]:
-        """A letter for each limiter that occurs."""
-        named = [each for each in self.field.limiters if each not in (OUT_OF_REACH, NOT_LIMITED)]
+    def __init__(self, field: WorkingField) -> None:
+        self.field = field
+        self.is_weight = is_steady(field.along) and field.along == (0.0, 1.0)
+        self.unit = "t" if self.is_weight else "kN"
+        self.load_size = (g0 if self.is_weight else 1.0) * factor(shown_in(self.unit))
+        self.load_digits, self.length_digits = decimals(2, self.unit), 2 if shown_in("m") == "m" else 0
+        named = [each for each in field.limiters if each not in (OUT_OF_REACH, NOT_LIMITED)]
         signs = [*ascii_uppercase, *(a + b for a in ascii_uppercase for b in ascii_uppercase)]
-        return dict(zip(named, signs, strict=False))
+        self.letters = dict(zip(named, signs, strict=False))
+        self.counts = {name: int(np.sum(field.limiter == name)) for name in self.letters}
+        what = said("lift capacity at {point}", point=field.point)
+        if not self.is_weight:
+            x, y = (f"{each:.3g}" if is_number(each) else words_of(each) for each in field.along)
+            what = said("force at {point} against ({x}, {y})", point=field.point, x=x, y=y)
+        self.title = f"{field.machine.plan.heading}: {what}, {unit_sign(self.unit)}"
+        unit = unit_sign("m")
+        self.axes = said("radius from the frame's origin, {unit}", unit=unit), said("height, {unit}", unit=unit)
 
     def load(self, value: float) -> str:
         """Return a load [N] as it is printed."""
         if np.isnan(value):
             return ""
-        if np.isinf(value):
-            return "\N{INFINITY}"
-        return f"{value / self.load_size:.{self.load_digits}f}"
-
-    @property
-    def load_size(self) -> float:
-        """The load that is printed as 1 [N]."""
-        return (g0 if self.is_weight else 1.0) * factor(shown_in(self.unit))
-
-    @property
-    def load_digits(self) -> int:
-        """The decimals of a load."""
-        return decimals(2, self.unit)
+        return "\N{INFINITY}" if np.isinf(value) else f"{value / self.load_size:.{self.load_digits}f}"
 
     def length(self, value: float) -> str:
         """Return a radius or a height [m] as it is printed."""
         return f"{value / factor(shown_in('m')):.{self.length_digits}f}".replace("-", "\N{MINUS SIGN}")
 
-    @property
-    def length_digits(self) -> int:
-        """The decimals of a radius or a height."""
-        return 2 if shown_in("m") == "m" else 0
-
-    @property
-    def title(self) -> str:
-        """What the chart is of."""
-        what = said("lift capacity at {point}", point=self.field.point)
-        if not self.is_weight:
-            x, y = (f"{each:.3g}" if is_number(each) else words_of(each) for each in self.field.along)
-            what = said("force at {point} against ({x}, {y})", point=self.field.point, x=x, y=y)
-        return f"{self.field.machine.plan.heading}: {what}, {unit_sign(self.unit)}"
-
-    @property
-    def axes(self) -> tuple[str, str]:
-        """What stands across and down the chart."""
-        unit = unit_sign("m")
-        return said("radius from the frame's origin, {unit}", unit=unit), said("height, {unit}", unit=unit)
-
-    @property
-    def counts(self) -> Mapping[str, int]:
-        """In how many cells each limiter of `letters` limits."""
-        return {name: int(np.sum(self.field.limiter == name)) for name in self.letters}
-
     def legend(self) -> list[str]:
         """Return the lines under the chart."""
-        counts = self.counts
-        words = [f"{letter}  {heading_of(name)} ({counts[name]})" for name, letter in self.letters.items()]
+        words = [f"{letter}  {heading_of(name)} ({self.counts[name]})" for name, letter in self.letters.items()]
         return [*([said("limited by: {letters}", letters="    ".join(words))] if words else []), *self.terms()]
 
     def terms(self) -> list[str]:

@@ -15,12 +15,11 @@ from ..errors import DefinitionError
 from ..language import said, said_of
 from ..motion import Motion
 from . import style
-from .drawing import Drawing
+from .drawing import draw_scene
 from .paper import footnote, write_title
 from .scene import Scene
 from .sheet import empty_figure, fitted_to
 from .strokes import pose_words
-from .style import STRONG
 
 MOST_MODES = 24
 """The modes on a page; of more, these first ones."""
@@ -35,7 +34,10 @@ def draw_modes(modes: Sequence[Assembly]) -> Figure:
     shown = list(modes)[:MOST_MODES]
     motions = [mode_motion(mode) for mode in shown]
     scenes = [Scene(motion) for motion in motions]
-    extent = extent_of(scenes)
+    boxes = np.array([scene.box(7.0) for scene in scenes if scene.reached])
+    if not boxes.size:
+        raise DefinitionError("All modes stand at a change point here; list them at another stroke, assemblies(S=...).")
+    extent = float(np.max(boxes[:, 1] - boxes[:, 0])), float(np.max(boxes[:, 3] - boxes[:, 2]))  # what any of them takes [m]
     across = min(ACROSS, len(shown))
     rows = -(-len(shown) // across)
     texts = [code_lines(mode) for mode in shown]
@@ -74,14 +76,6 @@ def mode_motion(mode: Assembly) -> Motion:
     return Motion(mode.plan, designs, strokes, "nan")
 
 
-def extent_of(scenes: Sequence[Scene]) -> tuple[float, float]:
-    """Return the width and the height that any of the modes takes, those at a change point left out [m]."""
-    boxes = np.array([scene.box(7.0) for scene in scenes if scene.reached])
-    if not boxes.size:
-        raise DefinitionError("All modes stand at a change point here; list them at another stroke, assemblies(S=...).")
-    return float(np.max(boxes[:, 1] - boxes[:, 0])), float(np.max(boxes[:, 3] - boxes[:, 2]))
-
-
 def draw_mode(ax: Axes, mode: Assembly, scene: Scene, extent: tuple[float, float]) -> None:
     """Draw a mode on small axes that show so much, amid them; the declared one has a coloured frame."""
     x0, x1, y0, y1 = scene.box() if scene.reached else (0.0, 1.0, 0.0, 1.0)
@@ -98,10 +92,7 @@ def draw_mode(ax: Axes, mode: Assembly, scene: Scene, extent: tuple[float, float
             0.5, 0.5, said("stands at a change point here"), transform=ax.transAxes, ha="center", color=style.ACCENT, fontsize=style.SMALL
         )
         return
-    drawing = Drawing(ax, scene, STRONG)
-    drawing.ground()
-    drawing.label([scene.at(scene.reached[0])], all_points=False, font=NAMES)
-    drawing.update(scene.reached[0])
+    draw_scene(ax, scene, scene.reached[0], (), all_points=False, font=NAMES)
 
 
 def code_lines(mode: Assembly) -> list[str]:

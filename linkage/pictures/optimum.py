@@ -24,7 +24,7 @@ from ..study.optimum import unit_of_leaf
 from ..units import factor, mm, shown_in
 from . import style
 from .curves import WIDEST, Limit, axis_range, leaf_bound, limit_on, mark_limit, panel_grid, stroke_panel, typeset
-from .drawing import Drawing
+from .drawing import draw_scene
 from .labels import offsets
 from .layout import label_free
 from .paper import legend_row, sheets_beside, write_title
@@ -67,9 +67,7 @@ def overlaid(ax: Axes, before: Motion, after: Motion, pose: int) -> None:
     """Draw a machine before and after at a pose, and how far its pins moved."""
     old, new = Scene(before), Scene(after)
     for scene, look in ((old, FAINT), (new, STRONG)):
-        drawing = Drawing(ax, scene, look)
-        drawing.ground()
-        drawing.update(pose)
+        draw_scene(ax, scene, pose, None, look)
     here, there = old.at(pose), new.at(pose)
     if not np.isfinite(list(there.values())).all():
         return

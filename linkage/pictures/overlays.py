@@ -10,7 +10,8 @@ from typing import Any, final
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..errors import DefinitionError, SingularError, cited, unwarned
+from ..checks import require, require_type
+from ..errors import DefinitionError, SingularError, unwarned
 from ..language import said, translated
 from ..motion import Motion, rates_of, whole_body
 from ..program import FloatArray
@@ -43,8 +44,8 @@ class Overlays:
 
     forces: ForceQuestion | None = None
     rates: Mapping[str, Any] | None = None
-    pole: Any = None
-    clearance: Any = None
+    pole: object = None
+    clearance: object = None
     freedom: bool = False
 
     def __bool__(self) -> bool:
@@ -99,9 +100,6 @@ class Overlays:
                 path[:, 1:][:, jumps] = np.nan
                 line = ax.plot(*path, color=POLE, linewidth=1.1, linestyle=(0, (1.0, 1.6)), zorder=14.0)
                 line[0].set_gid(f"centrode of {body}")
-
-
-NO_OVERLAYS = Overlays()
 
 
 @final
@@ -246,7 +244,7 @@ def one_pose(motion: Motion, pose: int) -> Motion:
 # Poles of bodies.
 
 
-def pole_marks(motion: Motion, pose: int, asked: Any, rates: Mapping[str, Any] | None) -> list[PoleMark]:
+def pole_marks(motion: Motion, pose: int, asked: object, rates: Mapping[str, Any] | None) -> list[PoleMark]:
     """Return the poles that `draw(pole=...)` asks for at a pose."""
     at = one_pose(motion, pose)
     if rates is not None and any(np.ndim(rate) for rate in rates.values()):
@@ -264,17 +262,17 @@ def pole_marks(motion: Motion, pose: int, asked: Any, rates: Mapping[str, Any] |
 
 def asked_poles(motion: Motion, asked: object) -> Iterator[tuple[str, str]]:
     """Yield the pairs of bodies whose poles are asked for: True means every body that no fixed pin holds."""
-    title = motion.plan.title
     if asked is True:
         fixed, *moving = motion.plan.links
         free = [body.name for body in moving if not set(body.points) & set(fixed.points)] or [body.name for body in moving]
         yield from ((name, "frame") for name in free)
     elif isinstance(asked, str):
         yield asked, "frame"
-    elif isinstance(asked, (list, tuple)) and len(asked) == 2 and all(isinstance(each, str) for each in asked):
-        yield str(asked[0]), str(asked[1])
     else:
-        raise DefinitionError(f'{title}: pole={cited(asked)}: a body, pole="EDF", two of them, pole=("EDF", "FKG"), or True is expected.')
+        what, expected = f"{motion.plan.title}: pole", 'a body, pole="EDF", two of them, pole=("EDF", "FKG"), or True is expected'
+        pair = require_type(what, asked, (list, tuple), expected, of=str)
+        require(len(pair) == 2, what, asked, expected)
+        yield str(pair[0]), str(pair[1])
 
 
 def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, object] | None, ends: tuple[FloatArray, ...]) -> PoleMark:

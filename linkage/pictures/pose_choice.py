@@ -64,9 +64,9 @@ def faint_poses(machine: Mechanism, tried: Motion, bold: int) -> list[int]:
     return found[::-1] or [opposite] * bool(reached[opposite])
 
 
-def way_round(one: Any, other: Any, steps: float) -> Any:
+def way_round(one: FloatArray | float, other: FloatArray | float, steps: float) -> FloatArray:
     """Return how many steps two poses of a round of so many are apart, the shorter way."""
-    return np.minimum(np.abs(one - other), steps - np.abs(one - other))
+    return np.asarray(np.minimum(np.abs(one - other), steps - np.abs(one - other)))
 
 
 def turning_back(finely: Motion) -> FloatArray:

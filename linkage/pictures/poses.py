@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from ..checks import require_type, require_whole
-from ..errors import DefinitionError, cited, known_name
+from ..checks import require, require_type, require_whole
+from ..errors import DefinitionError, known_name
 from ..language import said, said_of
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
@@ -20,14 +20,14 @@ from ..program import FloatArray
 from ..quantities import is_whole, numbers_in
 from ..reports import Run, first_stroke, stroke_middles
 from . import style
-from .drawing import Drawing, mechanism
+from .drawing import Drawing, draw_scene, mechanism
 from .free_body import draw_free_body
 from .gap_marks import worst_strokes
 from .layout import cloud, surrounding_points
-from .overlays import NO_OVERLAYS, Overlays
+from .overlays import Overlays
 from .paper import empty_page, legend_row, remark, write_title
 from .pose_choice import telling_angles
-from .scene import Scene
+from .scene import Pose, Scene
 from .sheet import grown
 from .strokes import is_turn, pose_words, unreached_words
 from .style import FAINT, STRONG
@@ -41,15 +41,7 @@ FILLED = 1.0 / 3.0
 
 
 def draw_machine(
-    machine: Mechanism | Motion,
-    at: object = None,
-    path: Sequence[str] = (),
-    count: int = 101,
-    overlays: Overlays = NO_OVERLAYS,
-    *,
-    ax: Axes | None = None,
-    pose: int | tuple[int, ...] = 0,
-    faint: bool = False,
+    machine: Mechanism | Motion, at: object, path: Sequence[str], count: int, overlays: Overlays, ax: Axes | None, pose: Pose, faint: bool
 ) -> Figure | Drawing:
     """Return a mechanism's figure at chosen strokes, or a motion at one of its poses, on axes if they are given; see `draw`."""
     if ax is not None and overlays:
@@ -67,7 +59,7 @@ def draw_machine(
     return draw_strokes(machine, at, path, count, overlays)
 
 
-def draw_pose(motion: Motion, pose: int | tuple[int, ...], overlays: Overlays, faint: bool) -> Figure:
+def draw_pose(motion: Motion, pose: Pose, overlays: Overlays, faint: bool) -> Figure:
     """Return a figure of a motion at a pose, with what is laid over it."""
     scene = Scene(motion)
     index = scene.index(pose)
@@ -82,7 +74,7 @@ def draw_pose(motion: Motion, pose: int | tuple[int, ...], overlays: Overlays, f
     return figure
 
 
-def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int, overlays: Overlays = NO_OVERLAYS) -> Figure:
+def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int, overlays: Overlays) -> Figure:
     """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint, what is laid over it at that one."""
     path = named_points(machine, path, "path")
     if overlays.has_gap and at is None:
@@ -127,11 +119,7 @@ def draw_laid_over(motion: Motion, pose: int, overlays: Overlays) -> Figure:
     worst = overlays.worst(motion, pose)
     if worst is not None:
         Drawing(ax, scene, FAINT).update(worst)
-    drawing = Drawing(ax, scene, STRONG)
-    drawing.ground()
-    if pose in scene.reached:
-        drawing.label([scene.at(pose)], [laid.covered(scene.size)])
-    drawing.update(pose)
+    draw_scene(ax, scene, pose, [laid.covered(scene.size)])
     overlays.centrodes(ax, motion)
     at = scene.at(pose)
     laid.draw(ax, scene.size, np.concatenate([cloud(scene, at), surrounding_points(scene, at)]))
@@ -181,8 +169,8 @@ def chosen_values(machine: Mechanism, name: str, value: object) -> FloatArray:
     """Return a stroke's values; DefinitionError for anything but finite numbers, one at least."""
     require_kinds(machine.plan, {name: value})
     values = numbers_in(value)
-    if not values.size or not np.isfinite(values).all():
-        raise DefinitionError(f"{machine.plan.title}: at={cited(value)}: values of {name} are expected, such as at=[0.0, 0.1].")
+    is_given = values.size and np.isfinite(values).all()
+    require(is_given, f"{machine.plan.title}: at", value, f"values of {name} are expected, such as at=[0.0, 0.1]")
     return values
 
 
@@ -199,10 +187,7 @@ def draw_poses(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[Floa
     for pose in others:
         Drawing(ax, scene, FAINT).update(pose)
         keep_clear = [*keep_clear, cloud(scene, scene.at(pose))[::3]]
-    bold = Drawing(ax, scene, STRONG)
-    bold.ground()
-    bold.label([scene.at(last)], [points[np.isfinite(points).all(axis=1)] for points in keep_clear])
-    bold.update(last)
+    draw_scene(ax, scene, last, [points[np.isfinite(points).all(axis=1)] for points in keep_clear])
 
 
 def write_heading(figure: Figure, ax: Axes, shown: Motion, moving: Sequence[str]) -> None:

@@ -13,7 +13,8 @@ from typing import TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited
+from ..checks import require
+from ..errors import DefinitionError
 from ..loads import ForceElement, Glyph, Halves, TwoPoint
 from ..motion import Motion, Over, require_motion
 from ..plan import member_sides
@@ -78,6 +79,7 @@ def slide_tracks(motion: Motion) -> Iterator[SlideTrack]:
 
 
 Places: TypeAlias = dict[str, FloatArray]
+Pose: TypeAlias = int | tuple[int, ...]
 Bounds: TypeAlias = tuple[float, float, float, float]
 
 
@@ -223,12 +225,12 @@ class Scene:
         """The poses that can be assembled, as flat indices."""
         return [int(index) for index in np.flatnonzero(self.motion.reached.ravel())]
 
-    def index(self, pose: int | tuple[int, ...]) -> int:
+    def index(self, pose: Pose) -> int:
         """Return the flat index of a pose; DefinitionError where there is none such."""
         shape = self.motion._stroke_shape
-        if not is_whole(pose) and not (isinstance(pose, tuple) and len(pose) == len(shape) and all(map(is_whole, pose))):
-            said = f"{self.motion.plan.title}: pose={cited(pose)}: a place among {shape or 1} poses is expected"
-            raise DefinitionError(f"{said}, a whole number, or of a grid one for each stroke, (2, 0).")
+        is_place = is_whole(pose) or (isinstance(pose, tuple) and len(pose) == len(shape) and all(map(is_whole, pose)))
+        expected = f"a place among {shape or 1} poses is expected, a whole number, or of a grid one for each stroke, (2, 0)"
+        require(is_place, f"{self.motion.plan.title}: pose", pose, expected)
         try:
             return int(range(int(np.prod(shape, dtype=int)))[pose] if not isinstance(pose, tuple) else np.ravel_multi_index(pose, shape))
         except (IndexError, ValueError):

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
 from typing import final
 
 import numpy as np
@@ -16,17 +14,16 @@ from matplotlib.patheffects import withStroke
 from ..checks import require_whole
 from ..errors import StudyError
 from ..language import said, said_of
-from ..motion import Column, Motion, stroke_display_unit
+from ..motion import Column, stroke_display_unit
 from ..motion.kinds import measure_of
 from ..motion.measures import words_of
 from ..program import FloatArray
 from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
 from ..synthesis.synthesis import CLOSEST_CHANGE_POINT, EXACT, miss_unit
-from ..synthesis.tasks import Task
 from ..units import display_unit, factor, show, shown_in
 from . import style
 from .curves import axis_range, stroke_panel, typeset
-from .drawing import BodyPart, Drawing
+from .drawing import BodyPart, draw_scene
 from .labels import offsets
 from .layout import cloud
 from .paper import LEFT, sheets_beside, write_title
@@ -34,7 +31,7 @@ from .poses import trace
 from .scene import Bounds, Scene
 from .sheet import figure_of, grown, points_a_metre
 from .strokes import StrokeAxis, stroke_words
-from .style import FAINT, STRONG
+from .style import FAINT
 
 MOST_ANSWERS = 12
 """The answers in one picture."""
@@ -48,70 +45,37 @@ MOST_NUMBERED = 12
 
 
 @final
-@dataclass(frozen=True, eq=False)
 class ShownAnswer:
-    """An answer as it is drawn: its place, the machine over its whole stroke, and at the points of its task."""
+    """An answer as it is drawn: its place, the task in the names of its class, the stroke that moves, and the point that is to come there.
 
-    found: Synthesis
-    answer: SynthesisedMachine
-    place: int
-    count: int
+    `swept` is the machine over its whole stroke, `reached` where it comes to the points of the task, in `scene` with room for all. `wanted`
+    are the places that the task wants, none for a function, and `met` where the point comes to, shape (n, 2) [m].
+    """
 
-    @cached_property
-    def swept(self) -> Motion:
-        """The machine over its whole stroke."""
-        timing = self.found.fit_of(self.answer).timing
-        return self.motion(timing.start + timing.span * np.linspace(0.0, 1.0, self.count))
-
-    @cached_property
-    def reached(self) -> Motion:
-        """The machine where it comes to the points of its task."""
-        return self.motion(self.answer.strokes)
-
-    def motion(self, strokes: FloatArray) -> Motion:
-        """Return the machine at strokes (n,) [SI]."""
-        fit = self.found.fit_of(self.answer)
-        return self.answer.machine.at(unreachable="nan", **{**fit.held, fit.timing.stroke: strokes})
+    def __init__(self, found: Synthesis, answer: SynthesisedMachine, place: int, count: int) -> None:
+        self.answer, self.place, self.fit = answer, place, found.fit_of(answer)
+        self.task, timing = found.own(answer).task, self.fit.timing
+        self.stroke, self.point = str(timing.stroke), str(self.task.of).split()[0]
+        ways = timing.start + timing.span * np.linspace(0.0, 1.0, count), answer.strokes
+        motions = (answer.machine.at(unreachable="nan", **{**self.fit.held, timing.stroke: way}) for way in ways)
+        self.swept, self.reached = motions
+        self.scene = Scene(self.reached, self.swept)
+        match self.task:
+            case PathTask(points=points):
+                self.wanted = points
+            case PoseTask(x=x, y=y):
+                self.wanted = np.stack([x, y], axis=1)
+            case FunctionTask():
+                self.wanted = np.empty((0, 2))
 
     @property
-    def stroke(self) -> str:
-        """The stroke that moves."""
-        return str(self.found.fit_of(self.answer).timing.stroke)
-
-    @cached_property
-    def scene(self) -> Scene:
-        """The machine at its points, with room for its whole stroke."""
-        return Scene(self.reached, self.swept)
+    def met(self) -> FloatArray:
+        """Where its point comes to, shape (n, 2) [m]."""
+        return np.asarray(self.reached[self.point].T)
 
     def box(self) -> Bounds:
         """Return the box around the machine and its task [m]."""
         return grown(Scene(self.swept).box(), self.wanted, 2.0 * self.scene.size)
-
-    @property
-    def task(self) -> Task:
-        """The task in the names of the answer's class."""
-        return self.found.own(self.answer).task
-
-    @cached_property
-    def wanted(self) -> FloatArray:
-        """The places that the task wants, shape (n, 2) [m]; none for a function."""
-        match self.task:
-            case PathTask(points=points):
-                return points
-            case PoseTask(x=x, y=y):
-                return np.stack([x, y], axis=1)
-            case FunctionTask():
-                return np.empty((0, 2))
-
-    @property
-    def point(self) -> str:
-        """The point that is to come to these places."""
-        return str(self.task.of).split()[0]
-
-    @cached_property
-    def met(self) -> FloatArray:
-        """Where that point comes to, shape (n, 2) [m]."""
-        return np.asarray(self.reached[self.point].T)
 
 
 def draw_synthesis(found: Synthesis, answers: int = 3, count: int = 101) -> Figure:
@@ -196,12 +160,12 @@ def legend_of(found: Synthesis, stretch: float) -> tuple[list[Line2D], list[str]
 
 def write_answer(ax: Axes, shown: ShownAnswer, *, alone: bool) -> None:
     """Write above an answer its place, what it misses, and its least transmission angle; its class unless all are of one."""
-    answer, unit = shown.answer, miss_unit(shown.found.fit_of(shown.answer))
+    answer, unit = shown.answer, miss_unit(shown.fit)
     figure = figure_of(ax)
     place, height = ax.get_position(original=True), float(figure.get_figheight())
     rms, most = show(answer.rms, unit, 4), show(answer.most, unit, 4)
     misses = said("rms {rms}, at most {most} at point {worst}", rms=rms, most=most, worst=answer.worst)
-    is_exact = answer.most <= EXACT * shown.found.fit_of(answer).rows.size
+    is_exact = answer.most <= EXACT * shown.fit.rows.size
     misses = said("exact") if is_exact else misses
     angle = 0.0 if answer.transmission < CLOSEST_CHANGE_POINT else answer.transmission
     least = said("least transmission angle {angle}", angle=show(angle, "deg", 3)) if np.isfinite(angle) else ""
@@ -221,17 +185,7 @@ def draw_path_task(ax: Axes, shown: ShownAnswer, stretch: float) -> None:
     trace(ax, shown.swept[shown.point].reshape(2, -1))
     path = shown.swept[shown.point].reshape(2, -1).T
     numbers = draw_wanted(ax, shown, stretch)
-    draw_machine_at(ax, shown, [numbers, path[np.isfinite(path).all(axis=1)]])
-
-
-def draw_machine_at(ax: Axes, shown: ShownAnswer, keep_clear: Sequence[FloatArray]) -> None:
-    """Draw the machine at the first point of its task, its names clear of some points (n, 2) [m]."""
-    scene = shown.scene
-    drawing = Drawing(ax, scene, STRONG)
-    drawing.ground()
-    if 0 in scene.reached:
-        drawing.label([scene.at(0)], keep_clear, all_points=False)
-    drawing.update(0)
+    draw_scene(ax, shown.scene, 0, [numbers, path[np.isfinite(path).all(axis=1)]], all_points=False)
 
 
 def draw_wanted(ax: Axes, shown: ShownAnswer, stretch: float) -> FloatArray:
@@ -289,13 +243,13 @@ def draw_pose_task(ax: Axes, shown: ShownAnswer, task: PoseTask, stretch: float)
     ends = shown.wanted + long * np.stack([np.cos(task.angle), np.sin(task.angle)], axis=1)
     for start, end in zip(shown.wanted, ends, strict=True):
         ax.plot(*np.stack([start, end], axis=1), color=style.CURVE, linewidth=2.0, zorder=12.0, solid_capstyle="round")
-    draw_machine_at(ax, shown, [draw_wanted(ax, shown, stretch), ends])
+    draw_scene(ax, scene, 0, [draw_wanted(ax, shown, stretch), ends], all_points=False)
 
 
 def draw_function_task(sheet: Axes, ax: Axes, shown: ShownAnswer, task: FunctionTask) -> None:
     """Draw the machine at the first of the task's strokes, what it gives over its stroke, the wanted values and the misses."""
     plan = shown.answer.machine.plan
-    draw_machine_at(sheet, shown, [])
+    draw_scene(sheet, shown.scene, 0, [], all_points=False)
     words = stroke_words(plan, shown.stroke, float(shown.answer.strokes[0]))
     sheet.set_title(words, fontsize=style.SMALL, color=style.MUTED, loc="right", pad=3)
     unit = shown_in(stroke_display_unit(plan, shown.stroke, "mm"))

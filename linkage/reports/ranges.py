@@ -9,8 +9,8 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from .. import motion as between
-from ..checks import require_type
-from ..errors import DefinitionError, cited, known_name
+from ..checks import require, require_type
+from ..errors import DefinitionError, known_name
 from ..language import said, with_and
 from ..mechanism import Mechanism
 from ..motion import Judge, Motion, Request, Run, out_of_reach, require_motion
@@ -58,8 +58,8 @@ def ranges_below_zero(motion: Motion, spare: Spare) -> list[Range]:
 def spans_in_words(spans: Sequence[Range], stroke: str, unit: str = "m") -> str:
     """Return stroke ranges as text: `from S = 0.5500 to 0.5660 m and at S = 0.7000 m`."""
     for span in spans if isinstance(spans, (list, tuple)) else [spans]:
-        if not (isinstance(span, (list, tuple)) and len(span) == 2 and all(map(is_number, span))):
-            raise DefinitionError(f"{cited(span)} is no range; give a list of (start, end) [m or rad].")
+        is_range = isinstance(span, (list, tuple)) and len(span) == 2 and all(map(is_number, span))
+        require(is_range, "", span, "is no range; give a list of (start, end) [m or rad]")
     words = []
     for low, high in spans:
         if low < high:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TextIO
 import numpy as np
 
 from ..checks import require
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError
 from ..motion import Column
 from ..program import FloatArray
 from ..quantities import is_whole
@@ -24,8 +24,8 @@ NO_VALUE = "-"  # stands for NaN: not reached, or not limited
 
 def flat(columns: Sequence[Column]) -> list[FloatArray]:
     """Return the columns' values in their units, one row a pose: broadcast to one shape, the designs outermost."""
-    if not isinstance(columns, (list, tuple)) or not columns or not all(isinstance(each, Column) for each in columns):
-        raise DefinitionError(f"{cited(columns)} is no table; give a list of columns, such as machine.columns(motion).")
+    is_table = isinstance(columns, (list, tuple)) and columns and all(isinstance(each, Column) for each in columns)
+    require(is_table, "", columns, "is no table; give a list of columns, such as machine.columns(motion)")
     try:
         return [each.ravel() for each in np.broadcast_arrays(*(column.shown for column in columns))]
     except ValueError:
@@ -111,8 +111,8 @@ def write_csv(columns: Sequence[Column], stream: TextIO, progress: Callable[[int
     Lines end with CR LF, so a file is to be opened with newline="". `progress(done, total)` hears of the rows written.
     """
     values = flat(columns)
-    if not callable(getattr(stream, "write", None)) or isinstance(stream, type):
-        raise DefinitionError(f'{cited(stream)} is no open file; write into open("table.csv", "w", newline="").')
+    is_open = callable(getattr(stream, "write", None)) and not isinstance(stream, type)
+    require(is_open, "", stream, 'is no open file; write into open("table.csv", "w", newline="")')
     total = len(values[0])
     writer = csv.writer(stream)
     headings = [column.heading for column in columns]

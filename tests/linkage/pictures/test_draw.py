@@ -36,7 +36,6 @@ from linkage import (
 from linkage.pictures import draw, mechanism, plot, style
 from linkage.pictures.curves import limit_crossings
 from linkage.pictures.drawing import BodyPart, MarkPart
-from linkage.pictures.poses import draw_machine
 from linkage.pictures.scene import Scene
 from linkage.pictures.shapes import hull, rounded_outline
 from linkage.pictures.sheet import sheet
@@ -260,7 +259,7 @@ def test_a_batch_of_designs_is_refused():
     with pytest.raises(DefinitionError, match="holds 2 designs and a picture shows one"):
         mechanism(axes(), motion)
     with pytest.raises(DefinitionError, match="2 designs"):
-        draw_machine(ThreePointHitch(OB=[0.29, 0.30]))
+        draw(ThreePointHitch(OB=[0.29, 0.30]), forces=True)
     with pytest.raises(DefinitionError, match="one design and one row"):
         plot(motion, [Column("tilt", motion["tilt"], "deg")])
 

@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol, TypeVar
+from typing import TypeVar
 
 Item = TypeVar("Item")
 
 
-class HtmlWriter(Protocol):
-    """Returns anything that is `Shown` as HTML."""
-
-    def __call__(self, what: object, /) -> str: ...
-
-
-load_writer: Callable[[], HtmlWriter] | None = None
-"""Loads the function that writes HTML, when it is first needed; set by the front door."""
+load_writer: Callable[[], Callable[[object], str]] | None = None
+"""Loads the function that returns anything that is `Shown` as HTML, when it is first needed; set by the front door."""
 
 
 class Shown:

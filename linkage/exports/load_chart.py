@@ -39,14 +39,12 @@ def cell_table(field: WorkingField) -> list[list[Any]]:
     columns = [("x", shown_in("m")), ("y", shown_in("m")), ("load", shown_in(text.unit)), ("limiter", ""), *strokes, ("why", "")]
     found: list[list[Any]] = [[f"{name} [{unit}]" if unit else name for name, unit in columns]]
     for cell in field.cells():
-        row: list[Any] = []
+        row = cell | {"limiter": heading_of(cell["limiter"])}
         for (_, unit), (name, value) in zip(columns, cell.items(), strict=True):
             if isinstance(value, float):
                 shown = value / (g0 if name == "load" and text.is_weight else 1.0) / factor(unit)
-                row.append("" if np.isnan(value) else shown)
-            else:
-                row.append(heading_of(value) if name == "limiter" else value)
-        found.append(row)
+                row[name] = "" if np.isnan(value) else shown
+        found.append([*row.values()])
     return found
 
 
@@ -59,18 +57,18 @@ def chart_workbook(field: WorkingField, name: str) -> bytes:
     stream, text = io.BytesIO(), ChartText(field)
     with xlsxwriter.Workbook(stream, {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False}) as book:
         book.set_properties({"title": field.machine.plan.heading, "comments": f"hydrolinkage: {name}", "created": MADE})
-        bold, number = book.add_format({"bold": True}), book.add_format({"num_format": "0.00"})
-        length = book.add_format({"bold": True, "num_format": "0.00"})
+        looks: tuple[dict[str, object], ...] = ({"bold": True}, {"num_format": "0.00"}, {"bold": True, "num_format": "0.00"})
+        bold, number, length = map(book.add_format, looks)
         chart, letters, cells = (book.add_worksheet(each) for each in ("Chart", "Limiters", "Cells"))
-        across, down = np.argsort(field.x, kind="stable"), np.argsort(-field.y, kind="stable")
+        across, down = text.across.tolist(), text.down.tolist()
         for sheet, title in ((chart, text.title), (letters, text.title)):
             sheet.write_string(0, 0, title, bold)
-            for column, n in enumerate(across.tolist()):
+            for column, n in enumerate(across):
                 sheet.write_number(1, 1 + column, float(field.x[n]) / factor(shown_in("m")), length)
-            for row, k in enumerate(down.tolist()):
+            for row, k in enumerate(down):
                 sheet.write_number(2 + row, 0, float(field.y[k]) / factor(shown_in("m")), length)
-        for row, k in enumerate(down.tolist()):
-            for column, n in enumerate(across.tolist()):
+        for row, k in enumerate(down):
+            for column, n in enumerate(across):
                 load, limiter = float(field.load[k, n]), str(field.limiter[k, n])
                 if np.isfinite(load):
                     chart.write_number(2 + row, 1 + column, load / text.load_size, number)

@@ -67,20 +67,18 @@ class Sheets:
         self.count = calculation.motion.shape[0]
         self.top = int(bool(calculation.headings))
         self.above = ROWS_ABOVE + self.top
-        ink, pale = "#1F2933", "#EEF1F4"
-        head = {"bold": True, "bg_color": pale, "font_color": ink, "border": 1, "border_color": "#C9D1D9", "valign": "top"}
+        ink = "#1F2933"
+        head = {"bold": True, "bg_color": "#EEF1F4", "font_color": ink, "border": 1, "border_color": "#C9D1D9", "valign": "top"}
         self.head = book.add_format(head)
-        self.wrapped = book.add_format({**head, "bold": False, "text_wrap": True, "font_size": 9})
-        dead = {"italic": True, "font_color": "#8A5A00"}
+        wrapped, dead = {**head, "bold": False, "text_wrap": True, "font_size": 9}, {"italic": True, "font_color": "#8A5A00"}
+        self.wrapped, self.dead_wrapped = book.add_format(wrapped), book.add_format({**wrapped, **dead})
         self.dead_head = book.add_format({**head, **dead})
-        self.dead_wrapped = book.add_format({**head, **dead, "bold": False, "text_wrap": True, "font_size": 9})
         self.title = book.add_format({"bold": True, "font_size": 14, "font_color": ink})
         self.text = book.add_format({"font_color": ink})
         self.part = book.add_format({"bold": True, "font_color": ink})
         self.muted = book.add_format({"font_color": "#6B7785", "indent": 1})
-        self.input = book.add_format(
-            {"font_color": "#0000FF", "bg_color": "#FFFBE6", "num_format": "General", "border": 1, "border_color": "#E3D9A8"}
-        )
+        typed = {"font_color": "#0000FF", "bg_color": "#FFFBE6", "num_format": "General", "border": 1, "border_color": "#E3D9A8"}
+        self.input = book.add_format(typed)
         self.plain = book.add_format({"num_format": "General", "font_color": ink})
         self.warning = book.add_format({"bold": True, "font_color": "#C0392B"})
         self._formats: dict[tuple[str, bool], Format] = {}
@@ -92,10 +90,8 @@ class Sheets:
         for sheet in (first, strokes, middle, last, chart):
             sheet.set_landscape()
             sheet.set_paper(9)
-            if sheet is middle:
-                sheet.set_print_scale(45)
-            else:
-                sheet.fit_to_pages(1, 0)
+            sheet.fit_to_pages(1, 0)
+        middle.set_print_scale(45)
         middle.repeat_rows(0, self.above - 1)
         middle.repeat_columns(0, len(self.strokes))
         last.repeat_rows(0, RESULT_ROWS_ABOVE - 1)

@@ -16,17 +16,7 @@ from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
 from ..motion import Condition, HasVerdicts, LiveText, Motion, Over, Request, RequestLike, least, most, speakers
 from ..motion.judge import Sought, measures_of
-from ..motion.measures import (
-    At,
-    CombinedMeasure,
-    Constraint,
-    Given,
-    Integral,
-    Leaf,
-    Measure,
-    conditions_of,
-    dimension_value,
-)
+from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, conditions_of, dimension_value
 from ..motion.over import ALLOWED
 from ..motion.requests import NodeRequest, bound
 from ..plan import Plan

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from matplotlib.colors import to_rgb
@@ -15,7 +14,6 @@ from matplotlib.patches import Polygon
 from ..errors import DefinitionError
 from ..language import said
 from ..mechanism import Mechanism, require_mechanism
-from ..motion import Motion
 from ..reports import Run, dimension_unit, first_stroke, stroke_middles
 from ..units import show
 from . import style
@@ -48,9 +46,13 @@ def draw_designs(machines: Sequence[Mechanism], at: object, path: Sequence[str],
     """
     designs = separated(machines)
     first = designs[0]
-    values = usual_pose(first) if at is None else at
+    if at is None:  # one that goes round where the first is open
+        middles, moving = stroke_middles(first), first_stroke(first)
+        ends = first.strokes[moving].start, first.strokes[moving].end
+        turns = is_turn(first, Run({moving: ends}, {}))
+        at = middles | ({moving: float(telling_angles(first, moving, middles)[-1])} if turns else {})
     path = named_points(first, path, "path")
-    moved = [motions(machine, values, count) for machine in designs]
+    moved = [motions(machine, at, count) for machine in designs]
     shown, swept = [each for _, each, _ in moved], [each for _, _, each in moved]
     scenes = [Scene(motion, over) for motion, over in zip(shown, swept, strict=True)]
     box = joined_box([(Scene(over) if path else scene).box() for over, scene in zip(swept, scenes, strict=True)])
@@ -74,19 +76,15 @@ def draw_designs(machines: Sequence[Mechanism], at: object, path: Sequence[str],
             covered.append(cloud(scene, scene.at(pose))[::2])
     keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in looks]
     legend_row(ax, keys, texts, columns)
-    write_title(figure, first.plan.heading, at_words(shown[0]))
+    words = []
+    for name, value in shown[0].strokes.items():
+        values = np.unique(np.ravel(value))
+        one = values.size == 1
+        words.append(stroke_words(first.plan, name, float(values[0])) if one else said("{name}: {n} values", name=name, n=values.size))
+    write_title(figure, first.plan.heading, ", ".join(words))
     lost = [text for text, scene in zip(texts, scenes, strict=True) if not scene.reached]
     sheet_note(ax, [said("Cannot be assembled here: {designs}.", designs="; ".join(lost))] if lost else [])
     return figure
-
-
-def usual_pose(machine: Mechanism) -> Mapping[str, Any]:
-    """Return where designs are compared unless it is said: every stroke in its middle, one that goes round where the first is open."""
-    middles, moving = stroke_middles(machine), first_stroke(machine)
-    stroke = machine.strokes[moving]
-    if not is_turn(machine, Run({moving: (stroke.start, stroke.end)}, {})):
-        return middles
-    return {**middles, moving: float(telling_angles(machine, moving, middles)[-1])}
 
 
 def let_through(drawing: Drawing) -> None:
@@ -110,21 +108,17 @@ def separated(machines: Sequence[Mechanism]) -> list[Mechanism]:
         shape = np.broadcast_shapes(*(np.shape(value) for value in machine.dimensions.values()))
         number = int(np.prod(shape, dtype=int))
         if number > MOST_DESIGNS:
-            raise DefinitionError(
-                f"{machine.plan.title}: {number} designs do not fit into one picture, {MOST_DESIGNS} do; choose some of them, "
-                "draw([machine.replaced(...), ...])."
-            )
+            said = f"{machine.plan.title}: {number} designs do not fit into one picture, {MOST_DESIGNS} do"
+            raise DefinitionError(f"{said}; choose some of them, draw([machine.replaced(...), ...]).")
         changed = {name: np.broadcast_to(value, shape).ravel() for name, value in machine.dimensions.items() if np.ndim(value)}
         one = [machine.replaced(**{name: float(values[index]) for name, values in changed.items()}) for index in range(number)]
         found += one if changed else [machine]
     if not 0 < len(found) <= MOST_DESIGNS:
         raise DefinitionError(f"draw([...]): {len(found)} designs do not make one picture; give 1 to {MOST_DESIGNS} of them.")
-    for each in found[1:]:
-        if tuple(each.strokes) != tuple(found[0].strokes):
-            names = ", ".join(each.strokes), ", ".join(found[0].strokes)
-            raise DefinitionError(
-                f"draw([...]): {each.plan.title} has the strokes {names[0]} and {found[0].plan.title} {names[1]}; draw them apart."
-            )
+    (title, strokes), *others = ((each.plan.title, ", ".join(each.strokes)) for each in found)
+    for other, names in others:
+        if names != strokes:
+            raise DefinitionError(f"draw([...]): {other} has the strokes {names} and {title} {strokes}; draw them apart.")
     return found
 
 
@@ -140,22 +134,13 @@ def looks_of(count: int) -> list[Look]:
 
 def what_differs(designs: Sequence[Mechanism]) -> list[str]:
     """Return for each design what makes it another than the others: its class where these differ, and the dimensions that do."""
-    titles = [machine.plan.title for machine in designs]
+    titles = {machine.plan.title for machine in designs}
     common = [name for name in designs[0].dimensions if all(name in machine.dimensions for machine in designs)]
     names = [name for name in common if any(a.dimensions[name] != b.dimensions[name] for a, b in pairwise(designs))]
     found = []
-    for machine, heading in zip(designs, titles, strict=True):
-        words = [heading] if len(set(titles)) > 1 else []
+    for machine in designs:
+        words = [machine.plan.title] if len(titles) > 1 else []
         words += [f"{name} = {show(float(machine[name]), dimension_unit(machine, name), 5)}" for name in names[:MOST_NAMED]]
         words += [said("and {n} more", n=len(names) - MOST_NAMED)] if len(names) > MOST_NAMED else []
         found.append(", ".join(words) or said("the same design"))
     return found
-
-
-def at_words(motion: Motion) -> str:
-    """Return the strokes of a motion in words; of several values that they are so many."""
-    values: Mapping[str, Any] = {name: np.unique(np.ravel(value)) for name, value in motion.strokes.items()}
-    return ", ".join(
-        stroke_words(motion.plan, name, float(each[0])) if each.size == 1 else said("{name}: {n} values", name=name, n=each.size)
-        for name, each in values.items()
-    )

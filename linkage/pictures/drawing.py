@@ -24,10 +24,10 @@ from . import style
 from .labels import LabelPart, offsets
 from .layout import label_free, props
 from .scene import DrawnMark, Places, Plate, Pose, Scene
-from .shapes import rounded_outline
+from .shapes import SLOT, rounded_outline
 from .sheet import MOST_PIXELS, pixels_text, points_a_metre, sheet
 from .style import FAINT, STRONG, Look
-from .symbols import MovingPart, SlotPart, added, ground, polygon, rails
+from .symbols import MovingPart, added, ground, polygon, rails
 
 
 def mechanism(ax: Axes, motion: Motion, pose: Pose = 0, *, faint: bool = False) -> Drawing:
@@ -72,8 +72,8 @@ class Drawing:
         plates = zip(scene.plates, (style.PALETTE[place] for place in scene.colours), strict=True)
         self.parts: list[MovingPart] = [
             *(MarkPart(ax, mark, look) for mark in scene.marks if mark.on),
-            *(BodyPart(ax, plate, scene.size, colour, look) for plate, colour in plates),
-            *(SlotPart(ax, track.ends, scene.size, look) for track in scene.tracks if not track.fixed),
+            *(body_part(ax, plate, scene.size, colour, look) for plate, colour in plates),
+            *(slot_part(ax, track.ends, scene.size, look) for track in scene.tracks if not track.fixed),
             *(StayPart(ax, ends, look) for ends in scene.stays),
             *(pin(ax, name, scene.size, look) for name in scene.pins),
             *(dot(ax, name, scene.size * (0.7 if name in scene.minor else 1.0), look) for name in scene.dots),
@@ -125,23 +125,32 @@ class Drawing:
 
 @final
 class BodyPart(MovingPart):
-    """A body as the line around its outermost points, filled."""
+    """The line around the outermost points of a body or a slot, at a radius [m]."""
 
     artists: tuple[Polygon, ...]
 
-    def __init__(self, ax: Axes, form: Plate, radius: float, colour: str, look: Look) -> None:
-        plate = len(form.shares) > 2
-        self.form, self.points, self.radius = form, form.points, radius
-        fill, edge = look.colour(colour), look.colour(style.mixed(colour, style.INK, 0.65))
-        level = look.level + (0.0 if plate else 0.2)
-        self.face = polygon(ax, level, facecolor=fill, edgecolor="none", alpha=0.72 if plate else 1.0)
-        self.edge = polygon(ax, level + 0.1, fill=False, edgecolor=edge, linewidth=style.OUTLINE)
-        self.artists = (self.face, self.edge)
+    def __init__(self, form: Plate, radius: float, *artists: Polygon) -> None:
+        self.form, self.points, self.radius, self.artists = form, form.points, radius, artists
 
     def move(self, at: Places) -> None:
         outline = rounded_outline(self.form.at(at), self.radius)
         for artist in self.artists:
             artist.set_xy(outline)
+
+
+def body_part(ax: Axes, form: Plate, radius: float, colour: str, look: Look) -> BodyPart:
+    """Return a body, filled."""
+    plate = len(form.shares) > 2
+    fill, edge = look.colour(colour), look.colour(style.mixed(colour, style.INK, 0.65))
+    level = look.level + (0.0 if plate else 0.2)
+    face = polygon(ax, level, facecolor=fill, edgecolor="none", alpha=0.72 if plate else 1.0)
+    return BodyPart(form, radius, face, polygon(ax, level + 0.1, fill=False, edgecolor=edge, linewidth=style.OUTLINE))
+
+
+def slot_part(ax: Axes, ends: tuple[str, str], size: float, look: Look) -> BodyPart:
+    """Return a slot on a moving body, open from end to end."""
+    face = polygon(ax, look.level + 0.3, facecolor=style.PAPER, edgecolor=look.colour(style.INK), linewidth=style.OUTLINE)
+    return BodyPart(Plate(ends, np.eye(2)), SLOT * size, face)
 
 
 # What points carry, or nothing does: cylinders, springs, blocks, signs of loads, surroundings.

@@ -176,22 +176,18 @@ class Stage:
 
     def frame(self, pose: int) -> npt.NDArray[np.uint8]:
         """Return the picture at a pose, shape (height, width, 4): red, green, blue, and a fourth that says nothing."""
-        self.update(pose)
+        motion, along, values = self.playback.motion, self.along, self.playback.column.drawn
+        self.drawing.update(pose)
+        self.run.set_data(along.values[: pose + 1], values[: pose + 1])
+        self.marker.set_data(along.values[pose : pose + 1], values[pose : pose + 1])
+        strokes = (stroke_words(motion.plan, name, float(motion.strokes[name][pose]), fixed=True) for name in self.moving)
+        self.stroke.set_text(", ".join(strokes))
+        self.value.set_text(column_text(values, pose))
         self.canvas.restore_region(self.still)
         renderer = self.canvas.get_renderer()
         for artist in self._moving:
             (self.stamps.get(artist) or artist).draw(renderer)
         return np.array(self.canvas.buffer_rgba())
-
-    def update(self, pose: int) -> None:
-        """Move everything to a pose."""
-        motion, along, values = self.playback.motion, self.along, self.playback.column.drawn
-        self.drawing.update(pose)
-        self.run.set_data(along.values[: pose + 1], values[: pose + 1])
-        self.marker.set_data(along.values[pose : pose + 1], values[pose : pose + 1])
-        said = (stroke_words(motion.plan, name, float(motion.strokes[name][pose]), fixed=True) for name in self.moving)
-        self.stroke.set_text(", ".join(said))
-        self.value.set_text(column_text(self.playback.column.drawn, pose))
 
 
 @final

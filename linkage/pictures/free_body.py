@@ -12,7 +12,7 @@ from ..language import said
 from ..motion import Motion
 from . import arrows, style
 from .arrows import ArrowLayer, Wording
-from .drawing import BodyPart, MarkPart, pin
+from .drawing import MarkPart, body_part, pin
 from .force_arrows import FRAME, ForceQuestion, drawn_body, force_layer, forces_at_pose, short_name
 from .labels import LabelPart, offsets
 from .overlays import sheet_note
@@ -132,7 +132,7 @@ class FreeBodyPicture:
             block.set_xy([(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)])
         elif self.body != FRAME:
             places = np.array([self.at[name] for name in self.points])
-            parts.append(BodyPart(ax, Plate(self.points, np.eye(len(places))[list(hull(places))]), self.size, style.BODIES[0], STRONG))
+            parts.append(body_part(ax, Plate(self.points, np.eye(len(places))[list(hull(places))]), self.size, style.BODIES[0], STRONG))
         return [*parts, *(pin(ax, name, self.size, STRONG) for name in self.points)]
 
 

@@ -83,6 +83,8 @@ def offsets(
     anchors = {name: np.array([at[name] for at in poses]).reshape(-1, 2) * scale for name in names}
     halves = {name: half_of(letters.get(name, name), font * (MINOR if name in minor else 1.0)) for name in names}
     tried = {name: candidates(halves[name], gap, far) for name in names}
+    if not poses:  # nothing stands anywhere
+        return {name: places[0] for name, places in tried.items()}
     edges = np.array(sheet) * scale
     alone = {name: own_costs(name, tried[name], halves[name], anchors, taken, gap, edges) for name in names}
     spots: dict[str, FloatArray] = {}

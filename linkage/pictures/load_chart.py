@@ -35,11 +35,13 @@ class ChartText:
     """What a field says in the units and the language that are spoken: loads, radii, heights, letters, lines of the legend.
 
     A load that hangs is shown as a mass, as `is_weight` says. `load_size` is the load that is printed as 1 [N]. Each limiter that occurs
-    has one of `letters`; `counts` says in how many cells it limits. `axes` stand across and down the chart.
+    has one of `letters`; `counts` says in how many cells it limits. `axes` stand across and down the chart, whose columns are `across` in
+    the field and its rows `down`.
     """
 
     def __init__(self, field: WorkingField) -> None:
         self.field = field
+        self.across, self.down = np.argsort(field.x, kind="stable"), np.argsort(-field.y, kind="stable")
         self.is_weight = is_steady(field.along) and field.along == (0.0, 1.0)
         self.unit = "t" if self.is_weight else "kN"
         self.load_size = (g0 if self.is_weight else 1.0) * factor(shown_in(self.unit))
@@ -89,7 +91,7 @@ class ChartText:
 def plot_field(field: WorkingField) -> Figure:
     """Return a working field as a chart: rows are heights, columns radii, the letter beside a load says what limits it."""
     text = ChartText(field)
-    across, down = np.argsort(field.x, kind="stable"), np.argsort(-field.y, kind="stable")
+    across, down = text.across.tolist(), text.down.tolist()
     wide, tall = len(across) * CELL[0], len(down) * CELL[1]
     width = max(LEFT + wide + 0.2, 7.0)
     fold = TextWrapper(int((width - 0.3) * 13.5), subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
@@ -106,13 +108,13 @@ def plot_field(field: WorkingField) -> Figure:
     ax.text(LEFT - 0.1, 0.56, rise, fontsize=style.SMALL, color=style.MUTED, ha="right", va="center")
     colours = {name: style.mixed(style.BODIES[place % len(style.BODIES)], style.PAPER, 0.45) for place, name in enumerate(text.letters)}
     bold: dict[str, Any] = {"fontsize": style.SMALL, "fontweight": "bold", "color": style.INK, "va": "center"}
-    for column, n in enumerate(across.tolist()):
+    for column, n in enumerate(across):
         at = LEFT + (column + 0.5) * CELL[0]
         ax.text(at, TOP - 0.14, text.length(float(field.x[n])), ha="center", **bold)
-    for row, k in enumerate(down.tolist()):
+    for row, k in enumerate(down):
         level = TOP + (row + 0.5) * CELL[1]
         ax.text(LEFT - 0.1, level, text.length(float(field.y[k])), ha="right", **bold)
-        for column, n in enumerate(across.tolist()):
+        for column, n in enumerate(across):
             draw_cell(ax, text, colours, (LEFT + column * CELL[0], TOP + row * CELL[1]), float(field.load[k, n]), str(field.limiter[k, n]))
     for row, line in enumerate(lines):
         ax.text(0.12, TOP + tall + 0.3 + LINE * row, line, fontsize=style.SMALL, color=style.INK, va="center")

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from textwrap import fill
-from typing import Any, final
+from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -21,9 +21,10 @@ from ..motion.measures import At, Leaf, Measure, words_of
 from ..program import FloatArray
 from ..study import Optimum
 from ..study.optimum import unit_of_leaf
+from ..study.problem import Problem
 from ..units import factor, mm, shown_in
 from . import style
-from .curves import WIDEST, Limit, axis_range, leaf_bound, limit_on, mark_limit, panel_grid, stroke_panel, typeset
+from .curves import WIDEST, axis_range, leaf_bound, limit_on, mark_limit, panel_grid, stroke_panel, typeset
 from .drawing import draw_scene
 from .labels import offsets
 from .layout import label_free
@@ -37,6 +38,8 @@ from .symbols import arrow_between
 AIR = 8.0
 """The margin around the machine, in sizes of its pins."""
 POSES = 101
+Course: TypeAlias = tuple[str, FloatArray, FloatArray]
+"""The stroke that a quantity is drawn over, its values and those of the quantity [SI]."""
 LEAST_MOVE = 0.05 * mm
 """A pin that moved by less did not move."""
 
@@ -120,32 +123,25 @@ def edge(ax: Axes) -> FloatArray:
 # What counted, before and after.
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class QuantityCourse:
-    """A quantity over a stroke before and after [SI], the limits it is held to, and the poses at which a value is prescribed."""
-
-    leaf: Leaf
-    stroke: str
-    unit: str
-    before: tuple[FloatArray, FloatArray]
-    after: tuple[FloatArray, FloatArray]
-    limits: tuple[Limit, ...]
-    marks: tuple[tuple[float, float, str], ...]
-
-
 def plot_optimum(optimum: Optimum, count: int = POSES) -> Figure:
     """Return the objective's quantity and each condition's over the stroke, before and after, the failing side of each limit shaded.
 
     Of several strokes it is the first that a quantity depends on; of the others that value counts which is the worst.
     """
-    courses = list(courses_of(optimum, count))
+    problem, groups = optimum.problem, dict[str, list[Leaf]]()
+    measures: list[Measure] = [*problem.objectives, *(each.margin for each in problem.constraints)]
+    for leaf in dict.fromkeys(leaf for each in measures for leaf in each.leaves):
+        groups.setdefault(words_of(leaf.quantity), []).append(leaf)
+    courses = []
+    for leaves in groups.values():
+        before, after = (problem.over_stroke(leaves[0], machine.dimensions, count) for machine in (optimum.start, optimum.machine))
+        if before is not None and after is not None:
+            courses.append((leaves, before, after))
     if not courses:
-        title = optimum.problem.plan.title
-        raise DefinitionError(f"{title}: neither the objective nor a condition is of something that changes over a stroke.")
-    figure, cells = panel_grid(len(courses), optimum.problem.plan.heading)
+        raise DefinitionError(f"{problem.plan.title}: neither the objective nor a condition is of something that changes over a stroke.")
+    figure, cells = panel_grid(len(courses), problem.plan.heading)
     for ax, course in zip(cells, courses, strict=True):
-        course_panel(ax, optimum, course)
+        course_panel(ax, problem, *course)
     lines = [Line2D([], [], color=colour, linewidth=width) for colour, width in (BEFORE, AFTER)]
     figure.legend(lines, ["before", "after"], loc="upper right", ncols=2, frameon=False, fontsize=style.TEXT, labelcolor=style.INK)
     return figure
@@ -156,47 +152,30 @@ MARKS = {"==": "x", ">=": "^", "<=": "v"}
 BEFORE, AFTER = (style.MUTED, 1.4), (style.CURVE, style.BOLD)
 
 
-def courses_of(optimum: Optimum, count: int) -> Iterator[QuantityCourse]:
-    """Yield each quantity that depends on a stroke, once: those of the objectives first."""
-    problem = optimum.problem
-    measures: list[Measure] = [*problem.objectives, *(each.margin for each in problem.constraints)]
-    groups: dict[str, list[Leaf]] = {}
-    for leaf in dict.fromkeys(leaf for each in measures for leaf in each.leaves):
-        groups.setdefault(words_of(leaf.quantity), []).append(leaf)
-    for leaves in groups.values():
-        old, new = (problem.over_stroke(leaves[0], machine.dimensions, count) for machine in (optimum.start, optimum.machine))
-        if old is None or new is None:
-            continue
-        (stroke, *before), (_, *after) = old, new
-        is_shown = partial(is_one_of, leaves)
-        limits = tuple(limit for each in problem.constraints if (limit := limit_on(each, is_shown)) is not None)
-        sides = [side for each in problem.constraints if (side := leaf_bound(each, is_shown)) is not None]
-        held = [(leaf.strokes, value, sign) for leaf, value, sign in sides if isinstance(leaf, At)]
-        marks = tuple((float(strokes[stroke]), value, sign) for strokes, value, sign in held if stroke in strokes)
-        yield QuantityCourse(
-            leaves[0], stroke, unit_of_leaf(problem.plan, leaves[0]), (before[0], before[1]), (after[0], after[1]), limits, marks
-        )
-
-
 def is_one_of(leaves: Sequence[Leaf], leaf: Leaf) -> bool:
     """Return whether a leaf is one of some, itself: that two are equal would be a condition."""
     return any(leaf is each for each in leaves)
 
 
-def course_panel(ax: Axes, optimum: Optimum, course: QuantityCourse) -> None:
-    """Draw one quantity over its stroke before and after, with its limits."""
-    unit = shown_in(stroke_display_unit(optimum.problem.plan, course.stroke, "mm"))
-    name = typeset(words_of(course.leaf.quantity))
-    both = Column(name, np.concatenate([course.before[1], course.after[1]]), course.unit)
-    along = StrokeAxis(course.stroke, unit, course.after[0] / factor(unit), "")
-    column = Column(name, course.after[1], course.unit)
-    old = Column(name, course.before[1], course.unit)
-    ax.plot(course.before[0] / factor(unit), old.drawn, color=BEFORE[0], linewidth=BEFORE[1], zorder=4.5)
+def course_panel(ax: Axes, problem: Problem, leaves: Sequence[Leaf], before: Course, after: Course) -> None:
+    """Draw one quantity over its stroke before and after, with its limits and the values that are prescribed at one pose."""
+    stroke, *old = before
+    _, *new = after
+    is_shown = partial(is_one_of, leaves)
+    limits = [limit for each in problem.constraints if (limit := limit_on(each, is_shown)) is not None]
+    unit, name = shown_in(stroke_display_unit(problem.plan, stroke, "mm")), typeset(words_of(leaves[0].quantity))
+    both, column, shadow = (
+        Column(name, values, unit_of_leaf(problem.plan, leaves[0])) for values in (np.concatenate([old[1], new[1]]), new[1], old[1])
+    )
+    along = StrokeAxis(stroke, unit, new[0] / factor(unit), "")
+    ax.plot(old[0] / factor(unit), shadow.drawn, color=BEFORE[0], linewidth=BEFORE[1], zorder=4.5)
     ax.plot(along.values, column.drawn, color=AFTER[0], linewidth=AFTER[1], zorder=5.0)
-    both_ways = replace(along, values=np.concatenate([course.before[0] / factor(unit), along.values]))
-    stroke_panel(ax, both_ways, fill(column.heading, WIDEST), axis_range(both, course.limits))
-    for limit in course.limits:
+    both_ways = replace(along, values=np.concatenate([old[0] / factor(unit), along.values]))
+    stroke_panel(ax, both_ways, fill(column.heading, WIDEST), axis_range(both, limits))
+    for limit in limits:
         mark_limit(ax, along, column, limit)
-    for place, value, sign in course.marks:
-        spot = [place / factor(unit)], [value / factor(column.shown_unit)]
-        ax.plot(*spot, MARKS[sign], clip_on=False, color=style.ACCENT, markersize=6, markeredgewidth=1.5, zorder=6.0)
+    for each in problem.constraints:
+        leaf, value, sign = leaf_bound(each, is_shown) or (leaves[0], 0.0, "")
+        if sign and isinstance(leaf, At) and stroke in leaf.strokes:
+            spot = [float(leaf.strokes[stroke]) / factor(unit)], [value / factor(column.shown_unit)]
+            ax.plot(*spot, MARKS[sign], clip_on=False, color=style.ACCENT, markersize=6, markeredgewidth=1.5, zorder=6.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import Any, TypeVar, final
+from typing import Any, TypeVar
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -15,7 +15,7 @@ from matplotlib.patches import Patch, Polygon
 from ..program import FloatArray
 from . import style
 from .scene import Places, Scene, SlideTrack
-from .shapes import BLOCK, SLOT, rounded_outline
+from .shapes import BLOCK
 from .style import Look
 
 Kind = TypeVar("Kind", bound=Patch)
@@ -90,19 +90,6 @@ def support(pin: FloatArray, way: float, size: float) -> tuple[FloatArray, Float
 
 
 # Sliding: slots on moving bodies, and fixed rails with their hatching.
-
-
-@final
-class SlotPart(MovingPart):
-    """A slot on a moving body, open from end to end."""
-
-    def __init__(self, ax: Axes, ends: tuple[str, str], size: float, look: Look) -> None:
-        self.points, self.size = ends, size
-        self.face = polygon(ax, look.level + 0.3, facecolor=style.PAPER, edgecolor=look.colour(style.INK), linewidth=style.OUTLINE)
-        self.artists = (self.face,)
-
-    def move(self, at: Places) -> None:
-        self.face.set_xy(rounded_outline(np.array([at[name] for name in self.points]), SLOT * self.size))
 
 
 def rails(ax: Axes, scene: Scene, look: Look) -> None:

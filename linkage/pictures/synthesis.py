@@ -23,7 +23,7 @@ from ..synthesis.synthesis import CLOSEST_CHANGE_POINT, EXACT, miss_unit
 from ..units import display_unit, factor, show, shown_in
 from . import style
 from .curves import axis_range, stroke_panel, typeset
-from .drawing import BodyPart, draw_scene
+from .drawing import body_part, draw_scene
 from .labels import offsets
 from .layout import cloud
 from .paper import LEFT, sheets_beside, write_title
@@ -238,7 +238,7 @@ def draw_pose_task(ax: Axes, shown: ShownAnswer, task: PoseTask, stretch: float)
     for pose in scene.reached[1:]:
         for plate, colour in bodies:
             if {first, second} <= set(plate.points):
-                BodyPart(ax, plate, scene.size, colour, FAINT).update(scene.at(pose))
+                body_part(ax, plate, scene.size, colour, FAINT).update(scene.at(pose))
     long = float(np.nanmax(np.hypot(*(shown.reached[second] - shown.reached[first]))))
     ends = shown.wanted + long * np.stack([np.cos(task.angle), np.sin(task.angle)], axis=1)
     for start, end in zip(shown.wanted, ends, strict=True):

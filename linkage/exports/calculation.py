@@ -18,23 +18,16 @@ from ..formulas.numbered import members_with_lines
 from ..formulas.printing import Text
 from ..formulas.words import Direction
 from ..mechanism import Mechanism
-from ..motion import Motion, out_of_reach
+from ..motion import Motion
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
-from ..reports import Run
+from ..reports import Run, reached_motion
 from ..vectors import Numbers
 
 AGREE = 1e-9
 """Relative: a formula that is further from the engine is not used."""
 ITERATED = "found by iteration: a number, not a formula"
 BY_ENGINE = "told by the engine: a number, not a formula"
-
-
-def reached_somewhere(motion: Motion) -> Motion:
-    """Return a motion, NaN where it cannot be assembled; AssemblyError where it cannot anywhere."""
-    if not motion.reached.any():
-        raise out_of_reach(motion)
-    return motion
 
 
 @final
@@ -72,7 +65,7 @@ class Calculation:
             raise DefinitionError(f"{design.plan.title}: a workbook's strokes run from one value to another; give {run.stroke} two.")
         over = run.over(np.linspace(0.0, 1.0, count))
         self.stroke_values: dict[str, Any] = {name: np.asarray(value, float) for name, value in over.items()}
-        self.motion = reached_somewhere(design.at(unreachable="nan", **self.stroke_values))
+        self.motion = reached_motion(design, self.stroke_values)
         self.equations = self._equations()
         self.columns: list[CalculatedColumn] = []
         self.headings: dict[int, str] = {}

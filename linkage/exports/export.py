@@ -20,9 +20,9 @@ from ..motion import Column, Motion, columns_of
 from ..pictures.strokes import pose_words
 from ..plugins import Plugins
 from ..quantities import as_mapping
-from ..reports import NOTHING, first_stroke, results, run_of, stroke_middles, write_csv
+from ..reports import NOTHING, first_stroke, reached_motion, results, run_of, stroke_middles, write_csv
 from ..study import WorkingField
-from .calculation import Calculation, reached_somewhere
+from .calculation import Calculation
 from .drawing_dxf import dxf
 from .drawing_svg import svg
 from .geometry import Part, path_parts, pose_parts
@@ -55,7 +55,7 @@ class ExportJob:
         """
         if isinstance(self.what, Motion):
             return self.what
-        return reached_somewhere(self.what.at(unreachable="nan", **drawn_strokes(self.what, self.at)))
+        return reached_motion(self.what, drawn_strokes(self.what, self.at))
 
     @property
     def machine(self) -> Mechanism:
@@ -257,9 +257,7 @@ def over_strokes(machine: Mechanism, at: Mapping[str, Any], count: int) -> Motio
         said = f"{machine.plan.title}: {each} poses are {rows:,} rows, some {rows * ROW / 1e9:.1f} GB"
         raise DefinitionError(f"{said}; give count={most} at most, or hold strokes, at={hold}.")
     grids = dict(zip(many, np.meshgrid(*many.values(), indexing="ij"), strict=True)) if many else {}
-    unknown_names = {name: at[name] for name in at if name not in axes}
-    strokes = {name: grids.get(name, axis[0]) for name, axis in axes.items()}
-    return reached_somewhere(machine.at(unreachable="nan", **strokes, **unknown_names))
+    return reached_motion(machine, {**at, **{name: grids.get(name, axis[0]) for name, axis in axes.items()}})
 
 
 def drawing_of(job: ExportJob) -> tuple[list[tuple[str, tuple[Part, ...]]], tuple[Part, ...], str]:

@@ -17,6 +17,7 @@ from ..errors import known_name
 from ..loads import PinFriction
 from ..motion import Motion
 from ..pictures.scene import DrawnMark, Places, Scene
+from ..pictures.shapes import left_of
 from ..program import FloatArray
 from ..quantities import body_name, joined_names
 from ..units import mm
@@ -180,7 +181,7 @@ def dimension_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
 def along_one_line(one: tuple[FloatArray, FloatArray], other: tuple[FloatArray, FloatArray], size: float) -> bool:
     """Return whether two stretches lie along one line and overlap; closer than a size [mm] counts as on it."""
     along = (one[1] - one[0]) / (np.hypot(*(one[1] - one[0])) or 1.0)
-    across = np.array([-along[1], along[0]])
+    across = left_of(along)
     off = [abs(float((place - one[0]) @ across)) for place in other]
     reach = sorted(float((place - one[0]) @ along) for place in other)
     return max(off) < size and reach[0] < float((one[1] - one[0]) @ along) and reach[1] > 0.0

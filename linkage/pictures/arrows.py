@@ -21,6 +21,7 @@ from ..program import FloatArray
 from ..units import current_system, factor, shown_in
 from . import style
 from .scene import Bounds
+from .shapes import left_of, polar
 from .sheet import figure_of, points_a_metre, renderer_of
 from .symbols import added
 
@@ -140,7 +141,7 @@ def draw_arrows(ax: Axes, layer: ArrowLayer, scale: float, size: float, level: f
         line.set_gid(turn.name)
         ax.add_line(line)
         end, out = curve[-1], (curve[-1] - turn.at) / (turn.radius * size)
-        along = np.array([-out[1], out[0]]) * np.sign(turn.moment)
+        along = left_of(out) * np.sign(turn.moment)
         corners = np.array([end + HEAD * size * along, end + BARB * size * out, end - BARB * size * out])
         added(ax, Polygon(corners, facecolor=turn.colour, edgecolor=turn.colour, joinstyle="round", zorder=level))
     return arrow_points(layer, scale, size)
@@ -161,7 +162,7 @@ def arrow_outline(tail: FloatArray, tip: FloatArray, size: float) -> FloatArray:
     """Return the outline of an arrow, shape (7, 2) [m]: it begins at the tip and is symmetric about the way from its tail."""
     length = float(np.hypot(*(tip - tail)))
     along = (tip - tail) / length
-    across = np.array([-along[1], along[0]])
+    across = left_of(along)
     head = min(HEAD * size, 0.6 * length)
     wide, thin = BARB * size * head / (HEAD * size), SHAFT * size
     neck = tip - head * along
@@ -172,7 +173,7 @@ def arrow_outline(tail: FloatArray, tip: FloatArray, size: float) -> FloatArray:
 def turning_line(turn: TurningArrow, size: float) -> FloatArray:
     """Return the line of a curved arrow from its tail to its head, shape (n, 2) [m]."""
     angles = TURN_ANGLES if turn.moment > 0.0 else np.pi - TURN_ANGLES
-    return np.asarray(turn.at + turn.radius * size * np.column_stack([np.cos(angles), np.sin(angles)]))
+    return np.asarray(turn.at + turn.radius * size * polar(angles))
 
 
 # Values at the arrows, where they cover nothing.
@@ -232,7 +233,7 @@ class PlacedWording:
         self.text, self.anchor, self.half, self.place = text, anchor, 0.5 * size + CLEAR, -1
         start = float(np.arctan2(way[1], way[0]))
         turned = sorted(AROUND, key=lambda angle: abs(np.angle(np.exp(1j * (angle - start)))))
-        ways = np.array([[np.cos(angle), np.sin(angle)] for angle in turned])
+        ways = polar(np.array(turned))
         aside = self.half * np.clip(np.sqrt(2.0) * ways, -1.0, 1.0)
         self.spots = anchor + np.concatenate([far * 0.5 * size[1] * ways + aside for far in FAR_OUT])
 

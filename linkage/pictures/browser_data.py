@@ -20,7 +20,7 @@ from ..motion.requests import NodeRequest
 from ..plan import Plan, opening, plan_measure, require_kind
 from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
-from ..reports import NOTHING, At, LiveColumn, column_requests, run_along, run_of
+from ..reports import NOTHING, At, LiveColumn, column_requests, reached_motion, run_along, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, ground_loads, pin_force, pin_forces, traced_loads
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
 from .browser_file import MACHINE, START, PageData, page_part, page_text
@@ -88,13 +88,9 @@ class PageRequests:
         self.machine, self.plan, self.along, self.over = machine, machine.plan, along, over
         self.run, self.first = (run_of(machine, at), 0) if along is None else run_along(along)
         self.ends = self.run.ways[self.run.stroke]
-        values: dict[str, Any] = {**self.run.held, self.run.stroke: np.linspace(self.ends[0], self.ends[-1], count)}
-        if self.run.is_path:
-            values = self.run.divided(count)
-        self.count = len(values[self.run.stroke])
-        self.motion = machine.at(unreachable="nan", **values)
-        if not self.motion.reached.any():
-            machine.at(**values)
+        evenly = {**self.run.held, self.run.stroke: np.linspace(self.ends[0], self.ends[-1], count)}
+        self.motion = reached_motion(machine, self.run.divided(count) if self.run.is_path else evenly)
+        self.count = self.motion.shape[0]
         self.scene = Scene(self.motion)
         with language("en"):  # what is said otherwise in Russian is asked for apart
             self.featured = machine.featured()
@@ -251,8 +247,10 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
     dims = dimension_data(requests, live)
     names = [each[0] for each in dims]
     columns = [column_data(name, each, live, requests.motion) for name, each in requests.columns.items()]
+    rows, index = {name: each[0] for name, each in live.rows.items()}, {name: place for place, name in enumerate(plan.points)}
+    lines = {track.name: [rows[f"track {track.name} {k}"] for k in range(4)] for track in requests.scene.tracks}
     run, used = requests.run, {*(each[3] for each in dims), *(str(each[1]) for each in columns)}
-    points = list(enumerate(plan.points))
+    depth = {index[name]: name.count(".") for name in plan.moving if name in index}
     with language("ru"):
         russian_title = plan.heading
     return {
@@ -265,22 +263,24 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "columns": columns,
         "column": list(requests.columns).index(requests.column),
         "limits": {typeset(name): limit_data(requests, name) for name in requests.limits},
-        "rows": {"points": [[live.rows[f"point {name}"][0] + axis for axis in (0, 1)] for name in plan.points]},
-        "scene": scene_data(
-            requests.scene, {each.name: [live.rows[f"track {each.name} {k}"][0] for k in range(4)] for each in requests.scene.tracks}
-        ),
-        "cylinders": cylinder_data(requests.scene, {name: rows[0] for name, rows in live.rows.items()}),
+        "rows": {"points": [[rows[f"point {name}"] + axis for axis in (0, 1)] for name in plan.points]},
+        "scene": scene_data(requests.scene, lines),
+        "cylinders": cylinder_data(requests.scene, rows),
         "pressureUnit": unit_data("bar"),
         "length": unit_data("mm"),
         "force": unit_data("kN"),
         "signs": signs({*used, *map(shown_in, ("bar", "mm", "kN"))}),
-        "joints": [{"point": name, "row": live.rows[key][0]} for name in requests.motion._joints if (key := f"joint {name}") in live.rows],
-        "arrows": arrow_data(requests, live),
-        "paths": [list(plan.points).index(name) for name in requests.trace],
-        "grips": grip_data(requests, names),
+        "joints": [{"point": name, "row": rows[key]} for name in requests.motion._joints if (key := f"joint {name}") in rows],
+        "arrows": [
+            {"point": index[point], "x": rows[f"arrow {k} x"], "y": rows[f"arrow {k} y"]} | ({"load": 1} if is_load else {})
+            for k, (point, _, _, is_load) in enumerate(requests.arrows)
+            if {f"arrow {k} x", f"arrow {k} y"} <= rows.keys()
+        ],
+        "paths": [index[name] for name in requests.trace],
+        "grips": grip_data(requests, names, index),
         # a joint of a part lies over what it carries
-        "moving": sorted((place for place, name in points if name in plan.moving), key=lambda place: -points[place][1].count(".")),
-        "meets": meeting_data(plan, names),
+        "moving": sorted(sorted(depth), key=depth.__getitem__, reverse=True),
+        "meets": meeting_data(plan, names, index),
         "class": type(machine).__name__,
         "title": plan.heading,
         "titleRu": russian_title,
@@ -403,20 +403,19 @@ def limit_data(requests: PageRequests, name: str) -> list[Any]:
     return [value, typeset(text), fails, *([typeset(russian)] if russian != text else [])]
 
 
-def grip_data(requests: PageRequests, names: Sequence[str]) -> list[dict[str, int]]:
+def grip_data(requests: PageRequests, names: Sequence[str], index: Mapping[str, int]) -> list[dict[str, int]]:
     """Return the pins on the ground that can be dragged, with their coordinates where these are the frame's.
 
     A part that is placed otherwise has axes of its own; `meeting_data` has the coordinates of its points.
     """
-    plan, points = requests.plan, list(requests.plan.points)
     found = []
-    for name, (x, y) in coordinate_pairs(plan, names).items():
-        if name in plan.moving:
+    for name, (x, y) in coordinate_pairs(requests.plan, names).items():
+        if name in requests.plan.moving:
             continue
         there = np.reshape(requests.motion[name], (2, -1))[:, requests.motion.reached.ravel()][:, 0]
         own = [requests.machine.dimensions[each] for each in (x, y)]
         places = {"x": names.index(x), "y": names.index(y)} if np.allclose(there, own, rtol=0.0, atol=1e-9) else {}
-        found.append({"point": points.index(name)} | places)
+        found.append({"point": index[name]} | places)
     return found
 
 
@@ -426,38 +425,27 @@ def coordinate_pairs(plan: Plan, names: Sequence[str]) -> dict[str, tuple[str, s
     return {name: pair for name, pair in pairs.items() if set(pair) <= set(names)}
 
 
-def meeting_data(plan: Plan, names: Sequence[str]) -> dict[int, list[int]]:
+def meeting_data(plan: Plan, names: Sequence[str], index: Mapping[str, int]) -> dict[int, list[int]]:
     """Return, for every point that moves, which of the dimensions are lengths and angles of it, by their places.
 
     A point that a part fixes in axes of its own has its two coordinates there.
     """
-    points, entries = list(plan.points), plan.table.entries
+    entries = plan.table.entries
     own = {name: place for place, name in enumerate(names) if entries[name].kind in STEPS}
-    lengths = {joined_names(*pair): pair for pair in permutations(points, 2)}
+    lengths = {joined_names(*pair): pair for pair in permutations(index, 2)}
     found: dict[int, list[int]] = defaultdict(list)
     for name, place in own.items():
         ends: Sequence[str] = lengths.get(name, ())
         if entries[name].kind == "angle":  # of three points, whose names it joins
             begun = [pair for word, pair in lengths.items() if name.startswith(word)]
-            triples = ((*pair, last) for pair in begun for last in points if last not in pair)
+            triples = ((*pair, last) for pair in begun for last in index if last not in pair)
             ends = next((each for each in triples if joined_names(*each) == name), ())
         for each in ends:
             if each in plan.moving:
-                found[points.index(each)].append(place)
+                found[index[each]].append(place)
     for name, pair in coordinate_pairs(plan, names).items():
-        found[points.index(name)] += [names.index(each) for each in pair]
+        found[index[name]] += [names.index(each) for each in pair]
     return dict(found)
-
-
-def arrow_data(requests: PageRequests, live: LiveText) -> list[PageData]:
-    """Return the arrows whose both parts the program has."""
-    points, found = list(requests.plan.points), []
-    for k, (point, _, _, is_load) in enumerate(requests.arrows):
-        keys = f"arrow {k} x", f"arrow {k} y"
-        if all(key in live.rows for key in keys):
-            rows = {axis: live.rows[key][0] for axis, key in zip("xy", keys, strict=True)}
-            found.append({"point": points.index(point), **rows} | ({"load": 1} if is_load else {}))
-    return found
 
 
 def cylinder_data(scene: Scene, rows: Mapping[str, int]) -> list[PageData]:

@@ -17,6 +17,7 @@ from ..synthesis.exact_poses import Burmester, GuidingLink
 from . import style
 from .paper import empty_page, legend_row, write_title
 from .scene import Bounds
+from .shapes import left_of, polar
 
 ROOM = 1.6
 """Of the extent of poses and region: how much of the plane is shown, where the curves go on."""
@@ -77,7 +78,7 @@ def border_of(shape: Shape) -> FloatArray:
     """Return places along the border of a shape of a region (m, 2) [m]."""
     if isinstance(shape, Disc):
         turn = np.linspace(0.0, 2.0 * np.pi, 181)
-        return np.array([shape.x, shape.y]) + shape.radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        return np.array([shape.x, shape.y]) + shape.radius * polar(turn)
     return np.array(shape.corners)
 
 
@@ -106,7 +107,7 @@ def draw_link(ax: Axes, link: GuidingLink, side: float, *, bold: bool) -> None:
     width, size, level = (2.4, 7.0, 6.0) if bold else (0.7, 3.5, 4.0)
     x, y = link.point
     if link.slides:
-        way = 0.5 * side * np.array([np.cos(link.direction), np.sin(link.direction)])
+        way = 0.5 * side * polar(link.direction)
         ax.plot([x - way[0], x + way[0]], [y - way[1], y + way[1]], color=colour, linewidth=width, linestyle=(0, (6, 3)), zorder=level)
     else:
         ax.plot([x, link.centre[0]], [y, link.centre[1]], color=colour, linewidth=width, zorder=level, alpha=1.0 if bold else 0.55)
@@ -119,7 +120,7 @@ def draw_corners(ax: Axes, poses: FloatArray, arm: float) -> None:
     for one, other in pairwise(poses):
         ax.plot([one[0], other[0]], [one[1], other[1]], color=style.RULE, linewidth=0.9, linestyle=":", zorder=2.0)
     for number, (x, y, angle) in enumerate(poses, 1):
-        along, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
+        along, across = polar(angle), left_of(polar(angle))
         corner = np.array([[x, y] + arm * along, [x, y], [x, y] + 0.5 * arm * across])
         ax.plot(*corner.T, color=style.INK, linewidth=2.2, solid_joinstyle="round", zorder=7.0)
         beside = np.array([x, y]) - 0.28 * arm * (along + across)

@@ -22,7 +22,7 @@ from . import style
 from .drawing import draw_scene
 from .layout import cloud
 from .scene import Bounds, Places, Scene
-from .shapes import segment
+from .shapes import left_of, polar, segment
 from .sheet import points_a_metre, sheet
 
 AWAY = (1.7, 2.7, 3.8, 5.0, 6.4, 8.0)
@@ -111,13 +111,13 @@ class AngleArc:
     def middle(self) -> FloatArray:
         """Where its text stands."""
         way = 0.5 * (self.start + self.end)
-        return np.asarray(self.corner + self.radius * np.array([np.cos(way), np.sin(way)]))
+        return np.asarray(self.corner + self.radius * polar(way))
 
     @cached_property
     def covered(self) -> FloatArray:
         """Points that it covers, shape (m, 2) [m]."""
         ways = np.linspace(self.start, self.end, 15)
-        arc = self.corner + self.radius * np.array([np.cos(ways), np.sin(ways)]).T
+        arc = self.corner + self.radius * polar(ways)
         half = np.array([0.32 * self.letter * len(self.text), 0.0])
         text = segment(self.middle - half, self.middle + half, 0.3 * self.letter)
         return np.concatenate([arc, text, text])
@@ -195,7 +195,7 @@ def line_choices(text: str, P: FloatArray, Q: FloatArray, letter: float) -> Iter
     if np.hypot(*(Q - P)) < SHORT * letter:
         return
     along = (Q - P) / np.hypot(*(Q - P))
-    across = np.array([-along[1], along[0]])
+    across = left_of(along)
     for away in AWAY:
         for side in (across, -across):
             yield LengthLine(text, P, Q, away * letter * side, letter)

@@ -164,7 +164,7 @@ class MarkPart(MovingPart):
     """A mark: its lines, its hatches, and a picture under them."""
 
     def __init__(self, ax: Axes, mark: DrawnMark, look: Look) -> None:
-        self.mark, self.points = mark, mark.on
+        self.ax, self.mark, self.points = ax, mark, mark.on
         level, ink = look.level + mark.level if mark.on else FIXED, look.colour(getattr(style, mark.ink))
         self.lines = tuple(
             polygon(
@@ -176,38 +176,32 @@ class MarkPart(MovingPart):
         self.hatches = LineCollection([], colors=ink, linewidths=0.7 * style.THIN, zorder=level + 0.005)
         if len(mark.hatched):
             ax.add_collection(self.hatches, autolim=False)
-        self.under = [] if mark.under is None else [Underlay(ax, *mark.under, level - 0.1, look)]
-        self.artists = (*self.lines, *([self.hatches] if len(mark.hatched) else []), *(each.image for each in self.under))
+        hatches = [self.hatches] if len(mark.hatched) else []
+        self.under = [] if mark.under is None else [underlay(ax, *mark.under, level - 0.1, look)]
+        self.artists = (*self.lines, *hatches, *(image for image, _ in self.under))
 
     def move(self, at: Places) -> None:
         for line, artist in zip(self.mark.drawn(at), self.lines, strict=True):
             artist.set_xy(line)
         self.hatches.set_segments(list(self.mark.placed(self.mark.hatched, at)))
-        for each in self.under:
-            each.place(self.mark.placed(each.corners, at))
+        for image, corners in self.under:  # three of its corners are those of a unit square
+            start, right, up = self.mark.placed(corners, at)
+            columns = np.column_stack([right - start, up - start, start])
+            image.set_transform(Affine2D(np.vstack([columns, [0.0, 0.0, 1.0]])) + self.ax.transData)
 
 
 FINE = 4000
 """The pixels of the longer side of a picture under a machine that are drawn at the most; of a finer one several are one."""
 
 
-@final
-class Underlay:
-    """A picture from a file that lies under a mechanism, as wide as its corners say [m]; its height is its own."""
-
-    def __init__(self, ax: Axes, path: str, corners: FloatArray, opacity: float, level: float, look: Look) -> None:
-        pixels = read_picture(path)
-        high = corners[0] + (corners[3] - corners[0]) * len(pixels) / pixels.shape[1]
-        self.ax, self.corners = ax, np.array([corners[0], corners[1], high + corners[1] - corners[0], high])
-        self.image = AxesImage(ax, extent=(0.0, 1.0, 0.0, 1.0), alpha=opacity * (1.0 - look.fade), zorder=level, interpolation="bilinear")
-        self.image.set_data(pixels)
-        self.image.set_clip_path(ax.patch)
-        ax.add_artist(self.image)
-
-    def place(self, corners: FloatArray) -> None:
-        """Move its unit square to three of its corners."""
-        (x, y), across, up = corners[0], corners[1] - corners[0], corners[3] - corners[0]
-        self.image.set_transform(Affine2D(np.array([[across[0], up[0], x], [across[1], up[1], y], [0.0, 0.0, 1.0]])) + self.ax.transData)
+def underlay(ax: Axes, path: str, corners: FloatArray, opacity: float, level: float, look: Look) -> tuple[AxesImage, FloatArray]:
+    """Return a picture from a file that lies under a mechanism, and three corners (3, 2) [m]: as wide as given, of its own height."""
+    pixels = read_picture(path)
+    image = AxesImage(ax, extent=(0.0, 1.0, 0.0, 1.0), alpha=opacity * (1.0 - look.fade), zorder=level, interpolation="bilinear")
+    image.set_data(pixels)
+    image.set_clip_path(ax.patch)
+    ax.add_artist(image)
+    return image, np.array([corners[0], corners[1], corners[0] + (corners[3] - corners[0]) * len(pixels) / pixels.shape[1]])
 
 
 def read_picture(path: str) -> FloatArray:

@@ -18,6 +18,7 @@ from ..quantities import joined_names
 from ..statics import JointForce, PinForces, pin_forces
 from ..units import current_system, shown_in
 from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
+from .shapes import left_of
 from .style import part_of_points
 
 PIN, LOAD, MEMBER, GROUND = "#0072b2", "#d55e00", "#007f5c", "#000000"
@@ -201,7 +202,7 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
         if square <= 1e-18 * float((each_of**2).sum()):
             yield element, body, middle, np.zeros(2), moment, colour
         else:
-            place = middle + moment * np.array([-force[1], force[0]]) / -square
+            place = middle + moment * left_of(force) / -square
             centre = mass_centre(forces, element)
             place = place if centre is None else place + force * float((centre - place) @ force) / square
             yield element, body, place, force, 0.0, colour
@@ -215,7 +216,7 @@ def mass_centre(forces: ForcesAt, element: str) -> FloatArray | None:
         if glyph.away is not None:
             P, Q = (forces.place(name) for name in glyph.points[:2])
             along = (Q - P) / np.hypot(*(Q - P))
-            return np.asarray(P + glyph.away[0] * along + glyph.away[1] * np.array([-along[1], along[0]]))
+            return np.asarray(P + glyph.away[0] * along + glyph.away[1] * left_of(along))
     return None
 
 

@@ -20,6 +20,7 @@ from ..program import FloatArray
 from ..units import show
 from . import style
 from .arrows import Wording
+from .shapes import left_of
 from .symbols import arrow_between
 
 SHORT = 5.0
@@ -108,7 +109,7 @@ def draw_gap(ax: Axes, mark: GapMark, size: float) -> list[Wording]:
     """Draw a gap as a dimension, a short one with its arrows outside, and return what is written at it."""
     colour = style.mixed(style.ACCENT, style.PAPER, 0.4) if mark.faint else style.ACCENT
     level, (start, end), way = 14.0 if mark.faint else 18.0, mark.ends, mark.way
-    across = BARB * size * np.array([-way[1], way[0]])
+    across = BARB * size * left_of(way)
     is_short = float(np.hypot(*(end - start))) < SHORT * size
     lines = [np.array([start, end]), *(np.array([place - across, place + across]) for place in (start, end))]
     for line in lines:
@@ -116,4 +117,4 @@ def draw_gap(ax: Axes, mark: GapMark, size: float) -> list[Wording]:
     for tip, out in ((start, -way), (end, way)):
         tail = tip + (REACH * size * out if is_short else -min(REACH * size, 0.5 * float(np.hypot(*(end - start)))) * out)
         arrow_between(ax, tail, tip, colour, 11, level, clip=False)
-    return [Wording(mark.words, mark.middle, np.array([-way[1], way[0]]), colour, mark.name)]
+    return [Wording(mark.words, mark.middle, left_of(way), colour, mark.name)]

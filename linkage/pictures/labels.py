@@ -14,11 +14,12 @@ from ..plan import Mask
 from ..program import FloatArray
 from . import style
 from .scene import Bounds, Places
+from .shapes import polar
 from .style import Look
 from .symbols import MovingPart
 
 REACH = (1.0, 1.4, 2.0, 2.8, 4.0, 5.5, 7.5)
-WAYS = np.array([[np.cos(way), np.sin(way)] for way in np.radians(np.arange(60.0, 420.0, 15.0))])
+WAYS = polar(np.radians(np.arange(60.0, 420.0, 15.0)))
 """The places a label tries: distances, as multiples of the nearest, and directions, the preferred one first."""
 
 LED = 1.9

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..program import FloatArray
 from .scene import Places, Scene
-from .shapes import segment
+from .shapes import left_of, polar, segment
 from .symbols import hatched
 
 DOWN, LEFT, RIGHT, UP = -np.pi / 2, np.pi, 0.0, np.pi / 2
@@ -31,7 +31,7 @@ def cloud(scene: Scene, at: Places) -> FloatArray:
     wide = []
     for line, half in lines:
         along = line[-1] - line[0]
-        normal = np.array([-along[1], along[0]]) / (np.hypot(*along) or 1.0)
+        normal = left_of(along) / (np.hypot(*along) or 1.0)
         wide += [line + offset * half * scene.size * normal for offset in (-1.0, 0.0, 1.0)]
     there = [each for each in (*scene.fed, *scene.load_marks) if np.isfinite([at[name] for name in each.on]).all()]
     beside = [each.placed(each.corners, at) for each in there]
@@ -62,7 +62,7 @@ def props(scene: Scene) -> dict[str, float]:
         crowd = (np.concatenate([covered, *(np.tile(other, (len(shown), 1)) for other in others)]) - pin) / scene.size
         costs = {}
         for way, worth in WORTH.items():  # how many points lie where the symbol would stand
-            along, across = crowd @ np.array([np.cos(way), np.sin(way)]), crowd @ np.array([-np.sin(way), np.cos(way)])
+            along, across = crowd @ polar(way), crowd @ left_of(polar(way))
             inside = (along > 1.2) & (along < 4.6) & (np.abs(across) < 0.6 + 0.65 * along)
             costs[way] = float(np.count_nonzero(inside)) / len(shown) + worth
         ways[name] = min(costs, key=costs.__getitem__)
@@ -71,7 +71,7 @@ def props(scene: Scene) -> dict[str, float]:
 
 def symbol(pin: FloatArray, way: float, size: float) -> FloatArray:
     """Return points that cover a ground symbol, shape (m, 2) [m]."""
-    along, across = np.array([np.cos(way), np.sin(way)]), np.array([-np.sin(way), np.cos(way)])
+    along, across = polar(way), left_of(polar(way))
     return np.array([pin + size * (u * along + v * across) for u, v in SYMBOL])
 
 

@@ -18,7 +18,7 @@ from ..motion import Motion
 from ..plan import require_kinds
 from ..program import FloatArray
 from ..quantities import is_whole, numbers_in
-from ..reports import Run, first_stroke, stroke_middles
+from ..reports import Run, first_stroke, reached_motion, stroke_middles
 from . import style
 from .drawing import Drawing, draw_scene, mechanism
 from .free_body import draw_free_body
@@ -133,36 +133,22 @@ def motions(machine: Mechanism, at: object, count: int) -> tuple[tuple[str, ...]
     for name in given:
         known_name("Stroke", name, machine.strokes, where=machine.plan.title)
     several = tuple(name for name, values in given.items() if np.size(values) > 1)
-    if len(several) > 1:
-        return joint_motions(machine, given, several, count)
-    moving = max(given, key=lambda name: np.size(given[name])) if given else first_stroke(machine)
-    start, end = machine.strokes[moving].start, machine.strokes[moving].end
-    others = {name: np.atleast_1d(chosen_values(machine, name, value)) for name, value in given.items() if value is not None}
-    at_values: dict[str, Any] = stroke_middles(machine) | others
-    if moving not in others:
-        is_round = is_turn(machine, Run({moving: (start, end)}, {}))
-        at_values[moving] = telling_angles(machine, moving, at_values) if is_round else np.array([start, end])
-    shown = machine.at(unreachable="nan", **at_values)
-    if not shown.reached.any():
-        machine.at(**at_values)
-    reach = np.array([start, end, *np.ravel(at_values[moving])])
-    still = {name: float(np.ravel(value)[-1]) for name, value in at_values.items()}
-    swept = machine.at(unreachable="nan", **still | {moving: np.linspace(reach.min(), reach.max(), count)})
-    return (moving,), shown, swept
-
-
-def joint_motions(
-    machine: Mechanism, given: Mapping[str, object], moving: tuple[str, ...], count: int
-) -> tuple[tuple[str, ...], Motion, Motion]:
-    """Return what `motions` does where several strokes move together, from each of their values on to the next."""
-    chosen = {name: chosen_values(machine, name, value).ravel() for name, value in given.items()}
+    is_joint = len(several) > 1
+    moving = several if is_joint else (max(given, key=lambda name: np.size(given[name])) if given else first_stroke(machine),)
+    chosen = {name: chosen_values(machine, name, each).ravel() for name, each in given.items() if each is not None or is_joint}
     values: dict[str, Any] = stroke_middles(machine) | chosen
-    shown = machine.at(unreachable="nan", **values)
-    if not shown.reached.any():
-        machine.at(**values)
-    still = {name: float(np.ravel(value)[0]) for name, value in values.items() if name not in moving}
-    run = Run({name: tuple(chosen[name].tolist()) for name in moving}, still)
-    return moving, shown, machine.at(unreachable="nan", **run.divided(count))
+    first = moving[0]
+    ends = machine.strokes[first].start, machine.strokes[first].end
+    if first not in chosen:
+        values[first] = telling_angles(machine, first, values) if is_turn(machine, Run({first: ends}, {})) else np.array(ends)
+    shown = reached_motion(machine, values)
+    if is_joint:  # from each of their values on to the next
+        ways = {name: tuple(chosen[name].tolist()) for name in moving}
+        still = {name: float(np.ravel(value)[0]) for name, value in values.items() if name not in moving}
+        return moving, shown, machine.at(unreachable="nan", **Run(ways, still).divided(count))
+    reach = np.array([*ends, *np.ravel(values[first])])
+    still = {name: float(np.ravel(value)[-1]) for name, value in values.items()}
+    return moving, shown, machine.at(unreachable="nan", **still | {first: np.linspace(reach.min(), reach.max(), count)})
 
 
 def chosen_values(machine: Mechanism, name: str, value: object) -> FloatArray:

@@ -144,7 +144,7 @@ class DrawnMark:
         along = at[self.on[-1]] - at[self.on[-2]]
         length = float(np.hypot(*along))
         along = along / (length or 1.0)
-        return at[self.on[0]], np.array([along, [-along[1], along[0]]]), length
+        return at[self.on[0]], np.array([along, shapes.left_of(along)]), length
 
     def placed(self, points: FloatArray, at: Places) -> FloatArray:
         """Return points of its axes in the plane, the same shape (..., 2) [m]."""
@@ -381,7 +381,7 @@ class Scene:
             length = float(np.hypot(*along))
             if not length > 0.0:
                 return False
-            rest = np.array([at[name] - P for name in points]) @ np.array([along, [-along[1], along[0]]]).T / length
+            rest = np.array([at[name] - P for name in points]) @ np.array([along, shapes.left_of(along)]).T / length
             on = rest[np.abs(rest[:, 1]) < self.size, 0]
             if len(on) < 2 or min(float(on.max()), length) - max(float(on.min()), 0.0) < 0.3 * length:
                 return False

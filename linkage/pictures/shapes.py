@@ -15,6 +15,16 @@ from ..program import FloatArray
 ARC = np.radians(11.3)  # no part of a right angle, so that rounding does not change how many steps a corner takes
 
 
+def polar(angle: FloatArray | float) -> FloatArray:
+    """Return the unit vectors of angles [rad], shape (..., 2)."""
+    return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
+def left_of(vector: FloatArray) -> FloatArray:
+    """Return a vector (2,) turned to its left by a right angle."""
+    return np.array([-vector[1], vector[0]])
+
+
 def hull(points: FloatArray) -> list[int]:
     """Return the indices of the convex hull, counter-clockwise; two where all points lie on a line.
 
@@ -47,7 +57,7 @@ def rounded_outline(corners: FloatArray, radius: float) -> FloatArray:
     """
     if len(corners) == 1:
         around = np.linspace(0.0, 2 * np.pi, 33)
-        return np.asarray(corners[0] + radius * np.column_stack([np.cos(around), np.sin(around)]))
+        return np.asarray(corners[0] + radius * polar(around))
     along = np.roll(corners, -1, axis=0) - corners
     normals = np.arctan2(-along[:, 0], along[:, 1])
     pieces = []
@@ -58,7 +68,7 @@ def rounded_outline(corners: FloatArray, radius: float) -> FloatArray:
         else:  # inwards, where both sides meet
             angles = np.array([start + 0.5 * (swing - 2 * np.pi)])
             reach = 1.0 / max(float(np.cos(0.5 * (2 * np.pi - swing))), 0.2)
-        pieces.append(corner + radius * reach * np.column_stack([np.cos(angles), np.sin(angles)]))
+        pieces.append(corner + radius * reach * polar(angles))
     return np.concatenate([*pieces, pieces[0][:1]])
 
 
@@ -322,20 +332,16 @@ def weight_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
     quarters = []
     for start, fill in ((0.0, "INK"), (0.5 * np.pi, "PAPER"), (np.pi, "INK"), (1.5 * np.pi, "PAPER")):
         ways = start + np.linspace(0.0, 0.5 * np.pi, 9)
-        arc = 0.95 * size * np.column_stack([np.cos(ways), np.sin(ways)])
+        arc = 0.95 * size * polar(ways)
         quarters.append(keeping(np.concatenate([[[0.0, 0.0]], arc]), fill=fill, closed=True))
     return tuple(quarters)
 
 
 def support_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
     """Return a foot under a point that pushes it in a direction [rad]."""
-    cos, sin = np.cos(way), np.sin(way)
-
-    def place(along: float, across: float) -> tuple[float, float, float]:
-        return 0.0, float(along * cos - across * sin) * size, float(along * sin + across * cos) * size
-
-    foot = outline(place(0.0, 0.0), place(-2.2, 1.3), place(-2.2, -1.3), fill="ROD", closed=True)
-    return foot, outline(place(-2.7, 1.7), place(-2.7, -1.7), bold=True)
+    axes = np.array([polar(way), left_of(polar(way))])
+    foot, base = (np.array(rows) @ axes * size for rows in ([(0.0, 0.0), (-2.2, 1.3), (-2.2, -1.3)], [(-2.7, 1.7), (-2.7, -1.7)]))
+    return keeping(foot, fill="ROD", closed=True), keeping(base, bold=True)
 
 
 def force_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
@@ -346,8 +352,8 @@ def force_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
 def moment_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
     """Return a curved arrow about the place where a moment is written; it says no sense."""
     ways = np.radians(np.linspace(-140.0, 100.0, 25))
-    arc = 1.5 * size * np.column_stack([np.cos(ways), np.sin(ways)])
-    out, along = arc[-1] / (1.5 * size), np.array([-np.sin(ways[-1]), np.cos(ways[-1])])
+    arc = 1.5 * size * polar(ways)
+    out, along = arc[-1] / (1.5 * size), left_of(polar(ways[-1]))
     head = np.array([arc[-1] + 0.9 * size * along, arc[-1] + 0.5 * size * out, arc[-1] - 0.5 * size * out])
     return keeping(arc, bold=True), keeping(head, fill="INK", closed=True)
 

@@ -15,7 +15,7 @@ from ..mechanism import Mechanism
 from ..motion import Column, Motion, check_any, last_holding, require_motion, stroke_display_unit
 from ..plan import Plan
 from ..program import FloatArray
-from ..reports import NOTHING, At, Run, results, run_of
+from ..reports import NOTHING, At, Run, reached_motion, results, run_of
 from ..units import factor, shown_in
 
 
@@ -160,9 +160,7 @@ def playback(machine: Mechanism, count: int, column: str | None = None, *, at: A
     turn = is_turn(machine, run)
     shares = np.linspace(0.0, 1.0, frame_count(count))
     values = run.over(0.5 - 0.5 * np.cos(np.pi * shares) if eased and not turn else shares)
-    motion = machine.at(unreachable="nan", **values)
-    if not motion.reached.any():
-        machine.at(**values)
+    motion = reached_motion(machine, values)
     turn = (turn or run.is_path) and bool(motion.reached.all()) and ends_where_begun(motion)
     there = [int(pose) for pose in np.flatnonzero(motion.reached)]
     return Playback(motion, tuple(there if turn else there + there[-2:0:-1]), column_shown(machine, motion, column), turn)

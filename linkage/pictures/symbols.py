@@ -15,7 +15,7 @@ from matplotlib.patches import Patch, Polygon
 from ..program import FloatArray
 from . import style
 from .scene import Places, Scene, SlideTrack
-from .shapes import BLOCK
+from .shapes import BLOCK, left_of, polar
 from .style import Look
 
 Kind = TypeVar("Kind", bound=Patch)
@@ -78,7 +78,7 @@ def ground(ax: Axes, pin: FloatArray, way: float, size: float, look: Look) -> No
 
 def support(pin: FloatArray, way: float, size: float) -> tuple[FloatArray, FloatArray]:
     """Return the triangle, shape (3, 2), and the base line with its hatches, shape (n, 2, 2) [m]."""
-    down, across = np.array([np.cos(way), np.sin(way)]), np.array([-np.sin(way), np.cos(way)])
+    down, across = polar(way), left_of(polar(way))
 
     def place(along: float, aside: float) -> FloatArray:
         return np.asarray(pin + size * (along * down + aside * across))

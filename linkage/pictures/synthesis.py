@@ -29,6 +29,7 @@ from .layout import cloud
 from .paper import LEFT, sheets_beside, write_title
 from .poses import trace
 from .scene import Bounds, Scene
+from .shapes import polar
 from .sheet import figure_of, grown, points_a_metre
 from .strokes import StrokeAxis, stroke_words
 from .style import FAINT
@@ -240,7 +241,7 @@ def draw_pose_task(ax: Axes, shown: ShownAnswer, task: PoseTask, stretch: float)
             if {first, second} <= set(plate.points):
                 body_part(ax, plate, scene.size, colour, FAINT).update(scene.at(pose))
     long = float(np.nanmax(np.hypot(*(shown.reached[second] - shown.reached[first]))))
-    ends = shown.wanted + long * np.stack([np.cos(task.angle), np.sin(task.angle)], axis=1)
+    ends = shown.wanted + long * polar(task.angle)
     for start, end in zip(shown.wanted, ends, strict=True):
         ax.plot(*np.stack([start, end], axis=1), color=style.CURVE, linewidth=2.0, zorder=12.0, solid_capstyle="round")
     draw_scene(ax, scene, 0, [draw_wanted(ax, shown, stretch), ends], all_points=False)

@@ -9,6 +9,7 @@ from .ranges import (
     closely,
     first_stroke,
     ranges_below_zero,
+    reached_motion,
     reached_span,
     run_along,
     run_of,

@@ -135,6 +135,14 @@ def stroke_way(machine: Mechanism, name: str, value: object) -> tuple[float, ...
     return values
 
 
+def reached_motion(machine: Mechanism, strokes: At) -> Motion:
+    """Return a machine at strokes [m or rad], NaN where it cannot be assembled; AssemblyError where it cannot anywhere."""
+    motion = machine.at(unreachable="nan", **strokes)
+    if not motion.reached.any():
+        raise out_of_reach(motion)
+    return motion
+
+
 def first_stroke(machine: Mechanism) -> str:
     """Return the first stroke; DefinitionError for a structure without one, and for anything but a mechanism."""
     if not isinstance(machine, Mechanism):

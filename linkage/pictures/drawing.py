@@ -131,6 +131,7 @@ class BodyPart(MovingPart):
 
     def __init__(self, form: Plate, radius: float, *artists: Polygon) -> None:
         self.form, self.points, self.radius, self.artists = form, form.points, radius, artists
+        self.face = artists[0]
 
     def move(self, at: Places) -> None:
         outline = rounded_outline(self.form.at(at), self.radius)

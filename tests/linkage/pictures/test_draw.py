@@ -182,7 +182,7 @@ def test_bodies_keep_their_shape_and_hold_their_pins(cls):
     for pose in range(11):
         drawing.update(pose)
         for body in bodies:
-            path = body.artists[0].get_path()
+            path = body.face.get_path()
             assert path.contains_points([motion[name][:, pose] for name in body.points]).all()
         perimeters.append([np.hypot(*np.diff(body.face.get_xy(), axis=0).T).sum() for body in bodies])
     assert_allclose(perimeters, np.broadcast_to(perimeters[0], np.shape(perimeters)), rtol=1e-9)

@@ -6,13 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
-from typing import final
+from typing import Any, final
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
-from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
@@ -22,8 +21,7 @@ from ..units import current_system, factor, shown_in
 from . import style
 from .scene import Bounds
 from .shapes import left_of, polar
-from .sheet import figure_of, points_a_metre, renderer_of
-from .symbols import added
+from .sheet import figure_of, haloed, points_a_metre, renderer_of
 
 SHARE = 0.17
 """The largest arrow's length over the longer side of what is drawn."""
@@ -126,25 +124,25 @@ def significant(value: float, digits: int = 3) -> str:
 def draw_arrows(ax: Axes, layer: ArrowLayer, scale: float, size: float, level: float = 16.0) -> FloatArray:
     """Draw the arrows of a layer and return points that cover them, shape (n, 2) [m]; `size` is that of the mechanism's pins [m]."""
     for each in layer.arrows:
-        tip = each.at + scale * each.vector
-        edge = style.mixed(each.colour, style.INK, 0.35)
-        if each.length <= TINY * layer.largest:
-            patch: Circle | Polygon = Circle((each.at[0], each.at[1]), 0.3 * size, facecolor=each.colour, edgecolor=edge, zorder=level)
+        if each.length > TINY * layer.largest:
+            draw_arrow(ax, each, each.at, each.at + scale * each.vector, size, level, each.name)
         else:
-            outline = arrow_outline(each.at, tip, size)
-            patch = Polygon(outline, facecolor=each.colour, edgecolor=edge, linewidth=0.6, joinstyle="round", zorder=level)
-        patch.set_gid(each.name)
-        added(ax, patch)
+            x, y, edge = *each.at, style.mixed(each.colour, style.INK, 0.35)
+            ax.add_patch(Circle((x, y), 0.3 * size, facecolor=each.colour, edgecolor=edge, zorder=level, gid=each.name))
     for turn in layer.turning:  # a moment is a curved arrow about its point
         curve = turning_line(turn, size)
-        line = Line2D(*curve.T, color=turn.colour, linewidth=2.2, solid_capstyle="butt", zorder=level)
-        line.set_gid(turn.name)
-        ax.add_line(line)
+        ax.add_line(Line2D(*curve.T, color=turn.colour, linewidth=2.2, solid_capstyle="butt", zorder=level, gid=turn.name))
         end, out = curve[-1], (curve[-1] - turn.at) / (turn.radius * size)
         along = left_of(out) * np.sign(turn.moment)
         corners = np.array([end + HEAD * size * along, end + BARB * size * out, end - BARB * size * out])
-        added(ax, Polygon(corners, facecolor=turn.colour, edgecolor=turn.colour, joinstyle="round", zorder=level))
+        ax.add_patch(Polygon(corners, facecolor=turn.colour, edgecolor=turn.colour, joinstyle="round", zorder=level))
     return arrow_points(layer, scale, size)
+
+
+def draw_arrow(ax: Axes, arrow: VectorArrow, tail: FloatArray, tip: FloatArray, size: float, level: float, name: str) -> None:
+    """Draw a vector as an arrow from its tail to its tip [m]."""
+    outline, edge = arrow_outline(tail, tip, size), style.mixed(arrow.colour, style.INK, 0.35)
+    ax.add_patch(Polygon(outline, facecolor=arrow.colour, edgecolor=edge, linewidth=0.6, joinstyle="round", zorder=level, gid=name))
 
 
 def arrow_points(layer: ArrowLayer, scale: float, size: float) -> FloatArray:
@@ -275,12 +273,11 @@ class PlacedWording:
         if self.place >= FIRST_LED:
             nearest = np.clip(self.anchor, self.box[:2], self.box[2:])
             ends = back.transform(np.array([nearest, self.anchor]))
-            line = Line2D(*ends.T, color=self.text.get_color(), linewidth=0.6, zorder=19.5)
-            line.set_gid(f"leader of {self.text.get_gid()}")
-            ax.add_line(line)
+            name = f"leader of {self.text.get_gid()}"
+            ax.add_line(Line2D(*ends.T, color=self.text.get_color(), linewidth=0.6, zorder=19.5, gid=name))
 
 
-def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font: float = style.SMALL) -> list[Text]:
+def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray) -> None:
     """Write texts near their places so that they cover neither each other, nor what is written already, nor `covered` points [m]."""
     renderer = renderer_of(figure_of(ax))
     ax.apply_aspect()
@@ -290,11 +287,8 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font
     chosen: list[PlacedWording] = []
     near = [np.count_nonzero(np.hypot(*(points - ax.transData.transform(each.at)).T) < 40.0) for each in texts]
     for each in (texts[place] for place in np.argsort(-np.array(near, int), kind="stable")):  # the most crowded places first
-        text = ax.text(
-            0.0, 0.0, each.text, fontsize=font, color=each.colour, ha="center", va="center", zorder=20.0, clip_on=False,
-            path_effects=[withStroke(linewidth=2.2, foreground=style.PAPER)],
-        )  # fmt: skip
-        text.set_gid(f"{each.name} value")
+        look: dict[str, Any] = {"ha": "center", "va": "center", "zorder": 20.0, "clip_on": False, "gid": f"{each.name} value"}
+        text = haloed(ax, each.text, np.zeros(2), style.SMALL, each.colour, **look)
         size = np.asarray(text.get_window_extent(renderer).size)
         chosen.append(PlacedWording(text, np.asarray(ax.transData.transform(each.at)), size, each.way))
     for _ in range(AGAIN):
@@ -304,7 +298,6 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font
             one.choose([*boxes, *(other.box for other in others)], np.concatenate([points, *lines]), inside)
     for one in chosen:
         one.write(ax)
-    return [one.text for one in chosen]
 
 
 def text_boxes(ax: Axes) -> list[Bbox]:
@@ -346,13 +339,10 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray) ->
     x, y = float(across[column]), float(up[row])
     half, colour = 0.2 * pad, layer.keys[0][0] if len(layer.keys) == 1 else style.INK
     outline = np.array([[x, x, x, x + length, x + length, x + length], [y + half, y - half, y, y, y - half, y + half]])
-    bar = ax.plot(*outline, color=colour, linewidth=1.6, zorder=19.0, solid_joinstyle="miter")
-    bar[0].set_gid(f"scale {layer.unit}")
-    text = ax.text(
-        x + 0.5 * length, y + 0.25 * pad, f"{value:g} {layer.sign}", fontsize=style.SMALL, color=style.INK, ha="center", va="bottom",
-        zorder=20.0, path_effects=[withStroke(linewidth=2.2, foreground=style.PAPER)],
-    )  # fmt: skip
-    text.set_gid(f"scale {layer.unit} value")
+    name, middle = f"scale {layer.unit}", np.array([x + 0.5 * length, y + 0.25 * pad])
+    ax.plot(*outline, color=colour, linewidth=1.6, zorder=19.0, solid_joinstyle="miter", gid=name)
+    look: dict[str, Any] = {"ha": "center", "va": "bottom", "zorder": 20.0, "gid": f"{name} value"}
+    haloed(ax, f"{value:g} {layer.sign}", middle, style.SMALL, style.INK, **look)
     return np.array([x, y]) + np.linspace(-0.3 * pad, length + 0.3 * pad, 60)[:, None] * [1.0, 0.0]
 
 

@@ -54,11 +54,11 @@ class LiveQuestions:
     def __init__(self, machine: Mechanism, limits: Mapping[str, Sequence[object]], columns: Mapping[str, LiveColumn], over: object) -> None:
         self.machine, self.judge = machine, machine.judge(over)
         self.by_name: dict[str, RequestLike] = {}
-        self.only = [[self.row(each.margin, " only") for each in place.over.only] for place in self.judge.places]
+        self.only = [[self.new_row(each.margin, " only") for each in place.over.only] for place in self.judge.places]
         self.ends = [self.rows_of_ends(place.over.strokes) for place in self.judge.places]
         self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Piece]]]] = []
         with unwarned():
-            for rule, condition in self.conditions().items():
+            for rule, condition in self.rules().items():
                 self.ask(rule, condition)
         for name, given in limits.items():
             _, request, why = columns[name]
@@ -66,7 +66,7 @@ class LiveQuestions:
             if not why:
                 self.ask(name, least(request) >= limit.value if limit.fails == "below" else most(request) <= limit.value)
 
-    def conditions(self) -> dict[str, Condition]:
+    def rules(self) -> dict[str, Condition]:
         """Return the rules of the machine's members that are plain conditions, with a member's name where several have the same one."""
         found = []
         for name, member in speakers(self.machine.plan, HasVerdicts).items():
@@ -82,18 +82,18 @@ class LiveQuestions:
         constraints = conditions_of([condition], self.machine)
         leaves = list(dict.fromkeys(leaf for each in constraints for leaf in (*each.left.leaves, *each.right.leaves)))
         try:
-            pieces = {leaf: self.pieces(leaf) for leaf in leaves}
+            pieces = {leaf: self.leaf_rows(leaf) for leaf in leaves}
         except LinkageError:
             return
         self.asked.append((rule, constraints, pieces))
 
-    def row(self, request: RequestLike, kind: str = "") -> str:
+    def new_row(self, request: RequestLike, kind: str = "") -> str:
         """Return the name of a new row, of a kind, that a request asks for."""
         name = f"judge {len(self.by_name)}{kind}"
         self.by_name[name] = request
         return name
 
-    def pieces(self, leaf: Leaf) -> list[Piece]:
+    def leaf_rows(self, leaf: Leaf) -> list[Piece]:
         """Return the pieces of a leaf with the names of their rows, over every `Over`; of a value at one pose the row alone."""
         if isinstance(leaf, Integral):
             raise DefinitionError(f"{leaf}: an integral is not followed in the page.")
@@ -102,7 +102,7 @@ class LiveQuestions:
             if is_column(leaf.quantity) and PLAIN_CASE not in place.cases(self.judge.acting):
                 continue  # a table's own column is under the machine's own loads, which do not occur here
             for row in self.judge.sought(leaf, place):
-                name = self.row(row.request)
+                name = self.new_row(row.request)
                 with suppress(LawError, UntracedError):  # it is left out of the program then, and its question with it
                     looked_up = bound(self.machine.plan, row.request)
                     self.by_name |= {f"{name} {which}": where_true(looked_up, which) for which in TRUTHS}
@@ -116,7 +116,7 @@ class LiveQuestions:
             for k, each in enumerate(given if isinstance(given, tuple) else (given,)):
                 if not is_number(each):
                     owned = isinstance(each, str) and each in spellings
-                    names[name, k] = self.row(dimension_value(*spellings[each]) if owned else quantity(each), " end")
+                    names[name, k] = self.new_row(dimension_value(*spellings[each]) if owned else quantity(each), " end")
         return names
 
     # -- as data -----------------------------------------------------------------------------------------

@@ -6,13 +6,12 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import final
+from typing import Any, final
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Arc
-from matplotlib.patheffects import withStroke
 
 from ..motion import Motion
 from ..program import FloatArray
@@ -23,12 +22,14 @@ from .drawing import draw_scene
 from .layout import cloud
 from .scene import Bounds, Places, Scene
 from .shapes import left_of, polar, segment
-from .sheet import points_a_metre, sheet
+from .sheet import haloed, points_a_metre, sheet
 
 AWAY = (1.7, 2.7, 3.8, 5.0, 6.4, 8.0)
 """The distances from the link that a dimension line tries, in heights of its letters."""
 LETTERS = 8.0
 """Their size [points]."""
+NUMBER: dict[str, Any] = {"rotation_mode": "anchor", "ha": "center", "va": "center", "zorder": 21.0}
+"""How a dimension stands over its line."""
 RADII = (3.4, 4.6, 6.0, 7.6)
 """The radii that an arc tries, in heights of letters."""
 SHORT = 1.6
@@ -90,9 +91,8 @@ class LengthLine:
             ax.add_line(Line2D(*line.T, color=style.MUTED, linewidth=0.5, zorder=20.0))
         arrow = {"arrowstyle": "<|-|>,head_length=0.35,head_width=0.11", "color": style.INK, "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
         ax.annotate("", tuple(end), tuple(start), arrowprops=arrow, zorder=20.5, annotation_clip=False)
-        way = float(np.degrees(np.arctan2(*(end - start)[::-1])))
-        way = (way + 90.0) % 180.0 - 90.0
-        write_number(ax, self.text, 0.5 * (start + end), way)
+        way = (float(np.degrees(np.arctan2(*(end - start)[::-1]))) + 90.0) % 180.0 - 90.0
+        haloed(ax, self.text, 0.5 * (start + end), LETTERS, style.INK, 3.0, rotation=way, **NUMBER)
 
 
 @final
@@ -127,16 +127,7 @@ class AngleArc:
         x, y = self.corner
         size, ends = 2.0 * self.radius, np.degrees([self.start, self.end])
         ax.add_patch(Arc((x, y), size, size, theta1=ends[0], theta2=ends[1], color=style.INK, linewidth=0.7, zorder=20.0))
-        write_number(ax, self.text, self.middle, 0.0)
-
-
-def write_number(ax: Axes, text: str, place: FloatArray, way: float) -> None:
-    """Write a dimension over its line, turned by an angle [deg]."""
-    x, y = place.tolist()
-    ax.text(
-        x, y, text, rotation=way, rotation_mode="anchor", ha="center", va="center", fontsize=LETTERS, color=style.INK, zorder=21.0,
-        path_effects=[withStroke(linewidth=3.0, foreground=style.PAPER)],
-    )  # fmt: skip
+        haloed(ax, self.text, self.middle, LETTERS, style.INK, 3.0, rotation=0.0, **NUMBER)
 
 
 # Which dimensions there are, and where each stands.

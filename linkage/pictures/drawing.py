@@ -27,7 +27,7 @@ from .scene import DrawnMark, Places, Plate, Pose, Scene
 from .shapes import SLOT, rounded_outline
 from .sheet import MOST_PIXELS, pixels_text, points_a_metre, sheet
 from .style import FAINT, STRONG, Look
-from .symbols import MovingPart, added, ground, polygon, rails
+from .symbols import MovingPart, ground, polygon, rails
 
 
 def mechanism(ax: Axes, motion: Motion, pose: Pose = 0, *, faint: bool = False) -> Drawing:
@@ -233,7 +233,8 @@ class CirclePart(MovingPart):
 
     def __init__(self, ax: Axes, name: str, radius: float, fill: str, edge: str, width: float, level: float) -> None:
         self.points = (name,)
-        self.circle = added(ax, Circle((0, 0), radius, facecolor=fill, edgecolor=edge, linewidth=width, zorder=level))
+        self.circle = Circle((0, 0), radius, facecolor=fill, edgecolor=edge, linewidth=width, zorder=level)
+        ax.add_patch(self.circle)
         self.artists = (self.circle,)
 
     def move(self, at: Places) -> None:

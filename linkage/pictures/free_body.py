@@ -151,12 +151,10 @@ def draw_polygon(ax: Axes, layer: ArrowLayer) -> None:
     size = 0.012 * max(box[1] - box[0], box[3] - box[2])
     texts, covered = [], []
     for each, tail, tip in zip(chain, ends, ends[1:], strict=False):
-        edge = style.mixed(each.colour, style.INK, 0.35)
-        patch = polygon(ax, 10.0, facecolor=each.colour, edgecolor=edge, linewidth=0.6, joinstyle="round")
-        patch.set_xy(arrows.arrow_outline(tail, tip, size))
-        patch.set_gid(f"polygon {each.name}")
+        edge, name = style.mixed(each.colour, style.INK, 0.35), f"polygon {each.name}"
+        arrows.draw_arrow(ax, each, tail, tip, size, 10.0, name)
         covered.append(np.linspace(tail, tip, 24))
         across = np.array([tip[1] - tail[1], tail[0] - tip[0]]) / float(np.hypot(*(tip - tail)))
-        texts.append(Wording(layer.words(each), 0.5 * (tail + tip), across, edge, f"polygon {each.name}"))
+        texts.append(Wording(layer.words(each), 0.5 * (tail + tip), across, edge, name))
     arrows.place_wordings(ax, texts, np.concatenate(covered))
     ax.text(0.5, 1.0, said("head to tail"), transform=ax.transAxes, fontsize=style.TEXT, color=style.MUTED, ha="center", va="bottom")

@@ -46,11 +46,11 @@ class GapMark:
 
     def outer(self, size: float) -> FloatArray:
         """Return all places that its lines reach, shape (4, 2) [m]."""
-        out = REACH * size * self.way
+        out = REACH * size * self.along
         return np.array([self.ends[0] - out, *self.ends, self.ends[1] + out])
 
     @property
-    def way(self) -> FloatArray:
+    def along(self) -> FloatArray:
         """The direction from its first place to the second, of length one; to the right where both are one."""
         arm = self.ends[1] - self.ends[0]
         length = float(np.hypot(*arm))
@@ -101,14 +101,14 @@ def gap_mark(at: Motion, given: object, place: str = "") -> GapMark:
     else:
         words = said("{gap} between {one} and {other}", **names)
     line = GapMark(f"gap {pair[0]} {pair[1]}", np.array([found.one, found.other]), f"{words}, {place}" if place else words, bool(place))
-    half = (0.5 if found.gap > 0.0 else -0.5) * width * line.way
+    half = (0.5 if found.gap > 0.0 else -0.5) * width * line.along
     return replace(line, ends=line.ends + np.array([half, -half]))
 
 
 def draw_gap(ax: Axes, mark: GapMark, size: float) -> list[Wording]:
     """Draw a gap as a dimension, a short one with its arrows outside, and return what is written at it."""
     colour = style.mixed(style.ACCENT, style.PAPER, 0.4) if mark.faint else style.ACCENT
-    level, (start, end), way = 14.0 if mark.faint else 18.0, mark.ends, mark.way
+    level, (start, end), way = 14.0 if mark.faint else 18.0, mark.ends, mark.along
     across = BARB * size * left_of(way)
     is_short = float(np.hypot(*(end - start))) < SHORT * size
     lines = [np.array([start, end]), *(np.array([place - across, place + across]) for place in (start, end))]

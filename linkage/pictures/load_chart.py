@@ -58,13 +58,13 @@ class ChartText:
         unit = unit_sign("m")
         self.axes = said("radius from the frame's origin, {unit}", unit=unit), said("height, {unit}", unit=unit)
 
-    def load(self, value: float) -> str:
+    def load_text(self, value: float) -> str:
         """Return a load [N] as it is printed."""
         if np.isnan(value):
             return ""
         return "\N{INFINITY}" if np.isinf(value) else f"{value / self.load_size:.{self.load_digits}f}"
 
-    def length(self, value: float) -> str:
+    def length_text(self, value: float) -> str:
         """Return a radius or a height [m] as it is printed."""
         return f"{value / factor(shown_in('m')):.{self.length_digits}f}".replace("-", "\N{MINUS SIGN}")
 
@@ -110,10 +110,10 @@ def plot_field(field: WorkingField) -> Figure:
     bold: dict[str, Any] = {"fontsize": style.SMALL, "fontweight": "bold", "color": style.INK, "va": "center"}
     for column, n in enumerate(across):
         at = LEFT + (column + 0.5) * CELL[0]
-        ax.text(at, TOP - 0.14, text.length(float(field.x[n])), ha="center", **bold)
+        ax.text(at, TOP - 0.14, text.length_text(float(field.x[n])), ha="center", **bold)
     for row, k in enumerate(down):
         level = TOP + (row + 0.5) * CELL[1]
-        ax.text(LEFT - 0.1, level, text.length(float(field.y[k])), ha="right", **bold)
+        ax.text(LEFT - 0.1, level, text.length_text(float(field.y[k])), ha="right", **bold)
         for column, n in enumerate(across):
             draw_cell(ax, text, colours, (LEFT + column * CELL[0], TOP + row * CELL[1]), float(field.load[k, n]), str(field.limiter[k, n]))
     for row, line in enumerate(lines):
@@ -128,5 +128,5 @@ def draw_cell(ax: Axes, text: ChartText, colours: Mapping[str, str], corner: tup
     x, y = corner[0], corner[1] + 0.5 * CELL[1]
     letter = text.letters.get(limiter, "")
     ink: dict[str, Any] = {"color": style.INK, "va": "center", "zorder": 6.0}
-    ax.text(x + (0.40 if letter else 0.5) * CELL[0], y, text.load(load), fontsize=style.SMALL, ha="center", **ink)
+    ax.text(x + (0.40 if letter else 0.5) * CELL[0], y, text.load_text(load), fontsize=style.SMALL, ha="center", **ink)
     ax.text(x + 0.93 * CELL[0], y - 0.02, letter, fontsize=style.SMALL - 1.5, ha="right", **ink)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -51,11 +52,8 @@ def draw_modes(modes: Sequence[Assembly]) -> Figure:
         ax = figure.add_axes((left / width, (top - high) / height, PANEL / width, high / height))
         draw_mode(ax, mode, scene, extent)
         colour = style.CURVE if mode.is_declared else style.INK
-        lines = "\n".join(text)
-        written = figure.text(
-            left / width, (top - high - 0.06) / height, lines, fontsize=CODE, family="monospace", color=colour, va="top", linespacing=1.25
-        )
-        written.set_gid(f"code {place}")
+        look: dict[str, Any] = {"family": "monospace", "color": colour, "va": "top", "linespacing": 1.25, "gid": f"code {place}"}
+        figure.text(left / width, (top - high - 0.06) / height, "\n".join(text), fontsize=CODE, **look)
     plan, motion = motions[0].plan, motions[0]
     count = said_of(len(modes), "{n} assembly mode", "{n} assembly modes")
     if len(modes) > len(shown):

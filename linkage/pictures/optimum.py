@@ -6,13 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from textwrap import fill
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patheffects import withStroke
 
 from ..checks import require_whole
 from ..errors import DefinitionError
@@ -30,7 +29,7 @@ from .labels import offsets
 from .layout import label_free
 from .paper import legend_row, sheets_beside, write_title
 from .scene import Places, Scene
-from .sheet import joined_box, points_a_metre
+from .sheet import haloed, joined_box, points_a_metre
 from .strokes import StrokeAxis, stroke_words
 from .style import FAINT, STRONG
 from .symbols import arrow_between
@@ -93,23 +92,16 @@ def name_points(ax: Axes, scene: Scene, at: Places, moves: Mapping[str, float], 
     for name, text in names.items():
         middle, height = spots[text].tolist()
         split = middle - 0.5 * CHARACTER * font * len(text) + CHARACTER * font * (len(name) + 0.6)
-        look = {"fontstyle": "italic", "fontsize": font, "color": style.INK}
-        write_beside(ax, at[name], name, (split, height), "right" if name in moves else "center", **look)
+        side, level = "right" if name in moves else "center", STRONG.level + 1.0
+        here = np.array([split, height])
+        haloed(ax, name, at[name], font, style.INK, 2.5, here, ha=side, fontstyle="italic", zorder=level)
         if name in moves:
-            far = text.removeprefix(name).strip()
-            write_beside(ax, at[name], far, (split + 0.25 * font, height), "left", fontsize=style.SMALL, color=style.ACCENT)
+            beside = np.array([split + 0.25 * font, height])
+            haloed(ax, text.removeprefix(name).strip(), at[name], style.SMALL, style.ACCENT, 2.5, beside, ha="left", zorder=level)
 
 
 CHARACTER = 0.6
 """The width of a character, in sizes of its font."""
-
-
-def write_beside(ax: Axes, place: FloatArray, text: str, offset: tuple[float, float], side: str, **look: Any) -> None:
-    """Write a text at an offset [points] from a place [m]."""
-    ax.annotate(
-        text, (float(place[0]), float(place[1])), xytext=offset, textcoords="offset points", ha=side, va="center_baseline",
-        zorder=STRONG.level + 1.0, annotation_clip=False, path_effects=[withStroke(linewidth=2.5, foreground=style.PAPER)], **look,
-    )  # fmt: skip
 
 
 def edge(ax: Axes) -> FloatArray:

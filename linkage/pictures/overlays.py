@@ -98,8 +98,7 @@ class Overlays:
                 path = np.where(np.isfinite(path), path, np.nan)
                 jumps = np.hypot(*np.diff(path)) > 3.0 * np.hypot(np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim()))
                 path[:, 1:][:, jumps] = np.nan
-                line = ax.plot(*path, color=POLE, linewidth=1.1, linestyle=(0, (1.0, 1.6)), zorder=14.0)
-                line[0].set_gid(f"centrode of {body}")
+                ax.plot(*path, color=POLE, linewidth=1.1, linestyle=(0, (1.0, 1.6)), zorder=14.0, gid=f"centrode of {body}")
 
 
 @final
@@ -180,11 +179,9 @@ def sheet_note(ax: Axes, sentences: Sequence[str]) -> None:
     if sentences:
         across = int(ax.get_position(original=True).width * figure_of(ax).get_figwidth() * 72.0 / (0.5 * style.SMALL))
         lines = [line for sentence in sentences for line in textwrap.wrap(sentence, across)]
-        text = ax.text(
-            0.012, 0.985, "\n".join(lines), transform=ax.transAxes, fontsize=style.SMALL, color=style.ACCENT, ha="left", va="top",
-            zorder=21.0, bbox={"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 1.5},
-        )  # fmt: skip
-        text.set_gid("note")
+        look: dict[str, Any] = {"fontsize": style.SMALL, "color": style.ACCENT, "ha": "left", "va": "top", "zorder": 21.0, "gid": "note"}
+        box = {"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 1.5}
+        ax.text(0.012, 0.985, "\n".join(lines), transform=ax.transAxes, bbox=box, **look)
 
 
 # What can still move while the drives are locked.
@@ -295,15 +292,13 @@ def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds, size: float) -> list[Word
     """Draw a pole, with thin lines to its body's points, and return the name to write beside it."""
     if mark.words:
         return []
+    ray: dict[str, Any] = {"color": POLE, "linewidth": style.THIN, "dashes": (7, 3, 1.5, 3), "zorder": 15.0, "gid": f"{mark.name} ray"}
     for end in mark.ends:
-        line = ax.plot(*np.array([mark.at, end]).T, color=POLE, linewidth=style.THIN, dashes=(7, 3, 1.5, 3), zorder=15.0)
-        line[0].set_gid(f"{mark.name} ray")
+        ax.plot(*np.array([mark.at, end]).T, **ray)
     if not mark.is_near(sheet):
         return []
-    point = ax.plot(
-        *mark.at[:, None], marker="o", markersize=8.5, markerfacecolor=style.PAPER, markeredgecolor=POLE, markeredgewidth=1.6, zorder=17.0
-    )
-    point[0].set_gid(mark.name)
+    ring: dict[str, Any] = {"marker": "o", "markersize": 8.5, "markerfacecolor": style.PAPER, "markeredgewidth": 1.6, "gid": mark.name}
+    ax.plot(*mark.at[:, None], markeredgecolor=POLE, zorder=17.0, **ring)
     ax.plot(*mark.at[:, None], marker="+", markersize=12.0, markeredgecolor=POLE, markeredgewidth=1.2, zorder=17.1)
     return [Wording(mark.name, mark.at, np.array([0.7, 0.7]), POLE, mark.name)]
 

@@ -13,6 +13,8 @@ from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, MaxNLocator, ScalarFormatter
 
 from ..disk import check_place, replacing
@@ -125,6 +127,18 @@ def points_a_metre(ax: Axes) -> float:
     ax.apply_aspect()
     ends = ax.transData.transform([(0.0, 0.0), (1.0, 0.0)])
     return float(np.hypot(*(ends[1] - ends[0]))) * 72.0 / figure_of(ax).dpi
+
+
+def haloed(
+    ax: Axes, text: str, at: FloatArray, size: float, colour: str, halo: float = 2.2, offset: FloatArray | None = None, **look: Any
+) -> Text:
+    """Write a text with a rim of paper around its letters, at a place [m], or at an offset [points] from it, shape (2,) each."""
+    look |= {"fontsize": size, "color": colour, "path_effects": [withStroke(linewidth=halo, foreground=style.PAPER)]}
+    x, y = np.asarray(at, float).tolist()
+    if offset is None:
+        return ax.text(x, y, text, **look)
+    beside = tuple(np.asarray(offset, float).tolist())
+    return ax.annotate(text, (x, y), beside, textcoords="offset points", va="center_baseline", annotation_clip=False, **look)
 
 
 def figure_of(ax: Axes) -> Figure:

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
-from matplotlib.patches import Patch, Polygon
+from matplotlib.patches import Polygon
 
 from ..program import FloatArray
 from . import style
 from .scene import Places, Scene, SlideTrack
 from .shapes import BLOCK, left_of, polar
 from .style import Look
-
-Kind = TypeVar("Kind", bound=Patch)
 
 
 class MovingPart(ABC):
@@ -40,15 +38,11 @@ class MovingPart(ABC):
         """Move to a pose at which all points are reached."""
 
 
-def added(ax: Axes, patch: Kind) -> Kind:
-    """Return a patch that is now on the axes."""
-    ax.add_patch(patch)
-    return patch
-
-
 def polygon(ax: Axes, level: float, **options: Any) -> Polygon:
     """Return a polygon on the axes in a layer; its corners are set when it is moved."""
-    return added(ax, Polygon(np.zeros((1, 2)), zorder=level, **options))
+    patch = Polygon(np.zeros((1, 2)), zorder=level, **options)
+    ax.add_patch(patch)
+    return patch
 
 
 def arrow_between(

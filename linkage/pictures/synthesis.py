@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patheffects import withStroke
 
 from ..checks import require_whole
 from ..errors import StudyError
@@ -30,7 +29,7 @@ from .paper import LEFT, sheets_beside, write_title
 from .poses import trace
 from .scene import Bounds, Scene
 from .shapes import polar
-from .sheet import figure_of, grown, points_a_metre
+from .sheet import figure_of, grown, haloed, points_a_metre
 from .strokes import StrokeAxis, stroke_words
 from .style import FAINT
 
@@ -218,11 +217,7 @@ def number_points(ax: Axes, shown: ShownAnswer, ends: FloatArray) -> FloatArray:
     taken = np.concatenate([cloud(shown.scene, shown.scene.at(0))[::2], path[np.isfinite(path).all(axis=1)], wanted, ends])
     covered = []
     for number, spot in offsets([*at], [at], [taken], scale, 5.0, style.SMALL).items():
-        ax.annotate(
-            number, tuple(at[number].tolist()), xytext=tuple(spot.tolist()), textcoords="offset points", ha="center", va="center_baseline",
-            fontsize=style.SMALL, color=style.CURVE, fontweight="bold", zorder=12.6, annotation_clip=False,
-            path_effects=[withStroke(linewidth=2.2, foreground=style.PAPER)],
-        )  # fmt: skip
+        haloed(ax, number, at[number], style.SMALL, style.CURVE, offset=spot, ha="center", fontweight="bold", zorder=12.6)
         covered += [at[number] + (spot + 0.3 * style.SMALL * np.array(corner)) / scale for corner in CORNERS]
     return np.array(covered)
 

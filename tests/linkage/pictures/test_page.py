@@ -1308,20 +1308,20 @@ def test_the_machine_stands_in_the_cell_that_is_pointed_at(chromium, tmp_path):
     with Shown(chromium, page(field, tmp_path / "chart.html")) as shown:
         assert shown.said == [] and len(shown.asked) == 1
         texts = shown("[...document.querySelectorAll('#chart td')].map((each) => each.textContent)")
-        assert texts == [text.load(field.load[cell]) + text.letters.get(field.limiter[cell], "") for cell in cells]
+        assert texts == [text.load_text(field.load[cell]) + text.letters.get(field.limiter[cell], "") for cell in cells]
         assert shown("hydrolinkage.data.load")[shown("hydrolinkage.cell()")] == np.nanmax(field.load)
         for i in random.permutation(len(cells))[:6].tolist():
             cell = k, n = cells[i]
             shown.tab.hover(f"#cell{i}")
             assert shown("hydrolinkage.cell()") == i
-            assert shown.text("#place") == f"x = {text.length(field.x[n])}\u2009m, y = {text.length(field.y[k])}\u2009m"
+            assert shown.text("#place") == f"x = {text.length_text(field.x[n])}\u2009m, y = {text.length_text(field.y[k])}\u2009m"
             if not field.reached[cell]:
                 assert shown.text("#load") == "out of reach" and shown.text("#why") == field.why[cell]
                 assert shown("document.getElementById('mechanism').dataset.away") == "1"
                 continue
-            assert shown.text("#load b") == f"{text.load(field.load[cell])}\u2009t" and str(field.limiter[cell]) in shown.text("#load")
+            assert shown.text("#load b") == f"{text.load_text(field.load[cell])}\u2009t" and str(field.limiter[cell]) in shown.text("#load")
             rows = shown("[...document.querySelectorAll('#of tr')].map((row) => row.lastChild.textContent)")
-            assert rows == [f"{text.load(loads[cell])}\u2009t" for loads in field.of.values()]
+            assert rows == [f"{text.load_text(loads[cell])}\u2009t" for loads in field.of.values()]
             motion = field.machine.at(**{name: values[cell] for name, values in field.strokes.items()})
             for name, place in shown("hydrolinkage.points()").items():
                 assert_allclose(place, motion[name].ravel(), rtol=0, atol=1e-9)

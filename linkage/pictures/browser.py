@@ -70,36 +70,28 @@ def page(
     is_page = isinstance(path, (str, os.PathLike)) and Path(path).suffix.lower() == ".html"
     require(is_page, "", path, "is no name of a page; give one that ends in .html")
     target = Path(path)
+    given: dict[str, Any] = {"vary": vary, "columns": columns, "column": column, "trace": trace, "limit": limit}
     if isinstance(machine, WorkingField):
-        if any(each is not None for each in (vary, columns, column, trace, limit)) or at or count != COUNT:
+        if any(each is not None for each in given.values()) or at or count != COUNT:
             raise DefinitionError(f"{machine.machine.plan.title}: the page of a working field has its cells; only language= goes with it.")
         check_place(target)
         text = chart_page(machine, language)
     else:
-        given: dict[str, Any] = {"vary": vary, "columns": columns, "column": column, "trace": trace, "limit": limit}
-        text = page_html(machine, place=target, count=count, language=language, at=at, **given)
+        check_place(target)
+        text = page_html(machine, count=count, language=language, at=at, **given)
     with replacing_text(target) as stream:
         stream.write(text)
     return target
 
 
 def page_html(
-    machine: Mechanism | Motion | Synthesis,
-    *,
-    count: int = COUNT,
-    language: str = "en",
-    place: Path | None = None,
-    at: At = NOTHING,
-    **given: Any,
+    machine: Mechanism | Motion | Synthesis, *, count: int = COUNT, language: str = "en", at: At = NOTHING, **given: Any
 ) -> str:
     """Return the HTML of a live page; `given` are the other arguments of `page`."""
-    if place is not None:
-        check_place(place)
     if isinstance(machine, Synthesis):
         return task_page(machine, count=count, language=language, at=at, **given)
     if isinstance(machine, Motion):
-        machine, along = played_along(machine, at)
-        given = given | {"along": along}
+        machine, given["along"] = played_along(machine, at)
     require_mechanism(machine)
     requests = PageRequests(machine, frame_count(count), at=at, **given)
     live = live_text(machine.plan, requests.by_name, name="engine")

@@ -100,8 +100,7 @@ class PageRequests:
             self.columns = chosen_columns(machine, self.motion, columns)
         self.column = self._column(column)
         self.limits = self._limits(limit)
-        judged = along if over is None else over
-        self.questions = LiveQuestions(machine, {name: limit[:3] for name, limit in self.limits.items()}, self.columns, judged)
+        self.questions = LiveQuestions(machine, self.limits, self.columns, along if over is None else over)
         self.by_name: dict[str, RequestLike] = {}
         self._ask()
 

@@ -311,22 +311,24 @@ class Scene:
     @cached_property
     def plates(self) -> tuple[Plate, ...]:
         """The form of each moving body."""
+        found, pins = [], set(self.pins)
+        for points, places in zip(self.bodies, self._body_places, strict=True):
+            joints = [name in pins for name in points]
+            shares = np.eye(len(points))[:2] if places is None else shapes.plate_form(places, self.size, joints)
+            found.append(Plate(points, shares))
+        return tuple(found)
+
+    @cached_property
+    def _body_places(self) -> list[FloatArray | None]:
+        """Where the points of each moving body stand at one pose, shape (n, 2) [m]; None where no pose is reached."""
         shown = self.some(1)
-        if not shown:
-            return tuple(Plate(points, np.eye(len(points))[:2]) for points in self.bodies)
-        pins = set(self.pins)
-        return tuple(
-            Plate(points, shapes.plate_form(np.array([shown[0][name] for name in points]), self.size, [name in pins for name in points]))
-            for points in self.bodies
-        )
+        return [np.array([shown[0][name] for name in points]) if shown else None for points in self.bodies]
 
     @cached_property
     def hulls(self) -> tuple[tuple[str, ...], ...]:
         """The outermost points of each moving body, counter-clockwise; two for a straight one."""
-        shown = self.some(1)
-        if not shown:
-            return tuple(points[:2] for points in self.bodies)
-        return tuple(tuple(points[i] for i in shapes.hull(np.array([shown[0][name] for name in points]))) for points in self.bodies)
+        corners = ((0, 1) if places is None else shapes.hull(places) for places in self._body_places)
+        return tuple(tuple(points[place] for place in each) for points, each in zip(self.bodies, corners, strict=True))
 
     @cached_property
     def glyphs(self) -> tuple[tuple[ForceElement, Glyph], ...]:

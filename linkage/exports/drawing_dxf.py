@@ -7,16 +7,16 @@ from collections.abc import Sequence
 from typing import Any
 
 from .extras import missing_extra
-from .geometry import LAYERS, Circle, Lettering, Measured, Part, Polyline
+from .geometry import LAYERS, Circle, DrawnPose, Lettering, Measured, Part, Polyline
 
 MILLIMETRES = 4
 """What $INSUNITS says."""
 
 
-def dxf(poses: Sequence[tuple[str, Sequence[Part]]], paths: Sequence[Part]) -> bytes:
+def dxf(poses: Sequence[DrawnPose], paths: Sequence[Part], title: str) -> bytes:
     """Return the bytes of a .dxf file; DefinitionError where ezdxf is not installed.
 
-    Of several poses the first has the plain layers, the others `pose2_bodies` and so on.
+    Of several poses the first has the plain layers, the others `pose2_bodies` and so on. The format has no place for a title.
     """
     try:
         import ezdxf

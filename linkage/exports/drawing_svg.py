@@ -9,7 +9,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from ..program import FloatArray
-from .geometry import LAYERS, Circle, Lettering, Measured, Part, Polyline
+from .geometry import LAYERS, Circle, DrawnPose, Lettering, Measured, Part, Polyline
 
 PAGE_MARGIN = 0.05
 """Room around the drawing, as a share of its greater side."""
@@ -18,7 +18,7 @@ STROKE = 0.0022
 FILLS = {"bodies": "#DCE8F5", "cylinders": "#DDEFE4", "frame": "#EEF1F4", "pins": "#FFFFFF"}
 
 
-def svg(poses: Sequence[tuple[str, Sequence[Part]]], paths: Sequence[Part], title: str) -> bytes:
+def svg(poses: Sequence[DrawnPose], paths: Sequence[Part], title: str) -> bytes:
     """Return the bytes of an .svg file of poses, each in words and its parts, and of paths."""
     drawn = [(f"pose{number}", *pose) for number, pose in enumerate(poses, 1)] + [("paths", "paths", paths)]
     corners = np.concatenate([reach(part) for _, _, parts in drawn for part in parts])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
@@ -25,7 +25,7 @@ from ..study import WorkingField
 from .calculation import Calculation
 from .drawing_dxf import dxf
 from .drawing_svg import svg
-from .geometry import Part, path_parts, pose_parts
+from .geometry import DrawnPose, Part, path_parts, pose_parts
 from .load_chart import chart_content
 from .workbook import check_count, workbook
 
@@ -122,28 +122,16 @@ class Csv(Exporter):
 
 
 @final
-class Dxf(Exporter):
-    """A drawing in millimetres, true size, by layers."""
+class TrueSize(Exporter):
+    """A drawing in millimetres, true size, by layers; `write` makes the file's bytes of its poses, its paths and its title."""
 
-    suffix = ".dxf"
-    help = "a true-size drawing for CAD"
     takes = frozenset({"trace"})
 
-    def content(self, job: ExportJob) -> bytes:
-        poses, paths, _ = drawing_of(job)
-        return dxf(poses, paths)
-
-
-@final
-class Svg(Exporter):
-    """A drawing in millimetres, true size, by layers."""
-
-    suffix = ".svg"
-    help = "a true-size drawing for browsers"
-    takes = frozenset({"trace"})
+    def __init__(self, suffix: str, program: str, write: Callable[[Sequence[DrawnPose], Sequence[Part], str], bytes]) -> None:
+        self.suffix, self.help, self.write = suffix, f"a true-size drawing for {program}", write
 
     def content(self, job: ExportJob) -> bytes:
-        return svg(*drawing_of(job))
+        return self.write(*drawing_of(job))
 
 
 EXPORTERS = Plugins[Exporter](
@@ -151,7 +139,7 @@ EXPORTERS = Plugins[Exporter](
     "The exporter",
     lambda found: found if isinstance(found, Exporter) else found() if isinstance(found, type) and issubclass(found, Exporter) else None,
     "no subclass of linkage.exports.Exporter",
-    {"xlsx": Workbook(), "csv": Csv(), "dxf": Dxf(), "svg": Svg()},
+    {"xlsx": Workbook(), "csv": Csv(), "dxf": TrueSize(".dxf", "CAD", dxf), "svg": TrueSize(".svg", "browsers", svg)},
 )
 """The kinds of files there are, by the names of their formats."""
 
@@ -260,7 +248,7 @@ def over_strokes(machine: Mechanism, at: Mapping[str, Any], count: int) -> Motio
     return reached_motion(machine, {**at, **{name: grids.get(name, axis[0]) for name, axis in axes.items()}})
 
 
-def drawing_of(job: ExportJob) -> tuple[list[tuple[str, tuple[Part, ...]]], tuple[Part, ...], str]:
+def drawing_of(job: ExportJob) -> tuple[list[DrawnPose], tuple[Part, ...], str]:
     """Return the poses, each in words and its parts, the paths and the title of a drawing.
 
     Paths go through the poses of a motion, of a machine over its first stroke.

@@ -98,6 +98,8 @@ class Measured:
 
 
 Part = Polyline | Circle | Lettering | Measured
+DrawnPose = tuple[str, Sequence[Part]]
+"""A pose in words, and the parts of the mechanism there."""
 
 
 def pose_parts(motion: Motion, pose: int) -> Iterator[Part]:

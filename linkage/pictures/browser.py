@@ -84,9 +84,7 @@ def page(
     return target
 
 
-def page_html(
-    machine: Mechanism | Motion | Synthesis, *, count: int = COUNT, language: str = "en", at: At = NOTHING, **given: Any
-) -> str:
+def page_html(machine: Mechanism | Motion | Synthesis, *, count: int = COUNT, language: str = "en", at: At = NOTHING, **given: Any) -> str:
     """Return the HTML of a live page; `given` are the other arguments of `page`."""
     if isinstance(machine, Synthesis):
         return task_page(machine, count=count, language=language, at=at, **given)

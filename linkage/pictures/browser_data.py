@@ -160,9 +160,8 @@ class PageRequests:
         found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False) for each in told]
         for kind, acting in (("ground", ground_loads(poses, PLAIN)), ("load", loads)):
             for k, each in enumerate(acting):
-                x, y = (
-                    LawRequest(formula=partial(force_part, kind, k, axis), text=f"{kind} {k}", known=(kind, k, axis)) for axis in (0, 1)
-                )
+                keys = ((kind, k, axis) for axis in (0, 1))
+                x, y = (LawRequest(formula=partial(force_part, *key), text=f"{kind} {k}", known=key) for key in keys)
                 found.append((each.load.point, x, y, kind == "load"))
         return found
 

@@ -132,9 +132,8 @@ def draw(
         modes = [each for each in machine if isinstance(each, Assembly)]
         designs = [each for each in machine if not isinstance(each, Assembly)]
         if is_laid or bool(modes) == bool(designs):
-            raise DefinitionError(
-                "draw([...]): one or more designs, with at=, path= and count= if wanted, or machine.assemblies() are expected."
-            )
+            given = "one or more designs, with at=, path= and count= if wanted, or machine.assemblies()"
+            raise DefinitionError(f"draw([...]): {given} are expected.")
         return draw_designs(designs, at, path, count) if designs else draw_modes(modes)
     if "networkx" in sys.modules and isinstance(machine, sys.modules["networkx"].MultiGraph):
         if at is not None or path or is_laid:

@@ -49,9 +49,8 @@ def draw_machine(
     if isinstance(machine, Motion):
         is_plain = at is None and isinstance(path, (list, tuple)) and not path and is_whole(count) and count == 101
         if not is_plain:
-            raise DefinitionError(
-                f"{machine.plan.title}: a motion is drawn at one of its poses, pose=; at=, path= and count= go with a machine."
-            )
+            title = machine.plan.title
+            raise DefinitionError(f"{title}: a motion is drawn at one of its poses, pose=; at=, path= and count= go with a machine.")
         return mechanism(ax, machine, pose, faint=faint) if ax is not None else draw_pose(machine, pose, overlays, faint)
     require_mechanism(machine)
     if ax is not None:

@@ -211,10 +211,8 @@ class Scene:
         require_motion(self.motion)
         plan = self.motion.plan
         if self.motion._design_shape:
-            raise DefinitionError(
-                f"{plan.title}: this motion holds {np.prod(self.motion._design_shape)} designs and a picture shows one; "
-                "draw them one at a time, each dimension a single number."
-            )
+            said = f"{plan.title}: this motion holds {np.prod(self.motion._design_shape)} designs and a picture shows one"
+            raise DefinitionError(f"{said}; draw them one at a time, each dimension a single number.")
         flat = {name: self.motion[name].reshape(2, -1) for name in plan.points}
         object.__setattr__(self, "places", flat)
 

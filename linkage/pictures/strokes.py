@@ -40,10 +40,8 @@ class StrokeAxis:
         check_any(motion.strokes, motion.plan)
         plan = motion.plan
         if motion._design_shape or len(motion._stroke_shape) != 1:
-            raise DefinitionError(
-                f"{plan.title}: curves over a stroke need one design and one row of poses, this motion has the shape {motion.shape}; "
-                f"sweep one stroke and give every other a value: {', '.join(plan.strokes)}."
-            )
+            needed = f"{plan.title}: curves over a stroke need one design and one row of poses, this motion has the shape {motion.shape}"
+            raise DefinitionError(f"{needed}; sweep one stroke and give every other a value: {', '.join(plan.strokes)}.")
         moving = {name: values for name, values in motion.strokes.items() if np.ptp(values) > 0.0}
         travels = {name: abs(stroke.end - stroke.start) or 1.0 for name, stroke in plan.strokes.items()}
         shares = {name: float(np.ptp(values)) / travels[name] for name, values in moving.items()}
@@ -106,11 +104,9 @@ def unreached_words(motion: Motion, moving: str) -> str:
     found = []
     for edge in np.flatnonzero(reached[1:] != reached[:-1]).tolist():
         inside, outside = (edge, edge + 1) if reached[edge] else (edge + 1, edge)
-        last = _last_reached(motion, moving, inside, outside)
-        place = stroke_words(motion.plan, moving, last)
-        found.append(
-            said("not reached beyond {place}", place=place) if outside > inside else said("not reached before {place}", place=place)
-        )
+        place = stroke_words(motion.plan, moving, _last_reached(motion, moving, inside, outside))
+        beyond = outside > inside
+        found.append(said("not reached beyond {place}", place=place) if beyond else said("not reached before {place}", place=place))
     return ", ".join(found)
 
 

@@ -112,15 +112,8 @@ def side_of_rail(scene: Scene, track: SlideTrack, along: FloatArray) -> FloatArr
     """Return the direction from a track to its rail: below, or to the right; on the other side where all that rides hangs down there."""
     below = np.array([along[1], -along[0]]) / (np.hypot(*along) or 1.0)
     below = -below if below[1] > 1e-6 or (abs(below[1]) <= 1e-6 and below[0] < 0.0) else below
-    hanging = [
-        float((at[name] - at[rider]) @ below) > BLOCK * scene.size
-        for at in scene.some(5)
-        for rider in track.riders
-        for points in scene.bodies
-        if rider in points
-        for name in points
-        if name != rider
-    ]
+    carried = [(rider, name) for rider in track.riders for points in scene.bodies if rider in points for name in points if name != rider]
+    hanging = [float((at[name] - at[rider]) @ below) > BLOCK * scene.size for at in scene.some(5) for rider, name in carried]
     return -below if hanging and all(hanging) else below
 
 

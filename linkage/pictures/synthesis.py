@@ -117,12 +117,8 @@ def draw_synthesis(found: Synthesis, answers: int = 3, count: int = 101) -> Figu
 
 def stretched(shown: Sequence[ShownAnswer], sides: Sequence[float]) -> float:
     """Return how many times as long misses are drawn, so that the largest can be seen on its sheet; 0 where nothing is missed."""
-    shares = [
-        float(np.linalg.norm(each.met - each.wanted, axis=1).max()) / side
-        for each, side in zip(shown, sides, strict=True)
-        if len(each.wanted)
-    ]
-    most = max(shares, default=0.0)
+    drawn = [(each, side) for each, side in zip(shown, sides, strict=True) if len(each.wanted)]
+    most = max((float(np.linalg.norm(each.met - each.wanted, axis=1).max()) / side for each, side in drawn), default=0.0)
     if most < NOTHING_MISSED:
         return 0.0
     return float(max((step for step in STRETCHES if step * most <= SEEN), default=1.0))

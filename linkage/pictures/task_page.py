@@ -71,9 +71,8 @@ def task_data(found: Synthesis, data: PageData) -> PageData:
     names, strokes = [each[0] for each in data["dims"]], [each["name"] for each in data["strokes"]]
     timed = fit.timing.width < fit.rows.count
     shown = [each for each in found.solutions if each.machine.plan is plan]
-    answers = [
-        {"design": [float(each.machine.dimensions[name]) for name in names], "at": each.strokes.tolist(), "rms": each.rms} for each in shown
-    ]
+    designs = [[float(each.machine.dimensions[name]) for name in names] for each in shown]
+    answers = [{"design": own, "at": each.strokes.tolist(), "rms": each.rms} for own, each in zip(designs, shown, strict=True)]
     kept = {"stroke": strokes.index(fit.timing.stroke), "timed": timed, "unit": unit_data(miss_unit(fit)), "answers": answers}
     return kept | wanted_data(task, plan, fit.rows.weights[-1], data)
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
-from typing import Any, final
+from typing import Any, TypeGuard, final
 
 import numpy as np
 
-from ..checks import require, require_whole
+from ..checks import require, require_whole, unfit
 from ..errors import DefinitionError, cited, one_word, unknown
 from ..mechanism import Mechanism
 from ..numeric.line import Index
@@ -37,12 +37,18 @@ class Box:
         """
         check_mechanism(machine)
         if not isinstance(vary, Mapping):
-            raise DefinitionError(f"{machine.plan.title}: vary={vary!r:.60}: a dictionary of ranges and choices by name is expected.")
+            raise unfit(f"{machine.plan.title}: vary", vary, "a dictionary of ranges and choices by name is expected")
         for name in vary:
             if not isinstance(name, str):
                 raise unknown("Dimension", name, machine.plan.table.names(), where=machine.plan.title)
         ranges = {name: range_of(name, value) for name, value in vary.items() if isinstance(value, tuple)}
-        lists = {name: choices_of(name, value) for name, value in vary.items() if not isinstance(value, tuple)}
+        lists = {name: value for name, value in vary.items() if name not in ranges}
+        for name, given in lists.items():
+            if not isinstance(given, (list, range)) or not given:
+                raise unfit(name, given, "write a range (low, high) or a list of choices such as [(0.22, 1.05), (0.22, 0.95)]")
+            for each in given:
+                if not (is_number(each) or is_pair(each)):
+                    raise DefinitionError(f"{name}: {cited(each)} is no choice; write a number, or the two coordinates (x, y) of a point.")
         box = cls(ranges, [dict(zip(lists, each, strict=True)) for each in product(*lists.values())])
         for settings in (*box.choices, *({name: end} for name, pair in ranges.items() for end in pair)):
             machine.replaced(**settings)
@@ -52,10 +58,8 @@ class Box:
     def settings(self, unit: FloatArray, choice: Index) -> dict[str, Any]:
         """Return settings (m,) by name, from coordinates (m, k) between 0 and 1 and the number of the choice (m,)."""
         low, high = np.array([*self.ranges.values()], float).reshape(-1, 2).T
-        found: dict[str, Any] = {name: value for name, value in zip(self.ranges, (low + unit * (high - low)).T, strict=True)}
-        ends = {name: pair[1] for name, pair in self.ranges.items()}
-        for name, end in ends.items():  # the far end to its last digit
-            found[name] = np.where(unit[:, list(ends).index(name)] == 1.0, end, found[name])
+        values = np.where(unit == 1.0, high, low + unit * (high - low))  # the far end to its last digit
+        found: dict[str, Any] = dict(zip(self.ranges, values.T, strict=True))
         for name in self.choices[0]:
             table = np.array([each[name] for each in self.choices], float)[np.asarray(choice)]
             found[name] = tuple(table.T) if table.ndim == 2 else table
@@ -73,34 +77,27 @@ class Box:
         return self.settings(unit[:, : len(self.ranges)], choice)
 
 
-def setting_words(plan: Plan, settings: Mapping[str, object], place: int) -> str:
-    """Return one of some settings (m,) in words: `MK = 800 mm, M = (220, 950) mm`."""
-    return ", ".join(f"{name} = {value_words(plan, name, value, place)}" for name, value in settings.items())
-
-
-def value_words(plan: Plan, name: str, value: Any, place: int) -> str:
-    """Return one value of a setting as text; a point's is a pair."""
-    if isinstance(value, tuple):
-        return f"({', '.join(shown_number(float(part[place]), 'mm') for part in value)}) {unit_sign('mm')}"
-    return show(float(value[place]), unit_of(plan, name))
+def setting_words(plan: Plan, settings: Mapping[str, Any], place: int) -> str:
+    """Return one of some settings (m,) in words: `MK = 800 mm, M = (220, 950) mm`; a point's is a pair."""
+    words = []
+    for name, value in settings.items():
+        if isinstance(value, tuple):
+            words.append(f"{name} = ({', '.join(shown_number(float(part[place]), 'mm') for part in value)}) {unit_sign('mm')}")
+        else:
+            words.append(f"{name} = {show(float(value[place]), unit_of(plan, name))}")
+    return ", ".join(words)
 
 
 def range_of(name: str, given: object) -> tuple[float, float]:
     """Return a range; DefinitionError unless it is (low, high)."""
-    if not isinstance(given, (tuple, list)) or len(given) != 2 or not all(is_number(end) for end in given) or given[0] > given[1]:
-        raise DefinitionError(f"{name}={cited(given)} is no range; write (low, high) in SI, or a list [first, second] of choices.")
+    if not is_pair(given) or given[0] > given[1]:
+        raise unfit(name, given, "is no range; write (low, high) in SI, or a list [first, second] of choices")
     return amount_or_float(given[0]), amount_or_float(given[1])
 
 
-def choices_of(name: str, given: object) -> list[Any]:
-    """Return a list of choices; DefinitionError for anything else."""
-    if not isinstance(given, (list, tuple, range)) or not given:
-        said = "write a range (low, high) or a list of choices such as [(0.22, 1.05), (0.22, 0.95)]"
-        raise DefinitionError(f"{name}={cited(given)}: {said}.")
-    for each in given:
-        if not (is_number(each) or (isinstance(each, (list, tuple)) and len(each) == 2 and all(map(is_number, each)))):
-            raise DefinitionError(f"{name}: {cited(each)} is no choice; write a number, or the two coordinates (x, y) of a point.")
-    return list(given)
+def is_pair(given: object) -> TypeGuard[Sequence[float]]:
+    """Return whether something is two numbers."""
+    return isinstance(given, (tuple, list)) and len(given) == 2 and all(map(is_number, given))
 
 
 MOST_SETTINGS = 1 << 30
@@ -129,6 +126,4 @@ def unit_points(count: int, k: int, method: str, seed: int) -> FloatArray:
         return np.asarray(qmc.LatinHypercube(k, seed=random).random(count))
     engine: Any = qmc.Sobol(k, seed=random)
     power = int(count).bit_length() - 1
-    points = engine.random_base2(power)
-    rest = int(count) - (1 << power)
-    return np.concatenate([points, engine.random(rest)]) if rest else np.asarray(points)
+    return np.concatenate([engine.random_base2(power), engine.random(int(count) - (1 << power))])

@@ -29,7 +29,7 @@ from .designs import Batch, Designs, Task
 NOTE = "study.json"
 NAME = re.compile(r"designs-(\d+)-(\d+)-([0-9a-f]{32})\.npy")
 
-Facts: TypeAlias = Mapping[str, Any]
+Facts: TypeAlias = Mapping[str, object]
 """What makes a study the same, by name, as JSON holds it."""
 
 
@@ -52,9 +52,19 @@ class Checkpoint:
         note = place / NOTE
         there = read_note(note)
         if there is None:
-            write_note(note, facts)
-        else:
-            check_same_study(place, there, facts)
+            try:
+                with in_words(place):
+                    place.mkdir(parents=True, exist_ok=True)
+                with replacing(note) as stream:
+                    stream.write(json.dumps(facts, indent=2).encode())
+            except FileError as error:
+                raise FileError(f"{error} Finished batches cannot be kept here; name a folder that can be written.") from error
+            there = facts
+        differing = [name for name in dict.fromkeys([*facts, *there]) if facts.get(name) != there.get(name)]
+        if differing:
+            said = ", ".join(f"{name} ({fact_words(there, name)} there, {fact_words(facts, name)} here)" for name in differing[:4])
+            more = f" and {len(differing) - 4} more" if len(differing) > 4 else ""
+            raise DefinitionError(f"{place} holds another study; it differs in {said}{more}. Take another folder, or delete this one.")
         return cls(place, blake2b(json.dumps(facts, sort_keys=True).encode()).digest())
 
     def stage(self, name: str, content: bytes) -> Checkpoint:
@@ -97,18 +107,7 @@ class Checkpoint:
                 yield Batch(start, stop, kept=True, values={name: table[name] for name in table.dtype.names})
 
 
-def write_note(note: Path, facts: Facts) -> None:
-    """Write which study a folder is of; FileError where it cannot be written."""
-    try:
-        with in_words(note.parent):
-            note.parent.mkdir(parents=True, exist_ok=True)
-        with replacing(note) as stream:
-            stream.write(json.dumps(facts, indent=2).encode())
-    except FileError as error:
-        raise FileError(f"{error} Finished batches cannot be kept here; name a folder that can be written.") from error
-
-
-def read_note(note: Path) -> dict[str, Any] | None:
+def read_note(note: Path) -> dict[str, object] | None:
     """Return what a folder says of its study, None where it says nothing; FileError where it cannot be read."""
     check_name(note)
     with in_words(note):
@@ -124,7 +123,7 @@ def read_note(note: Path) -> dict[str, Any] | None:
     return found
 
 
-def facts_of(task: Task, designs: Designs, version: str | int) -> dict[str, Any]:
+def facts_of(task: Task, designs: Designs, version: str | int) -> dict[str, object]:
     """Return what makes a study the same: the machine, its dimensions, the designs, what is measured and how."""
     machine, measure = task.machine, task.measure
     facts = {
@@ -140,7 +139,7 @@ def facts_of(task: Task, designs: Designs, version: str | int) -> dict[str, Any]
     return facts_as_json(facts)
 
 
-def facts_of_machine(machine: Mechanism, varied: Container[str]) -> dict[str, Any]:
+def facts_of_machine(machine: Mechanism, varied: Container[str]) -> dict[str, object]:
     """Return what makes a machine the same, but for dimensions that are varied."""
     return {
         "machine": f"{type(machine).__module__}.{type(machine).__qualname__}",
@@ -149,19 +148,10 @@ def facts_of_machine(machine: Mechanism, varied: Container[str]) -> dict[str, An
     }
 
 
-def facts_as_json(facts: Facts) -> dict[str, Any]:
+def facts_as_json(facts: Facts) -> dict[str, object]:
     """Return facts as a file gives them back."""
-    found: dict[str, Any] = json.loads(json.dumps(facts))
+    found: dict[str, object] = json.loads(json.dumps(facts))
     return found
-
-
-def check_same_study(folder: Path, there: Facts, here: Facts) -> None:
-    """Raise DefinitionError where a folder is of another study, with what differs."""
-    differing = [name for name in dict.fromkeys([*here, *there]) if here.get(name) != there.get(name)]
-    if differing:
-        said = ", ".join(f"{name} ({fact_words(there, name)} there, {fact_words(here, name)} here)" for name in differing[:4])
-        more = f" and {len(differing) - 4} more" if len(differing) > 4 else ""
-        raise DefinitionError(f"{folder} holds another study; it differs in {said}{more}. Take another folder, or delete this one.")
 
 
 def fact_words(facts: Facts, name: str) -> str:
@@ -169,7 +159,9 @@ def fact_words(facts: Facts, name: str) -> str:
     value = facts.get(name, "none")
     return value[:8] if isinstance(value, str) and re.fullmatch(r"[0-9a-f]{32}", value) else str(value)
 
+
 # What is measured, as text. The source text of a function is the same under every version of Python, its bytecode is not.
+
 
 def digest(text: str | bytes) -> str:
     """Return 32 characters that stand for a text."""
@@ -181,7 +173,7 @@ def plan_text(machine: Mechanism) -> str:
     return re.sub(r" at 0x[0-9a-f]+", "", f"{type(machine).__qualname__}\n{machine.plan}")
 
 
-def measure_text(measure: Any, has_version: bool = False) -> str:
+def measure_text(measure: object, has_version: bool = False) -> str:
     """Return the source text of a function, of those of its module that it names, and the values that they read from outside.
 
     Plain data stand as they are, functions and classes of the module by their source; of anything else only the name is read. Raises
@@ -217,34 +209,22 @@ def measure_text(measure: Any, has_version: bool = False) -> str:
         seen.add(id(value))
         if not is_named:  # an object of a class of the module
             return f"{text(type(value))} {text(getattr(value, '__dict__', None))}"
-        source = source_text(value)
+        try:
+            source = None if value.__name__ == "<lambda>" else dedent(getsource(value)).strip()
+        except (OSError, TypeError):
+            source = None
         if source is None and isinstance(value, FunctionType) and not has_version:
-            raise without_source(f"{home}.{name}")
+            lacks = "is a lambda, without source text of its own" if name.endswith("<lambda>") else "has no source text that is found"
+            remedy = "define it by `def` in a file, or say version=1 and count it up when you change it"
+            raise DefinitionError(f"measure: {home}.{name} {lacks}, so that a folder cannot tell it from another one; {remedy}.")
         return text([f"{home}.{name}", source, outside_values(value, source or "")])
 
     return text(measure)
 
 
-def without_source(name: str) -> DefinitionError:
-    """Return the error for a function whose source text cannot be had."""
-    lacks = "is a lambda, without source text of its own" if name.endswith("<lambda>") else "has no source text that is found"
-    return DefinitionError(
-        f"measure: {name} {lacks}, so that a folder cannot tell it from another one; "
-        "define it by `def` in a file, or say version=1 and count it up when you change it."
-    )
-
-
-def source_text(value: FunctionType | type) -> str | None:
-    """Return the source text of a function or a class; None for a lambda, and where no file has it."""
-    try:
-        return None if value.__name__ == "<lambda>" else dedent(getsource(value)).strip()
-    except (OSError, TypeError):
-        return None
-
-
-def outside_values(value: FunctionType | type, source: str) -> dict[str, Any]:
+def outside_values(value: FunctionType | type, source: str) -> dict[str, object]:
     """Return what a function or a class reads from its defaults and from the functions and the module around it, by name."""
-    found: dict[str, Any] = {}
+    found: dict[str, object] = {}
     around = vars(sys.modules[value.__module__])
     if isinstance(value, FunctionType):
         cells = zip(value.__code__.co_freevars, value.__closure__ or (), strict=True)

@@ -52,57 +52,51 @@ class Climb:
     worth: FloatArray
     room: FloatArray
 
-    @classmethod
-    def begun(
-        cls, moved: Callable[[PlacePoses, Index, FloatArray], tuple[FloatArray, FloatArray]], solved: int, base: PlacePoses,
-        order: Index, load: FloatArray, room: float,
-    ) -> Climb:  # fmt: skip
-        """Return where it begins."""
-        return cls(moved, solved, base, order, load, base.unit, load, np.full(len(load), room))
-
-    def where(self, rows: Index) -> Climb:
-        """Return some of them."""
-        base, load, centre, worth = self.base.where(rows), self.load[rows], self.centre[rows], self.worth[rows]
-        return replace(self, base=base, order=self.order[rows], load=load, centre=centre, worth=worth, room=self.room[rows])
-
     @property
-    def is_settled(self) -> bool:
-        """Whether nothing is left to look for."""
-        return not bool(self._going.any())
-
-    @property
-    def _going(self) -> Mask:
-        return np.asarray((self.room > LEAST) & (self.load > 0.0) & np.isfinite(self.load))
+    def going(self) -> Index:
+        """The poses at which something is left to look for."""
+        return np.flatnonzero((self.room > LEAST) & (self.load > 0.0) & np.isfinite(self.load))
 
     def step(self) -> Climb:
         """Return them after one look around."""
-        rows = np.flatnonzero(self._going)
-        here, k = self.where(rows), self.solved
+        rows, k = self.going, self.solved
+        parts = {name: getattr(self, name)[rows] for name in ("order", "load", "centre", "worth", "room")}
+        here = replace(self, base=self.base.where(rows), **parts)
         s = here.centre.shape[1] - k
         around = np.array([*product((-1.0, 0.0, 1.0), repeat=s)])
         room = here.room[:, None]
         middle = np.clip(here.centre[:, k:], np.minimum(room, 0.5), np.maximum(1.0 - room, 0.5))
-        poses = PlacePoses(here.base.place, here.centre)
-        unit, of = self.moved(poses, here.order, middle[None] + around[:, None] * room)
+        unit, of = self.moved(PlacePoses(here.base.place, here.centre), here.order, middle[None] + around[:, None] * room)
         best = here.better(unit, of)
-        with_ends = np.concatenate([of_best(of, best.load), 0.25 * COST * ends_of(unit[:, :, :k]).transpose(2, 0, 1)])
+        with np.errstate(invalid="ignore"):  # as shares, 0 for none and 1 without end, a half of the best: smooth everywhere
+            shares = np.where(np.isinf(of), 1.0, of / (of + best.load))
+        with_ends = np.concatenate([shares, 0.25 * COST * ends_of(unit[:, :, :k]).transpose(2, 0, 1)])
         at, share = best_of_parabolas(with_ends.transpose(0, 2, 1), len(of), s)
-        guess = np.einsum("na,ank->nk", bases_at(at), unit)
+        each = parabolas(at)
+        bases = each[:, 0]  # the weights of the values at -1, 0 and 1 of each spare stroke (n, 3**s)
+        for other in each.swapaxes(0, 1)[1:]:
+            bases = (bases[:, :, None] * other[:, None, :]).reshape(len(at), -1)
+        guess = np.einsum("na,ank->nk", bases, unit)
         promised = np.where(share < 1.0, share / (1.0 - np.minimum(share, 0.999)), np.inf) * best.load
         begin = PlacePoses(here.base.place, np.where(np.isfinite(guess), guess, here.centre))
         unit, of = self.moved(begin, here.order, (middle + at * room)[None])
         best = best.better(unit, of)
-        worth = np.nan_to_num(load_less_cost(unit, of, k, best.load)[0], nan=-np.inf)
-        kept = worth - here.worth >= KEPT * np.maximum(promised - here.worth, 0.0)
-        kept &= np.isfinite(share)
+        past = np.minimum(ends_of(unit[:, :, :k]).min(axis=2), 0.0)  # what a pose counts: the least load, less what that costs
+        worth = np.nan_to_num((np.min(of, axis=0) + COST * best.load * past)[0], nan=-np.inf)
+        kept = np.isfinite(share) & (worth - here.worth >= KEPT * np.maximum(promised - here.worth, 0.0))
         gone = np.abs(unit[0, :, k:] - here.centre[:, k:]).max(axis=1) / here.room
         left = np.where(kept, np.clip(2.0 * gone, LESS, MORE), LITTLE)
         centre, worth = np.where(kept[:, None], unit[0], here.centre), np.where(kept, worth, here.worth)
         there = best.load > worth
         centre, worth = np.where(there[:, None], best.base.unit, centre), np.where(there, best.load, worth)
         done = np.isfinite(share) & (here.room < CLOSE) & (promised - best.load <= SAME * best.load)
-        found = replace(best, centre=centre, worth=worth, room=np.where(done, 0.0, np.minimum(here.room * left, ROOM)))
-        return self._with(rows, found)
+        some = {"load": best.load, "centre": centre, "worth": worth, "room": np.where(done, 0.0, np.minimum(here.room * left, ROOM))}
+        every = {name: getattr(self, name).copy() for name in some}
+        unit = self.base.unit.copy()
+        unit[rows] = best.base.unit
+        for name, values in some.items():
+            every[name][rows] = values
+        return replace(self, base=PlacePoses(self.base.place, unit), **every)
 
     def better(self, unit: FloatArray, of: FloatArray) -> Climb:
         """Return them with those of some poses (m, n, k) that carry more inside all ends."""
@@ -113,41 +107,15 @@ class Climb:
         found = np.where(more[:, None], np.clip(unit[top, each], 0.0, 1.0), self.base.unit)
         return replace(self, base=PlacePoses(self.base.place, found), load=np.where(more, load[top, each], self.load))
 
-    def _with(self, rows: Index, some: Climb) -> Climb:
-        """Return them with some of them in the place of their own rows."""
-        unit = self.base.unit.copy()
-        unit[rows] = some.base.unit
-        parts = {}
-        for name in ("load", "centre", "worth", "room"):
-            parts[name] = getattr(self, name).copy()
-            parts[name][rows] = getattr(some, name)
-        return replace(self, base=PlacePoses(self.base.place, unit), **parts)
 
-
-def bases_at(at: FloatArray) -> FloatArray:
-    """Return the weights of values at -1, 0 and 1 of each spare stroke at places (n, s) between them, shape (n, 3**s)."""
-    each = np.stack([0.5 * at * (at - 1.0), 1.0 - at * at, 0.5 * at * (at + 1.0)], axis=2)
-    found = each[:, 0]
-    for other in each.swapaxes(0, 1)[1:]:
-        found = (found[:, :, None] * other[:, None, :]).reshape(len(at), -1)
-    return found
+def parabolas(x: FloatArray) -> FloatArray:
+    """Return the parabolas that are 1 at -1, 0 or 1 and 0 at the others, at places (n, s), shape (n, s, 3)."""
+    return np.stack([0.5 * x * (x - 1.0), 1.0 - x * x, 0.5 * x * (x + 1.0)], axis=2)
 
 
 def ends_of(unit: FloatArray) -> FloatArray:
     """Return how far strokes (..., k) are inside the end that is nearer, in shares of their ranges."""
     return np.minimum(unit, 1.0 - unit)
-
-
-def of_best(of: FloatArray, load: FloatArray) -> FloatArray:
-    """Return loads (..., n) as shares, 0 for none and 1 without end, a half of those as large as `load`: smooth where one has no end."""
-    with np.errstate(invalid="ignore"):
-        return np.where(np.isinf(of), 1.0, of / (of + load))
-
-
-def load_less_cost(unit: FloatArray, of: FloatArray, solved: int, load: FloatArray) -> FloatArray:
-    """Return what poses (m, n, k) count: the least load, less what it costs that a stroke is past its end (m, n)."""
-    past = np.minimum(ends_of(unit[:, :, :solved]).min(axis=2), 0.0)
-    return np.asarray(np.min(of, axis=0) + COST * load * past)
 
 
 def best_of_parabolas(values: FloatArray, loads: int, spare: int) -> tuple[FloatArray, FloatArray]:
@@ -168,7 +136,7 @@ def peak_of(values: FloatArray, loads: int) -> tuple[FloatArray, FloatArray]:
     at, worth, rest, half, each = np.zeros(n), np.zeros(n), np.zeros((n, 0)), 1.0, np.arange(n)
     for _ in range(ZOOMS):
         x = np.clip(at[:, None] + half * GRID, -1.0, 1.0)
-        bases = np.stack([0.5 * x * (x - 1.0), 1.0 - x * x, 0.5 * x * (x + 1.0)], axis=2)  # parabolas that are 1 at -1, 0 and 1
+        bases = parabolas(x)
         if spare == 1:
             found = np.einsum("rna,nga->rng", values, bases)
             total = found[:loads].min(axis=0) + np.minimum(found[loads:].min(axis=0), 0.0)

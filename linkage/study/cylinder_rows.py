@@ -9,45 +9,49 @@ A machine of a row is of a subclass whose stroke has that range, so that whateve
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeAlias, final
+from typing import Any, NamedTuple, TypeAlias
 
 from ..errors import DefinitionError, cited
 from ..loads import TwoPoint
 from ..mechanism import Mechanism, declared
 from ..plan import Plan, Reading
-from ..quantities import Dimension, Member, Stroke, Variable, name_of, quantity, signed_terms
+from ..quantities import Dimension, Member, Quantity, Stroke, Variable, is_number, name_of, quantity, signed_terms
 from ..steps import Drawn
+from ..vectors import Numbers
+from .sides import class_like
 
 BASE = "_class_before_rows"
 LENGTHS = ("closed", "stroke")
 Pairs: TypeAlias = Mapping[str, tuple[float, float]]
 
 
-class Travel(NamedTuple):
-    """The range of a stroke over which a cylinder goes its whole way: numbers [m], or quantities that follow the row."""
+class Range(NamedTuple):
+    """The part of a stroke that is looked at, from low to high: numbers [SI], or quantities that follow the design."""
 
-    low: Any
-    high: Any
+    low: float | Quantity
+    high: float | Quantity
+    is_travel: bool = False
+    """Whether it is the whole way of a cylinder that is chosen by its row of a catalogue, and so the stroke of the machine."""
+
+    @property
+    def follows(self) -> tuple[Quantity, ...]:
+        """The ends that follow the design."""
+        return tuple(end for end in (self.low, self.high) if not is_number(end))
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class FittedRows:
+class FittedRows(NamedTuple):
     """A machine of which a search can set a cylinder by rows, what varies then, and the ranges of the strokes that drive such cylinders."""
 
     machine: Mechanism
     vary: Any
-    travels: Mapping[str, Travel]
+    travels: Mapping[str, Range]
 
 
 def fitted_rows(machine: Mechanism, vary: object) -> FittedRows:
     """Return the same with rows of the cylinders that `vary` names as rows of their dimensions; DefinitionError for anything else."""
-    if not isinstance(vary, Mapping):
-        return FittedRows(machine, vary, {})
     elements = machine.plan.of_kind(TwoPoint)
-    named = {name: rows for name, rows in vary.items() if isinstance(name, str) and name in elements}
-    if not named:
+    named = {name: rows for name, rows in vary.items() if name in elements} if isinstance(vary, Mapping) else {}
+    if not isinstance(vary, Mapping) or not named:
         return FittedRows(machine, vary, {})
     lengths = {}
     for name, rows in named.items():
@@ -58,7 +62,7 @@ def fitted_rows(machine: Mechanism, vary: object) -> FittedRows:
     if lengths:
         machine = class_with(type(machine), lengths, {})(**machine.dimensions)
     found: dict[Any, Any] = {name: each for name, each in vary.items() if name not in named}
-    travels: dict[str, Travel] = {}
+    travels: dict[str, Range] = {}
     for name, rows in named.items():
         names, table, travel = rows_fitted(machine, name, rows)
         found[names] = table
@@ -78,15 +82,24 @@ def fields_of(plan: Plan, name: str, rows: object) -> tuple[str, ...]:
     return tuple(own)
 
 
-def rows_fitted(machine: Mechanism, name: str, rows: Sequence[Any]) -> tuple[tuple[str, ...], list[tuple[float, ...]], dict[str, Travel]]:
-    """Return the names of what the rows of a cylinder set, these rows as numbers [SI], and the range of the stroke that drives it."""
+def rows_fitted(machine: Mechanism, cylinder: str, rows: Sequence[Any]) -> tuple[tuple[str, ...], list[Sequence[float]], dict[str, Range]]:
+    """Return the names of what the rows of a cylinder set, these rows as numbers [SI], and the range of the stroke that drives it.
+
+    DefinitionError where one of them follows an expression.
+    """
     plan = machine.plan
-    element, fields = plan.of_kind(TwoPoint)[name], fields_of(plan, name, rows)
-    names = [parameter_named(plan, element, field) for field in fields]
-    table = [tuple(float(value) for value in row) for row in rows]
+    element, fields = plan.of_kind(TwoPoint)[cylinder], fields_of(plan, cylinder, rows)
+    names = []
+    for field in fields:
+        given, own = element.given(field), f"{element.name}.{field}"
+        name = own if own in plan.table.spellings else name_of(given) if isinstance(given, (str, Member)) else ""
+        if name not in plan.table.spellings:
+            raise DefinitionError(f"{plan.title}: {own} follows {given}; a row of a catalogue sets a number or a dimension.")
+        names.append(name)
+    table: list[Sequence[float]] = [tuple(float(value) for value in row) for row in rows]
     if not set(LENGTHS) <= set(fields):
         return tuple(names), table, {}
-    stroke, others = length_of(machine, name)
+    stroke, others = length_of(machine, cylinder)
     closed, reach = (names[fields.index(field)] for field in LENGTHS)
     start = float(plan.strokes[stroke].start)
     rest = sum(value for _, value in others)
@@ -94,25 +107,13 @@ def rows_fitted(machine: Mechanism, name: str, rows: Sequence[Any]) -> tuple[tup
     along = Variable(plan.table.spellings[reach][0])
     if not dimension:
         begin = Variable(plan.table.spellings[closed][0]) - rest
-        return tuple(names), table, {stroke: Travel(begin, begin + along)}
+        return tuple(names), table, {stroke: Range(begin, begin + along, True)}
     if dimension != closed:
         now = dict(others)[dimension]
         table = [(*row, row[fields.index("closed")] - (rest - now) - start) for row in table]
-        return (*names, dimension), table, {stroke: Travel(start, along + start)}
+        return (*names, dimension), table, {stroke: Range(start, along + start, True)}
     low = dict(others)[dimension] - rest  # the cylinder's closed length is the dimension itself
-    return tuple(names), table, {stroke: Travel(low, along + low)}
-
-
-def parameter_named(plan: Plan, element: TwoPoint, field: str) -> str:
-    """Return the dimension that a parameter of an element is; DefinitionError where it follows an expression."""
-    given = element.given(field)
-    own = f"{element.name}.{field}"
-    if own in plan.table.spellings:
-        return own
-    name = name_of(given) if isinstance(given, (str, Member)) else ""
-    if name not in plan.table.spellings:
-        raise DefinitionError(f"{plan.title}: {own} follows {given}; a row of a catalogue sets a number or a dimension.")
-    return name
+    return tuple(names), table, {stroke: Range(low, along + low, True)}
 
 
 def length_of(machine: Mechanism, name: str) -> tuple[str, list[tuple[str, float]]]:
@@ -167,19 +168,14 @@ def made_with(kind: type[Mechanism], lengths: Pairs, travels: Pairs) -> type[Mec
     own |= {name: Stroke(*ends) for name, ends in travels.items()}
     if travels and not any(isinstance(each, Drawn) for each in written.values()):
         own["sketch"] = Drawn(plan.sketch_strokes)
-    text = {"__module__": kind.__module__, "__qualname__": kind.__qualname__, "__doc__": kind.__doc__}
-    maker: Any = type(kind)
-    made: type[Mechanism] = maker(
-        kind.__name__, (kind,), {**text, **own, BASE: (kind, dict(lengths), dict(travels)), "__reduce__": sent_with}
-    )
-    return made
+    return class_like(kind, {**own, BASE: (kind, dict(lengths), dict(travels))}, sent_with)
 
 
-def sent_with(machine: Mechanism) -> tuple[Any, ...]:
+def sent_with(machine: Mechanism) -> tuple[object, ...]:
     """Return what pickle is to make a design of such a class of."""
     return made_again, (*vars(type(machine))[BASE], machine.dimensions)
 
 
-def made_again(kind: type[Mechanism], lengths: Any, travels: Any, dimensions: Mapping[str, Any]) -> Mechanism:
+def made_again(kind: type[Mechanism], lengths: Pairs, travels: Pairs, dimensions: Mapping[str, Numbers]) -> Mechanism:
     """Return the design that was sent."""
     return class_with(kind, lengths, travels)(**dimensions)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from hashlib import blake2b
 from time import perf_counter, thread_time
 from typing import Any, Protocol, TypeAlias, final
@@ -11,6 +11,7 @@ from typing import Any, Protocol, TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
+from ..checks import require_type
 from ..errors import DefinitionError, StudyError, cited
 from ..frozen import unmasked
 from ..mechanism import Mechanism
@@ -38,9 +39,9 @@ class Designs:
     def of(cls, machine: Mechanism, vary: Mapping[str, Any]) -> Designs:
         """Return the designs that arrays by name make of a machine; DefinitionError for a wrong name or value."""
         title = machine.plan.title
-        if not isinstance(vary, Mapping):
-            raise DefinitionError(f"{title}: vary={vary!r:.60}: a dictionary of names and arrays is expected; Box.sample(count) makes one.")
-        columns = {name: arrays_of(machine, name, value) for name, value in vary.items()}
+        expected = "a dictionary of names and arrays is expected; Box.sample(count) makes one"
+        given = require_type(f"{title}: vary", vary, Mapping, expected)
+        columns = {name: arrays_of(machine, name, value) for name, value in given.items()}
         sizes = {name: part.size for name, parts in columns.items() for part in parts if part.ndim}
         if not any(sizes.values()):
             example = next(iter(machine.dimensions), "OB")
@@ -51,21 +52,17 @@ class Designs:
         check_once(machine, columns)
         found = cls(columns, max(sizes.values()))
         for start, stop in found.ranges(LOOKED_AT):
-            found._check(machine, start, stop)
-        return found
-
-    def _check(self, machine: Mechanism, start: int, stop: int) -> None:
-        """Raise DefinitionError for a value that a dimension cannot take, with the design where it stands."""
-        for name, parts in self.columns.items():
-            for part in parts:
-                bad = np.flatnonzero(~np.isfinite(array_part(part, start, stop)))
+            for name, part in ((name, part) for name, parts in columns.items() for part in parts):
+                values = np.ravel(array_part(part, start, stop))
+                bad = np.flatnonzero(~np.isfinite(values))
                 if bad.size:
-                    where = f"{name} of design {start + bad[0]} is {np.ravel(array_part(part, start, stop))[bad[0]]}"
-                    raise DefinitionError(f"{machine.plan.title}: {where}; a finite number is expected.")
-        try:
-            machine.replaced(**self.dimensions(start, stop))
-        except DefinitionError as error:
-            raise DefinitionError(f"Designs {start} to {stop - 1}: {error}") from None
+                    where = f"{name} of design {start + bad[0]} is {values[bad[0]]}"
+                    raise DefinitionError(f"{title}: {where}; a finite number is expected.")
+            try:
+                machine.replaced(**found.dimensions(start, stop))
+            except DefinitionError as error:
+                raise DefinitionError(f"Designs {start} to {stop - 1}: {error}") from None
+        return found
 
     def ranges(self, size: int) -> Iterator[tuple[int, int]]:
         """Yield ranges of at most so many designs, each from start to before stop."""
@@ -95,27 +92,24 @@ class Designs:
 
 
 def arrays_of(machine: Mechanism, name: str, value: Any) -> tuple[Array, ...]:
-    """Return the array of a dimension, or the two of a point."""
+    """Return the array of a dimension, or the two of a point, of which one may be a number; NaN where they are masked."""
     _ = machine[name]  # raises for a name that is none
-    if name in machine.plan.table.spellings:
-        return (design_array(machine, name, value, 1),)
+    title, is_point = machine.plan.title, name not in machine.plan.table.spellings
     try:
-        x, y = value
+        x, y = value if is_point else (value, 0.0)
     except (TypeError, ValueError):
-        raise DefinitionError(f"{machine.plan.title}: {name} is a point and takes a pair of arrays, {name}=(xs, ys) in m.") from None
-    return design_array(machine, name, x, 0), design_array(machine, name, y, 0)
-
-
-def design_array(machine: Mechanism, name: str, value: object, least: int) -> Array:
-    """Return an array of one dimension, or of at least so many, as it is given, NaN where it is masked."""
-    try:
-        found = np.asarray(unmasked(value))
-    except ValueError:
-        found = np.array(None)
-    if found.dtype.kind not in "fiu" or not least <= found.ndim <= 1:
-        given = f"shape {found.shape}, {found.dtype}" if isinstance(value, np.ndarray) else repr(value)[:60]
-        raise DefinitionError(f"{machine.plan.title}: {name} is {given}; an array (m,) of numbers is expected, a value for each design.")
-    return found
+        raise DefinitionError(f"{title}: {name} is a point and takes a pair of arrays, {name}=(xs, ys) in m.") from None
+    parts = []
+    for part in (x, y) if is_point else (x,):
+        try:
+            found = np.asarray(unmasked(part))
+        except ValueError:
+            found = np.array(None)
+        if found.dtype.kind not in "fiu" or not 1 - is_point <= found.ndim <= 1:
+            given = f"shape {found.shape}, {found.dtype}" if isinstance(part, np.ndarray) else repr(part)[:60]
+            raise DefinitionError(f"{title}: {name} is {given}; an array (m,) of numbers is expected, a value for each design.")
+        parts.append(found)
+    return tuple(parts)
 
 
 def check_once(machine: Mechanism, names: Mapping[str, object]) -> None:
@@ -190,9 +184,17 @@ class Task:
 
     def done(self, rows: Rows, start: int, stop: int) -> list[dict[str, Array]]:
         """Return what is measured of the designs from start to before stop, of each piece."""
-        whole = self.machine.replaced(**rows)
-        firsts = range(start, stop, self.piece)
-        return [measure_piece(self, whole, start, first, min(first + self.piece, stop)) for first in firsts]
+        whole, title, done = self.machine.replaced(**rows), self.machine.plan.title, []
+        for first in range(start, stop, self.piece):
+            last = min(first + self.piece, stop)
+            where, machine = f"designs {first} to {last - 1}", whole._part(first - start, last - start)
+            try:
+                found = self.measure(machine)
+            except Exception as error:
+                text = f"{title}: measure failed at {where}: {type(error).__name__}: {error}"
+                raise StudyError(text, designs=(first, last - 1)) from error
+            done.append(result_arrays(title, found, last - first, where))
+        return done
 
 
 @final
@@ -206,11 +208,6 @@ class Batch:
     cpu: float = 0.0
     kept: bool = False
     values: Mapping[str, Array] | None = None
-
-    @property
-    def bare(self) -> Batch:
-        """The same without results."""
-        return replace(self, values=None)
 
 
 def measure_batch(task: StudyWork, start: int, stop: int, rows: Rows, attempt: int) -> Batch:
@@ -227,21 +224,8 @@ def measure_batch(task: StudyWork, start: int, stop: int, rows: Rows, attempt: i
     return Batch(start, stop, perf_counter() - clock, thread_time() - processor, values=values)
 
 
-def measure_piece(task: Task, whole: Mechanism, start: int, first: int, stop: int) -> dict[str, Array]:
-    """Return the results of the designs from first to before stop, out of a batch that begins at start."""
-    where = f"designs {first} to {stop - 1}"
-    machine = whole._part(first - start, stop - start)
-    try:
-        found = task.measure(machine)
-    except Exception as error:
-        text = f"{machine.plan.title}: measure failed at {where}: {type(error).__name__}: {error}"
-        raise StudyError(text, designs=(first, stop - 1)) from error
-    return result_arrays(task, found, stop - first, where)
-
-
-def result_arrays(task: Task, found: object, size: int, where: str) -> dict[str, Array]:
+def result_arrays(title: str, found: object, size: int, where: str) -> dict[str, Array]:
     """Return results as arrays of floats, or of truth values; DefinitionError for anything else."""
-    title = task.machine.plan.title
     if not isinstance(found, Mapping) or not found or not all(isinstance(name, str) and name for name in found):
         text = f"measure returned {cited(found)} for {where}"
         raise DefinitionError(f'{title}: {text}; return a dictionary of names and arrays, {{"travel": travel}}.')

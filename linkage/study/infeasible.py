@@ -14,8 +14,8 @@ from ..mechanism import Mechanism
 from ..motion.measures import Constraint
 from ..program import FloatArray
 from ..units import show
-from .optimum import in_units, multipliers, true_values, unit_of_constraint
-from .problem import COARSE, Problem, is_still
+from .optimum import in_units, multipliers, unit_of_constraint
+from .problem import COARSE, LeafNumbers, Problem, is_still
 from .sampling import no_value
 from .solver import Local, SearchEnd, scales_of
 
@@ -105,8 +105,7 @@ def shown(problem: Problem, constraint: Constraint) -> str:
 
 def is_lost(problem: Problem, constraint: Constraint, end: tuple[tuple[int, ...], SearchEnd]) -> bool:
     """Return whether a condition's numbers have no value of the design that a local search came to."""
-    look = problem.evaluated(problem.dimensions_at(end[1].unit, end[0]))
-    return any(bool(look.rows[leaf].lost[0]) for leaf in constraint.margin.leaves)
+    return bool(problem.evaluated(problem.dimensions_at(end[1].unit, end[0])).lost(constraint.margin)[0])
 
 
 @final
@@ -132,7 +131,7 @@ def given_way(
     is_line = len([one for one in problem.ranges.values() if not is_still(one)]) < 2
     try:
         local = Local(problem, combination, start.unit, elastic=elastic)
-        with problem.count.at_most(int(DESIGNS / (1.0 + problem.poses / POSES_AS_ONE))):
+        with problem.count.without_limit(int(DESIGNS / (1.0 + problem.poses / POSES_AS_ONE))):
             found = local.judged(start.unit) if not problem.space.variables else local.run(rounds=rounds) if is_line else local.least()
         if found is None:
             return None
@@ -140,7 +139,7 @@ def given_way(
         problem.assembled(machine)
     except LinkageError:
         return None
-    values = true_values(problem, machine, quick=True) if is_line else local.numbers(found.unit)
+    values = LeafNumbers(problem.truths(machine.dimensions, quick=True)) if is_line else local.numbers(found.unit)
     prices = multipliers(local, found.unit).constraints if problem.space.variables else np.zeros(len(problem.constraints))
     relaxations, pulling, total = [], [], 0.0
     scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import final
 
+from ..checks import require_number, require_type
 from ..errors import DefinitionError, cited, known_name
 from ..frozen import refuses_changes
 from ..language import noted
@@ -45,10 +46,9 @@ class LoadRule:
             raise DefinitionError(f'LoadRule({cited(self.title)}): its title is expected first, LoadRule("works rule", tipping=0.75).')
         for name in FACTORS:
             value = getattr(self, name)
-            if not is_number(value) or not 0.0 < value <= 1.0:
-                what = f"LoadRule({self.title!r}): {name}={cited(value)}: a share of the load above 0 and not above 1 is expected"
-                percent = f", {name}={value / 100.0:g} for {value:g} %" if is_number(value) and 1.0 < value <= 100.0 else ""
-                raise DefinitionError(f"{what}{percent}.")
+            percent = f", {name}={value / 100.0:g} for {value:g} %" if is_number(value) and 1.0 < value <= 100.0 else ""
+            expected = f"a share of the load above 0 and not above 1 is expected{percent}"
+            require_number(f"LoadRule({self.title!r}): {name}", value, expected, above=0.0, most=1.0)
 
     @property
     def shares(self) -> Mapping[str, float]:
@@ -69,8 +69,6 @@ def rule_of(given: object) -> LoadRule:
     """Return the rule that is meant, by its title too; DefinitionError for anything else."""
     if given is None:
         return PLAIN_RULE
-    if isinstance(given, LoadRule):
-        return given
     if isinstance(given, str):
         return RULES[known_name("Rule", given, RULES)]
-    raise DefinitionError(f'rule={cited(given)}: a LoadRule is expected, such as ISO_10567 or LoadRule("works rule", tipping=0.75).')
+    return require_type("rule", given, LoadRule, 'a LoadRule is expected, such as ISO_10567 or LoadRule("works rule", tipping=0.75)')

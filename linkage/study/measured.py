@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 from math import prod
@@ -67,6 +68,7 @@ class StudyPoses:
     """
 
     base: Motion
+    _rows: dict[Integral, tuple[StudyPoses, FloatArray]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, machine: Mechanism, strokes: Mapping[str, Any], count: int) -> StudyPoses:
@@ -121,12 +123,15 @@ class StudyPoses:
         motion = self.of_all(machine)
         if isinstance(quantity, Request):
             return eager(motion, quantity).reshape(-1, self.pose_count)
-        return function_array(quantity, motion)
-
-    def of_measure(self, machine: Mechanism, measure: Measure, way: RunOptions) -> FloatArray:
-        """Return a measure of m designs, shape (m, 1), over the poses that are looked at."""
-        found = measure.of(lambda leaf: self.of_leaf(machine, leaf, way))
-        return np.array(np.broadcast_to(found, prod(np.broadcast_shapes(*map(np.shape, machine.dimensions.values()))))).reshape(-1, 1)
+        title, what, designs = motion.plan.title, measured_title(motion.plan, quantity), motion._design_shape
+        result = real_numbers(function_value(quantity, motion), f"{title}: {what}", "a number for each pose or each design is expected")
+        if result.shape == motion.shape:
+            return np.where(motion.reached & np.isfinite(result), result, np.nan).reshape(prod(designs), -1)
+        if result.shape != designs:
+            text = f"{title}: {what} has the shape {result.shape} where {motion.shape} or {designs} is expected"
+            raise DefinitionError(f"{text}; return a number for each pose, or one for each design.")
+        lost = ~motion.reached.reshape(prod(designs), -1).all(axis=1)
+        return np.where(lost | ~np.isfinite(result.ravel()), np.nan, result.ravel())[:, None]
 
     def of_leaf(self, machine: Mechanism, leaf: Leaf, way: RunOptions) -> FloatArray:
         """Return what is taken of a quantity over the poses, of m designs, shape (m,)."""
@@ -135,7 +140,7 @@ class StudyPoses:
         if isinstance(leaf, Integral):
             row, weights = self.row(leaf)
             return np.asarray((row.values(machine, leaf.quantity, way) * weights).sum(axis=1))
-        total: Any = fold_start(leaf)
+        total: float | FloatArray = fold_start(leaf)
         for column in self.values(machine, leaf.quantity, way).T:
             total = fold(leaf, total, column)
         return np.asarray(total)
@@ -152,15 +157,8 @@ class StudyPoses:
 
     def row(self, leaf: Integral) -> tuple[StudyPoses, FloatArray]:
         """Return the poses (n,) of an integral over a row of strokes, fine enough for the machine as it is set, and their weights [SI]."""
-        if leaf not in self._rows:
-            self._rows[leaf] = self._row(leaf)
-        return self._rows[leaf]
-
-    @cached_property
-    def _rows(self) -> dict[Integral, tuple[StudyPoses, FloatArray]]:
-        return {}
-
-    def _row(self, leaf: Integral) -> tuple[StudyPoses, FloatArray]:
+        if leaf in self._rows:
+            return self._rows[leaf]
         check_no_worst(leaf)
         plan, designs = self.base.plan, self.base.designs
         by = leaf.by or (next(iter(self.stroke_values)) if len(self.stroke_values) == 1 else "")
@@ -170,7 +168,8 @@ class StudyPoses:
         turns = turns_of(self.stroke_values)
         legs = [self._leg(leaf, by, ends, max(PANELS // (len(turns) - 1), 1)) for ends in pairwise(turns)]
         strokes = {name: np.concatenate([poses[name] for poses, _ in legs]) for name in self.stroke_values}
-        return StudyPoses(Motion(plan, designs, strokes, "nan")), np.concatenate([weights for _, weights in legs])
+        self._rows[leaf] = StudyPoses(Motion(plan, designs, strokes, "nan")), np.concatenate([weights for _, weights in legs])
+        return self._rows[leaf]
 
     def _leg(self, leaf: Integral, by: str, ends: tuple[int, int], panels: int) -> tuple[dict[str, FloatArray], FloatArray]:
         """Return the strokes and weights of an integral on the straight way between two of the poses."""
@@ -191,8 +190,10 @@ class StudyPoses:
     def values(self, machine: Mechanism, quantity: object, way: RunOptions) -> FloatArray:
         """Return a quantity of m designs at the poses, shape (m, n), or (m, 1) of one number for each design."""
         with unwarned(), np.errstate(all="ignore"):
-            if isinstance(quantity, Measure):
-                return self.of_measure(machine, quantity, way)
+            if isinstance(quantity, Measure):  # over the poses that are looked at
+                found = quantity.of(lambda leaf: self.of_leaf(machine, leaf, way))
+                shape = np.broadcast_shapes(*map(np.shape, machine.dimensions.values()))
+                return np.array(np.broadcast_to(found, prod(shape))).reshape(-1, 1)
             if number_bound(self.base.plan, quantity) is not None:
                 return self.of_requests(machine, [quantity], way)[0]
             return self.of_function(machine, quantity)
@@ -218,11 +219,12 @@ def function_value(quantity: Callable[[Motion], Any], motion: Motion) -> Any:
         return quantity(motion)
 
 
-def real_numbers(found: Any) -> FloatArray:
-    """Return what a function gives as an array of floats; TypeError for complex numbers, of which a part would be lost."""
-    if np.iscomplexobj(found):
-        raise TypeError("complex numbers")
-    return np.asarray(found, float)
+def real_numbers(found: Any, what: str, expected: str) -> FloatArray:
+    """Return what a function gives as an array of floats; DefinitionError for anything else, and complex numbers: a part would be lost."""
+    with suppress(TypeError, ValueError):
+        if not np.iscomplexobj(found):
+            return np.asarray(found, float)
+    raise DefinitionError(f"{what} gives {cited(found)}; {expected}.")
 
 
 def quantity_values(motion: Motion, quantity: QuantityLike, *, endless: bool = False) -> FloatArray:
@@ -243,31 +245,12 @@ def quantity_values(motion: Motion, quantity: QuantityLike, *, endless: bool = F
                 found = motion[quantity]
         else:
             found = motion[quantity]
-    try:
-        result = real_numbers(found)
-    except (TypeError, ValueError):
-        raise DefinitionError(f"{title}: {words_of(quantity)} gives {cited(found)}; a number for each pose is expected.") from None
+    what = f"{title}: {words_of(quantity)}"
+    result = real_numbers(found, what, "a number for each pose is expected")
     if result.shape != motion.shape:
-        what = f"{words_of(quantity)} has the shape {result.shape} where {motion.shape} is expected"
-        raise DefinitionError(f"{motion.plan.title}: {what}; ask for a number such as an output, or lambda motion: motion.y('G').")
+        remedy = "ask for a number such as an output, or lambda motion: motion.y('G')"
+        raise DefinitionError(f"{what} has the shape {result.shape} where {motion.shape} is expected; {remedy}.")
     return np.where((~np.isnan(result) if endless else np.isfinite(result)) & motion.reached, result, np.nan)
-
-
-def function_array(function: Callable[[Motion], Any], motion: Motion) -> FloatArray:
-    """Return what a function of a motion of m designs gives, shape (m, n) or (m, 1); DefinitionError for anything else."""
-    found, designs = function_value(function, motion), motion._design_shape
-    title, what, m = motion.plan.title, measured_title(motion.plan, function), prod(motion._design_shape)
-    try:
-        result = real_numbers(found)
-    except (TypeError, ValueError):
-        raise DefinitionError(f"{title}: {what} gives {cited(found)}; a number for each pose or each design is expected.") from None
-    if result.shape == motion.shape:
-        return np.where(motion.reached & np.isfinite(result), result, np.nan).reshape(m, -1)
-    if result.shape != designs:
-        text = f"{title}: {what} has the shape {result.shape} where {motion.shape} or {designs} is expected"
-        raise DefinitionError(f"{text}; return a number for each pose, or one for each design.")
-    lost = ~motion.reached.reshape(m, -1).all(axis=1)
-    return np.where(lost | ~np.isfinite(result.ravel()), np.nan, result.ravel())[:, None]
 
 
 def motion_of(grid: Grid) -> Motion:

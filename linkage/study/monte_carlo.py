@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import TypeAlias, TypeVar, final
+from typing import TypeVar, final
 
 import numpy as np
 
+from ..checks import require
 from ..errors import DefinitionError, cited, known_name, one_word, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
@@ -145,7 +146,9 @@ def monte_carlo(
     poses, plan = StudyPoses.of(machine, strokes, POSES), machine.plan
     named = tolerances_of(plan, tolerances)
     asked, conditions = quantities_listed(plan, of), limits_listed(machine, subject_to)
-    order = percentages(percentiles)
+    fits = isinstance(percentiles, (list, tuple)) and all(is_number(each) and 0.0 <= each <= 100.0 for each in percentiles)
+    require(fits, "percentiles", percentiles, "percentages from 0 to 100 are expected, such as (5, 50, 95)")
+    order = tuple(sorted({float(each) for each in percentiles}))
     way = RunOptions(one_word("backend", backend, ("numpy", "numba")), threads)
     designs = sampled_designs(machine, named, count, method, seed, threads)
     with unwarned(), np.errstate(all="ignore"):
@@ -153,8 +156,12 @@ def monte_carlo(
         run.measure(asked, conditions)
         ends = {title: worst_case(machine, poses, quantity, named) for title, quantity in asked.items()}
         nominal = {title: poses.values(machine, quantity, RunOptions())[0] for title, quantity in asked.items()}
-    units = {title: display_unit(measure_of(plan, quantity), "mm") for title, quantity in asked.items()}
-    bands = {title: band_of(title, units[title], poses, nominal[title], run.moments[title], order, ends[title]) for title in asked}
+    bands = {}
+    for title, quantity in asked.items():
+        share, mean, sigma, *cuts = map(poses.shaped, run.moments[title])
+        low, high, own = map(poses.shaped, (*ends[title], nominal[title]))
+        unit = display_unit(measure_of(plan, quantity), "mm")
+        bands[title] = Band(title, unit, own, mean, sigma, FrozenDict(zip(order, cuts, strict=True)), share, low, high)
     kept = {str(each): float(np.mean(good)) for each, good in zip(conditions, run.kept, strict=True)}
     good = ~run.lost & np.all([np.ones(count, bool), *run.kept], axis=0)
     assembled = float(np.mean(~run.lost))
@@ -187,32 +194,7 @@ def limits_listed(machine: Mechanism, given: object) -> tuple[Constraint, ...]:
     return found
 
 
-def percentages(given: object) -> tuple[float, ...]:
-    """Return percentages in order; DefinitionError for anything else."""
-    if not isinstance(given, (list, tuple)) or not all(is_number(each) and 0.0 <= each <= 100.0 for each in given):
-        raise DefinitionError(f"percentiles={cited(given)}: percentages from 0 to 100 are expected, such as (5, 50, 95).")
-    return tuple(sorted({float(each) for each in given}))
-
-
-def band_of(
-    title: str,
-    unit: str,
-    poses: StudyPoses,
-    nominal: FloatArray,
-    moments: FloatArray,
-    order: Sequence[float],
-    ends: tuple[FloatArray, FloatArray],
-) -> Band:
-    """Return a band from the rows of its moments: share, mean, sigma, then percentiles."""
-    share, mean, sigma, *cuts = (poses.shaped(row) for row in moments)
-    low, high = (poses.shaped(end) for end in ends)
-    return Band(title, unit, poses.shaped(nominal), mean, sigma, FrozenDict(zip(order, cuts, strict=True)), share, low, high)
-
-
 # The designs, block by block, and what is kept of them: of the results themselves nothing.
-
-Stored: TypeAlias = Mapping[Hashable, list[FloatArray]]
-"""Moments of each quantity, as they come in."""
 
 
 @final
@@ -238,7 +220,7 @@ class MonteCarloRun:
         every = [each for each in asked.values() if not isinstance(each, Measure)] + [leaf.quantity for leaf in self._leaves]
         quantities = self._asked = {self._key(each): each for each in every}
         bound = [key for key, each in quantities.items() if number_bound(self.poses.base.plan, each) is not None]
-        found: Stored = {key: [] for key in quantities}
+        found: dict[Hashable, list[FloatArray]] = {key: [] for key in quantities}
         if bound:
             width = min(max(1, MEMORY // (8 * len(bound) * self.count)), self.poses.pose_count)
             store = np.empty((len(bound), width, self.count))
@@ -249,8 +231,7 @@ class MonteCarloRun:
             if key not in bound:
                 parts = [self.poses.of_function(self._block(block), quantity).T for block in blocks(self.count, self.poses.pose_count)]
                 self._take([key], np.concatenate(parts, axis=1)[None], 0, found)
-        self._leaves |= {leaf: self._at(leaf) for leaf in leaves if isinstance(leaf, At)}
-        self._leaves |= {leaf: self._integral(leaf) for leaf in leaves if isinstance(leaf, Integral)}
+        self._leaves |= {leaf: self._of_leaf(leaf) for kind in (At, Integral) for leaf in leaves if isinstance(leaf, kind)}
         for leaf, places in self._unlimited.items():
             self._leaves[leaf] = np.where(places == (1 if isinstance(leaf, At) else self.poses.pose_count), np.nan, self._leaves[leaf])
         self.kept = [self._keeps(each) for each in conditions]
@@ -278,21 +259,15 @@ class MonteCarloRun:
         self._on_threads(fill, blocks(self.count, part.stop - part.start))
         return place
 
-    def _at(self, leaf: At) -> FloatArray:
-        """Return a quantity at its own pose, shape (designs,)."""
-        pose = self.poses.at(leaf)
-        found = np.concatenate([pose.values(self._block(block), leaf.quantity, self.way)[:, 0] for block in blocks(self.count, 1)])
-        free = self._free(pose, leaf.quantity, found[None])
+    def _of_leaf(self, leaf: At | Integral) -> FloatArray:
+        """Return a quantity at its own pose, or an integral over the row of strokes, shape (designs,)."""
+        poses = self.poses.at(leaf) if isinstance(leaf, At) else self.poses.row(leaf)[0]
+        parts = blocks(self.count, poses.pose_count)
+        found = np.concatenate([self.poses.of_leaf(self._block(block), leaf, self.way) for block in parts])
+        free = self._free(poses, leaf.quantity, found[None]) if isinstance(leaf, At) else None
         if free is not None:
             self._unlimited[leaf] = free[0].astype(int)
         self.lost |= np.isnan(found) if free is None else np.isnan(found) & ~free[0]
-        return found
-
-    def _integral(self, leaf: Integral) -> FloatArray:
-        """Return an integral over the row of strokes, shape (designs,)."""
-        parts = blocks(self.count, self.poses.row(leaf)[0].pose_count)
-        found = np.concatenate([self.poses.of_leaf(self._block(block), leaf, self.way) for block in parts])
-        self.lost |= np.isnan(found)
         return found
 
     def _keeps(self, condition: Constraint) -> Mask:
@@ -319,10 +294,15 @@ class MonteCarloRun:
     def _block(self, block: slice) -> Mechanism:
         return self.designs._part(block.start, block.stop)
 
-    def _take(self, keys: Sequence[Hashable], store: FloatArray, first: int, found: Stored) -> None:
+    def _take(self, keys: Sequence[Hashable], store: FloatArray, first: int, found: Mapping[Hashable, list[FloatArray]]) -> None:
         """Take in the results of some quantities from a pose on, shape (quantities, poses, designs), which are used up."""
         for key, rows in zip(keys, store, strict=True):
-            free = self._free_of(key, rows, first)
+            free, part = None, slice(first, first + len(rows))
+            if np.isnan(rows).any():
+                every = np.zeros((self.poses.pose_count, self.count))
+                every[part] = rows
+                whole = self._free(self.poses, self._asked[key], every)
+                free = None if whole is None else whole[part]
             self.lost |= (np.isnan(rows) if free is None else np.isnan(rows) & ~free).any(axis=0)
             for leaf in [each for each in self._leaves if self._key(each.quantity) == key]:
                 if free is not None:
@@ -335,22 +315,17 @@ class MonteCarloRun:
         for key, each in zip(keys, moments, strict=True):
             found[key].append(each.T)
 
-    def _free_of(self, key: Hashable, rows: FloatArray, first: int) -> Mask | None:
-        """Return where nothing limits a quantity among its rows (poses, designs) from a pose on; None where each has a value."""
-        if not np.isnan(rows).any():
-            return None
-        every = np.zeros((self.poses.pose_count, self.count))
-        every[first : first + len(rows)] = rows
-        free = self._free(self.poses, self._asked[key], every)
-        return None if free is None else free[first : first + len(rows)]
-
     def _moments(self, column: FloatArray) -> list[float]:
         """Return the share of designs that have a value, then their mean, sigma and percentiles; the column is used up."""
         column.sort()
         known = column[: int(np.searchsorted(column, np.nan))]  # NaN stands behind all numbers
         if not known.size:
             return [0.0] + [np.nan] * (2 + len(self.order))
-        cuts = [quantile(known, percentage) for percentage in self.order]
+        cuts, last = [], known.size - 1
+        for percentage in self.order:  # by straight lines between the ordered values
+            place = percentage / 100.0 * last
+            below = max(min(int(place), last - 1), 0)
+            cuts.append(float(known[below] + (place - below) * (known[min(below + 1, last)] - known[below])))
         mean = float(known.mean())
         known -= mean
         known *= known
@@ -363,13 +338,6 @@ class MonteCarloRun:
         first = work(tasks[0])
         with ThreadPoolExecutor(self.threads) as pool:
             return [first, *pool.map(work, tasks[1:])]
-
-
-def quantile(ordered: FloatArray, percentage: float) -> float:
-    """Return a percentile of ordered values, by straight lines between them."""
-    place = percentage / 100.0 * (ordered.size - 1)
-    below = min(int(place), ordered.size - 2) if ordered.size > 1 else 0
-    return float(ordered[below] + (place - below) * (ordered[min(below + 1, ordered.size - 1)] - ordered[below]))
 
 
 def blocks(count: int, poses: int) -> list[slice]:

@@ -8,10 +8,9 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from hashlib import blake2b
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, final, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, TypeVar, Unpack, final, overload
 
 import numpy as np
 
@@ -41,17 +40,17 @@ from ..quantities import Quantity, ref
 from ..statics.applied import case_of
 from ..units import show
 from .box import unit_points
-from .checkpoint import measure_text
+from .checkpoint import digest, measure_text
 from .checks import check_one_design
 from .cylinder_rows import fitted_rows
 from .infeasible import infeasible_error
 from .optimum import Optimum, in_units, polished, unit_of_constraint, unit_of_measure
-from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of, reduced
+from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of
 from .result_tables import EvaluatedDesigns
 from .solver import Local, SearchEnd, grows, local_search
 from .space import Space
 from .survey import Progress, check_progress, progress_told
-from .tolerances import sigma
+from .tolerances import ToleranceLike, sigma
 
 if TYPE_CHECKING:
     from .pareto import Front
@@ -81,42 +80,36 @@ NEAR = 0.1
 """Starts are not nearer to one another than this part of the box's diagonal."""
 
 
+class SearchKeywords(TypedDict, total=False):
+    """What a search takes beside what is to be least or greatest and what varies; `optimise` says what each is."""
+
+    subject_to: object
+    regions: Mapping[str, object] | None
+    case: object
+    over: Mapping[str, object] | None
+    robust: Mapping[str, object] | None
+    sigmas: float
+    method: str
+    solver: str | None
+    starts: int | None
+    seed: int
+    limit: int | None
+    folder: str | os.PathLike[str] | None
+    progress: object
+
+
+One: TypeAlias = Measure | Quantity | str | None
+"""A single objective."""
+Several: TypeAlias = Sequence[Measure | Quantity]
+
+
 @overload
 def optimise(
-    machine: Mechanism,
-    *,
-    minimise: Measure | Quantity | str | None = ...,
-    maximise: Measure | Quantity | str | None = ...,
-    vary: Mapping[object, object],
-    subject_to: object = ...,
-    regions: Mapping[str, object] | None = ...,
-    case: object = ...,
-    over: Mapping[str, object] | None = ...,
-    robust: Mapping[str, object] | None = ...,
-    sigmas: float = ...,
-    method: str = ...,
-    solver: str | None = ...,
-    starts: int | None = ...,
-    seed: int = ...,
-    limit: int | None = ...,
-    folder: str | os.PathLike[str] | None = ...,
-    progress: object = ...,
+    machine: Mechanism, *, minimise: One = ..., maximise: One = ..., vary: Mapping[object, object], **more: Unpack[SearchKeywords]
 ) -> Optimum: ...
 @overload
 def optimise(
-    machine: Mechanism,
-    *,
-    minimise: Sequence[Measure | Quantity] = ...,
-    maximise: Sequence[Measure | Quantity] = ...,
-    vary: Mapping[object, object],
-    subject_to: object = ...,
-    regions: Mapping[str, object] | None = ...,
-    case: object = ...,
-    over: Mapping[str, object] | None = ...,
-    solver: str | None = ...,
-    seed: int = ...,
-    limit: int | None = ...,
-    progress: object = ...,
+    machine: Mechanism, *, minimise: Several = ..., maximise: Several = ..., vary: Mapping[object, object], **more: Unpack[SearchKeywords]
 ) -> Front: ...
 def optimise(
     machine: Mechanism,
@@ -269,11 +262,25 @@ def default_limit(problem: Problem, evolved: int = 0) -> int:
 
 
 def objectives_of(machine: Mechanism, minimise: object, maximise: object) -> tuple[list[Measure], float]:
-    """Return what is to be least, or of a single one greatest (the sense is then -1.0); DefinitionError for none."""
-    listed = [[] if given is None else list(given) if isinstance(given, (list, tuple)) else [given] for given in (minimise, maximise)]
-    least, most = ([objective_of(machine, each) for each in group] for group in listed)
+    """Return what is to be least, or of a single one greatest (the sense is then -1.0).
+
+    DefinitionError for none, and for what has a value at every pose.
+    """
+    title, groups = machine.plan.title, []
+    for given in (minimise, maximise):
+        groups.append([])
+        for each in [] if given is None else given if isinstance(given, (list, tuple)) else [given]:
+            if isinstance(each, Measure):
+                groups[-1].append(each)
+                continue
+            quantity = require_quantity(each, "minimise")
+            if isinstance(quantity, Worst) or strokes_behind(machine.plan, quantity):
+                remedy = "say which is meant, least(...), most(...)"
+                raise DefinitionError(f"{title}: {words_of(quantity)} has a value at every pose: {remedy}.")
+            groups[-1].append(At(quantity, {}))
+    least, most = groups
     if not least and not most:
-        raise DefinitionError(f"{machine.plan.title}: say minimise= or maximise=, one measure such as least(...), or a list of several.")
+        raise DefinitionError(f"{title}: say minimise= or maximise=, one measure such as least(...), or a list of several.")
     if len(least) + len(most) == 1:
         return least or most, 1.0 if least else -1.0
     return [*least, *(-each for each in most)], 1.0
@@ -284,18 +291,6 @@ def check_counts(title: str, starts: Any, seed: Any, limit: Any) -> None:
     for name, value, least in (("starts", starts, 1), ("seed", seed, 0), ("limit", limit, 1)):
         if value is not None:
             require_whole(f"{title}: {name}", value, f"a whole number is expected, at least {least}", least=least)
-
-
-def objective_of(machine: Mechanism, given: object) -> Measure:
-    """Return what is to be least or greatest; DefinitionError for what has a value at every pose."""
-    if isinstance(given, Measure):
-        return given
-    quantity = require_quantity(given, "minimise")
-    if not isinstance(quantity, Worst) and not strokes_behind(machine.plan, quantity):
-        return At(quantity, {})
-    raise DefinitionError(
-        f"{machine.plan.title}: {words_of(quantity)} has a value at every pose: say which is meant, least(...), most(...)."
-    )
 
 
 def check_objectives_move(problem: Problem) -> None:
@@ -322,10 +317,9 @@ def constraint_in_case(constraint: Constraint, case: Case) -> Constraint:
     """Return a constraint with the forces of a load case; itself where none is in it."""
     if case is None:
         return constraint
-    left, right = in_case(constraint.left, case), in_case(constraint.right, case)
-    before, after = ((*each.left.leaves, *each.right.leaves) for each in (constraint, Constraint(left, constraint.symbol, right)))
-    same = all(a.quantity is b.quantity for a, b in zip(before, after, strict=True))
-    return constraint if same else Constraint(left, constraint.symbol, right)
+    found = Constraint(in_case(constraint.left, case), constraint.symbol, in_case(constraint.right, case))
+    before, after = ((*each.left.leaves, *each.right.leaves) for each in (constraint, found))
+    return constraint if all(a.quantity is b.quantity for a, b in zip(before, after, strict=True)) else found
 
 
 def each_in_cases(
@@ -354,22 +348,27 @@ def pieces_in_cases(constraints: Sequence[Constraint], cases: Sequence[Case], ju
 # Spread: each number as bad as tolerances make it.
 
 
-def with_spread(problem: Problem, robust: object, sigmas: object) -> Problem:
+def with_spread(problem: Problem, tolerances: Mapping[str, ToleranceLike], sigmas: object) -> Problem:
     """Return a problem whose numbers are worse by so many standard deviations of what tolerances of dimensions make of them."""
     title = problem.plan.title
     sigmas = require_number(f"{title}: sigmas", sigmas, "a number is expected, zero or more", least=0.0)
     present = problem.space.unit(problem.space.present(problem.machine))
-    look = problem.evaluated(problem.dimensions_at(present, [0] * len(problem.space.choices)))
-    values = {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
+    values = problem.evaluated(problem.dimensions_at(present, [0] * len(problem.space.choices))).of_one
     if not all(map(np.isfinite, values.values())):
         raise DefinitionError(f"{title}: robust= starts from a design that can be assembled over the whole stroke; set the machine so.")
 
     def spread(expression: Measure, sense: float) -> Measure:
-        """Return an expression with its leaves moved the way in which it gets less (sense -1.0) or more."""
+        """Return an expression with its leaves moved the way in which it gets less (sense -1.0) or more, so many standard deviations."""
         found = expression
         for leaf in expression.leaves:
-            way = sense * np.sign(grows(expression, leaf, values))
-            found = with_leaf(found, leaf, replace(leaf, quantity=spread_quantity(title, leaf.quantity, robust, float(way) * sigmas)))
+            quantity: Any = leaf.quantity
+            if not isinstance(quantity, (str, Quantity, Request)):
+                what = f"{title}: robust= needs exact derivatives, and {words_of(quantity)} has none"
+                raise DefinitionError(f"{what}; take a quantity or a request.")
+            by = sense * float(np.sign(grows(expression, leaf, values))) * sigmas
+            if by != 0.0:
+                moved = (ref(quantity) if isinstance(quantity, str) else quantity) + by * sigma(quantity, tolerances)
+                found = with_leaf(found, leaf, replace(leaf, quantity=moved))
         return found
 
     objectives = [spread(each, problem.sense) for each in problem.objectives]
@@ -386,13 +385,6 @@ def with_leaf(measure: Measure, leaf: Leaf, other: Leaf) -> Measure:
     if isinstance(measure, CombinedMeasure):
         return replace(measure, left=with_leaf(measure.left, leaf, other), right=with_leaf(measure.right, leaf, other))
     return other if measure is leaf else measure
-
-
-def spread_quantity(title: str, quantity: Any, robust: Any, by: float) -> Any:
-    """Return a quantity and so many of its standard deviations."""
-    if not isinstance(quantity, (str, Quantity, Request)):
-        raise DefinitionError(f"{title}: robust= needs exact derivatives, and {words_of(quantity)} has none; take a quantity or a request.")
-    return quantity if by == 0.0 else (ref(quantity) if isinstance(quantity, str) else quantity) + by * sigma(quantity, robust)
 
 
 # What was found on the way, kept in a folder.
@@ -418,11 +410,15 @@ class Journal:
         except DefinitionError as error:
             text = "a folder cannot tell a function without source text, such as a lambda, from another one; define it by `def` in a file"
             raise DefinitionError(f"{problem.plan.title}: folder=: {text}.") from error
-        facts = {"search": blake2b(f"{problem.facts} {functions} {plan}".encode(), digest_size=16).hexdigest()}
+        facts = {"search": digest(f"{problem.facts} {functions} {plan}")}
         with in_words(path):
             path.parent.mkdir(parents=True, exist_ok=True)
             text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
-        entries = [entry for entry in map(entry_of, text.splitlines()) if entry is not None]
+        entries = []
+        for line in text.splitlines():
+            with suppress(ValueError):  # a torn line holds nothing
+                found = json.loads(line)
+                entries += [found] if isinstance(found, dict) else []
         if entries and entries[0] != facts:
             raise DefinitionError(f"{path} holds another search, of other variables, conditions, dimensions or seed; give another folder.")
         if not entries or not text.endswith("\n"):  # a line that was torn would take the next one with it
@@ -463,15 +459,6 @@ class Journal:
             file.write(json.dumps(entry) + "\n")
             file.flush()
             os.fsync(file.fileno())
-
-
-def entry_of(line: str) -> dict[str, Any] | None:
-    """Return what a line holds; None for a torn one."""
-    try:
-        found = json.loads(line)
-    except ValueError:
-        return None
-    return found if isinstance(found, dict) else None
 
 
 # The search.
@@ -546,7 +533,9 @@ class DesignSearch:
         if not any(np.any(each.reached == 1.0) for each in screened):
             raise self.unreachable(screened)
         if not any(np.any(each.begins) for each in screened):
-            raise self.without_value(screened)
+            count = sum(int(np.sum(each.reached == 1.0)) for each in screened)
+            text = f"{', '.join(map(str, self.problem.objectives))} has no value at any of {count} designs that can be assembled"
+            raise StudyError(f"{self.problem.plan.title}: {text}; say what has one there, or widen vary=.")
         screened = sorted((each for each in screened if np.any(each.begins)), key=lambda each: each.best)[:SEARCHED]
         hopeless = self.hopeless(screened)
         if hopeless:
@@ -646,13 +635,9 @@ class DesignSearch:
             unit = np.concatenate([present[None], unit])
         if self.plan.method != "local":
             unit = space.drawn(unit, self.problem.plan.title, self.plan.seed)
-        self.looked.append(self.looked_at(combination, unit))
-        return self.looked[-1]
-
-    def looked_at(self, combination: tuple[int, ...], unit: FloatArray) -> Screened:
-        """Return designs with what they are worth at few poses."""
         value, missing, reached = self.coarse.merits(combination, unit)
-        return Screened(combination, unit, self.problem.sense * value, missing, reached)
+        self.looked.append(Screened(combination, unit, self.problem.sense * value, missing, reached))
+        return self.looked[-1]
 
     def starts(self, screened: Screened, combinations: int) -> list[FloatArray]:
         """Return where the local searches of a combination begin: the best designs that stand apart, that of today always."""
@@ -678,23 +663,18 @@ class DesignSearch:
         known = self.journal.result(task, self.problem)
         if known is not None:
             return known
-        count = self.problem.count
-        before = count.designs
-        found = self.locally(combination, np.ravel(unit))
-        if not count.is_spent:
-            self.journal.keep(task, found, count.designs - before)
-        return found
-
-    def locally(self, combination: tuple[int, ...], unit: FloatArray) -> SearchEnd:
-        """Return what a local search comes to, with samples of its own: no search depends on those before it."""
-        problem = self.problem.changed(counts=SAMPLES)
+        problem, unit = self.problem.changed(counts=SAMPLES), np.ravel(unit)  # with samples of its own: it depends on no other search
+        before = problem.count.designs
         try:
             local = Local(problem, combination, unit)
-            return local_search(local, NEARLY) if problem.space.variables else local.judged(unit)
+            found = local_search(local, NEARLY) if problem.space.variables else local.judged(unit)
         except LimitReachedError:
             raise
         except LinkageError:
-            return SearchEnd(unit, np.nan, np.inf, False)
+            found = SearchEnd(unit, np.nan, np.inf, False)
+        if not problem.count.is_spent:
+            self.journal.keep(task, found, problem.count.designs - before)
+        return found
 
     # -- the winner -----------------------------------------------------------------------------------------
 
@@ -715,17 +695,12 @@ class DesignSearch:
 
     def tried(self, ended: Sequence[Ended]) -> tuple[EvaluatedDesigns, ...]:
         """Return the designs that were looked at, then what the local searches came to."""
-        sense = self.problem.sense
-        looked = [EvaluatedDesigns("looked at", each.combination, each.unit, sense * each.value, each.missing) for each in self.looked]
-        ends = (EvaluatedDesigns("searched", at, end.unit[None], np.array([end.value]), np.array([end.missing])) for at, end in ended)
-        return (*looked, *ends)
-
-    def without_value(self, screened: Sequence[Screened]) -> StudyError:
-        """Return the error for a box in which the objective has no value."""
-        count = sum(int(np.sum(each.reached == 1.0)) for each in screened)
-        named = ", ".join(map(str, self.problem.objectives))
-        text = f"{named} has no value at any of {count} designs that can be assembled; say what has one there, or widen vary="
-        return StudyError(f"{self.problem.plan.title}: {text}.")
+        space, found = self.problem.space, []
+        for each in self.looked:
+            found.append(EvaluatedDesigns("looked at", space, each.combination, each.unit, self.problem.sense * each.value, each.missing))
+        for at, end in ended:
+            found.append(EvaluatedDesigns("searched", space, at, end.unit[None], np.array([end.value]), np.array([end.missing])))
+        return tuple(found)
 
     def unreachable(self, screened: Sequence[Screened]) -> StudyError:
         """Return the error for a box without a design that can be assembled over the whole stroke."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice, product
 from math import prod
@@ -28,7 +29,7 @@ from .box import unit_points
 from .checks import unit_of
 from .poles import check_bounded
 from .problem import LeafNumbers, Problem
-from .result_tables import EvaluatedDesigns, ResultRow, result_text, tried_header, tried_names, tried_rows, write_result
+from .result_tables import EvaluatedDesigns, ResultRow, heading_with_unit, result_cells, result_text, tried_names, tried_rows
 from .sampling import no_value
 from .solver import MET, Local, SearchEnd, local_search, missing_of, scale_of, scales_of, true_worth, worth_in_order
 from .space import Space, Varied, size_of_machine
@@ -102,10 +103,14 @@ class AtBound:
     by: float
     gain: float
 
+    @property
+    def change(self) -> str:
+        """How much farther that is, in words: `10 mm more`."""
+        return f"{self.variable.show(self.by)} {'more' if self.is_upper else 'less'}"
+
     def __str__(self) -> str:
         end = "upper" if self.is_upper else "lower"
-        change = f"{self.variable.show(self.by)} {'more' if self.is_upper else 'less'}"
-        return f"{self.variable.name} = {self.variable.show(self.value)} is at its {end} end: {change} gains {100.0 * self.gain:.2g} %"
+        return f"{self.variable.name} = {self.variable.show(self.value)} is at its {end} end: {self.change} gains {100.0 * self.gain:.2g} %"
 
 
 @final
@@ -188,11 +193,51 @@ class Optimum(Shown):
         Of the steps about each value those are taken that keep every condition and cost least; where none does, the one that misses
         least, and it says so.
         """
-        return rounded_design(self, to, angle)
+        for name, value in (("to", to), ("angle", angle)):
+            require_number(f"rounded({name}", value, "a step above zero is expected, such as 1 * mm", above=0.0)
+        require_measure(to, "length", "rounded: to")
+        require_measure(angle, "angle", "rounded: angle")
+        if to > COARSEST * size_of_machine(self.machine):
+            raise DefinitionError(
+                f"rounded({to:.6g}): steps of {to:.6g} m are as coarse as the machine; write {to:.6g} * mm if that is meant."
+            )
+        problem, space, near = self.problem, self.problem.space, []
+        for variable, value in zip(space.variables, space.values(self.unit), strict=True):
+            step = {"mm": to, "deg": angle}.get(variable.unit)
+            near.append(steps_about(float(value), step, variable) if step else [float(value)])
+        tried = list(islice(product(*near), MOST_ROUNDINGS))
+        units = np.array([[(each - one.low) / (one.span or 1.0) for each, one in zip(row, space.variables, strict=True)] for row in tried])
+        best: tuple[float, float, Mechanism] | None = None
+        for place in best_first(problem, self.combination, units, MET)[1][:8] if space.variables else [0]:
+            machine = problem.machine_of(units[place], self.combination)
+            worth = worth_of(problem, machine)
+            if np.isfinite(worth[0]) and (best is None or order_of_worth(problem, *worth) < order_of_worth(problem, *best[:2])):
+                best = *worth, machine
+        if best is None:
+            raise AssemblyError(f"{problem.plan.title}: no design on these steps can be assembled over the whole stroke; take finer ones.")
+        return Rounded.of(self, *best)
 
     def rows(self, rounded: Rounded | None = None) -> tuple[ResultRow, ...]:
         """Return what varied, the objective and the conditions, before and after, and of a rounded design too."""
-        return result_rows(self, rounded)
+        problem, plan = self.problem, self.problem.plan
+        machines = [self.start, self.machine, *([rounded.machine] if rounded else [])]
+        at_end = {each.variable.name: each for each in self.bounds}
+        nan, rows = float("nan"), []
+        for name in tried_names(problem.space):
+            owner, sign = plan.table.spellings[name]
+            before, after, last = [*(sign * float(each.dimensions[owner]) for each in machines), nan][:3]
+            end = at_end.get(name)
+            by, gain = (end.change, end.gain) if end else ("", 0.0)
+            rows.append(ResultRow("variable", name, unit_of(plan, name), before, after, last, gain=gain, by=by))
+        last, unit = rounded.value if rounded else nan, unit_of_measure(plan, problem.objectives[0])
+        rows.append(ResultRow("objective", str(problem.objectives[0]), unit, self.start_value, self.value, last))
+        known = [values_of(problem, each) for each in machines]
+        for kept in self.conditions:
+            side = kept.constraint.left
+            before, after, last = [*(nan if each is None else float(side.of(each.__getitem__)) for each in known), nan][:3]
+            name, gain = f"{side} {kept.constraint.symbol}", kept.gain
+            rows.append(ResultRow("condition", name, kept.units, before, after, last, kept.right, kept.spare, gain, "1 % less strict"))
+        return tuple(rows)
 
     def table(self, rounded: Rounded | None = None) -> str:
         """Return the rows as aligned text."""
@@ -201,22 +246,24 @@ class Optimum(Shown):
     def csv(self, path: Place, rounded: Rounded | None = None) -> None:
         """Write the rows into a CSV file, in full precision; FileError where it cannot be written."""
         with replacing_text(path) as stream:
-            write_result(self.rows(rounded), stream)
+            csv.writer(stream).writerows(result_cells(self.rows(rounded)))
 
     def designs_csv(self, path: Place) -> None:
         """Write every design that was looked at into a CSV file: its dimensions, its objective, and the part missing of a condition."""
-        units = unit_of_measure(self.problem.plan, self.problem.objectives[0])
+        plan, objective = self.problem.plan, self.problem.objectives[0]
+        unit = unit_of_measure(plan, objective)
+        units = [*((name, unit_of(plan, name)) for name in tried_names(self.tried[0].space)), (str(objective), unit)]
         with replacing_text(path) as stream:
             writer = csv.writer(stream)
-            writer.writerow(tried_header(self.problem.space, self.problem.plan, str(self.problem.objectives[0]), units))
-            for row in tried_rows(self.problem.space, self.problem.plan, units, self.tried):
+            writer.writerow(["stage", *map(heading_with_unit, units), "missing"])
+            for row in tried_rows(plan, unit, self.tried):
                 writer.writerow("" if each != each else each if isinstance(each, str) else repr(each) for each in row)
 
     def designs_jsonl(self, path: Place) -> None:
         """Write every design that was looked at into a file of JSON lines, in SI; null stands for what has no value."""
-        names = [*tried_names(self.problem.space), "value", "missing"]
+        names = [*tried_names(self.tried[0].space), "value", "missing"]
         with replacing_text(path) as stream:
-            for stage, *row in tried_rows(self.problem.space, None, "", self.tried):
+            for stage, *row in tried_rows(None, "", self.tried):
                 numbers = (each if isinstance(each, float) and np.isfinite(each) else None for each in row)
                 stream.write(json.dumps({"stage": stage, **dict(zip(names, numbers, strict=True))}) + "\n")
 
@@ -225,12 +272,7 @@ class Optimum(Shown):
 
 
 def polished(
-    problem: Problem,
-    combination: Sequence[int],
-    found: SearchEnd,
-    ended: Sequence[SearchEnd],
-    searched: int,
-    cut: Sequence[str],
+    problem: Problem, combination: Sequence[int], found: SearchEnd, ended: Sequence[SearchEnd], searched: int, cut: Sequence[str]
 ) -> Optimum:
     """Return an optimum; AssemblyError where it cannot be assembled over the whole stroke."""
     if any(each.step is not None for each in problem.space.variables):
@@ -254,7 +296,7 @@ def described(
     problem.assembled(machine)
     if not found.feasible:
         raise AssemblyError(f"{problem.plan.title}: the design on its steps misses the conditions.")
-    now = true_values(problem, machine)
+    now = LeafNumbers(problem.truths(machine.dimensions))
     value = true_worth(problem, now)
     if not np.isfinite(value):
         raise AssemblyError(f"{problem.plan.title}: {', '.join(map(str, problem.objectives))} has no value of the best design.")
@@ -297,18 +339,20 @@ def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float],
     return Kept(constraint, left, right, spare, by, price * by if price * by > SHOWN else 0.0, unit_of_constraint(problem.plan, constraint))
 
 
-def true_values(problem: Problem, machine: Mechanism, *, quick: bool = False) -> LeafNumbers:
-    """Return the leaves' numbers of a machine, between the poses too: as a motion gives them, or `quick` by the program."""
-    return LeafNumbers(problem.truths(machine.dimensions, quick=quick))
+def values_of(problem: Problem, machine: Mechanism) -> LeafNumbers | None:
+    """Return the leaves' numbers of a machine, between the poses too; None where it cannot be assembled over the whole stroke."""
+    try:
+        problem.assembled(machine)
+    except AssemblyError:
+        return None
+    return LeafNumbers(problem.truths(machine.dimensions))
 
 
 def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
     """Return the objective of a machine and what it misses in parts of the conditions' sizes; NaN where it cannot be assembled."""
-    try:
-        problem.assembled(machine)
-    except AssemblyError:
+    values = values_of(problem, machine)
+    if values is None:
         return float("nan"), float("inf")
-    values = true_values(problem, machine)
     scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
     return true_worth(problem, values), missing_of(problem.constraints, scales, values)
 
@@ -380,24 +424,16 @@ def edges(problem: Problem, combination: Sequence[int], unit: FloatArray, prices
 
     `part` is what a scaled number of the objective is of it.
     """
-    for way in (-prices.left, -prices.reach):
-        size = float(np.abs(way).max(initial=0.0))
-        if part * size * EDGE > SHOWN and (found := edge_words(problem, combination, unit, way / size)):
-            return [found]
-    return []
-
-
-def edge_words(problem: Problem, combination: Sequence[int], unit: FloatArray, way: FloatArray) -> str:
-    """Return what stops a design on a way (n,) in unit coordinates; "" where nothing near it does."""
-    for step in STEPS_BEYOND:
+    variables, values = problem.space.variables, problem.space.values(unit)
+    sizes = [(way, float(np.abs(way).max(initial=0.0))) for way in (-prices.left, -prices.reach)]
+    for way, step in product([way / size for way, size in sizes if part * size * EDGE > SHOWN], STEPS_BEYOND):
         beyond = np.clip(unit + step * way, 0.0, 1.0)
         reason = stopped_by(problem, combination, beyond)
         if reason:
-            moved = [each for each, by in zip(problem.space.variables, beyond - unit, strict=True) if abs(by) >= 0.3 * step]
-            values = dict(zip(problem.space.variables, problem.space.values(unit), strict=True))
-            where = ", ".join(f"{each.name} = {each.show(float(values[each]))}" for each in moved) or "The design"
-            return f"{where} {'stands' if len(moved) < 2 else 'stand'} at an edge of what the machine allows; beyond it: {reason}"
-    return ""
+            moved = [(each, at) for each, at, by in zip(variables, values, beyond - unit, strict=True) if abs(by) >= 0.3 * step]
+            where = ", ".join(f"{each.name} = {each.show(float(at))}" for each, at in moved) or "The design"
+            return [f"{where} {'stands' if len(moved) < 2 else 'stand'} at an edge of what the machine allows; beyond it: {reason}"]
+    return []
 
 
 def stopped_by(problem: Problem, combination: Sequence[int], unit: FloatArray) -> str:
@@ -410,7 +446,7 @@ def stopped_by(problem: Problem, combination: Sequence[int], unit: FloatArray) -
         return what_of(str(error))
     if not bool(look.whole[0]):
         return what_of(problem.refusal or "it cannot be assembled over the whole stroke")
-    return next((no_value(problem.plan, leaf) for leaf in problem.leaves if look.rows[leaf].lost[0]), "")
+    return next((no_value(problem.plan, leaf) for leaf in problem.leaves if look.lost(leaf)[0]), "")
 
 
 def what_of(message: str) -> str:
@@ -513,14 +549,8 @@ class StepSearch:
         for each in steps:
             if each not in self.seen and not (self.problem.count.is_spent and any(self.seen.values())):
                 self.seen[each] = self._searched(each)
-        known = [step for step, result in self.seen.items() if result is not None]
-        self.best = min(known, key=self._worth, default=None)
-
-    def _worth(self, step: tuple[int, ...]) -> tuple[bool, float]:
-        result = self.seen[step]
-        assert result is not None
-        found = result[2]
-        return worth_in_order(self.problem, found)
+        worth = {step: worth_in_order(self.problem, result[2]) for step, result in self.seen.items() if result is not None}
+        self.best = min(worth, key=worth.__getitem__, default=None)
 
     def _searched(self, steps: tuple[int, ...]) -> tuple[Problem, tuple[int, ...], SearchEnd] | None:
         """Return the problem with its stepped variables held at some steps, and the best design there; None where it is not assembled."""
@@ -530,19 +560,14 @@ class StepSearch:
         smaller = Space(self.rest, (*space.choices, *held), (*space.names, *((each.name,) for each in self.stepped)))
         inner, whole = self.problem.changed(space=smaller), (*self.combination, *(0 for _ in self.stepped))
         near = np.array([at for at, each in zip(self.found.unit, space.variables, strict=True) if each.step is None])
-        found = [each for unit in (near, self._starts.get(steps)) if unit is not None and (each := self._from(inner, whole, unit))]
+        found = []
+        for unit in (near, *([self._starts[steps]] if steps in self._starts else [])):
+            with suppress(DefinitionError):
+                with inner.count.without_limit():
+                    local = Local(inner, whole, unit)
+                    judged = None if self.rest else local.judged(unit)
+                found.append(judged or local_search(local))
         return (inner, whole, min(found, key=lambda each: worth_in_order(inner, each))) if found else None
-
-    def _from(self, inner: Problem, whole: tuple[int, ...], unit: FloatArray) -> SearchEnd | None:
-        """Return what a search of the variables that are left comes to; None where there is none."""
-        try:
-            with inner.count.without_limit():
-                local = Local(inner, whole, unit)
-                if not self.rest:
-                    return local.judged(unit)
-            return local_search(local)
-        except DefinitionError:
-            return None
 
 
 # Drawing dimensions.
@@ -559,6 +584,20 @@ class Rounded:
     missing: float
     sentence: str
 
+    @classmethod
+    def of(cls, optimum: Optimum, value: float, missing: float, machine: Mechanism) -> Rounded:
+        """Return a machine on drawing dimensions beside the optimum, with a sentence on what that costs."""
+        problem = optimum.problem
+        cost = problem.sense * (value - optimum.value) / (abs(optimum.value) or 1.0)
+        unit, variables = unit_of_measure(problem.plan, problem.objectives[0]), problem.space.variables
+        said = ", ".join(f"{each.name} = {each.show(each.sign * float(machine.dimensions[each.owner]))}" for each in variables)
+        change = f"{100.0 * abs(cost):.2g} % {'worse' if cost >= 0.0 else 'better'} than" if abs(cost) > NOISE else "as good as"
+        text = f"{said}: {problem.objectives[0]} = {show(value, unit)}, {change} unrounded."
+        if missing > MET:
+            remedy = "take finer steps, or tighten the condition before"
+            text += f" No design on these steps keeps every condition; this one misses by {100.0 * missing:.2g} %: {remedy}."
+        return cls(machine, value, cost, missing, text)
+
     @property
     def feasible(self) -> bool:
         """Whether it keeps every condition."""
@@ -566,42 +605,6 @@ class Rounded:
 
     def __str__(self) -> str:
         return self.sentence
-
-
-def rounded_design(optimum: Optimum, to: float, angle: float) -> Rounded:
-    """Return an optimum on drawing dimensions; see `Optimum.rounded`."""
-    for name, value in (("to", to), ("angle", angle)):
-        require_number(f"rounded({name}", value, "a step above zero is expected, such as 1 * mm", above=0.0)
-    require_measure(to, "length", "rounded: to")
-    require_measure(angle, "angle", "rounded: angle")
-    if to > COARSEST * size_of_machine(optimum.machine):
-        raise DefinitionError(f"rounded({to:.6g}): steps of {to:.6g} m are as coarse as the machine; write {to:.6g} * mm if that is meant.")
-    problem, space = optimum.problem, optimum.problem.space
-    values = space.values(optimum.unit)
-    near = []
-    for variable, value in zip(space.variables, values, strict=True):
-        step = {"mm": to, "deg": angle}.get(variable.unit)
-        near.append(steps_about(float(value), step, variable) if step else [float(value)])
-    tried = list(islice(product(*near), MOST_ROUNDINGS))
-    units = np.array([[(each - one.low) / (one.span or 1.0) for each, one in zip(row, space.variables, strict=True)] for row in tried])
-    best: tuple[float, float, Mechanism] | None = None
-    for place in best_first(problem, optimum.combination, units, MET)[1][:8] if space.variables else [0]:
-        machine = problem.machine_of(units[place], optimum.combination)
-        worth = worth_of(problem, machine)
-        if np.isfinite(worth[0]) and (best is None or order_of_worth(problem, *worth) < order_of_worth(problem, *best[:2])):
-            best = *worth, machine
-    if best is None:
-        raise AssemblyError(f"{problem.plan.title}: no design on these steps can be assembled over the whole stroke; take finer ones.")
-    now, short, machine = best
-    cost = problem.sense * (now - optimum.value) / (abs(optimum.value) or 1.0)
-    unit = unit_of_measure(problem.plan, problem.objectives[0])
-    said = ", ".join(f"{each.name} = {each.show(each.sign * float(machine.dimensions[each.owner]))}" for each in space.variables)
-    change = f"{100.0 * abs(cost):.2g} % {'worse' if cost >= 0.0 else 'better'} than" if abs(cost) > NOISE else "as good as"
-    text = f"{said}: {problem.objectives[0]} = {show(now, unit)}, {change} unrounded."
-    if short > MET:
-        remedy = "take finer steps, or tighten the condition before"
-        text += f" No design on these steps keeps every condition; this one misses by {100.0 * short:.2g} %: {remedy}."
-    return Rounded(machine, now, cost, short, text)
 
 
 def best_first(problem: Problem, combination: Sequence[int], units: FloatArray, near: float) -> tuple[FloatArray, Index]:
@@ -626,42 +629,6 @@ def steps_about(value: float, step: float, variable: Varied) -> list[float]:
         return [round(place) * step]
     found = {float(np.clip(each, low, high)) * step for each in (np.floor(place), np.ceil(place))}
     return sorted(found, key=lambda each: abs(each - value))
-
-
-# Rows, for tables.
-
-
-def result_rows(optimum: Optimum, rounded: Rounded | None) -> tuple[ResultRow, ...]:
-    """Return an optimum as rows; see `Optimum.rows`."""
-    problem, plan = optimum.problem, optimum.problem.plan
-    machines = [optimum.start, optimum.machine, *([rounded.machine] if rounded else [])]
-    at_end = {each.variable.name: each for each in optimum.bounds}
-    nan, rows = float("nan"), []
-    for name in tried_names(problem.space):
-        owner, sign = plan.table.spellings[name]
-        before, after, last = [*(sign * float(each.dimensions[owner]) for each in machines), nan][:3]
-        end = at_end.get(name)
-        by = f"{end.variable.show(end.by)} {'more' if end.is_upper else 'less'}" if end else ""
-        gain = end.gain if end else 0.0
-        rows.append(ResultRow("variable", name, unit_of(plan, name), before, after, last, gain=gain, by=by))
-    last, unit = rounded.value if rounded else nan, unit_of_measure(plan, problem.objectives[0])
-    rows.append(ResultRow("objective", str(problem.objectives[0]), unit, optimum.start_value, optimum.value, last))
-    known = [true_values(problem, each) if is_assembled(problem, each) else None for each in machines]
-    for kept in optimum.conditions:
-        side = kept.constraint.left
-        before, after, last = [*(nan if each is None else float(side.of(each.__getitem__)) for each in known), nan][:3]
-        name, gain = f"{side} {kept.constraint.symbol}", kept.gain
-        rows.append(ResultRow("condition", name, kept.units, before, after, last, kept.right, kept.spare, gain, "1 % less strict"))
-    return tuple(rows)
-
-
-def is_assembled(problem: Problem, machine: Mechanism) -> bool:
-    """Return whether a machine can be assembled over the whole stroke."""
-    try:
-        problem.assembled(machine)
-    except AssemblyError:
-        return False
-    return True
 
 
 # Units of measures, for sentences.

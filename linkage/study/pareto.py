@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import Any, final
 
 import numpy as np
@@ -20,8 +21,8 @@ from ..program import FloatArray
 from ..shown import Shown
 from ..units import show
 from .infeasible import infeasible_error
-from .optimum import true_values, unit_of_measure
-from .problem import COARSE, Problem
+from .optimum import unit_of_measure
+from .problem import COARSE, LeafNumbers, Problem
 from .solver import MET, Local, SearchEnd, missing_of, scales_of
 from .survey import Progress
 
@@ -70,7 +71,8 @@ class Front(Shown):
 
 def front(problem: Problem, seed: int, tell: Progress) -> Front:
     """Return the front of a problem's objectives, each to be least; those whose sign was changed are shown with their own."""
-    from_pymoo()
+    if find_spec("pymoo") is None:
+        raise DefinitionError('Several objectives need pymoo: pip install "hydrolinkage[pareto]".')
     coarse, found = problem.changed(counts=COARSE), []
     combinations = [*problem.space.combinations()]
     tell(0, len(combinations))
@@ -85,29 +87,15 @@ def front(problem: Problem, seed: int, tell: Progress) -> Front:
         with problem.count.without_limit():
             raise infeasible_error(problem, [(each, SearchEnd(present, np.nan, np.inf, True)) for each in combinations])
     best = not_dominated(np.array([values for values, _ in found]))
-    shown = [own_sign(each) for each in problem.objectives]
-    points = [
-        FrontPoint(found[place][1], tuple(sign * value for (_, sign), value in zip(shown, found[place][0], strict=True))) for place in best
-    ]
-    measures = tuple(measure for measure, _ in shown)
+    measures, signs = [], []
+    for each in problem.objectives:
+        parts = (each.left, each.right) if isinstance(each, CombinedMeasure) and each.symbol == "*" else (None, each)
+        is_turned = isinstance(parts[0], Given) and parts[0].value == -1.0
+        measures.append(parts[1] if is_turned else each)
+        signs.append(-1.0 if is_turned else 1.0)
+    points = [FrontPoint(found[at][1], tuple(sign * value for sign, value in zip(signs, found[at][0], strict=True))) for at in best]
     units = tuple(unit_of_measure(problem.plan, each) for each in measures)
-    return Front(problem.plan.title, measures, units, tuple(points), problem.count.designs, limit)
-
-
-def from_pymoo() -> Any:
-    """Return pymoo; DefinitionError where it is not installed."""
-    try:
-        import pymoo
-    except ImportError:
-        raise DefinitionError('Several objectives need pymoo: pip install "hydrolinkage[pareto]".') from None
-    return pymoo
-
-
-def own_sign(measure: Measure) -> tuple[Measure, float]:
-    """Return a measure, and the one that was turned round to be least with -1."""
-    if isinstance(measure, CombinedMeasure) and isinstance(measure.left, Given) and measure.left.value == -1.0 and measure.symbol == "*":
-        return measure.right, -1.0
-    return measure, 1.0
+    return Front(problem.plan.title, tuple(measures), units, tuple(points), problem.count.designs, limit)
 
 
 def evolved_front(problem: Problem, combination: Sequence[int], seed: int, left: int = 1) -> FloatArray:
@@ -171,7 +159,7 @@ def on_front(
     except (AssemblyError, LinkageError):
         return None
     with problem.count.without_limit():
-        values = true_values(problem, machine)
+        values = LeafNumbers(problem.truths(machine.dimensions))
         scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
     if missing_of(problem.constraints, scales, values) > MET:
         return None

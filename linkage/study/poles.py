@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -10,10 +10,10 @@ import numpy as np
 from ..errors import StudyError, unwarned
 from ..motion import Motion
 from ..motion.judge import MET
-from ..motion.measures import At, Leaf, Measure, words_of
+from ..motion.measures import At, Measure, words_of
 from ..program import FloatArray
 from .box import unit_points
-from .problem import LeafNumbers, Problem, reduced, size_of_rows, terms_size
+from .problem import LeafNumbers, Problem, terms_size
 from .sampling import divisors_of
 from .solver import divisors
 
@@ -32,8 +32,9 @@ def check_bounded(problem: Problem, now: LeafNumbers, combination: Sequence[int]
     problem = problem.changed(count=None)  # these looks are no part of the search
     asked, named = divisors(problem.objectives), f"{problem.plan.title}: {', '.join(map(str, problem.objectives))}"
     n = len(problem.space.variables)
-    looks = [problem.evaluated(problem.dimensions_at(np.full(n, part), combination)) for part in (0.1, 0.5, 0.9)] if asked else []
-    sizes = {leaf: max(size_of_rows(look.rows[leaf].values) for look in looks) for leaf in problem.leaves} if asked else {}
+    parts = (0.1, 0.5, 0.9) if asked else ()
+    looks = [problem.evaluated(problem.dimensions_at(np.full(n, part), combination)).sizes for part in parts]
+    sizes = {leaf: max(look[leaf] for look in looks) for leaf in problem.leaves} if asked else {}
     for each in asked:
         small = abs(float(each.of(lambda leaf: now[leaf])))
         if small <= NEXT_TO_NOTHING * terms_size(each, sizes, now):
@@ -71,26 +72,19 @@ def values_at(problem: Problem, units: FloatArray, combination: Sequence[int]) -
     """Return the objective and what it is divided by at designs (m, n), each (m,); NaN where one cannot be assembled or misses much."""
     designs = problem.dimensions_at(units, combination)
     look = problem.evaluated(designs)
-    numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
-    motions: dict[Leaf, FloatArray] = {}
-    found: dict[str, FloatArray] = {}
+    numbers, found, nothing = dict(look.numbers), {}, np.zeros(len(units))
     with unwarned(), np.errstate(all="ignore"):
-        found["objective"] = problem.value(lambda leaf: numbers[leaf]) + np.zeros(len(units))
+        found["objective"] = problem.value(numbers.__getitem__) + nothing
         for number, each in enumerate(divided_by(problem)):
             if isinstance(each, At) and each not in numbers:
-                motions[each] = value_there(problem, designs, each)
-            found[f"divisor {number}"] = each.of(lambda leaf: motions[leaf] if leaf in motions else numbers[leaf]) + np.zeros(len(units))
-        spare = [each.margin.of(lambda leaf: numbers[leaf]) + np.zeros(len(units)) for each in problem.constraints]
+                start = {name: stroke.start for name, stroke in problem.plan.strokes.items()} | dict(each.strokes)
+                motion = Motion(problem.plan, designs, {name: np.asarray(value, float) for name, value in start.items()}, "nan")
+                numbers[each] = np.ravel(np.asarray(motion.value(cast(Any, each.quantity)), float))
+            found[f"divisor {number}"] = each.of(numbers.__getitem__) + nothing
+        spare = [each.margin.of(numbers.__getitem__) + nothing for each in problem.constraints]
     kept = np.all([margin >= -MET for margin in spare], axis=0) if spare else np.ones(len(units), bool)
     whole = np.broadcast_to(np.asarray(look.whole, bool), (len(units),))
     return {name: np.where(whole & kept, value, np.nan) for name, value in found.items()}
-
-
-def value_there(problem: Problem, designs: Mapping[str, Any], leaf: At) -> FloatArray:
-    """Return a value at one pose of some designs (m,)."""
-    start = {name: stroke.start for name, stroke in problem.plan.strokes.items()} | dict(leaf.strokes)
-    motion = Motion(problem.plan, designs, {name: np.asarray(value, float) for name, value in start.items()}, "nan")
-    return np.ravel(np.asarray(motion.value(cast(Any, leaf.quantity)), float))
 
 
 def grows_towards(problem: Problem, combination: Sequence[int], best: FloatArray, other: FloatArray, name: str) -> bool:

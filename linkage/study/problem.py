@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import prod
-from typing import Any, NamedTuple, final
+from typing import Any, NamedTuple, TypeAlias, final
 
 import numpy as np
 
@@ -40,10 +40,10 @@ from ..motion.measures import (
 from ..motion.quadrature import PANELS, Quadrature, gauss, quadrature
 from ..motion.strokes import check_magnitude
 from ..plan import Mask, Plan, require_kind
-from ..program import Enclosure, FloatArray, enclosures
+from ..program import Enclosure, FloatArray, Node, enclosures
 from ..quantities import Quantity, is_number
 from ..vectors import Numbers
-from .cylinder_rows import Travel, travelled
+from .cylinder_rows import Range, travelled
 from .measured import eager, motion_of, nothing_limits
 from .sampling import Samples, Sampling, divisors_of, rows_of_motion, with_values
 from .sides import on_sides
@@ -68,24 +68,13 @@ ARGUMENTS = ("machine", "objectives", "constraints", "space", "sense", "over", "
 NOWHERE = Space((), (), ())
 """A space without variables: that of one design."""
 
-
-@final
-@dataclass(frozen=True, eq=False)
-class Range:
-    """The part of a stroke that is looked at, from low to high: numbers [SI], or quantities that follow the design."""
-
-    low: Any
-    high: Any
-    is_travel: bool = False
-    """Whether it is the whole way of a cylinder that is chosen by its row of a catalogue, and so the stroke of the machine."""
-
-    @property
-    def follows(self) -> tuple[Any, ...]:
-        """The ends that follow the design."""
-        return tuple(end for end in (self.low, self.high) if not is_number(end))
+End: TypeAlias = tuple[FloatArray, FloatArray | None]
+"""An end of a stroke's range: a number (), or values (m,) that follow the design, with derivatives (p,) by the owners."""
+Ends: TypeAlias = Mapping[str, Sequence[End]]
+"""Both ends of each stroke's range."""
 
 
-def end_words(end: object) -> Any:
+def end_words(end: object) -> float | str:
     """Return an end of a range as it is shown: a number, or a quantity in words."""
     return end if is_number(end) else words_of(end)
 
@@ -105,6 +94,8 @@ def ranges_of(machine: Mechanism, over: object) -> dict[str, Range]:
             raise DefinitionError(
                 f"{title}: over={{{name!r}: ...}}: there is no stroke of that name; its strokes are {', '.join(plan.strokes)}."
             )
+        if isinstance(ends, Range):
+            continue
         require_kind(plan, name, ends, f"{title}: over: {name}")
         if is_number(ends):
             continue
@@ -116,8 +107,8 @@ def ranges_of(machine: Mechanism, over: object) -> dict[str, Range]:
     found = {}
     for name, stroke in plan.strokes.items():
         ends = given.get(name, (stroke.start, stroke.end))
-        low, high = (float(ends), float(ends)) if is_number(ends) else ends
-        found[name] = Range(low, high, isinstance(ends, Travel))
+        low, high = (float(ends), float(ends)) if is_number(ends) else ends[:2]
+        found[name] = ends if isinstance(ends, Range) else Range(low, high)
     return found
 
 
@@ -151,16 +142,15 @@ class PoseSet:
         """The part of each stroke's range at every pose, in the shape of the axes; those of no axis are single poses."""
         return dict(zip(self.axes, np.meshgrid(*self.axes.values(), indexing="ij"), strict=True)) if self.axes else {}
 
+    @property
+    def outer(self) -> list[str]:
+        """The strokes of the axes, but for the last one over which the worst is taken."""
+        return [name for name in self.axes if name != self.inner]
+
     def set_axis(self, name: str, places: FloatArray) -> None:
         """Look at other parts of a stroke's range."""
         self.axes[name] = places
         self.__dict__.pop("parts", None)
-
-    def single(self, strokes: Mapping[str, float]) -> int:
-        """Return the number of a single pose, entered where it is new."""
-        if strokes not in self.singles:
-            self.singles.append(strokes)
-        return self.singles.index(strokes)
 
 
 @final
@@ -170,7 +160,7 @@ class Rows:
 
     values: FloatArray
     slopes: FloatArray | None
-    lost: Any
+    lost: Mask
 
 
 @final
@@ -181,8 +171,28 @@ class Evaluated:
     rows: Mapping[Leaf, Rows]
     margins: FloatArray
     margin_slopes: FloatArray | None
-    whole: Any
+    whole: Mask
     reached: FloatArray
+
+    @cached_property
+    def numbers(self) -> dict[Leaf, FloatArray]:
+        """The leaves' numbers (m,) at the samples."""
+        return {leaf: reduced(leaf, rows.values) for leaf, rows in self.rows.items()}
+
+    @property
+    def of_one(self) -> dict[Leaf, float]:
+        """The leaves' numbers of one design."""
+        return {leaf: float(values[0]) for leaf, values in self.numbers.items()}
+
+    @property
+    def sizes(self) -> dict[Leaf, float]:
+        """The size of the largest of each leaf's values; zero where none has one."""
+        known = {leaf: rows.values[np.isfinite(rows.values)] for leaf, rows in self.rows.items()}
+        return {leaf: float(np.abs(values).max(initial=0.0)) for leaf, values in known.items()}
+
+    def lost(self, measure: Measure) -> Mask:
+        """Return of which designs (m,) a leaf of a measure is lost."""
+        return np.asarray(np.any([self.rows[leaf].lost for leaf in measure.leaves], axis=0))
 
 
 class LimitReachedError(StudyError):
@@ -211,18 +221,9 @@ class Count:
         self.designs += designs
 
     @contextmanager
-    def at_most(self, designs: int) -> Iterator[None]:
-        """Look at so many more designs at the most."""
-        kept, self.limit = self.limit, self.designs + max(designs, 1)
-        try:
-            yield
-        finally:
-            self.limit = kept
-
-    @contextmanager
-    def without_limit(self) -> Iterator[None]:
-        """Look at designs whatever the limit, as at the best one in the end."""
-        kept, self.limit = self.limit, None
+    def without_limit(self, most: int | None = None) -> Iterator[None]:
+        """Look at designs whatever the limit, as at the best one in the end; or at so many more at the `most`."""
+        kept, self.limit = self.limit, None if most is None else self.designs + max(most, 1)
         try:
             yield
         finally:
@@ -313,7 +314,6 @@ class Problem:
             inner = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
             self._of_leaf[leaf] = poses, poses.place(inner), single
         self.whole = self._set(moving)
-        self.follow = tuple(dict.fromkeys(end for one in self.ranges.values() for end in one.follows))
         self.owners = tuple(dict.fromkeys(each.owner for each in space.variables))
         self._samplings: dict[int, Sampling] = {}
         self._sizes: list[float] | None = None
@@ -408,7 +408,9 @@ class Problem:
         alone = bool(inner) or traced(self.plan, leaf.quantity) is None
         for each in self.sets:
             if each.singles and each.inner == inner and each.alone is alone and (not alone or each.singles == [fixed]):
-                return each, each.single(fixed) if not inner else -1
+                if fixed not in each.singles:
+                    each.singles.append(fixed)
+                return each, -1 if inner else each.singles.index(fixed)
         axes = {inner: np.linspace(0.0, 1.0, INNER)} if inner else {}
         self.sets.append(PoseSet(axes, [fixed], inner=inner, alone=alone))
         return self.sets[-1], -1 if inner else 0
@@ -474,8 +476,7 @@ class Problem:
         rows = {}
         for leaf in self.leaves:
             poses, *_ = self._of_leaf[leaf]
-            axes = [len(axis) for name, axis in poses.axes.items() if name != poses.inner]
-            count = 1 if isinstance(leaf, Integral) else int(np.prod(axes))
+            count = 1 if isinstance(leaf, Integral) else prod(len(poses.axes[name]) for name in poses.outer)
             rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)) if slopes else None, np.zeros(1, bool))
         return Evaluated(rows, np.zeros((1, 0)), np.zeros((n, 0)) if slopes else None, np.zeros(1, bool), np.zeros(1))
 
@@ -508,23 +509,26 @@ class Problem:
         return self._samplings[number]
 
     @cached_property
-    def _samplings_of_ends(self) -> dict[Any, Sampling]:
-        return {end: Sampling(self.plan, [end], self.owners) for end in self.follow}
+    def _samplings_of_ends(self) -> dict[Quantity, Sampling]:
+        ends = dict.fromkeys(end for one in self.ranges.values() for end in one.follows)
+        return {end: Sampling(self.plan, [end], self.owners) for end in ends}
 
-    def _ends(self, designs: Mapping[str, Numbers], *, slopes: bool) -> dict[int, tuple[FloatArray, FloatArray | None]]:
-        """Return the values (m,) of the ends that follow the design, with derivatives (p,) by the owners; by their identity."""
-        found = {}
+    def _ends(self, designs: Mapping[str, Numbers], *, slopes: bool) -> Ends:
+        """Return the two ends of each stroke's range."""
+        known: dict[object, End] = {}
         strokes = {name: np.asarray(stroke.start, float) for name, stroke in self.plan.strokes.items()}
         for end, sampling in self._samplings_of_ends.items():
-            grid = Grid(self.plan, designs, strokes)
-            samples = sampling.at(grid, slopes=slopes)
+            samples = sampling.at(Grid(self.plan, designs, strokes), slopes=slopes)
             values = samples.values[0, :, 0]
             if not np.isfinite(values).all():
                 raise DefinitionError(f"{self.plan.title}: over=: {words_of(end)} has no value of some designs.")
-            found[id(end)] = values, (None if samples.value_slopes is None else samples.value_slopes[0, :, 0])
-        return found
+            known[end] = values, (None if samples.value_slopes is None else samples.value_slopes[0, :, 0])
+        return {
+            name: [(np.asarray(end, float), None) if is_number(end) else known[end] for end in (one.low, one.high)]
+            for name, one in self.ranges.items()
+        }
 
-    def _grid(self, poses: PoseSet, designs: Mapping[str, Numbers], ends: Mapping[int, tuple[FloatArray, FloatArray | None]]) -> Grid:
+    def _grid(self, poses: PoseSet, designs: Mapping[str, Numbers], ends: Ends) -> Grid:
         """Return a pose set's grid."""
         follows = any(self.ranges[name].follows for name in poses.axes)
         parts = poses.parts
@@ -534,45 +538,31 @@ class Problem:
         for name, stroke in self.plan.strokes.items():
             one = self.ranges[name]
             if name in parts:
-                low, high = (self._end(end, ends, prod(batch) if batch else 0, len(shape)) for end in (one.low, one.high))
+                low, high = (end.reshape(-1, *(1,) * len(shape)) if batch and end.ndim else end.reshape(()) for end, _ in ends[name])
                 value = low + parts[name] * (high - low)
             else:
                 rest = one.low if is_number(one.low) else stroke.start
                 value = np.resize([each.get(name, rest) for each in poses.singles or ({},)], shape)
             strokes[name] = np.asarray(np.broadcast_to(value, (*batch, *shape) if follows else shape), float)
-        joining = None if poses.axes else self._joined_on_the_way(poses, designs)
+        joining: JoinedTo | None = None
+        if not poses.axes and any(poses.singles):  # angles join those on the way from where the ranges begin, as a sweep gives them
+            way, ways = np.linspace(0.0, 1.0, ON_THE_WAY), {}
+            for name, stroke in self.plan.strokes.items():
+                first = self.ranges[name].low
+                start = float(first) if is_number(first) else float(stroke.start)
+                ways[name] = np.array([start + way * (float(each.get(name, start)) - start) for each in poses.singles])
+            last = np.arange(1, len(poses.singles) + 1) * ON_THE_WAY - 1
+            joining = JoinedTo(Grid(self.plan, designs, ways, joining=joined_in_order), last)
         return Grid(self.plan, designs, strokes, per_design=follows, joining=joining)
 
-    def _joined_on_the_way(self, poses: PoseSet, designs: Mapping[str, Numbers]) -> JoinedTo | None:
-        """Return how the angles of single poses join those on the way to each from where the ranges begin, as a sweep gives them."""
-        if not any(poses.singles):
-            return None
-        way = np.linspace(0.0, 1.0, ON_THE_WAY)
-        strokes = {}
-        for name, stroke in self.plan.strokes.items():
-            low = self.ranges[name].low
-            start = float(low) if is_number(low) else float(stroke.start)
-            strokes[name] = np.array([start + way * (float(each.get(name, start)) - start) for each in poses.singles])
-        last = np.arange(1, len(poses.singles) + 1) * ON_THE_WAY - 1
-        return JoinedTo(Grid(self.plan, designs, strokes, joining=joined_in_order), last)
-
-    @staticmethod
-    def _end(end: object, ends: Mapping[int, tuple[FloatArray, FloatArray | None]], m: int, axes: int) -> Any:
-        if is_number(end):
-            return float(end)
-        values = ends[id(end)][0]
-        return values.reshape(m, *(1,) * axes) if m else float(values[0])
-
-    def _by_unit(self, slopes: FloatArray, poses: PoseSet, ends: Mapping[int, tuple[FloatArray, FloatArray | None]]) -> FloatArray:
+    def _by_unit(self, slopes: FloatArray, poses: PoseSet, ends: Ends) -> FloatArray:
         """Return derivatives by the unit coordinates (k, n, poses), from those by owners and strokes (k, p, poses)."""
         strokes = [name for name in poses.axes if self.ranges[name].follows]
         total = np.array(slopes[:, : len(self.owners)])
         for row, name in enumerate(strokes):
-            one, along = self.ranges[name], poses.parts[name].ravel()
-            for end, share in ((one.low, 1.0 - along), (one.high, along)):
-                if not is_number(end):
-                    by = ends[id(end)][1]
-                    assert by is not None
+            along = poses.parts[name].ravel()
+            for (_, by), share in zip(ends[name], (1.0 - along, along), strict=True):
+                if by is not None:
                     total += slopes[:, len(self.owners) + row][:, None, :] * (by[:, None] * share)
         return np.asarray(np.einsum("vo,kon->kvn", self._by_owner, total))
 
@@ -584,9 +574,7 @@ class Problem:
             factors[place, self.owners.index(each.owner)] = each.sign * each.span
         return factors
 
-    def _rows(
-        self, leaf: Leaf, found: Mapping[int, Samples], ends: Mapping[int, tuple[FloatArray, FloatArray | None]]
-    ) -> Rows:
+    def _rows(self, leaf: Leaf, found: Mapping[int, Samples], ends: Ends) -> Rows:
         """Return the rows of a leaf."""
         poses, place, single = self._of_leaf[leaf]
         samples = found[self.sets.index(poses)]
@@ -601,29 +589,18 @@ class Problem:
         lost = samples.lost[place]
         if single >= 0 and len(poses.singles) > 1:
             lost = np.isnan(samples.values[place][:, single])
-        if isinstance(leaf, Integral):
-            return replace(self._integrated(values, slopes, poses, ends), lost=lost)
-        return Rows(values, slopes, lost)
-
-    def _integrated(
-        self, values: FloatArray, slopes: FloatArray | None, poses: PoseSet, ends: Mapping[int, tuple[FloatArray, FloatArray | None]]
-    ) -> Rows:
-        """Return the integral of rows over their stroke, whose ends may follow the design."""
-        (by,) = [name for name in poses.axes if name != poses.inner]
-        assert poses.weights is not None
-        one = self.ranges[by]
-        low, high = (self._end(end, ends, 0, 0) if is_number(end) else ends[id(end)][0] for end in (one.low, one.high))
+        if poses.weights is None:
+            return Rows(values, slopes, lost)
+        (low, low_moved), (high, high_moved) = ends[poses.outer[0]]  # of an integral's stroke, which may follow the design
         span = np.reshape(high - low, (-1, 1))
         mean = (values * poses.weights).sum(axis=-1, keepdims=True)
         if slopes is None:
-            return Rows(mean * span, None, None)
+            return Rows(mean * span, None, lost)
         grown = np.zeros((len(slopes), 1))
-        for end, sign in ((one.low, -1.0), (one.high, 1.0)):
-            if not is_number(end):
-                moved = ends[id(end)][1]
-                assert moved is not None
+        for moved, sign in ((low_moved, -1.0), (high_moved, 1.0)):
+            if moved is not None:
                 grown[:, 0] += sign * (self._by_owner @ moved)
-        return Rows(mean * span, (slopes * poses.weights).sum(axis=-1, keepdims=True) * float(span[0, 0]) + grown * mean[0], None)
+        return Rows(mean * span, (slopes * poses.weights).sum(axis=-1, keepdims=True) * float(span[0, 0]) + grown * mean[0], lost)
 
     def merits(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return of designs (m, n) the objective, what is missing in parts of the conditions' sizes, and the part reached, all (m,)."""
@@ -633,56 +610,48 @@ class Problem:
     def merits_of_each(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return of designs (m, n) each objective (k, m), what is missing in parts of the conditions' sizes, and the part reached."""
         look = self.evaluated(self.dimensions_at(unit, combination))
-        numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
-        shape = look.reached.shape
+        shape, numbers = look.reached.shape, look.numbers
         with np.errstate(all="ignore"):
-            values = np.array([np.broadcast_to(np.asarray(each.of(lambda leaf: numbers[leaf]), float), shape) for each in self.objectives])
-        missing = self._missing(look, numbers).max(axis=0, initial=0.0)
-        lost = [np.any([look.rows[leaf].lost for leaf in each.leaves], axis=0) for each in self.objectives]
-        values = np.where(np.array(lost).reshape(len(values), -1), np.nan, values)
+            values = np.array([np.broadcast_to(np.asarray(each.of(numbers.__getitem__), float), shape) for each in self.objectives])
+        missing = self._missing(look).max(axis=0, initial=0.0)
+        values = np.where(np.array([look.lost(each) for each in self.objectives]).reshape(len(values), -1), np.nan, values)
         return np.where(look.whole, values, np.nan), np.where(look.whole, missing, np.nan), look.reached
 
     def missing_of_each(self, combination: Sequence[int], unit: FloatArray) -> FloatArray:
         """Return by what part of its size each condition is missed by designs (m, n), shape (conditions, m); infinite out of reach."""
         look = self.evaluated(self.dimensions_at(unit, combination))
-        numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
-        return np.where(look.whole, self._missing(look, numbers), np.inf)
+        return np.where(look.whole, self._missing(look), np.inf)
 
-    def _missing(self, look: Evaluated, numbers: Mapping[Leaf, FloatArray]) -> FloatArray:
-        """Return by what part of its size each condition is missed, zero where it is kept, shape (conditions, m)."""
+    def _missing(self, look: Evaluated) -> FloatArray:
+        """Return by what part of its size each condition is missed, zero where it is kept, shape (conditions, m).
+
+        They are measured with their size over the first designs that were looked at.
+        """
+        if self._sizes is None:
+            known = {leaf: each[np.isfinite(each)] for leaf, each in look.numbers.items() if each.size}
+            middle = {leaf: float(np.median(each)) if each.size else float("nan") for leaf, each in known.items()}
+            self._sizes = [scale_among(each, look.sizes, middle) for each in self.constraints]
         found = np.zeros((len(self.constraints), *look.reached.shape))
         with np.errstate(all="ignore"):
-            for row, (each, size) in enumerate(zip(self.constraints, self._sizes_of_constraints(look, numbers), strict=True)):
-                lost = np.any([look.rows[leaf].lost for leaf in each.margin.leaves], axis=0)
-                found[row] = np.where(lost, np.inf, np.maximum(missed(each, numbers, size), 0.0))
+            for row, (each, size) in enumerate(zip(self.constraints, self._sizes, strict=True)):
+                found[row] = np.where(look.lost(each.margin), np.inf, np.maximum(missed(each, look.numbers, size), 0.0))
         return found
-
-    def _sizes_of_constraints(self, look: Evaluated, numbers: Mapping[Leaf, FloatArray]) -> list[float]:
-        """Return what the conditions' numbers are measured with: their size over the first designs that were looked at."""
-        if self._sizes is None:
-            sizes = {leaf: size_of_rows(rows.values) for leaf, rows in look.rows.items()}
-            known = {leaf: each[np.isfinite(each)] for leaf, each in numbers.items() if each.size}
-            middle = {leaf: float(np.median(each)) if each.size else float("nan") for leaf, each in known.items()}
-            found = [[terms_size(side, sizes, middle) for side in (each.left, each.right)] for each in self.constraints]
-            sizes_of_sides = [max((side for side in sides if np.isfinite(side)), default=0.0) for sides in found]
-            self._sizes = [scale_among(each, size) for each, size in zip(self.constraints, sizes_of_sides, strict=True)]
-        return self._sizes
 
     def certainly(self, measure: Measure, combination: Sequence[int]) -> Enclosure | None:
         """Return between which values a measure lies whatever the variables; None where a leaf of it is taken over the stroke."""
-        leaves = measure.leaves
-        if any(strokes_behind(self.plan, leaf.quantity) for leaf in leaves if not isinstance(leaf.quantity, Worst)):
-            return None
-        requests = [None if isinstance(leaf.quantity, Worst) else traced(self.plan, leaf.quantity) for leaf in leaves]
-        if any(request is None for request in requests):
-            return None
+        nodes: list[Node] = []
+        for leaf in measure.leaves:
+            is_taken = isinstance(leaf.quantity, Worst) or strokes_behind(self.plan, leaf.quantity)
+            request = None if is_taken else traced(self.plan, leaf.quantity)
+            if request is None:
+                return None
+            nodes += request.nodes(self.plan)
         given = with_values(self.machine.dimensions, self.space.chosen(combination))
         inputs = {name: Enclosure(value, value) for name, value in given.items()}
         for each in self.space.variables:
             ends = each.sign * each.low, each.sign * each.high
             inputs[each.owner] = Enclosure(min(ends), max(ends))
-        nodes = [node for request in requests if request is not None for node in request.nodes(self.plan)]
-        found = dict(zip(leaves, enclosures(nodes, inputs), strict=True))
+        found = dict(zip(measure.leaves, enclosures(nodes, inputs), strict=True))
         return Enclosure.of(measure.of(lambda leaf: found[leaf]))
 
     # -- machines ----------------------------------------------------------------------------------------
@@ -722,24 +691,16 @@ class Problem:
         alone = Problem(self.machine, [kind(leaf.quantity)], [], NOWHERE, over=self.over, counts=counts)
         asked = alone.leaves[0]
         poses, *_ = alone._of_leaf[asked]
-        names = [name for name in poses.axes if name != poses.inner]
-        if not names:
+        if not poses.outer:
             return None
-        axis = poses.axes[names[0]]
+        name = poses.outer[0]
+        axis, (low, high) = poses.axes[name], alone.ends(design)[name]
         values = alone.evaluated(design).rows[asked].values.reshape(len(axis), -1)
         with np.errstate(all="ignore"):
             worst = (np.fmin if kind is Least else np.fmax).reduce(values, axis=1)
-        strokes = alone.strokes_at(asked, design, {names[0]: 0.0}), alone.strokes_at(asked, design, {names[0]: 1.0})
-        low, high = (each[names[0]] for each in strokes)
-        return names[0], low + axis * (high - low), worst
+        return name, low + axis * (high - low), worst
 
     # -- the whole truth ---------------------------------------------------------------------------------
-
-    def motion_over(self, design: Mapping[str, Numbers], names: Sequence[str], count: int = 33) -> Motion:
-        """Return the motion of one design over some strokes' ranges, the others held."""
-        ends = self._ends(design, slopes=False)
-        poses = PoseSet({name: np.linspace(0.0, 1.0, count if len(names) == 1 else 5) for name in names})
-        return motion_of(self._grid(poses, design, ends))
 
     def truths(self, design: Mapping[str, Numbers], *, quick: bool = False) -> dict[Leaf, Truth]:
         """Return the values of all leaves of one design, between the poses too.
@@ -766,7 +727,8 @@ class Problem:
             rows = self.evaluated(design).rows
             for leaf in sampled:
                 if isinstance(leaf, Integral):
-                    value = float(self.panels(leaf, design).value) * self.span_of(leaf, design)
+                    low, high = self.ends(design)[self._of_leaf[leaf][0].outer[0]]
+                    value = float(self.panels(leaf, design).value) * (high - low)
                 else:
                     value = float(reduced(leaf, rows[leaf].values)[0])
                 found[leaf] = Truth(value, {}, bool(rows[leaf].lost[0]))
@@ -776,7 +738,8 @@ class Problem:
 
     def _extremes(self, leaves: Sequence[Leaf], design: Mapping[str, Numbers], names: Sequence[str], *, quick: bool) -> dict[Leaf, Truth]:
         """Return the extremes of one design over some strokes, all looked for together."""
-        motion = self.motion_over(design, names)
+        poses = PoseSet({name: np.linspace(0.0, 1.0, 33 if len(names) == 1 else 5) for name in names})
+        motion = motion_of(self._grid(poses, design, self._ends(design, slopes=False)))
         senses = [-1.0 if isinstance(leaf, Least) else 1.0 for leaf in leaves]
         watched = WatchedValues(self.plan, [leaf.quantity for leaf in leaves], senses, quick=quick)
         tops = greatest(motion, watched)
@@ -823,7 +786,7 @@ class Problem:
     def panels(self, leaf: Leaf, design: Mapping[str, Numbers]) -> Quadrature:
         """Return an integral of one design over the parts (0 to 1) of its stroke, and the panels that it takes."""
         poses, place, _ = self._of_leaf[leaf]
-        (name,) = [each for each in poses.axes if each != poses.inner]
+        (name,) = poses.outer
         sampling, ends = self._sampling(self.sets.index(poses)), self._ends(design, slopes=False)
 
         def values(places: FloatArray) -> FloatArray:
@@ -839,20 +802,13 @@ class Problem:
     def refined_panels(self, leaf: Leaf, design: Mapping[str, Numbers]) -> bool:
         """Look at an integral in panels that are fine enough for one design; return whether they are others than before."""
         poses, *_ = self._of_leaf[leaf]
-        (name,) = [each for each in poses.axes if each != poses.inner]
+        (name,) = poses.outer
         places, weights = gauss(self.panels(leaf, design).edges)
         if len(places) <= len(poses.axes[name]):
             return False
         poses.set_axis(name, places)
         poses.weights = weights
         return True
-
-    def span_of(self, leaf: Leaf, design: Mapping[str, Numbers]) -> float:
-        """Return how long the range of an integral's stroke is [SI]."""
-        poses, *_ = self._of_leaf[leaf]
-        (name,) = [each for each in poses.axes if each != poses.inner]
-        low, high = self.ends(design)[name]
-        return high - low
 
     def refined(self, leaf: Leaf, parts: Mapping[str, float]) -> bool:
         """Add a pose between the samples to those of a leaf; return whether it is new."""
@@ -865,24 +821,10 @@ class Problem:
                 new = True
         return new
 
-    def strokes_at(self, leaf: Leaf, design: Mapping[str, Numbers], parts: Mapping[str, float]) -> dict[str, float]:
-        """Return the strokes [SI] at parts of their ranges."""
-        ends = self.ends(design)
-        return {name: ends[name][0] + part * (ends[name][1] - ends[name][0]) for name, part in parts.items()}
-
     def ends(self, design: Mapping[str, Numbers]) -> dict[str, tuple[float, float]]:
         """Return from where to where [SI] each stroke of one design is looked at."""
         found = self._ends(design, slopes=False)
-
-        def number(end: object) -> float:
-            return float(end) if is_number(end) else float(found[id(end)][0][0])
-
-        return {name: (number(one.low), number(one.high)) for name, one in self.ranges.items()}
-
-
-def size_of_rows(values: FloatArray) -> float:
-    """Return the size of the largest of some values; zero where none has one."""
-    return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+        return {name: (float(np.ravel(low)[0]), float(np.ravel(high)[0])) for name, ((low, _), (high, _)) in found.items()}
 
 
 def terms_size(measure: Measure, sizes: Mapping[Leaf, float], values: Mapping[Leaf, float]) -> float:
@@ -901,8 +843,13 @@ def terms_size(measure: Measure, sizes: Mapping[Leaf, float], values: Mapping[Le
         return float(np.divide(left, other) if measure.symbol == "/" else np.power(left, other))
 
 
-def scale_among(constraint: Constraint, size: float) -> float:
-    """Return what a constraint's numbers are measured with: the number it is compared with, without one the size of its terms."""
+def scale_among(constraint: Constraint, sizes: Mapping[Leaf, float], values: Mapping[Leaf, float], change: float = 0.0) -> float:
+    """Return what a constraint's numbers are measured with: the number it is compared with, without one the size of its terms.
+
+    `sizes` are those of the leaves over the stroke; terms whose margin has a `change` over the box are at least as large.
+    """
+    terms = [terms_size(side, sizes, values) for side in (constraint.left, constraint.right)]
+    size = max([each for each in terms if np.isfinite(each)] + [change])
     given = max((abs(side.value) for side in (constraint.left, constraint.right) if isinstance(side, Given)), default=0.0)
     return (max(given, EXACT * size) if given > 0.0 else size) or 1.0
 

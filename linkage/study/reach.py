@@ -36,9 +36,7 @@ class Reach:
     area: float
 
     @classmethod
-    def of(
-        cls, turns: Sequence[Turn], rest: FloatArray, poses: Callable[[FloatArray, FloatArray], tuple[PlacePoses, Index]]
-    ) -> Reach:
+    def of(cls, turns: Sequence[Turn], rest: FloatArray, poses: Callable[[FloatArray, FloatArray], tuple[PlacePoses, Index]]) -> Reach:
         """Return all that is reached; `poses` gives those of places x by y with the numbers of their `turns`, `rest` are kept values."""
         lines = LevelLines(turns, rest, poses)
         heights = np.linspace(*lines.tall, 2 * PANELS + 1)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TextIO, final
+from typing import final
 
 import numpy as np
 
@@ -21,11 +20,12 @@ from .space import Space
 class EvaluatedDesigns:
     """Designs of one combination of choices: unit coordinates (m, n), the objective (m,) [SI], and the part missing of a condition (m,).
 
-    `stage` says how closely they were looked at: "looked at" at few poses, or "searched", the end of a local search. NaN stands where a
-    design cannot be assembled over the whole stroke.
+    `stage` says how closely they were looked at: "looked at" at few poses, or "searched", by a local search; `space` is what varied.
+    NaN stands where a design cannot be assembled over the whole stroke.
     """
 
     stage: str
+    space: Space
     combination: tuple[int, ...]
     unit: FloatArray
     value: FloatArray
@@ -37,23 +37,18 @@ def tried_names(space: Space) -> list[str]:
     return [*(each.name for each in space.variables), *(name for names in space.names for name in names)]
 
 
-def tried_header(space: Space, plan: Plan, objective: str, unit: str) -> list[str]:
-    """Return the headings of the columns, with units."""
-    units = [(name, unit_of(plan, name)) for name in tried_names(space)]
-    return ["stage", *map(heading_with_unit, (*units, (objective, unit))), "missing"]
-
-
 def heading_with_unit(named: tuple[str, str]) -> str:
     """Return a heading: `OB, mm`."""
     name, unit = named
     return f"{name}, {shown_in(unit)}" if unit else name
 
 
-def tried_rows(space: Space, plan: Plan | None, unit: str, tried: Sequence[EvaluatedDesigns]) -> Iterator[list[str | float]]:
+def tried_rows(plan: Plan | None, unit: str, tried: Sequence[EvaluatedDesigns]) -> Iterator[list[str | float]]:
     """Yield a row for each design: its stage, its dimensions and its objective in their units, and the part missing of a condition.
 
     Without a plan the dimensions are in SI.
     """
+    space = tried[0].space
     factors = [1.0 if plan is None else factor(shown_in(unit_of(plan, name))) for name in tried_names(space)]
     for part in tried:
         chosen = [value for (_, rows), row in zip(space.choices, part.combination, strict=True) for value in rows[row]]
@@ -98,13 +93,19 @@ class ResultRow:
         return tuple(each / factor(shown_in(self.unit)) for each in (self.before, self.after, self.rounded, self.limit, spare))
 
 
-def result_text(rows: Sequence[ResultRow]) -> str:
-    """Return rows as aligned text; columns that hold nothing are left out."""
+def result_cells(rows: Sequence[ResultRow], digits: str = "", of_gain: str = "") -> list[list[str]]:
+    """Return headings and rows, their numbers with so many digits, ".6g", in full precision without; a number that is none is empty."""
     cells = [list(RESULT_HEADINGS)]
     for row in rows:
-        numbers = ["" if np.isnan(value) else f"{value:.6g}" for value in row.numbers]
-        gain = [f"{100.0 * row.gain:.2g}", row.by] if row.gain else ["", ""]
+        numbers = ["" if np.isnan(value) else f"{float(value):{digits}}" for value in row.numbers]
+        gain = [f"{100.0 * float(row.gain):{of_gain}}", row.by] if row.gain else ["", ""]
         cells.append([row.what, row.name, shown_in(row.unit), *numbers, *gain])
+    return cells
+
+
+def result_text(rows: Sequence[ResultRow]) -> str:
+    """Return rows as aligned text; columns that hold nothing are left out."""
+    cells = result_cells(rows, ".6g", ".2g")
     kept = [place for place in range(len(RESULT_HEADINGS)) if any(line[place] for line in cells[1:])]
     sizes = {place: max(len(line[place]) for line in cells) for place in kept}
     words = {0, 1, 2, 9}
@@ -113,13 +114,3 @@ def result_text(rows: Sequence[ResultRow]) -> str:
         for line in cells
     )
     return "\n".join(line.rstrip() for line in lines)
-
-
-def write_result(rows: Sequence[ResultRow], stream: TextIO) -> None:
-    """Write rows as CSV in full precision, an empty field where there is no number."""
-    writer = csv.writer(stream)
-    writer.writerow(RESULT_HEADINGS)
-    for row in rows:
-        numbers = ["" if np.isnan(value) else repr(float(value)) for value in row.numbers]
-        gain = [repr(100.0 * float(row.gain)), row.by] if row.gain else ["", ""]
-        writer.writerow([row.what, row.name, shown_in(row.unit), *numbers, *gain])

@@ -75,20 +75,18 @@ class SampleProgram:
         """Return the requests (rows, ...) over a grid, NaN where they have no value, and the derivatives (shares, ...) of one design."""
         found = self.kernel(grid.flat, size=grid.size)
         is_told = bool(np.all(found.guards > 0.0)) and not (self.may_fail and not np.isfinite(found.values[: self.rows]).all())
-        if is_told and (not self.angles.angles or self._is_smooth(grid)):
+        if is_told and self.angles.angles:  # none goes on past half a turn
+            angles = grid.full(self.angles.kernel(grid.flat, size=grid.size).values)
+            is_told = bool(np.isfinite(angles).all()) and np.array_equal(grid.joined(angles, self.angles.kernel), angles)
+        if is_told:
             values = grid.full(found.values)
             return values[: self.rows], values[self.rows :]
         values = np.array([np.broadcast_to(each, grid.shape) for each in Evaluation(grid, self.requests, QUICKEST, "nan").run(None)])
         if self.slopes is None:
             return values, np.zeros((0, *grid.shape))
-        kernel, angles = self.slopes
-        continued = angles.continued(grid)
+        kernel, followed = self.slopes
+        continued = followed.continued(grid)
         return values, grid.full(kernel(grid.flat, size=grid.size).values) if continued is None else continued
-
-    def _is_smooth(self, grid: Grid) -> bool:
-        """Return whether no angle goes on past half a turn."""
-        angles = grid.full(self.angles.kernel(grid.flat, size=grid.size).values)
-        return bool(np.isfinite(angles).all()) and np.array_equal(grid.joined(angles, self.angles.kernel), angles)
 
 
 @final
@@ -126,8 +124,9 @@ class Sampling:
         reached = np.isfinite(found[len(loops)])
         whole = values if reached.all() else np.where(reached, values, np.nan)
         lost = self._lost(grid, whole, reached)
-        for (place, _), each in zip(self._divisors, found[first + len(self._traced) :], strict=True):
-            lost[place] |= changes_sign(each, reached)
+        for (place, _), each in zip(self._divisors, found[first + len(self._traced) :], strict=True):  # both signs, or zero somewhere
+            low, high = (np.where(reached, each, end) for end in (np.inf, -np.inf))
+            lost[place] |= (np.nanmin(low, axis=-1, initial=np.inf) <= 0.0) & (np.nanmax(high, axis=-1, initial=-np.inf) >= 0.0)
         samples = Samples(whole, found[: len(loops)], reached, lost)
         if not slopes:
             return samples
@@ -198,12 +197,6 @@ def rows_of_motion(plan: Plan, quantities: Sequence[object]) -> Callable[[Motion
 # Where there is no value.
 
 
-def changes_sign(values: FloatArray, reached: Mask) -> Mask:
-    """Return of which designs values (m, n) have both signs, or are zero somewhere."""
-    low, high = (np.where(reached, values, end) for end in (np.inf, -np.inf))
-    return np.asarray((np.nanmin(low, axis=-1, initial=np.inf) <= 0.0) & (np.nanmax(high, axis=-1, initial=-np.inf) >= 0.0))
-
-
 GOES_THROUGH = ("add", "subtract", "multiply", "divide", "negative", "absolute", "power", "sqrt", "hypot")
 """The functions that grow without bounds where a part of them does."""
 
@@ -240,12 +233,14 @@ def zero_factors(plan: Plan, divisor: object) -> list[Any]:
 def no_value(plan: Plan, leaf: Leaf) -> str:
     """Return in words that a leaf has no value of some design, and why."""
     divisors = divisors_of(plan, leaf.quantity) if not isinstance(leaf.quantity, Worst) else ()
-    over = "where it passes zero within the stroke, it grows without bounds" if divisors else ""
-    by = f": it is divided by {', '.join(words_of(each) for each in divisors)}, and {over}" if divisors else " at some poses"
-    return f"{leaf} has no value{by}"
+    if not divisors:
+        return f"{leaf} has no value at some poses"
+    why = f"it is divided by {', '.join(map(words_of, divisors))}, and where it passes zero within the stroke, it grows without bounds"
+    return f"{leaf} has no value: {why}"
 
 
 # How far the links are from being too short or too long to meet.
+
 
 def loop_margins(plan: Plan) -> list[NodeRequest]:
     """Return what is above zero where each loop of links that moves is assembled: a squared sine, or a length [m]."""

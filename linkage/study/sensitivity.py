@@ -83,13 +83,12 @@ class Tornado:
 
     def __str__(self) -> str:
         head = f"{self.quantity} = {show(self.nominal, self.unit)} at {self.at}; sigma {show(self.sigma, self.unit, 3)} of all together"
-        width = max(len(tolerance_words(self.plan, bar.name, bar.tolerance)) for bar in self.bars)
-        return "\n".join([f"{head}.", *(self._line(bar, width) for bar in self.bars)])
-
-    def _line(self, bar: Effect, width: int) -> str:
-        """Return a bar as text."""
-        ends = " to ".join(show(end, self.unit, 3) if np.isfinite(end) else "out of reach" for end in (bar.low, bar.high))
-        return f"{tolerance_words(self.plan, bar.name, bar.tolerance):<{width}}  {ends}, {100.0 * bar.share:.0f} % of the variance"
+        words = [tolerance_words(self.plan, bar.name, bar.tolerance) for bar in self.bars]
+        lines = [f"{head}."]
+        for bar, name in zip(self.bars, words, strict=True):
+            ends = " to ".join(show(end, self.unit, 3) if np.isfinite(end) else "out of reach" for end in (bar.low, bar.high))
+            lines.append(f"{name:<{max(map(len, words))}}  {ends}, {100.0 * bar.share:.0f} % of the variance")
+        return "\n".join(lines)
 
 
 def tornado(
@@ -213,11 +212,8 @@ def sobol(
         found = sobol_indices(func=values, n=int(count), dists=laws, rng=np.random.default_rng(int(seed)))
     if not np.all(sigmas[0] > 0.0):
         raise DefinitionError(f"{plan.title}: {title} does not vary with {', '.join(named)} at some of the strokes; leave these out.")
-    first, total = shares_by_name(poses, named, found.first_order), shares_by_name(poses, named, found.total_order)
-    return SobolIndices(title, FrozenDict(poses.base.strokes), first, total, poses.shaped(sigmas[0]))
-
-
-def shares_by_name(poses: StudyPoses, names: Mapping[str, Any], indices: Any) -> FrozenDict[str, FloatArray]:
-    """Return the shares of a variance by the names of dimensions, from twice the poses times the dimensions, in that order."""
-    rows = np.reshape(indices, (2, -1, len(names)))[0].T
-    return FrozenDict({name: poses.shaped(row) for name, row in zip(names, rows, strict=True)})
+    shares = []
+    for indices in (found.first_order, found.total_order):
+        rows = np.reshape(indices, (2, -1, len(named)))[0].T  # twice the poses times the dimensions
+        shares.append(FrozenDict({name: poses.shaped(row) for name, row in zip(named, rows, strict=True)}))
+    return SobolIndices(title, FrozenDict(poses.base.strokes), *shares, poses.shaped(sigmas[0]))

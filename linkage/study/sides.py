@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from ..assembly import members_on_sides
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError
 from ..mechanism import Mechanism, declared
-from ..plan import Part, Plan
+from ..plan import Part
 from ..quantities import Member
 from ..steps import Point, Step
 from ..vectors import Side
@@ -43,19 +43,10 @@ def sided_step(machine: Mechanism, name: object) -> str:
     return step
 
 
-def side_given(name: str, given: object) -> Side:
-    """Return a side; DefinitionError for anything but LEFT and RIGHT."""
-    side = Side.said(given)
-    if side is None:
-        raise DefinitionError(f"{name}: {cited(given)} is no side; write a list of them, [LEFT, RIGHT].")
-    return side
-
-
 def on_sides(machine: Mechanism, sides: Mapping[str, Side]) -> Mechanism:
     """Return a design with some steps on these sides; itself where they are."""
-    members = machine.plan.members
-    other = {name: side for name, side in sides.items() if sided_now(members[name]) is not side}
-    return class_on_sides(type(machine), other)(**machine.dimensions) if other else machine
+    found = class_on_sides(type(machine), sides)
+    return machine if found is type(machine) else found(**machine.dimensions)
 
 
 def sided_now(member: Member) -> Side | None:
@@ -82,34 +73,27 @@ def made_on_sides(kind: type[Mechanism], sides: Mapping[str, Side]) -> type[Mech
         if name not in written:
             part = next(each for each in written if name.startswith(f"{each}.") and isinstance(written[each], Part))
             parts.setdefault(part, {})[name.removeprefix(f"{part}.")] = side
-    for name, inner in parts.items():
-        own[name] = part_on_sides(written[name], plan, inner)
-    text = {"__module__": kind.__module__, "__qualname__": kind.__qualname__, "__doc__": kind.__doc__}
-    maker: Any = type(kind)
-    made: type[Mechanism] = maker(kind.__name__, (kind,), {**text, **own, BASE: (kind, dict(sides)), "__reduce__": sent_on_sides})
+    for name, inner in parts.items():  # these sides are those in the whole: of a mirrored part each is the other one in itself
+        part: Any = written[name]
+        seen = {each: sided_now(part.plan.members[each]) is sided_now(plan.members[f"{name}.{each}"]) for each in inner}
+        other = class_on_sides(part.machine, {each: side if seen[each] else Side(-side) for each, side in inner.items()})
+        own[name] = part.renewed(machine=other, plan=other.plan)
+    made = class_like(kind, {**own, BASE: (kind, dict(sides))}, sent_on_sides)
     lost = [name for name, side in sides.items() if sided_now(made.plan.members[name]) is not side]
     if lost:
         raise DefinitionError(f"{plan.title}: {lost[0]} cannot be put on the side {sides[lost[0]]} from here; write a class for it.")
     return made
 
 
-def part_on_sides(part: Any, plan: Plan, sides: Mapping[str, Side]) -> Member:
-    """Return a part of a class on other sides, which are those in the whole: of a mirrored part each is the other one in itself."""
-    own: dict[str, Side] = {}
-    for name, side in sides.items():
-        inside, outside = (sided_now(members[each]) for members, each in ((part.plan.members, name), (plan.members, f"{part.name}.{name}")))
-        own[name] = side if inside is outside else Side(-side)
-    other = class_on_sides(part.machine, own)
-    found: Member = part.renewed(machine=other, plan=other.plan)
-    return found
+def class_like(kind: type[Mechanism], own: Mapping[str, object], sent: Callable[[Mechanism], tuple[object, ...]]) -> type[Mechanism]:
+    """Return a subclass of the same name with members of its own; `sent` says what pickle is to make its designs of."""
+    text = {"__module__": kind.__module__, "__qualname__": kind.__qualname__, "__doc__": kind.__doc__}
+    maker: Any = type(kind)
+    made: type[Mechanism] = maker(kind.__name__, (kind,), {**text, **own, "__reduce__": sent})
+    return made
 
 
-def sent_on_sides(machine: Mechanism) -> tuple[Any, ...]:
+def sent_on_sides(machine: Mechanism) -> tuple[object, ...]:
     """Return what pickle is to make a design of such a class of: that of the class as it is written, on these sides."""
     kind, sides = vars(type(machine))[BASE]
-    return on_sides_again, (kind, {name: int(side) for name, side in sides.items()}, machine.dimensions)
-
-
-def on_sides_again(kind: type[Mechanism], sides: Mapping[str, int], dimensions: Mapping[str, Any]) -> Mechanism:
-    """Return the design that was sent."""
-    return class_on_sides(kind, {name: Side(side) for name, side in sides.items()})(**dimensions)
+    return on_sides, (kind(**machine.dimensions), sides)

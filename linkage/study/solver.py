@@ -18,7 +18,7 @@ from ..errors import DefinitionError, StudyError
 from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most
 from ..program import FloatArray
 from .constrained_step import constrained_step
-from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Truth, missed, reduced, scale_among, size_of_rows, terms_size
+from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Truth, missed, scale_among
 from .sampling import no_value
 
 FAR = 10.0
@@ -39,7 +39,7 @@ CLEAR = 1e-9
 APPROACH = (1e-2, 1e-3, 1e-4, 1e-5, CLEAR)
 """The same by which least squares come near the edge of what can be assembled, where their misses go like roots."""
 OTHER_SIZE = 4.0
-"""LeafNumbers so many times larger or smaller than at the start are scaled anew."""
+"""Leaves' numbers so many times larger or smaller than at the start are scaled anew."""
 HALVINGS = 40
 STEEP = 1e3
 """What an infinite derivative counts, of scaled numbers by unit coordinates."""
@@ -182,20 +182,17 @@ class Local:
 
     # -- scales and auxiliary variables ------------------------------------------------------------------
 
-    def leaf_values(self, look: Evaluated) -> dict[Leaf, float]:
-        """Return the leaves' numbers at the samples."""
-        return {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
-
     def _scales(self, look: Evaluated) -> tuple[dict[Leaf, float], list[float], float]:
-        """Return what the leaves, the constraints and the objective are measured with."""
-        leaf_scales = {leaf: size_of_rows(look.rows[leaf].values) or 1.0 for leaf in self.problem.leaves}
-        return leaf_scales, scales_of(self.problem, look), max(self._size(each, look) for each in self.problem.objectives)
+        """Return what the leaves, the constraints and the objective are measured with.
 
-    def _size(self, objective: Measure, look: Evaluated) -> float:
-        """Return what an objective is measured with: itself, where it is next to nothing what the box makes of it."""
-        value, slope = graded(objective, lambda leaf: graded_leaf(leaf, look))
-        change = float(np.abs(slope[np.isfinite(slope)]).max(initial=0.0))
-        return max(abs(value) if np.isfinite(value) else 0.0, SMALL * change) or 1.0
+        An objective by itself, where it is next to nothing by what the box makes of it.
+        """
+        sizes = []
+        for objective in self.problem.objectives:
+            value, slope = graded(objective, lambda leaf: graded_leaf(leaf, look))
+            change = float(np.abs(slope[np.isfinite(slope)]).max(initial=0.0))
+            sizes.append(max(abs(value) if np.isfinite(value) else 0.0, SMALL * change) or 1.0)
+        return {leaf: size or 1.0 for leaf, size in look.sizes.items()}, scales_of(self.problem, look), max(sizes)
 
     def _auxiliaries(self, look: Evaluated) -> list[tuple[Constraint | Measure, Leaf]]:
         """Return the leaves that become variables, each with the constraint or objective in which it does."""
@@ -208,7 +205,7 @@ class Local:
             for leaf in expression.leaves:
                 if not isinstance(leaf, (Least, Most)) or look.rows[leaf].values.shape[1] < 2:
                     continue
-                way = grows(expression, leaf, self.leaf_values(look)) * (1.0 if isinstance(owner, Constraint) else -self.problem.sense)
+                way = grows(expression, leaf, look.of_one) * (1.0 if isinstance(owner, Constraint) else -self.problem.sense)
                 if way * (1.0 if isinstance(leaf, Least) else -1.0) > 0.0:
                     found.append((owner, leaf))
         return found
@@ -239,11 +236,8 @@ class Local:
 
     def _divisor_signs(self, look: Evaluated) -> tuple[float, ...]:
         """Return the signs of the numbers of a design that another number of it is divided by."""
-        if not self._divisors:
-            return ()
-        numbers = self.leaf_values(look)
         with np.errstate(all="ignore"):
-            return tuple(float(np.sign(each.of(lambda leaf: np.float64(numbers[leaf])))) for each in self._divisors)
+            return tuple(float(np.sign(each.of(lambda leaf: look.numbers[leaf][0]))) for each in self._divisors)
 
     def _usable(self, look: Evaluated) -> bool:
         """Return whether the objectives and equations have values; an inequality without one says nothing.
@@ -303,26 +297,22 @@ class Local:
         look, way, loss = self._safe(z)
         here = self.evaluated_at(z[: self.n])
         found = [self._margins(look, way, loss, here)]
-        for place, each in enumerate(self.problem.constraints):
-            found.append(self._constraint(place, each, look, way, loss, z))
+        for each, scale in zip(self.problem.constraints, self.scales, strict=True):
+            found.append(self._constraint(each, scale, look, way, loss, z))
         for place, (owner, leaf) in enumerate(self.aux):
             found.append(self._bound(place, owner, leaf, look, way, loss, z))
-        if self.several:
-            found += [self._objective_line(each, look, way, loss, z) for each in self.problem.objectives]
+        for objective in self.problem.objectives if self.several else ():  # each below the worst of them
+            (value, by), factor = self.graded(objective, look, z), self.problem.sense / self.size
+            column = self.n + len(self.aux)
+            slope = bounded(-factor * by)
+            slope[column] = 1.0
+            found.append(Row(None, np.array([z[column] - factor * value + slope[: self.n] @ way - loss]), slope[None]))
         found = [each for each in found if each.values.size]
         if here is look:  # elsewhere they hang on the last good design, too
             if len(self._rows) > 4:
                 self._rows.pop(next(iter(self._rows)))
             self._rows[key] = found
         return found
-
-    def _objective_line(self, objective: Measure, look: Evaluated, way: FloatArray, loss: float, z: FloatArray) -> Row:
-        """Return the line that holds one of several objectives below the worst of them."""
-        (value, by), factor = self.graded(objective, look, z), self.problem.sense / self.size
-        column = self.n + len(self.aux)
-        slope = bounded(-factor * by)
-        slope[column] = 1.0
-        return Row(None, np.array([z[column] - factor * value + slope[: self.n] @ way - loss]), slope[None])
 
     def _margins(self, look: Evaluated, way: FloatArray, loss: float, here: Evaluated) -> Row:
         """Return the lines of the links, which are assembled: of what is known `here` itself, of the rest from the look."""
@@ -338,10 +328,9 @@ class Local:
             slopes[told, : self.n] = here.margin_slopes.T[told]
         return Row(None, values, slopes, is_reach=True)
 
-    def _constraint(self, place: int, each: Constraint, look: Evaluated, way: FloatArray, loss: float, z: FloatArray) -> Row:
+    def _constraint(self, each: Constraint, scale: float, look: Evaluated, way: FloatArray, loss: float, z: FloatArray) -> Row:
         """Return the line or lines of a constraint: one a pose where a single extreme is held against a number."""
-        scale, equation = self.scales[place], each.symbol == "=="
-        found = single_extreme(each)
+        equation, found = each.symbol == "==", single_extreme(each)
         if found is not None and not equation:
             leaf, sign, bound = found
             rows = look.rows[leaf]
@@ -389,8 +378,8 @@ class Local:
 
     def first(self, unit: FloatArray) -> FloatArray:
         """Return the solver's variables at unit coordinates."""
-        values = self.leaf_values(self.evaluated_at(unit))
-        worst = [self.problem.sense * float(self.problem.value(lambda leaf: values[leaf])) / self.size] * self.several
+        values = self.evaluated_at(unit).of_one
+        worst = [self.problem.sense * float(self.problem.value(values.__getitem__)) / self.size] * self.several
         z = np.concatenate([unit, [values[leaf] / self.leaf_scales[leaf] for _, leaf in self.aux], worst, np.zeros(self.slack)])
         if self.elastic:
             for row in self.solver_lines(z):
@@ -409,14 +398,14 @@ class Local:
         low, high = np.full(self.width, -np.inf), np.full(self.width, np.inf)
         low[: self.n], high[: self.n] = 0.0, 1.0
         low[self.width - self.slack :] = 0.0
-        if self.squares is not None:
-            for clear in self._stages:
-                self.clear = clear
-                self._rows.clear()
-                z = self._fitted(self.squares, z, (low, high), most)
-            self._stages = APPROACH[-1:]  # with further poses, from where it stands
-            return z
-        return self._sequential(z, Bounds(low, high), most)
+        if self.squares is None:
+            return self._sequential(z, Bounds(low, high), most)
+        for clear in self._stages:
+            self.clear = clear
+            self._rows.clear()
+            z = self._fitted(self.squares, z, (low, high), most)
+        self._stages = APPROACH[-1:]  # with further poses, from where it stands
+        return z
 
     def _stacked(self, z: FloatArray, equations: bool) -> tuple[FloatArray, FloatArray]:
         rows = [row for row in self.solver_lines(z) if row.equation is equations]
@@ -428,10 +417,9 @@ class Local:
         """Return what SLSQP comes to."""
         from scipy.optimize import minimize
 
-        held: list[dict[str, Any]] = []
-        for equations, kind in ((False, "ineq"), (True, "eq")):
-            if self._stacked(z, equations)[0].size:
-                held.append(self._held(kind, equations))
+        parts = {"fun": lambda at, equations: self._stacked(at, equations)[0], "jac": lambda at, equations: self._stacked(at, equations)[1]}
+        kinds = [(kind, equations) for kind, equations in (("ineq", False), ("eq", True)) if self._stacked(z, equations)[0].size]
+        held = [{"type": kind, "args": (equations,), **parts} for kind, equations in kinds]
         watch = self._watch = Watch(self, z)  # kept: the best so far is known where the solver is stopped
         try:
             result = minimize(
@@ -503,9 +491,6 @@ class Local:
         missed = (np.abs(row.values) if row.equation else -row.values for row in self.solver_lines(z))
         return max((float(values.max(initial=0.0)) for values in missed), default=0.0)
 
-    def _held(self, kind: str, equations: bool) -> dict[str, Any]:
-        return {"type": kind, "fun": lambda at: self._stacked(at, equations)[0], "jac": lambda at: self._stacked(at, equations)[1]}
-
     def judged(self, unit: FloatArray) -> SearchEnd:
         """Return the objective and what is missing at unit coordinates, between the samples too."""
         return self._truth(unit)[0]
@@ -543,7 +528,7 @@ class Local:
     def numbers(self, unit: FloatArray) -> LeafNumbers:
         """Return the leaves' numbers at the samples of unit coordinates."""
         look = self.evaluated_at(unit)
-        return LeafNumbers({leaf: Truth(value, {}, bool(look.rows[leaf].lost[0])) for leaf, value in self.leaf_values(look).items()})
+        return LeafNumbers({leaf: Truth(value, {}, bool(look.rows[leaf].lost[0])) for leaf, value in look.of_one.items()})
 
     def _nearest_good(self, unit: FloatArray) -> FloatArray:
         """Return unit coordinates; where these cannot be worked with, the last ones on the way from the good ones to them that can."""
@@ -572,7 +557,7 @@ class Local:
     def refine(self, unit: FloatArray) -> bool:
         """Add the tops between the samples; return whether one of them is worse than these by what counts."""
         problem, design = self.problem, self.problem.dimensions_at(unit, self.combination)
-        before, added = self.leaf_values(self.evaluated_at(unit)), False
+        before, added = self.evaluated_at(unit).of_one, False
         for leaf in problem.leaves:
             for parts in problem.tops(leaf, design) if isinstance(leaf, (Least, Most)) else ():
                 added = problem.refined(leaf, parts) or added
@@ -581,7 +566,7 @@ class Local:
         if not added:
             return False
         self._forget()
-        after = self.leaf_values(self.evaluated_at(unit))
+        after = self.evaluated_at(unit).of_one
         return any(self._is_worse(leaf, after[leaf], before[leaf]) for leaf in problem.leaves)
 
     def _is_worse(self, leaf: Leaf, value: float, known: float) -> bool:
@@ -597,7 +582,7 @@ class Local:
         look = self.evaluated_at(unit)
         if not bool(look.whole[0]):
             return SearchEnd(unit, np.nan, np.inf, False), False
-        known, truths, worse = self.leaf_values(look), problem.truths(design, quick=True), False
+        known, truths, worse = look.of_one, problem.truths(design, quick=True), False
         for leaf, found in truths.items():
             if not isinstance(leaf, Integral) and self._is_worse(leaf, found.value, known[leaf]) and problem.refined(leaf, found.parts):
                 worse = True
@@ -725,14 +710,10 @@ def scales_of(problem: Problem, look: Evaluated) -> list[float]:
     `look` is that of one design with derivatives. The number that a constraint is compared with comes first; where that is zero,
     `least(q) >= 0`, it has a size too.
     """
-    sizes = {leaf: size_of_rows(rows.values) for leaf, rows in look.rows.items()}
-    values = {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
-    found = []
+    sizes, values, found = look.sizes, look.of_one, []
     for each in problem.constraints:
         slope = np.abs(graded(each.margin, lambda leaf: graded_leaf(leaf, look)).slope)
-        change = float(slope[np.isfinite(slope)].sum())
-        sides = [terms_size(side, sizes, values) for side in (each.left, each.right)]
-        found.append(scale_among(each, max([side for side in sides if np.isfinite(side)] + [change])))
+        found.append(scale_among(each, sizes, values, float(slope[np.isfinite(slope)].sum())))
     return found
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import product
 from math import prod
 from statistics import median
@@ -24,7 +25,7 @@ from ..vectors import Side
 from .checks import unit_of
 from .designs import check_once
 from .regions import PointRegion, drawn_inside, point_regions, put_inside
-from .sides import ENDING, is_side, side_given, sided_step
+from .sides import ENDING, is_side, sided_step
 from .varied import Varied
 
 MOST_COMBINATIONS = 100_000
@@ -74,7 +75,7 @@ class Space:
     @classmethod
     def of(cls, machine: Mechanism, vary: Any, regions: Any = None) -> Space:
         """Return what `vary` and `regions` say; DefinitionError for an unknown dimension, an empty range, or anything else."""
-        title = machine.plan.title
+        title, spellings = machine.plan.title, machine.plan.table.spellings
         require(isinstance(vary, Mapping) and vary, f"{title}: vary", vary, 'a dictionary is expected, such as vary={"OB": (0.27, 0.33)}')
         variables: list[Varied] = []
         choices, names = [], []
@@ -87,12 +88,16 @@ class Space:
                 if not step:
                     known_dimension(machine, part)
             about += coordinates(machine.plan, parts) if isinstance(given, Around) else []
-            if isinstance(given, Around) and given.is_round:
-                circles |= dict.fromkeys(points_encircled(machine.plan, parts), given.by)
+            for part in parts if isinstance(given, Around) and given.is_round else ():
+                if f"{part}.x" not in spellings:
+                    what = f"{part}=around(radius=...): {part} is no fixed point that varies"
+                    raise DefinitionError(f"{title}: {what}; write around(60 * mm) of a dimension.")
+                circles[part] = given.by
             if not any(sided) and (isinstance(given, Around) or (isinstance(given, tuple) and len(parts) == 1 and len(given) in (2, 3))):
                 variables += ranged(machine, parts, given)
             else:
-                owners = tuple(owner for part in parts for owner in owners_of(machine.plan, part))
+                spelled = [(part, 1.0) if is_side(part) else spellings[part] for part in coordinates(machine.plan, parts)]
+                owners = tuple((owner, float(sign)) for owner, sign in spelled)
                 rows = rows_of(title, parts, given, owners)
                 choices.append((owners, tuple(tuple(map(float, row)) for row in rows)))
                 for place, part in enumerate(coordinates(machine.plan, parts)):
@@ -157,14 +162,18 @@ class Space:
             for name, value in zip(names, rows[row], strict=True)
         )
 
+    @cached_property
+    def _lows_and_spans(self) -> FloatArray:
+        return np.array([(each.low, each.span) for each in self.variables]).reshape(-1, 2).T
+
     def values(self, unit: FloatArray) -> FloatArray:
         """Return values (..., n) of the variables from unit coordinates (..., n)."""
-        low, span = np.array([(each.low, each.span) for each in self.variables]).reshape(-1, 2).T
+        low, span = self._lows_and_spans
         return np.asarray(low + np.asarray(unit) * span)
 
     def unit(self, values: FloatArray) -> FloatArray:
         """Return unit coordinates of values (..., n), within 0 and 1."""
-        low, span = np.array([(each.low, each.span) for each in self.variables]).reshape(-1, 2).T
+        low, span = self._lows_and_spans
         return np.asarray(np.clip((np.asarray(values) - low) / np.where(span > 0.0, span, 1.0), 0.0, 1.0))
 
     def dimensions_at(self, unit: FloatArray) -> dict[str, Any]:
@@ -181,38 +190,21 @@ def known_dimension(machine: Mechanism, name: object) -> None:
     """Raise DefinitionError for anything but a dimension of a machine."""
     if not isinstance(name, str):
         raise unknown("Dimension", name, machine.plan.table.names(), where=machine.plan.title)
+    title = machine.plan.title
     if name in machine.plan.strokes:
-        raise DefinitionError(
-            f"{machine.plan.title}: {name} is a stroke and no dimension; say over={{{name!r}: (low, high)}} for its range."
-        )
+        raise DefinitionError(f"{title}: {name} is a stroke and no dimension; say over={{{name!r}: (low, high)}} for its range.")
     element, _, parameter = name.partition(".")
     member = machine.plan.members.get(element)
     if name not in machine and isinstance(member, ForceElement) and parameter in member.parameters:
         what = member.given(parameter)
         if what is not None:
-            raise DefinitionError(f"{machine.plan.title}: {name} follows {label(what)}; vary what it follows.")
+            raise DefinitionError(f"{title}: {name} follows {label(what)}; vary what it follows.")
     _ = machine[name]  # raises for a name that is none, or that follows others
 
 
 def coordinates(plan: Plan, names: Sequence[str]) -> list[str]:
     """Return names, those of points by their two coordinates."""
     return [part for name in names for part in ([name] if name in plan.table.spellings or is_side(name) else [f"{name}.x", f"{name}.y"])]
-
-
-def points_encircled(plan: Plan, names: Sequence[str]) -> list[str]:
-    """Return the names of points; DefinitionError for anything else, about which there is no circle."""
-    for name in names:
-        if f"{name}.x" not in plan.table.spellings:
-            what = f"{name}=around(radius=...): {name} is no fixed point that varies"
-            raise DefinitionError(f"{plan.title}: {what}; write around(60 * mm) of a dimension.")
-    return [*names]
-
-
-def owners_of(plan: Plan, name: str) -> list[tuple[str, float]]:
-    """Return the design variables that a name sets, with signs: two of a point, of a step's side its name."""
-    if is_side(name):
-        return [(name, 1.0)]
-    return [(owner, float(sign)) for owner, sign in (plan.table.spellings[each] for each in coordinates(plan, [name]))]
 
 
 def ranged(machine: Mechanism, names: Sequence[str], given: Around | tuple[Any, ...]) -> list[Varied]:
@@ -229,13 +221,11 @@ def ranged(machine: Mechanism, names: Sequence[str], given: Around | tuple[Any, 
             raise DefinitionError(f"{plan.title}: {names[0]}={cited(given)}: {names[0]} is a point; {said}, or a list of positions.")
         else:
             low, high, step = (*given, None)[:3]
-        ends = [low, high] if step is None else [low, high, step]
-        if all(is_number(each) for each in ends) and high - low <= max(NARROWEST * max(abs(low), abs(high)), 1e-30):
-            said = "a range goes from its lower to its higher end; for one value set it"
-            raise DefinitionError(f"{plan.title}: {name}={cited(given)} is no range; {said}.")
-        if not all(is_number(each) for each in ends) or (step is not None and not 0.0 < step <= high - low):
-            said = "write (low, high) or (low, high, step) in SI, the step above zero and within them, a list of choices, or around(...)"
-            raise DefinitionError(f"{plan.title}: {name}={cited(given)} is no range; {said}.")
+        are_numbers, what = all(map(is_number, (low, high, step or 0.0))), f"{plan.title}: {name}"
+        is_wide = not are_numbers or high - low > max(NARROWEST * max(abs(low), abs(high)), 1e-30)
+        require(is_wide, what, given, "is no range; a range goes from its lower to its higher end; for one value set it")
+        said = "write (low, high) or (low, high, step) in SI, the step above zero and within them, a list of choices, or around(...)"
+        require(are_numbers and (step is None or 0.0 < step <= high - low), what, given, f"is no range; {said}")
         found.append(Varied(name, owner, float(sign), float(low), float(high), None if step is None else float(step), unit_of(plan, name)))
     return found
 
@@ -265,9 +255,7 @@ def size_of_machine(machine: Mechanism) -> float:
     return max((abs(float(machine.dimensions[name])) for name in lengths), default=1.0) or 1.0
 
 
-def rows_of(
-    title: str, names: Sequence[str], given: object, owners: Sequence[tuple[str, float]]
-) -> tuple[tuple[float, ...], ...]:
+def rows_of(title: str, names: Sequence[str], given: object, owners: Sequence[tuple[str, float]]) -> tuple[tuple[float, ...], ...]:
     """Return the rows of choices, a side as its number; DefinitionError for anything else."""
     width = len(owners)
     said = "write a range (low, high), a list of choices such as [0.28, 0.30], or for several names at once a list of rows"
@@ -275,11 +263,15 @@ def rows_of(
         raise DefinitionError(f"{title}: {', '.join(names)}={cited(given)}: {said}.")
     rows = []
     for each in given:
-        row = tuple(each) if isinstance(each, (list, tuple, np.ndarray)) else (each,)
-        if len(row) == width:
-            row = tuple(side_given(owner, value) if is_side(owner) else value for (owner, _), value in zip(owners, row, strict=True))
+        row = list(each) if isinstance(each, (list, tuple, np.ndarray)) else [each]
+        for place, (owner, _) in enumerate(owners if len(row) == width else ()):
+            if is_side(owner):
+                side = Side.said(row[place])
+                if side is None:
+                    raise DefinitionError(f"{owner}: {cited(row[place])} is no side; write a list of them, [LEFT, RIGHT].")
+                row[place] = side
         if len(row) != width or not all(is_number(value) for value in row):
             many = f"{width} numbers are" if width > 1 else "a number is"
             raise DefinitionError(f"{title}: {', '.join(names)}: {cited(each)} is no choice; {many} expected.")
-        rows.append(row)
+        rows.append(tuple(row))
     return tuple(rows)

@@ -10,17 +10,17 @@ from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from inspect import signature
 from math import ceil
 from pickle import PicklingError
 from queue import SimpleQueue
 from time import perf_counter
-from typing import Any, Protocol, TypeAlias, final
+from typing import Any, NamedTuple, Protocol, TypeAlias, final
 
 import numpy as np
 
-from ..checks import require_whole
+from ..checks import require, require_whole
 from ..errors import DefinitionError, LinkageError, StudyError, cited, known_name, one_word
 from ..frozen import FrozenDict, read_only, refuses_changes
 from ..mechanism import Mechanism
@@ -28,7 +28,7 @@ from ..quantities import is_whole
 from ..shown import Shown
 from .checkpoint import Checkpoint, facts_of
 from .checks import check_one_design, check_vary
-from .designs import Array, Batch, Dealt, Designs, Measure, StudyWork, Task, check_same_results, measure_batch
+from .designs import Array, Batch, Dealt, Designs, StudyWork, Task, check_same_results, measure_batch
 
 TRIES = 3
 PICKLING_ERRORS = (PicklingError, AttributeError, TypeError, ImportError)
@@ -57,9 +57,7 @@ class LocalExecutor:
         return future
 
 
-@final
-@dataclass(frozen=True)
-class Submission:
+class Submission(NamedTuple):
     """A range of designs under way, which try it is, and when it left [s]."""
 
     start: int
@@ -83,14 +81,17 @@ class SurveyRun:
         self._tries: dict[int, int] = {}
 
     def go(self) -> None:
-        """Do all that is left; what is done is kept whatever happens."""
+        """Do all that is left, as many batches at a time as the executor has use for; what is done is kept whatever happens."""
         for batch in self.checkpoint.batches() if self.checkpoint else ():
             if self.left.remove(batch.start, batch.stop):
                 self._enter(batch)
         self.tell(self.done, self.designs.count)
         try:
             while self.left.ranges or self._under_way:
-                self._send()
+                while self.left.ranges and len(self._under_way) < self.sizes.ahead:
+                    self._send()
+                    while not self._back.empty():
+                        self._take(*self._back.get())
                 if self._under_way:
                     self._take(*self._back.get())
         except KeyboardInterrupt as stopped:
@@ -114,21 +115,18 @@ class SurveyRun:
         return f"{said} and kept in {self.checkpoint.folder}; the same call goes on from there."
 
     def _send(self) -> None:
-        """Send batches until as many are under way as the executor has use for."""
-        while self.left.ranges and len(self._under_way) < self.sizes.ahead:
-            start, stop = self.left.take(self.sizes.next_pieces(self.left.pieces_left))
-            submission = Submission(start, stop, self._tries.get(start, 0), perf_counter())
-            try:
-                dimensions = self.designs.dimensions(start, stop)
-                future = self.executor.submit(measure_batch, self.task, start, stop, dimensions, submission.attempt)
-            except PICKLING_ERRORS as error:
-                raise self._error(f"{self.task.what} {CANNOT_SEND}", error) from error
-            except Exception as error:
-                raise self._error("The executor takes no more work and has to be made anew", error) from error
-            self._under_way[future] = submission
-            future.add_done_callback(lambda done: self._back.put((done, perf_counter())))
-            while not self._back.empty():
-                self._take(*self._back.get())
+        """Send the next batch."""
+        start, stop = self.left.take(self.sizes.next_pieces(self.left.pieces_left))
+        submission = Submission(start, stop, self._tries.get(start, 0), perf_counter())
+        try:
+            dimensions = self.designs.dimensions(start, stop)
+            future = self.executor.submit(measure_batch, self.task, start, stop, dimensions, submission.attempt)
+        except Exception as error:
+            cannot_send = f"{self.task.what} {CANNOT_SEND}"
+            is_pickling = isinstance(error, PICKLING_ERRORS)
+            raise self._error(cannot_send if is_pickling else "The executor takes no more work and has to be made anew", error) from error
+        self._under_way[future] = submission
+        future.add_done_callback(lambda done: self._back.put((done, perf_counter())))
 
     def _take(self, future: Any, at: float) -> None:
         """Take a batch in; give it out again, a few times, where it was lost on the way."""
@@ -143,21 +141,17 @@ class SurveyRun:
         except PICKLING_ERRORS as error:
             raise self._error(f"{self.task.what} {CANNOT_SEND}", error) from error
         except Exception as error:
-            self._lost(submission, error)
+            start, last = submission.start, submission.stop - 1
+            self._tries[start] = submission.attempt + 1
+            if self._tries[start] >= TRIES:
+                what = f"Designs {start} to {last} were lost {TRIES} times, by want of memory if not by measure itself"
+                raise self._error(what, error, (start, last)) from error
+            self.left.ranges.insert(0, (start, submission.stop))
         else:
             waited = at - submission.at - batch.seconds if is_full else float("inf")
             self.sizes.learn(-(-(submission.stop - submission.start) // self.task.piece), batch.seconds, waited)
             self._keep(batch)
             self.tell(self.done, self.designs.count)
-
-    def _lost(self, submission: Submission, error: Exception) -> None:
-        """Put a batch back whose worker was lost; StudyError where that happens again and again."""
-        self._tries[submission.start] = submission.attempt + 1
-        if self._tries[submission.start] >= TRIES:
-            lost = f"Designs {submission.start} to {submission.stop - 1} were lost {TRIES} times"
-            what = f"{lost}, by want of memory if not by measure itself"
-            raise self._error(what, error, (submission.start, submission.stop - 1)) from error
-        self.left.give_back(submission.start, submission.stop)
 
     def _error(self, what: str, error: Exception, designs: tuple[int, int] | None = None) -> StudyError:
         """Return the error for what stops the study on the way, after keeping the results so far."""
@@ -179,7 +173,7 @@ class SurveyRun:
         check_same_results(self.task, self.values, values, f"designs {batch.start} to {batch.stop - 1}")
         for name, array in values.items():
             self.values[name][batch.start : batch.stop] = array
-        self.batches.append(batch.bare)
+        self.batches.append(replace(batch, values=None))
 
     def _stop(self) -> None:
         """Call back what has not begun yet, and keep what has come meanwhile."""
@@ -221,10 +215,6 @@ class OpenRanges:
         stop = min(start + pieces * self.piece, end)
         self.ranges[:1] = [(stop, end)] if stop < end else []
         return start, stop
-
-    def give_back(self, start: int, stop: int) -> None:
-        """Put a range back, to be the next."""
-        self.ranges.insert(0, (start, stop))
 
     def remove(self, start: int, stop: int) -> bool:
         """Take a range out; return whether it was there, whole."""
@@ -270,8 +260,9 @@ Progress: TypeAlias = Callable[[int, int], object]
 
 def check_progress(progress: object) -> None:
     """Raise DefinitionError for anything but True, False or a function."""
-    if not isinstance(progress, bool) and (not callable(progress) or isinstance(progress, type)):
-        raise DefinitionError(f"progress={cited(progress)}: say True for a bar, or give a function of (done, total) designs.")
+    is_function = callable(progress) and not isinstance(progress, type)
+    expected = "say True for a bar, or give a function of (done, total) designs"
+    require(isinstance(progress, bool) or is_function, "progress", progress, expected)
     if callable(progress):
         try:
             signature(progress).bind(0, 1)
@@ -388,8 +379,15 @@ def survey(
     check_one_design(machine)
     check_vary(machine, "survey", over)
     designs = Designs.of(machine, vary)
-    task = Task(machine, measure, piece_size(machine, designs.count, piece), one_word("backend", backend, ("numpy", "numba")))
-    check_options(machine, measure, executor, version, progress)
+    if piece is None:  # by their number alone, so that results do not depend on who does the work
+        piece = min(max(-(-designs.count // PARTS), SMALLEST), LARGEST)
+    piece = require_whole(f"{machine.plan.title}: piece", piece, "a whole number of designs is expected, at least 1", least=1)
+    task = Task(machine, measure, piece, one_word("backend", backend, ("numpy", "numba")))
+    require(callable(measure), f"{machine.plan.title}: measure", measure, "a function of a mechanism is expected")
+    check_executor(executor)
+    is_version = isinstance(version, (str, int)) and not isinstance(version, bool)
+    require(is_version, "version", version, "a text or a whole number is expected, such as version=2")
+    check_progress(progress)
     checkpoint = None if folder is None else Checkpoint.of(folder, facts_of(task, designs, version))
     with progress_told(progress, machine.plan.heading) as tell:
         run = SurveyRun(task, designs, executor or LocalExecutor(), checkpoint, tell)
@@ -397,26 +395,8 @@ def survey(
     return Survey(machine, designs, run.values, tuple(run.batches))
 
 
-def check_options(machine: Mechanism, measure: Measure, executor: Executor | None, version: str | int, progress: bool | Progress) -> None:
-    """Raise DefinitionError for a wrong function, executor, version or progress."""
-    if not callable(measure):
-        raise DefinitionError(f"{machine.plan.title}: measure={measure!r:.60}: a function of a mechanism is expected.")
-    check_executor(executor)
-    if isinstance(version, bool) or not isinstance(version, (str, int)):
-        raise DefinitionError(f"version={cited(version)}: a text or a whole number is expected, such as version=2.")
-    check_progress(progress)
-
-
 def check_executor(executor: object) -> None:
     """Raise DefinitionError for anything but an executor."""
     if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "submit", None))):
         what = "is a class" if isinstance(executor, type) else "has no submit"
         raise DefinitionError(f"executor={executor!r:.60} {what}; give a pool of concurrent.futures or client.get_executor().")
-
-
-def piece_size(machine: Mechanism, count: int, given: int | None) -> int:
-    """Return how many designs are measured at a time: by their number alone, so that results do not depend on who does the work."""
-    if given is None:
-        return min(max(-(-count // PARTS), SMALLEST), LARGEST)
-    require_whole(f"{machine.plan.title}: piece", given, "a whole number of designs is expected, at least 1", least=1)
-    return int(given)

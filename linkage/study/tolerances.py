@@ -10,7 +10,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..checks import require_type
+from ..checks import require, require_type
 from ..errors import DefinitionError, cited, one_word, unknown, unwarned
 from ..frozen import refuses_changes
 from ..mechanism import Mechanism
@@ -22,7 +22,7 @@ from ..plan import Plan, plan_measure
 from ..program import FloatArray, Node, gradient
 from ..quantities import is_number
 from ..units import SI, require_measure, show
-from .box import unit_points
+from .box import is_pair, unit_points
 from .checks import check_mechanism, unit_of
 from .measured import traced_number
 
@@ -48,23 +48,20 @@ class Tolerance:
 
     def __post_init__(self) -> None:
         one_word("law", self.law, LAWS)
-        given: Any = self.limits
-        if is_number(given) and given >= 0.0:
-            return
-        if isinstance(given, (tuple, list)) and len(given) == 2 and all(map(is_number, given)) and given[0] <= given[1]:
-            return
+        given: object = self.limits
         said = "how far it may lie to either side [SI], such as 0.1 * mm, or the limits (-0.1 * mm, 0.2 * mm)"
-        raise DefinitionError(f"{cited(given)} is no tolerance; give {said}.")
+        fits = given >= 0.0 if is_number(given) else is_pair(given) and given[0] <= given[1]
+        require(fits, "", given, f"is no tolerance; give {said}")
 
     @property
     def low(self) -> float:
         """The least deviation [SI]; of a normal law three sigmas below the middle."""
-        return float(self.limits[0]) if isinstance(self.limits, (tuple, list)) else -float(self.limits)
+        return -float(self.limits) if is_number(self.limits) else float(self.limits[0])
 
     @property
     def high(self) -> float:
         """The greatest deviation [SI]; of a normal law three sigmas above the middle."""
-        return float(self.limits[1] if isinstance(self.limits, (tuple, list)) else self.limits)
+        return float(self.limits) if is_number(self.limits) else float(self.limits[1])
 
     @property
     def sigma(self) -> float:
@@ -99,41 +96,31 @@ def tolerances_of(plan: Plan, given: object) -> dict[str, Tolerance]:
         raise DefinitionError(f'{plan.title}: {cited(given)}: tolerances by the names of dimensions are expected, {{"OB": 0.1 * mm}}.')
     found: dict[str, Tolerance] = {}
     seen: dict[str, str] = {}
+    spellings, following = plan.table.spellings, plan.table.following
     for name, value in given.items():
-        for part in dimension_names(plan, name):
-            owner = plan.table.spellings[part][0]
+        parts = [f"{name}.x", f"{name}.y"] if isinstance(name, str) and f"{name}.x" in spellings else [name]
+        if parts[0] not in spellings and name in following:
+            raise DefinitionError(f"{plan.title}: {name} follows {following[name]}; give what it follows a tolerance.")
+        if parts[0] not in spellings:
+            raise unknown("Dimension", name, plan.table.names(), where=plan.title)
+        for part in parts:
+            owner = spellings[part][0]
             if owner in seen:
                 raise DefinitionError(f"{plan.title}: {seen[owner]} and {part} are one dimension; give it one tolerance.")
             seen[owner] = part
-            found[part] = value if isinstance(value, Tolerance) else tolerance_named(plan, part, value)
+            try:
+                found[part] = value if isinstance(value, Tolerance) else Tolerance(tuple(value) if isinstance(value, list) else value)
+            except DefinitionError as error:
+                raise DefinitionError(f"{plan.title}: {part}: {error}") from None
             check_size(plan, part, found[part])
     return found
-
-
-def dimension_names(plan: Plan, name: object) -> list[str]:
-    """Return the name of a dimension, or of both coordinates of a point; DefinitionError for any other name."""
-    if isinstance(name, str) and f"{name}.x" in plan.table.spellings:
-        return [f"{name}.x", f"{name}.y"]
-    if isinstance(name, str) and name in plan.table.spellings:
-        return [name]
-    if isinstance(name, str) and name in plan.table.following:
-        raise DefinitionError(f"{plan.title}: {name} follows {plan.table.following[name]}; give what it follows a tolerance.")
-    raise unknown("Dimension", name, plan.table.names(), where=plan.title)
-
-
-def tolerance_named(plan: Plan, name: str, value: Any) -> Tolerance:
-    """Return the tolerance of a dimension; DefinitionError, with its name, for anything else."""
-    try:
-        return Tolerance(tuple(value) if isinstance(value, list) else value)
-    except DefinitionError as error:
-        raise DefinitionError(f"{plan.title}: {name}: {error}") from None
 
 
 def check_size(plan: Plan, name: str, tolerance: Tolerance) -> None:
     """Raise DefinitionError for a tolerance of another kind than its dimension, or larger than that itself."""
     owner = plan.table.spellings[name][0]
     unit, kind = plan.table.entries[owner].unit, plan_measure(plan, owner)
-    limits = tolerance.limits if isinstance(tolerance.limits, tuple) else (tolerance.limits,)
+    limits = (tolerance.limits,) if is_number(tolerance.limits) else tolerance.limits
     for limit in limits:
         require_measure(limit, unit or SI.get(kind, ""), f"{plan.title}: tolerance of {name}")
     sizes = {each: abs(float(plan.defaults[each])) for each in plan.defaults if plan_measure(plan, each) == "length"}
@@ -187,12 +174,14 @@ def shifted_designs(machine: Mechanism, tolerances: Mapping[str, Tolerance], lev
 
 # The standard deviation that tolerances give a quantity, from its exact gradient: a request, so that a search can follow it.
 
+
 def sigma(quantity: RequestLike, tolerances: Mapping[str, ToleranceLike]) -> NodeRequest:
     """Return the request for the standard deviation of a quantity, sqrt(sum (g_i sigma_i)^2) with its exact gradient g.
 
     `sigma("tilt", {"OB": 0.1 * mm, "M": 0.5 * mm})` in the quantity's unit, in `evaluate`, `function`, `gradient` and searches. Dimensions
     are independent of each other. Source: the law of propagation of uncertainty, ISO/IEC Guide 98-3 (GUM), 5.1.2.
     """
+
     def identity(plan: Plan) -> Hashable:
         of = identity_of(plan, quantity)
         return None if of is None else ("sigma", of, deviations_of(plan, tolerances))

@@ -461,9 +461,9 @@ class FieldSearch:
         """Return poses whose spare strokes went to where more is carried, and their loads [N]."""
         order = np.array([each for _, each, _ in self.turns])[self.spared(base.unit)]
         start = PlacePoses(base.place, np.take_along_axis(base.unit, order, axis=1))
-        climb = Climb.begun(self.moved, self.many.solved, start, order, load, room)
+        climb = Climb(self.moved, self.many.solved, start, order, load, start.unit, load, np.full(len(load), room))
         for _ in range(looks):
-            if climb.is_settled:
+            if not climb.going.size:
                 break
             climb = climb.step()
         unit = np.empty_like(base.unit)
@@ -551,9 +551,7 @@ class FieldSearch:
         """Return what a reader of the chart has to know: what acts beside the load, which strokes stand, what is spare, what fails."""
         plan, found = self.machine.plan, []
         left = self.loads.without
-        staying = [
-            each for name, each in plan.of_kind(Weight).items() if name not in left and name_of(each.point) == self.point
-        ]
+        staying = [each for name, each in plan.of_kind(Weight).items() if name not in left and name_of(each.point) == self.point]
         for each in staying:
             found.append(said("{name} hangs at {point} beside the load", name=each.name, point=self.point))
         if left:

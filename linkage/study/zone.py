@@ -56,9 +56,7 @@ class Zone:
         return np.asarray(self.reached == 1.0)
 
 
-def zone(
-    machine: Mechanism, quantity: QuantityLike, vary: Any = None, *, over: None = None, **strokes: Any
-) -> Zone:
+def zone(machine: Mechanism, quantity: QuantityLike, vary: Any = None, *, over: None = None, **strokes: Any) -> Zone:
     """Return the true extremes of a quantity at every stroke, over a box of settings and not only its corners.
 
     `vary` are ranges and choices as in `Box.of`; `over`, which elsewhere says where strokes run, is refused.

@@ -18,7 +18,8 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import ref
 from ..study.checks import check_one_design
-from ..study.problem import Range, is_still, ranges_of
+from ..study.cylinder_rows import Range
+from ..study.problem import is_still, ranges_of
 from .tasks import Task, TaskRows, table_of
 
 Squares: TypeAlias = tuple[Measure, ...]

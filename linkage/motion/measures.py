@@ -170,10 +170,21 @@ class CombinedMeasure(Measure):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Leaf(Measure):
-    """What is taken of one quantity over the stroke."""
+    """What is taken of one quantity over the stroke; `sense` is 1.0 of the greatest value, -1.0 of the least, 0.0 of what is no extreme."""
 
     quantity: MeasuredQuantity
     word: ClassVar[str] = ""
+    sense: ClassVar[float] = 0.0
+
+    @property
+    def inner(self) -> str | Quantity | Request | Callable[[Motion], FloatArray]:
+        """The quantity, that of `worst(...)` at each pose of its stroke too."""
+        return self.quantity.quantity if isinstance(self.quantity, Worst) else self.quantity
+
+    @property
+    def over(self) -> str:
+        """The further stroke over which the worst of the quantity is taken, "" for none."""
+        return self.quantity.over if isinstance(self.quantity, Worst) else ""
 
     @property
     def leaves(self) -> tuple[Leaf, ...]:
@@ -192,6 +203,7 @@ class Least(Leaf):
     """The least value over the stroke."""
 
     word: ClassVar[str] = "least"
+    sense: ClassVar[float] = -1.0
 
 
 @final
@@ -200,6 +212,7 @@ class Most(Leaf):
     """The greatest value over the stroke."""
 
     word: ClassVar[str] = "most"
+    sense: ClassVar[float] = 1.0
 
 
 @final

@@ -30,29 +30,31 @@ class Range(NamedTuple):
 
     low: float | Quantity
     high: float | Quantity
-    is_travel: bool = False
-    """Whether it is the whole way of a cylinder that is chosen by its row of a catalogue, and so the stroke of the machine."""
 
     @property
     def follows(self) -> tuple[Quantity, ...]:
         """The ends that follow the design."""
         return tuple(end for end in (self.low, self.high) if not is_number(end))
 
-
-class FittedRows(NamedTuple):
-    """A machine of which a search can set a cylinder by rows, what varies then, and the ranges of the strokes that drive such cylinders."""
-
-    machine: Mechanism
-    vary: Any
-    travels: Mapping[str, Range]
+    @property
+    def is_travel(self) -> bool:
+        """Whether it is the whole way of a cylinder that is chosen by its row of a catalogue, and so the stroke of the machine."""
+        return isinstance(self, Travel)
 
 
-def fitted_rows(machine: Mechanism, vary: object) -> FittedRows:
-    """Return the same with rows of the cylinders that `vary` names as rows of their dimensions; DefinitionError for anything else."""
+class Travel(Range):
+    """The range of a stroke over which a cylinder goes its whole way."""
+
+
+def fitted_rows(machine: Mechanism, vary: Any) -> tuple[Mechanism, Any, dict[str, Range]]:
+    """Return a machine of which a search can set cylinders by rows, what varies then, and the ranges of the strokes that drive these.
+
+    Rows of the cylinders that `vary` names become rows of their dimensions; DefinitionError for anything else.
+    """
     elements = machine.plan.of_kind(TwoPoint)
     named = {name: rows for name, rows in vary.items() if name in elements} if isinstance(vary, Mapping) else {}
-    if not isinstance(vary, Mapping) or not named:
-        return FittedRows(machine, vary, {})
+    if not named:
+        return machine, vary, {}
     lengths = {}
     for name, rows in named.items():
         fields = fields_of(machine.plan, name, rows)
@@ -67,7 +69,7 @@ def fitted_rows(machine: Mechanism, vary: object) -> FittedRows:
         names, table, travel = rows_fitted(machine, name, rows)
         found[names] = table
         travels |= travel
-    return FittedRows(machine, found, travels)
+    return machine, found, travels
 
 
 def fields_of(plan: Plan, name: str, rows: object) -> tuple[str, ...]:
@@ -107,13 +109,13 @@ def rows_fitted(machine: Mechanism, cylinder: str, rows: Sequence[Any]) -> tuple
     along = Variable(plan.table.spellings[reach][0])
     if not dimension:
         begin = Variable(plan.table.spellings[closed][0]) - rest
-        return tuple(names), table, {stroke: Range(begin, begin + along, True)}
+        return tuple(names), table, {stroke: Travel(begin, begin + along)}
     if dimension != closed:
         now = dict(others)[dimension]
         table = [(*row, row[fields.index("closed")] - (rest - now) - start) for row in table]
-        return (*names, dimension), table, {stroke: Range(start, along + start, True)}
+        return (*names, dimension), table, {stroke: Travel(start, along + start)}
     low = dict(others)[dimension] - rest  # the cylinder's closed length is the dimension itself
-    return tuple(names), table, {stroke: Range(low, along + low, True)}
+    return tuple(names), table, {stroke: Travel(low, along + low)}
 
 
 def length_of(machine: Mechanism, name: str) -> tuple[str, list[tuple[str, float]]]:

@@ -15,7 +15,7 @@ from ..motion.measures import Constraint
 from ..program import FloatArray
 from ..units import show
 from .optimum import in_units, multipliers, unit_of_constraint
-from .problem import COARSE, LeafNumbers, Problem, is_still
+from .problem import COARSE, Problem, is_still
 from .sampling import no_value
 from .solver import Local, SearchEnd, scales_of
 
@@ -71,7 +71,8 @@ def infeasible_error(
     title = problem.plan.title
     if not reached:
         return StudyError(f"{title}: no search came to a design that can be assembled over the whole stroke; widen vary=.")
-    nowhere = [each for each in problem.constraints if all(is_lost(problem, each, one) for one in reached)]
+    looks = [problem.evaluated(problem.dimensions_at(end.unit, combination)) for combination, end in reached]
+    nowhere = [each for each in problem.constraints if all(look.lost(each.margin)[0] for look in looks)]
     if nowhere:
         why = " and ".join(no_value(problem.plan, leaf) for leaf in nowhere[0].margin.leaves)
         what = f"{shown(problem, nowhere[0])} is kept by no design that was found, for {why}"
@@ -101,11 +102,6 @@ def infeasible_error(
 def shown(problem: Problem, constraint: Constraint) -> str:
     """Return a condition as text, its number in its unit."""
     return in_units(constraint, unit_of_constraint(problem.plan, constraint))
-
-
-def is_lost(problem: Problem, constraint: Constraint, end: tuple[tuple[int, ...], SearchEnd]) -> bool:
-    """Return whether a condition's numbers have no value of the design that a local search came to."""
-    return bool(problem.evaluated(problem.dimensions_at(end[1].unit, end[0])).lost(constraint.margin)[0])
 
 
 @final
@@ -139,7 +135,7 @@ def given_way(
         problem.assembled(machine)
     except LinkageError:
         return None
-    values = LeafNumbers(problem.truths(machine.dimensions, quick=True)) if is_line else local.numbers(found.unit)
+    values = problem.truths(machine.dimensions, quick=True) if is_line else local.numbers(found.unit)
     prices = multipliers(local, found.unit).constraints if problem.space.variables else np.zeros(len(problem.constraints))
     relaxations, pulling, total = [], [], 0.0
     scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))

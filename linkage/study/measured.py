@@ -16,7 +16,7 @@ from ..errors import AssemblyError, DefinitionError, UntracedError, cited, told,
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, at_values, each_at_its_stroke, evaluate_grid, stroke_display_unit
 from ..motion.grid import JoinedTo
-from ..motion.measures import At, Integral, Leaf, Least, Measure, Worst, strokes_behind, traced, words_of
+from ..motion.measures import At, Integral, Leaf, Measure, strokes_behind, traced, words_of
 from ..motion.quadrature import PANELS, gauss, quadrature
 from ..numeric.line import Index
 from ..plan import Mask, Plan
@@ -285,7 +285,7 @@ def nothing_limits(motion: Motion, quantity: Any) -> Mask | None:
 
 def check_no_worst(leaf: Leaf) -> None:
     """Raise DefinitionError for a leaf that is over another stroke."""
-    if isinstance(leaf.quantity, Worst):
+    if leaf.over:
         raise DefinitionError(
             f"{leaf}: a study of tolerances looks at the strokes it is given; take most(...) over a grid of both strokes."
         )
@@ -294,12 +294,12 @@ def check_no_worst(leaf: Leaf) -> None:
 def fold_start(leaf: Leaf) -> float:
     """Return what an extreme has before the first pose; DefinitionError for one over another stroke."""
     check_no_worst(leaf)
-    return np.inf if isinstance(leaf, Least) else -np.inf
+    return np.inf if leaf.sense < 0.0 else -np.inf
 
 
 def fold(leaf: Leaf, total: Any, values: FloatArray) -> FloatArray:
     """Return what an extreme has after one more pose; NaN where one of them has no value."""
-    best = np.minimum if isinstance(leaf, Least) else np.maximum
+    best = np.minimum if leaf.sense < 0.0 else np.maximum
     return np.asarray(best(total, values, out=total if isinstance(total, np.ndarray) else None))
 
 

@@ -216,7 +216,7 @@ class MonteCarloRun:
         """Measure quantities and conditions of all designs."""
         measures = [each for each in asked.values() if isinstance(each, Measure)] + [each.margin for each in conditions]
         leaves = list(dict.fromkeys(leaf for measure in measures for leaf in measure.leaves))
-        self._leaves = {leaf: fold_start(leaf) for leaf in leaves if not isinstance(leaf, (At, Integral))}
+        self._leaves = {leaf: fold_start(leaf) for leaf in leaves if leaf.sense}
         every = [each for each in asked.values() if not isinstance(each, Measure)] + [leaf.quantity for leaf in self._leaves]
         quantities = self._asked = {self._key(each): each for each in every}
         bound = [key for key, each in quantities.items() if number_bound(self.poses.base.plan, each) is not None]
@@ -231,9 +231,9 @@ class MonteCarloRun:
             if key not in bound:
                 parts = [self.poses.of_function(self._block(block), quantity).T for block in blocks(self.count, self.poses.pose_count)]
                 self._take([key], np.concatenate(parts, axis=1)[None], 0, found)
-        self._leaves |= {leaf: self._of_leaf(leaf) for kind in (At, Integral) for leaf in leaves if isinstance(leaf, kind)}
+        self._leaves |= {leaf: self._of_leaf(leaf) for leaf in leaves if isinstance(leaf, (At, Integral))}
         for leaf, places in self._unlimited.items():
-            self._leaves[leaf] = np.where(places == (1 if isinstance(leaf, At) else self.poses.pose_count), np.nan, self._leaves[leaf])
+            self._leaves[leaf] = np.where(places == (self.poses.pose_count if leaf.sense else 1), np.nan, self._leaves[leaf])
         self.kept = [self._keeps(each) for each in conditions]
         for title, each in asked.items():
             if isinstance(each, Measure):
@@ -261,10 +261,10 @@ class MonteCarloRun:
 
     def _of_leaf(self, leaf: At | Integral) -> FloatArray:
         """Return a quantity at its own pose, or an integral over the row of strokes, shape (designs,)."""
-        poses = self.poses.at(leaf) if isinstance(leaf, At) else self.poses.row(leaf)[0]
+        poses = self.poses.row(leaf)[0] if isinstance(leaf, Integral) else self.poses.at(leaf)
         parts = blocks(self.count, poses.pose_count)
         found = np.concatenate([self.poses.of_leaf(self._block(block), leaf, self.way) for block in parts])
-        free = self._free(poses, leaf.quantity, found[None]) if isinstance(leaf, At) else None
+        free = None if isinstance(leaf, Integral) else self._free(poses, leaf.quantity, found[None])
         if free is not None:
             self._unlimited[leaf] = free[0].astype(int)
         self.lost |= np.isnan(found) if free is None else np.isnan(found) & ~free[0]

@@ -174,8 +174,7 @@ def optimise(
         warnings.warn(text, FutureWarning, stacklevel=2)
     check_counts(title, starts, seed, limit)
     check_progress(progress)
-    fitted = fitted_rows(machine, vary)
-    machine, vary = fitted.machine, fitted.vary
+    machine, vary, travels = fitted_rows(machine, vary)
     objectives, sense = objectives_of(machine, minimise, maximise)
     space = Space.of(machine, vary, regions)
     sides = space.sides([0] * len(space.choices))
@@ -184,7 +183,7 @@ def optimise(
         raise DefinitionError(f"{title}: {text}, class Other({type(machine).__name__}).")
     constraints = [*conditions_of(subject_to, machine), *space.conditions]
     over, occurring = where_searched(machine, over)
-    over = {**fitted.travels, **(over or {})} or over
+    over = {**travels, **(over or {})} or over
     cases, shares = cases_searched(machine, case, occurring)
     judge = machine.judge(over)
     held = pieces_in_cases(constraints, cases, judge)

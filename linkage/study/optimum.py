@@ -19,7 +19,7 @@ from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError
 from ..mechanism import Mechanism
 from ..motion.kinds import measure_of, measure_unit
-from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, Worst
+from ..motion.measures import Constraint, Given, Integral, Leaf, Measure
 from ..numeric.line import Index
 from ..plan import Plan
 from ..program import FloatArray
@@ -296,7 +296,7 @@ def described(
     problem.assembled(machine)
     if not found.feasible:
         raise AssemblyError(f"{problem.plan.title}: the design on its steps misses the conditions.")
-    now = LeafNumbers(problem.truths(machine.dimensions))
+    now = problem.truths(machine.dimensions)
     value = true_worth(problem, now)
     if not np.isfinite(value):
         raise AssemblyError(f"{problem.plan.title}: {', '.join(map(str, problem.objectives))} has no value of the best design.")
@@ -345,7 +345,7 @@ def values_of(problem: Problem, machine: Mechanism) -> LeafNumbers | None:
         problem.assembled(machine)
     except AssemblyError:
         return None
-    return LeafNumbers(problem.truths(machine.dimensions))
+    return problem.truths(machine.dimensions)
 
 
 def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
@@ -650,7 +650,7 @@ def unit_of_constraint(plan: Plan, constraint: Constraint) -> str:
 
 def unit_of_leaf(plan: Plan, leaf: Leaf) -> str:
     """Return the unit that a leaf is shown in."""
-    quantity: Any = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
+    quantity: Any = leaf.inner
     if isinstance(leaf, Integral):
         return ""
     if isinstance(quantity, str) and quantity not in plan.members and quantity in plan.table.spellings:

@@ -22,7 +22,7 @@ from ..shown import Shown
 from ..units import show
 from .infeasible import infeasible_error
 from .optimum import unit_of_measure
-from .problem import COARSE, LeafNumbers, Problem
+from .problem import COARSE, Problem
 from .solver import MET, Local, SearchEnd, missing_of, scales_of
 from .survey import Progress
 
@@ -159,7 +159,7 @@ def on_front(
     except (AssemblyError, LinkageError):
         return None
     with problem.count.without_limit():
-        values = LeafNumbers(problem.truths(machine.dimensions))
+        values = problem.truths(machine.dimensions)
         scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
     if missing_of(problem.constraints, scales, values) > MET:
         return None

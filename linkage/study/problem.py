@@ -12,12 +12,13 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import prod
-from typing import Any, NamedTuple, TypeAlias, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
 from ..checks import require_type
 from ..errors import DefinitionError, StudyError, cited
+from ..frozen import FrozenDict
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, greatest
 from ..motion.grid import JoinedTo, joined_in_order, varies
@@ -107,8 +108,8 @@ def ranges_of(machine: Mechanism, over: object) -> dict[str, Range]:
     found = {}
     for name, stroke in plan.strokes.items():
         ends = given.get(name, (stroke.start, stroke.end))
-        low, high = (float(ends), float(ends)) if is_number(ends) else ends[:2]
-        found[name] = ends if isinstance(ends, Range) else Range(low, high)
+        pair = (float(ends), float(ends)) if is_number(ends) else ends
+        found[name] = ends if isinstance(ends, Range) else Range(*pair)
     return found
 
 
@@ -195,6 +196,9 @@ class Evaluated:
         return np.asarray(np.any([self.rows[leaf].lost for leaf in measure.leaves], axis=0))
 
 
+NO_PARTS: Mapping[str, float] = FrozenDict()
+
+
 class LimitReachedError(StudyError):
     """A search has looked at as many designs as it may."""
 
@@ -230,21 +234,23 @@ class Count:
             self.limit = kept
 
 
-class Truth(NamedTuple):
-    """A leaf's number of one design: where, in parts (0 to 1) of the strokes' ranges, and whether it is lost, without a value somewhere."""
-
-    value: float
-    parts: Mapping[str, float]
-    lost: bool
-
-
 @final
 class LeafNumbers(dict[Leaf, float]):
-    """The leaves' numbers of one design; `lost` are those that have no value at a pose."""
+    """The leaves' numbers of one design; `lost` are those that have no value at a pose.
 
-    def __init__(self, found: Mapping[Leaf, Truth]) -> None:
-        super().__init__({leaf: each.value for leaf, each in found.items()})
-        self.lost = frozenset(leaf for leaf, each in found.items() if each.lost)
+    `parts` say of extremes where they are, in parts (0 to 1) of the strokes' ranges.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.lost: set[Leaf] = set()
+        self.parts: dict[Leaf, Mapping[str, float]] = {}
+
+    def enter(self, leaf: Leaf, value: float, *, lost: object, parts: Mapping[str, float] = NO_PARTS) -> None:
+        """Enter the number of a leaf, and whether it is lost."""
+        self[leaf], self.parts[leaf] = value, parts
+        if lost:
+            self.lost.add(leaf)
 
 
 @final
@@ -311,11 +317,10 @@ class Problem:
         moving = tuple(name for name, one in self.ranges.items() if not is_still(one))
         for leaf in self.leaves:
             poses, single = self._poses(leaf, moving)
-            inner = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
-            self._of_leaf[leaf] = poses, poses.place(inner), single
+            self._of_leaf[leaf] = poses, poses.place(leaf.inner), single
         self.whole = self._set(moving)
         self.owners = tuple(dict.fromkeys(each.owner for each in space.variables))
-        self._samplings: dict[int, Sampling] = {}
+        self._samplings: dict[PoseSet, Sampling] = {}
         self._sizes: list[float] | None = None
         self._branches: dict[str, Problem] = {}
         self.refusal = ""
@@ -356,8 +361,8 @@ class Problem:
     @property
     def functions(self) -> list[Callable[..., Any]]:
         """The functions of a motion among what is asked."""
-        asked = [leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity for leaf in self.leaves]
-        return [each for each in asked if callable(each) and not isinstance(each, (str, Quantity, Request))]
+        asked = [leaf.inner for leaf in self.leaves]
+        return [each for each in asked if callable(each) and not isinstance(each, (Quantity, Request))]
 
     def value(self, numbers: Callable[[Leaf], Any]) -> Any:
         """Return the objective from the leaves' numbers: of several the worst."""
@@ -368,11 +373,10 @@ class Problem:
 
     def _poses(self, leaf: Leaf, moving: Sequence[str]) -> tuple[PoseSet, int]:
         """Return the poses of a leaf, shared with others that are looked at at the same, and which single one it is, -1 for all."""
-        title, quantity = self.plan.title, leaf.quantity
-        inner = quantity.over if isinstance(quantity, Worst) else ""
+        title, quantity, inner = self.plan.title, leaf.quantity, leaf.over
         if inner and inner not in self.plan.strokes:
             raise DefinitionError(f"{title}: {quantity}: there is no stroke {inner!r}; its strokes are {', '.join(self.plan.strokes)}.")
-        depends = strokes_behind(self.plan, quantity.quantity if isinstance(quantity, Worst) else quantity)
+        depends = strokes_behind(self.plan, leaf.inner)
         axes = tuple(name for name in moving if name in depends and name != inner)
         if isinstance(leaf, At):
             return self._single(leaf, depends, inner)
@@ -453,13 +457,12 @@ class Problem:
         with self.count.without_limit():
             each_of = [{name: float(np.ravel(value)[k]) if np.ndim(value) else value for name, value in designs.items()} for k in range(m)]
             parts = [self.evaluated(design) for design in each_of]
-        rows = {leaf: [each.rows[leaf] for each in parts] for leaf in self.leaves}
-        return Evaluated(
-            {leaf: Rows(np.concatenate([each.values for each in own]), None, np.concatenate([each.lost for each in own]))
-             for leaf, own in rows.items()},
-            np.concatenate([each.margins for each in parts]), None,
-            np.concatenate([each.whole for each in parts]), np.concatenate([each.reached for each in parts]),
-        )  # fmt: skip
+        margins, whole, reached = (np.concatenate([getattr(each, name) for each in parts]) for name in ("margins", "whole", "reached"))
+        rows = {}
+        for leaf in self.leaves:
+            values, lost = (np.concatenate([getattr(each.rows[leaf], name) for each in parts]) for name in ("values", "lost"))
+            rows[leaf] = Rows(values, None, lost)
+        return Evaluated(rows, margins, None, whole, reached)
 
     @cached_property
     def _can_be_asked(self) -> bool:
@@ -483,30 +486,25 @@ class Problem:
     def _look(self, designs: Mapping[str, Numbers], m: int, *, slopes: bool) -> Evaluated:
         """Return what is seen of m designs; DefinitionError where one of them is refused."""
         ends = self._ends(designs, slopes=slopes)
-        whole, reached, margins, margin_slopes = np.ones(m, bool), np.ones(m), [], []
-        found: dict[int, Samples] = {}
-        for number, poses in enumerate(self.sets):
+        whole, reached, margins, margin_slopes = np.ones(m, bool), np.ones(m), np.zeros((m, 0)), None
+        found: dict[PoseSet, Samples] = {}
+        for poses in self.sets:
             judged = slopes and poses is self.whole
-            samples = self._sampling(number).at(self._grid(poses, designs, ends), margins=judged, slopes=slopes)
-            found[number] = samples
+            samples = found[poses] = self._sampling(poses).at(self._grid(poses, designs, ends), margins=judged, slopes=slopes)
             whole &= samples.reached.all(axis=1)
             reached = np.minimum(reached, samples.reached.mean(axis=1))
             if judged and samples.margin_slopes is not None:
-                margins.append(np.moveaxis(samples.margins, 0, 1).reshape(m, samples.margins.shape[0] * samples.margins.shape[2]))
+                margins = np.moveaxis(samples.margins, 0, 1).reshape(m, samples.margins.shape[0] * samples.margins.shape[2])
                 total = np.moveaxis(self._by_unit(samples.margin_slopes, poses, ends), 1, 0)
-                margin_slopes.append(total.reshape(len(total), int(np.prod(total.shape[1:]))))  # of no variable too
+                margin_slopes = total.reshape(len(total), prod(total.shape[1:]))  # of no variable too
         rows = {leaf: self._rows(leaf, found, ends) for leaf in self.leaves}
-        return Evaluated(
-            rows, np.concatenate([np.zeros((m, 0)), *margins], axis=1), np.concatenate(margin_slopes, axis=1) if slopes else None,
-            whole, reached,
-        )  # fmt: skip
+        return Evaluated(rows, margins, margin_slopes, whole, reached)
 
-    def _sampling(self, number: int) -> Sampling:
-        if number not in self._samplings:
-            poses = self.sets[number]
+    def _sampling(self, poses: PoseSet) -> Sampling:
+        if poses not in self._samplings:
             strokes = tuple(name for name in poses.axes if self.ranges[name].follows)
-            self._samplings[number] = Sampling(self.plan, poses.quantities, (*self.owners, *strokes))
-        return self._samplings[number]
+            self._samplings[poses] = Sampling(self.plan, poses.quantities, (*self.owners, *strokes))
+        return self._samplings[poses]
 
     @cached_property
     def _samplings_of_ends(self) -> dict[Quantity, Sampling]:
@@ -574,15 +572,14 @@ class Problem:
             factors[place, self.owners.index(each.owner)] = each.sign * each.span
         return factors
 
-    def _rows(self, leaf: Leaf, found: Mapping[int, Samples], ends: Ends) -> Rows:
+    def _rows(self, leaf: Leaf, found: Mapping[PoseSet, Samples], ends: Ends) -> Rows:
         """Return the rows of a leaf."""
         poses, place, single = self._of_leaf[leaf]
-        samples = found[self.sets.index(poses)]
+        samples = found[poses]
         values, slopes = samples.values[place], None
         if samples.value_slopes is not None:
             slopes = self._by_unit(samples.value_slopes[[place]], poses, ends)[0]
-        if poses.inner:
-            assert isinstance(leaf.quantity, Worst)
+        if isinstance(leaf.quantity, Worst):
             values, slopes = worst_along(values, slopes, len(poses.axes[poses.inner]), leaf.quantity.sense)
         if single >= 0:
             values, slopes = values[:, [single]], None if slopes is None else slopes[:, [single]]
@@ -641,8 +638,8 @@ class Problem:
         """Return between which values a measure lies whatever the variables; None where a leaf of it is taken over the stroke."""
         nodes: list[Node] = []
         for leaf in measure.leaves:
-            is_taken = isinstance(leaf.quantity, Worst) or strokes_behind(self.plan, leaf.quantity)
-            request = None if is_taken else traced(self.plan, leaf.quantity)
+            is_taken = leaf.over or strokes_behind(self.plan, leaf.inner)
+            request = None if is_taken else traced(self.plan, leaf.inner)
             if request is None:
                 return None
             nodes += request.nodes(self.plan)
@@ -686,7 +683,7 @@ class Problem:
 
         Over further strokes that value is taken which is the worst for the leaf, of others than an extreme the greatest.
         """
-        kind = Least if isinstance(leaf, Least) else Most
+        kind = Least if leaf.sense < 0.0 else Most
         counts = {each: count if each < 2 else max(SAMPLES.get(each, 3), 33 // each) for each in range(6)}
         alone = Problem(self.machine, [kind(leaf.quantity)], [], NOWHERE, over=self.over, counts=counts)
         asked = alone.leaves[0]
@@ -702,24 +699,24 @@ class Problem:
 
     # -- the whole truth ---------------------------------------------------------------------------------
 
-    def truths(self, design: Mapping[str, Numbers], *, quick: bool = False) -> dict[Leaf, Truth]:
+    def truths(self, design: Mapping[str, Numbers], *, quick: bool = False) -> LeafNumbers:
         """Return the values of all leaves of one design, between the poses too.
 
         As a motion gives them, or `quick` by the plan's program, which the search itself follows.
         """
-        found: dict[Leaf, Truth] = {}
+        found = LeafNumbers()
         between: dict[tuple[str, ...], list[Leaf]] = {}
         sampled: list[Leaf] = []
         for leaf in self.leaves:
             poses, _, single = self._of_leaf[leaf]
-            if isinstance(leaf, (Least, Most)) and poses.axes and not poses.inner:
+            if leaf.sense and poses.axes and not poses.inner:
                 between.setdefault(tuple(poses.axes), []).append(leaf)
             elif isinstance(leaf, At) and not poses.inner and not quick:
                 alone = PoseSet({}, [poses.singles[single]])
                 here = motion_of(self._grid(alone, design, self._ends(design, slopes=False)))
                 value = float(np.ravel(eager(here, leaf.quantity))[0])
                 free = nothing_limits(here, leaf.quantity) if np.isnan(value) else None
-                found[leaf] = Truth(value, {}, bool(np.isnan(value)) and (free is None or not free.all()))
+                found.enter(leaf, value, lost=np.isnan(value) and (free is None or not free.all()))
             else:
                 sampled.append(leaf)
         if sampled:
@@ -731,16 +728,18 @@ class Problem:
                     value = float(self.panels(leaf, design).value) * (high - low)
                 else:
                     value = float(reduced(leaf, rows[leaf].values)[0])
-                found[leaf] = Truth(value, {}, bool(rows[leaf].lost[0]))
+                found.enter(leaf, value, lost=rows[leaf].lost[0])
         for names, leaves in between.items():
-            found |= self._extremes(leaves, design, names, quick=quick)
+            self._enter_extremes(found, leaves, design, names, quick=quick)
         return found
 
-    def _extremes(self, leaves: Sequence[Leaf], design: Mapping[str, Numbers], names: Sequence[str], *, quick: bool) -> dict[Leaf, Truth]:
-        """Return the extremes of one design over some strokes, all looked for together."""
+    def _enter_extremes(
+        self, found: LeafNumbers, leaves: Sequence[Leaf], design: Mapping[str, Numbers], names: Sequence[str], *, quick: bool
+    ) -> None:
+        """Enter the extremes of one design over some strokes, all looked for together."""
         poses = PoseSet({name: np.linspace(0.0, 1.0, 33 if len(names) == 1 else 5) for name in names})
         motion = motion_of(self._grid(poses, design, self._ends(design, slopes=False)))
-        senses = [-1.0 if isinstance(leaf, Least) else 1.0 for leaf in leaves]
+        senses = [leaf.sense for leaf in leaves]
         watched = WatchedValues(self.plan, [leaf.quantity for leaf in leaves], senses, quick=quick)
         tops = greatest(motion, watched)
         parts: list[dict[str, float]] = [{} for _ in leaves]
@@ -752,10 +751,8 @@ class Problem:
                 part = (float(place) - low) / (high - low) if high > low else 0.0
                 own[name] = 1.0 - part if turned else part
         values = np.ravel(tops.value) * senses
-        return {
-            leaf: Truth(float(value), own, bool(lost))
-            for leaf, value, own, lost in zip(leaves, values, parts, watched.without_value, strict=True)
-        }
+        for leaf, value, own, lost in zip(leaves, values, parts, watched.without_value, strict=True):
+            found.enter(leaf, float(value), lost=lost, parts=own)
 
     def tops(self, leaf: Leaf, design: Mapping[str, Numbers]) -> list[dict[str, float]]:
         """Return where between its samples a leaf of one design has tops that come near its worst value: the part of its stroke's range."""
@@ -763,12 +760,11 @@ class Problem:
         if len(poses.axes) != 1 or poses.inner:
             return []
         ((name, axis),) = poses.axes.items()
-        sampling, ends = self._sampling(self.sets.index(poses)), self._ends(design, slopes=False)
-        sense = -1.0 if isinstance(leaf, Least) else 1.0
+        sampling, ends = self._sampling(poses), self._ends(design, slopes=False)
 
         def values(at: FloatArray) -> FloatArray:
             found = sampling.at(self._grid(PoseSet({name: at}), design, ends)).values[place, 0]
-            return np.where(np.isfinite(found), sense * found, -np.inf)
+            return np.where(np.isfinite(found), leaf.sense * found, -np.inf)
 
         seen = values(axis)
         band = np.ptp(seen[np.isfinite(seen)]) * NEAR_TOP if np.isfinite(seen).any() else 0.0
@@ -787,13 +783,12 @@ class Problem:
         """Return an integral of one design over the parts (0 to 1) of its stroke, and the panels that it takes."""
         poses, place, _ = self._of_leaf[leaf]
         (name,) = poses.outer
-        sampling, ends = self._sampling(self.sets.index(poses)), self._ends(design, slopes=False)
+        sampling, ends = self._sampling(poses), self._ends(design, slopes=False)
 
         def values(places: FloatArray) -> FloatArray:
             axes = {name: places} | ({poses.inner: poses.axes[poses.inner]} if poses.inner else {})
             found = sampling.at(self._grid(PoseSet(axes, weights=None, inner=poses.inner), design, ends)).values[place]
-            if poses.inner:
-                assert isinstance(leaf.quantity, Worst)
+            if isinstance(leaf.quantity, Worst):
                 found, _ = worst_along(found, None, len(poses.axes[poses.inner]), leaf.quantity.sense)
             return np.asarray(found[0])
 
@@ -894,8 +889,5 @@ def worst_along(values: FloatArray, slopes: FloatArray | None, count: int, sense
 def reduced(leaf: Leaf, values: FloatArray) -> FloatArray:
     """Return what a leaf takes of its rows (m, n): one number (m,); rows without a value say nothing, NaN where none has one."""
     with np.errstate(all="ignore"):
-        if isinstance(leaf, Least):
-            return np.asarray(np.where(np.isnan(values).all(axis=1), np.nan, np.fmin.reduce(values, axis=1)))
-        if isinstance(leaf, Most):
-            return np.asarray(np.where(np.isnan(values).all(axis=1), np.nan, np.fmax.reduce(values, axis=1)))
-    return np.asarray(values[:, 0])
+        best = np.fmin if leaf.sense < 0.0 else np.fmax
+        return np.asarray(best.reduce(values, axis=1) if leaf.sense else values[:, 0])

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, known_name
+from ..checks import require_type
+from ..errors import DefinitionError, known_name
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint, least
 from ..motion.regions import Disc, Region, inside_region, region_of
+from ..numeric.line import Index
 from ..plan import Reading
 from ..program import FloatArray
 from ..surroundings import Outline
@@ -54,7 +56,7 @@ class PointRegion:
         ]
         return np.stack(columns, axis=1)
 
-    def put(self, values: FloatArray, rows: Any, where: FloatArray) -> None:
+    def put(self, values: FloatArray, rows: Index | slice, where: FloatArray) -> None:
         """Put the point of some rows of values (m, n) where it is to stand, (k, 2)."""
         for column, (place, sign) in enumerate(zip(self.places, self.signs, strict=True)):
             if place is not None:
@@ -64,14 +66,11 @@ class PointRegion:
 def point_regions(machine: Mechanism, given: object, circles: Mapping[str, float], variables: Sequence[Varied]) -> tuple[PointRegion, ...]:
     """Return the regions that are given, and circles about where points stand now, by their radius; DefinitionError for anything else."""
     title, plan = machine.plan.title, machine.plan
-    if given is None:
-        given = {}
-    if not isinstance(given, Mapping):
-        example = 'regions={"C": [(0, 0), (0.4, 0), (0.4, 0.3)]}'
-        raise DefinitionError(f"{title}: regions={cited(given)}: a region for each point is expected, {example}.")
+    expected = 'a region for each point is expected, regions={"C": [(0, 0), (0.4, 0), (0.4, 0.3)]}'
+    regions = require_type(f"{title}: regions", {} if given is None else given, Mapping, expected)
     reading = Reading(plan.members, plan.table.lengths, machine.dimensions)
     found = []
-    for point, shapes in given.items():
+    for point, shapes in regions.items():
         known_name("Point", point, plan.points, where=f"{title}: regions")
         where = f"{title}: regions={{{point!r}: ...}}"
         region = region_of(shapes, where, plan.of_kind(Outline), lambda each: float(reading.value(each)))
@@ -105,9 +104,7 @@ def drawn_inside(title: str, regions: Sequence[PointRegion], variables: Sequence
     """
     found = np.array(values)
     for number, each in enumerate(regions):
-        if not each.varies:
-            continue
-        out = np.flatnonzero(each.region.depths(each.of(found)) < 0.0)
+        out = np.flatnonzero(each.region.depths(each.of(found)) < 0.0) if each.varies else ()
         if len(out):
             places = places_inside(title, each, variables, len(out), seed + number)
             each.put(found, out, places[np.arange(len(out)) % len(places)])
@@ -138,6 +135,5 @@ def put_inside(regions: Sequence[PointRegion], values: FloatArray) -> FloatArray
     found = np.array(values)
     for each in regions:
         if each.varies:
-            every = np.arange(len(found))
-            each.put(found, every, each.region.nearest(each.of(found)))
+            each.put(found, slice(None), each.region.nearest(each.of(found)))
     return found

@@ -13,7 +13,7 @@ from ..motion import Grid, Motion, NodeRequest, Request
 from ..motion.evaluation import BulkProgram, Evaluation
 from ..motion.grid import Angles, angles_of
 from ..motion.kinds import constant_part, operation
-from ..motion.measures import Leaf, Worst, traced, words_of
+from ..motion.measures import Leaf, traced, words_of
 from ..motion.requests import slope
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node
@@ -232,7 +232,7 @@ def zero_factors(plan: Plan, divisor: object) -> list[Any]:
 
 def no_value(plan: Plan, leaf: Leaf) -> str:
     """Return in words that a leaf has no value of some design, and why."""
-    divisors = divisors_of(plan, leaf.quantity) if not isinstance(leaf.quantity, Worst) else ()
+    divisors = () if leaf.over else divisors_of(plan, leaf.quantity)
     if not divisors:
         return f"{leaf} has no value at some poses"
     why = f"it is divided by {', '.join(map(words_of, divisors))}, and where it passes zero within the stroke, it grows without bounds"

@@ -15,10 +15,10 @@ from typing import Any, NamedTuple, Protocol, final
 import numpy as np
 
 from ..errors import DefinitionError, StudyError
-from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most
+from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Measure
 from ..program import FloatArray
 from .constrained_step import constrained_step
-from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Truth, missed, scale_among
+from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, missed, scale_among
 from .sampling import no_value
 
 FAR = 10.0
@@ -203,10 +203,10 @@ class Local:
                 continue
             expression = owner.margin if isinstance(owner, Constraint) else owner
             for leaf in expression.leaves:
-                if not isinstance(leaf, (Least, Most)) or look.rows[leaf].values.shape[1] < 2:
+                if not leaf.sense or look.rows[leaf].values.shape[1] < 2:
                     continue
                 way = grows(expression, leaf, look.of_one) * (1.0 if isinstance(owner, Constraint) else -self.problem.sense)
-                if way * (1.0 if isinstance(leaf, Least) else -1.0) > 0.0:
+                if way * leaf.sense < 0.0:
                     found.append((owner, leaf))
         return found
 
@@ -364,7 +364,7 @@ class Local:
         """Return the lines that hold a leaf's variable below or above each of its rows."""
         rows, scale = look.rows[leaf], self.leaf_scales[leaf]
         assert rows.slopes is not None
-        sign = 1.0 if isinstance(leaf, Least) else -1.0
+        sign = -leaf.sense
         values = sign * (rows.values[0] / scale - z[self.n + place])
         slopes = np.zeros((values.size, self.width))
         slopes[:, : self.n] = sign * rows.slopes.T / scale
@@ -527,8 +527,10 @@ class Local:
 
     def numbers(self, unit: FloatArray) -> LeafNumbers:
         """Return the leaves' numbers at the samples of unit coordinates."""
-        look = self.evaluated_at(unit)
-        return LeafNumbers({leaf: Truth(value, {}, bool(look.rows[leaf].lost[0])) for leaf, value in look.of_one.items()})
+        look, found = self.evaluated_at(unit), LeafNumbers()
+        for leaf, value in look.of_one.items():
+            found.enter(leaf, value, lost=look.rows[leaf].lost[0])
+        return found
 
     def _nearest_good(self, unit: FloatArray) -> FloatArray:
         """Return unit coordinates; where these cannot be worked with, the last ones on the way from the good ones to them that can."""
@@ -559,7 +561,7 @@ class Local:
         problem, design = self.problem, self.problem.dimensions_at(unit, self.combination)
         before, added = self.evaluated_at(unit).of_one, False
         for leaf in problem.leaves:
-            for parts in problem.tops(leaf, design) if isinstance(leaf, (Least, Most)) else ():
+            for parts in problem.tops(leaf, design) if leaf.sense else ():
                 added = problem.refined(leaf, parts) or added
             if isinstance(leaf, Integral):
                 added = problem.refined_panels(leaf, design) or added
@@ -573,8 +575,8 @@ class Local:
         """Return whether a leaf's value is worse than what is known of it, by what counts."""
         if isinstance(leaf, Integral):
             return bool(abs(value - known) > 0.1 * MET * max(self.leaf_scales[leaf], abs(value)))
-        worse = (known - value) * (1.0 if isinstance(leaf, Least) else -1.0)
-        return isinstance(leaf, (Least, Most)) and bool(worse > 0.1 * MET * max(self.leaf_scales[leaf], abs(value)))
+        worse = (value - known) * leaf.sense
+        return bool(leaf.sense) and bool(worse > 0.1 * MET * max(self.leaf_scales[leaf], abs(value)))
 
     def _truth(self, unit: FloatArray) -> tuple[SearchEnd, bool]:
         """Return the truth between the samples too, and whether it is worse than what was known; its poses are samples from then on."""
@@ -583,14 +585,13 @@ class Local:
         if not bool(look.whole[0]):
             return SearchEnd(unit, np.nan, np.inf, False), False
         known, truths, worse = look.of_one, problem.truths(design, quick=True), False
-        for leaf, found in truths.items():
-            if not isinstance(leaf, Integral) and self._is_worse(leaf, found.value, known[leaf]) and problem.refined(leaf, found.parts):
+        for leaf, value in truths.items():
+            if leaf.sense and self._is_worse(leaf, value, known[leaf]) and problem.refined(leaf, truths.parts[leaf]):
                 worse = True
         if worse:
             self._forget()
-        values = LeafNumbers(truths)
-        value = true_worth(problem, values)
-        return SearchEnd(unit, value, missing_of(problem.constraints, self.scales, values), True), worse
+        missing = missing_of(problem.constraints, self.scales, truths)
+        return SearchEnd(unit, true_worth(problem, truths), missing, True), worse
 
 
 def divisors(expressions: Sequence[Measure]) -> list[Measure]:
@@ -660,8 +661,8 @@ def graded_leaf(leaf: Leaf, look: Evaluated) -> Graded:
     rows = look.rows[leaf]
     assert rows.slopes is not None
     place = 0
-    if isinstance(leaf, (Least, Most)) and bool(np.isfinite(rows.values[0]).any()):
-        place = int((np.nanargmin if isinstance(leaf, Least) else np.nanargmax)(rows.values[0]))
+    if leaf.sense and bool(np.isfinite(rows.values[0]).any()):
+        place = int((np.nanargmin if leaf.sense < 0.0 else np.nanargmax)(rows.values[0]))
     return Graded(float(rows.values[0, place]), rows.slopes[:, place])
 
 
@@ -691,9 +692,9 @@ def single_extreme(constraint: Constraint) -> tuple[Leaf, float, float] | None:
     """Return a single extreme, its sign and the number it is held against, where a condition gains from its being so; else None."""
     left, right = constraint.left, constraint.right
     for one, other, sign in ((left, right, 1.0), (right, left, -1.0)):
-        if isinstance(one, (Least, Most)) and isinstance(other, Given):
+        if isinstance(one, Leaf) and isinstance(other, Given):
             sign = sign if constraint.symbol == ">=" else -sign
-            if (sign > 0.0) == isinstance(one, Least):
+            if sign * one.sense < 0.0:
                 return one, sign, other.value
     return None
 

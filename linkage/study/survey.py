@@ -16,7 +16,7 @@ from math import ceil
 from pickle import PicklingError
 from queue import SimpleQueue
 from time import perf_counter
-from typing import Any, NamedTuple, Protocol, TypeAlias, final
+from typing import Any, Protocol, TypeAlias, final
 
 import numpy as np
 
@@ -57,15 +57,6 @@ class LocalExecutor:
         return future
 
 
-class Submission(NamedTuple):
-    """A range of designs under way, which try it is, and when it left [s]."""
-
-    start: int
-    stop: int
-    attempt: int
-    at: float
-
-
 @final
 class SurveyRun:
     """What is done of a study, what is under way, and what is left."""
@@ -76,7 +67,8 @@ class SurveyRun:
         self.sizes = BatchSizes(max(1, MOST // (task.piece * designs.width)))
         self.values: dict[str, Array] = {}
         self.batches: list[Batch] = []
-        self._under_way: dict[Any, Submission] = {}
+        self._under_way: dict[Any, tuple[int, int, int, float]] = {}
+        """Of a future the range of its designs, which try it is, and when it left [s]."""
         self._back: SimpleQueue[tuple[Any, float]] = SimpleQueue()
         self._tries: dict[int, int] = {}
 
@@ -117,21 +109,21 @@ class SurveyRun:
     def _send(self) -> None:
         """Send the next batch."""
         start, stop = self.left.take(self.sizes.next_pieces(self.left.pieces_left))
-        submission = Submission(start, stop, self._tries.get(start, 0), perf_counter())
+        attempt, left = self._tries.get(start, 0), perf_counter()
         try:
             dimensions = self.designs.dimensions(start, stop)
-            future = self.executor.submit(measure_batch, self.task, start, stop, dimensions, submission.attempt)
+            future = self.executor.submit(measure_batch, self.task, start, stop, dimensions, attempt)
         except Exception as error:
             cannot_send = f"{self.task.what} {CANNOT_SEND}"
             is_pickling = isinstance(error, PICKLING_ERRORS)
             raise self._error(cannot_send if is_pickling else "The executor takes no more work and has to be made anew", error) from error
-        self._under_way[future] = submission
+        self._under_way[future] = start, stop, attempt, left
         future.add_done_callback(lambda done: self._back.put((done, perf_counter())))
 
     def _take(self, future: Any, at: float) -> None:
         """Take a batch in; give it out again, a few times, where it was lost on the way."""
         is_full = len(self._under_way) >= self.sizes.ahead
-        submission = self._under_way.pop(future)
+        start, stop, attempt, left = self._under_way.pop(future)
         try:
             batch: Batch = future.result()
         except LinkageError as error:
@@ -141,15 +133,14 @@ class SurveyRun:
         except PICKLING_ERRORS as error:
             raise self._error(f"{self.task.what} {CANNOT_SEND}", error) from error
         except Exception as error:
-            start, last = submission.start, submission.stop - 1
-            self._tries[start] = submission.attempt + 1
-            if self._tries[start] >= TRIES:
-                what = f"Designs {start} to {last} were lost {TRIES} times, by want of memory if not by measure itself"
-                raise self._error(what, error, (start, last)) from error
-            self.left.ranges.insert(0, (start, submission.stop))
+            self._tries[start] = attempt + 1
+            if attempt + 1 >= TRIES:
+                what = f"Designs {start} to {stop - 1} were lost {TRIES} times, by want of memory if not by measure itself"
+                raise self._error(what, error, (start, stop - 1)) from error
+            self.left.ranges.insert(0, (start, stop))
         else:
-            waited = at - submission.at - batch.seconds if is_full else float("inf")
-            self.sizes.learn(-(-(submission.stop - submission.start) // self.task.piece), batch.seconds, waited)
+            waited = at - left - batch.seconds if is_full else float("inf")
+            self.sizes.learn(-(-(stop - start) // self.task.piece), batch.seconds, waited)
             self._keep(batch)
             self.tell(self.done, self.designs.count)
 

@@ -8,9 +8,10 @@ come on top. Nothing here knows which kinds of elements limit a load.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, product
 from typing import Any, final
 
 import numpy as np
@@ -131,13 +132,11 @@ class WorkingField:
 
     def cells(self) -> list[dict[str, Any]]:
         """Return each cell as a row: x, y [m], load [N], limiter, strokes [SI], why; heights from above, radii ascending."""
-        rows = []
-        for k in np.argsort(-self.y, kind="stable"):
-            for n in np.argsort(self.x, kind="stable"):
-                row: dict[str, Any] = {"x": float(self.x[n]), "y": float(self.y[k]), "load": float(self.load[k, n])}
-                row["limiter"] = str(self.limiter[k, n])
-                row |= {name: float(values[k, n]) for name, values in self.strokes.items()}
-                rows.append(row | {"why": str(self.why[k, n])})
+        rows: list[dict[str, Any]] = []
+        for k, n in product(np.argsort(-self.y, kind="stable"), np.argsort(self.x, kind="stable")):
+            place = {"x": float(self.x[n]), "y": float(self.y[k]), "load": float(self.load[k, n]), "limiter": str(self.limiter[k, n])}
+            strokes = {name: float(values[k, n]) for name, values in self.strokes.items()}
+            rows.append({**place, **strokes, "why": str(self.why[k, n])})
         return rows
 
     def motion(self) -> Motion:
@@ -192,31 +191,30 @@ def working_field(
 
 def axis_values(given: object, name: str, title: str) -> FloatArray:
     """Return the places along an axis [m]; DefinitionError for anything but a row of numbers."""
-    try:
+    found = np.empty((0, 0))
+    with suppress(TypeError, ValueError, OverflowError):
         found = np.atleast_1d(real(given))
-    except (TypeError, ValueError, OverflowError):
-        found = np.empty((0, 0))
-    if found.ndim != 1 or not found.size or not np.isfinite(found).all():
-        what = "it has no number" if found.ndim == 1 and not found.size else "numbers in a row [m] are expected"
-        raise DefinitionError(f"{title}: {name}={cited(given)}: {what}, such as {name}=np.linspace(1, 6, 14).")
+    what = "it has no number" if found.ndim == 1 and not found.size else "numbers in a row [m] are expected"
+    fits = found.ndim == 1 and found.size and np.isfinite(found).all()
+    require(fits, f"{title}: {name}", given, f"{what}, such as {name}=np.linspace(1, 6, 14)")
     require(np.unique(found).size >= found.size, f"{title}: {name}", given, "a place stands in it twice; give each once")
     return frozen(found)
 
 
 def names_among(given: object, what: str, known: Mapping[str, object], title: str, example: str) -> tuple[str, ...]:
     """Return names; DefinitionError for one that is unknown."""
-    if isinstance(given, str) or not isinstance(given, (list, tuple, set, frozenset)):
-        raise DefinitionError(f"{title}: {what}={cited(given)}: a list of names is expected, {what}=[{example}].")
-    return tuple(known_name("Load", name_of(each), known, where=f"{title}: {what}") for each in given)
+    listed = require_type(f"{title}: {what}", given, (list, tuple, set, frozenset), f"a list of names is expected, {what}=[{example}]")
+    return tuple(known_name("Load", name_of(each), known, where=f"{title}: {what}") for each in listed)
 
 
 def ranges_over(machine: Mechanism, over: object, title: str) -> StrokeRanges:
     """Return the ends between which strokes run [m or rad]; DefinitionError for anything but a box of strokes."""
     if over is None:
         return DECLARED
-    found = Over(**over) if isinstance(over, Mapping) and all(isinstance(name, str) for name in over) else over
-    if not isinstance(found, Over) or found.shape != "box":
-        raise DefinitionError(f"{title}: over={cited(over)}: ranges of strokes are expected, such as over=Over(S=(0.0, 0.2)).")
+    given = Over(**over) if isinstance(over, Mapping) and all(isinstance(name, str) for name in over) else over
+    what, expected = f"{title}: over", "ranges of strokes are expected, such as over=Over(S=(0.0, 0.2))"
+    found = require_type(what, given, Over, expected)
+    require(found.shape == "box", what, found, expected)
     if found.only or found.cases:
         what, remedy = ("only=", 'limits={"front": x("T") <= 4}') if found.only else ("cases=", 'case="full"')
         raise DefinitionError(f"{title}: over={found}: {what} is not looked at here; give {remedy}.")
@@ -248,7 +246,7 @@ class FurtherLimit:
         """Return a limit as it was given; DefinitionError for anything else."""
         if isinstance(given, PoseCondition):
             return cls(margin=given.margin)
-        if is_number(given) and not isinstance(given, bool) and float(given) < 0.0:
+        if is_number(given) and float(given) < 0.0:
             what = f"{title}: limits: {name} = {cited(given)} is below zero"
             raise DefinitionError(f"{what}; a load that may not be exceeded is expected [N].")
         if is_number(given) or isinstance(given, (str, Quantity)):
@@ -327,8 +325,9 @@ class FieldSearch:
         if count > MOST_CELLS:
             what = f"{title}: {axes[0].size} by {axes[1].size} are {count} cells"
             raise DefinitionError(f"{what}, up to {MOST_CELLS} are looked at; give fewer.")
-        if not isinstance(keep, (list, tuple)) or not all(isinstance(each, Target) and not each.is_path for each in keep):
-            raise DefinitionError(f'{title}: keep={cited(keep)}: a list of targets is expected, such as keep=[Target("tilt", 0.0)].')
+        expected = 'a list of targets is expected, such as keep=[Target("tilt", 0.0)]'
+        require_type(f"{title}: keep", keep, (list, tuple), expected, of=Target)
+        require(not any(each.is_path for each in keep), f"{title}: keep", keep, expected)
         targets = [Target(x_of(name), float(axes[0][0])), Target(y_of(name), float(axes[1][0])), *keep]
         ranges = ranges_over(machine, over, title)
         still = {name: low for name, (low, high) in ranges.items() if low == high}
@@ -549,29 +548,23 @@ class FieldSearch:
 
     def remarks(self, failing: Mapping[str, int]) -> tuple[str, ...]:
         """Return what a reader of the chart has to know: what acts beside the load, which strokes stand, what is spare, what fails."""
-        plan, found = self.machine.plan, []
-        left = self.loads.without
-        staying = [each for name, each in plan.of_kind(Weight).items() if name not in left and name_of(each.point) == self.point]
-        for each in staying:
-            found.append(said("{name} hangs at {point} beside the load", name=each.name, point=self.point))
+        plan, left, places = self.machine.plan, self.loads.without, self.many.places
+        staying = [each.name for name, each in plan.of_kind(Weight).items() if name not in left and name_of(each.point) == self.point]
+        found = [said("{name} hangs at {point} beside the load", name=name, point=self.point) for name in staying]
         if left:
             found.append(said("without {names}", names=", ".join(left)))
-        held = self.many.places.held
-        if held:
-            words = ", ".join(f"{name} = {self.many.places.stroke_value(name, value)}" for name, value in held.items())
+        if places.held:
+            words = ", ".join(f"{name} = {places.stroke_value(name, value)}" for name, value in places.held.items())
             found.append(said("held: {words}", words=words))
-        places = self.many.places
         ends = {name: [places.stroke_value(name, end) for end in places.ranges[name]] for name in places.free if name in places.ranges}
         if ends:
             words = ", ".join(f"{name} = {said('{low} to {high}', low=low, high=high)}" for name, (low, high) in ends.items())
             found.append(said("strokes run: {words}", words=words))
-        kept = self.many.places.targets[2:]
-        if kept:
-            words = ", ".join(f"{words_of(each.quantity)} = {show(float(each.value), each.shown_in(plan))}" for each in kept)
-            found.append(said("kept: {words}", words=words))
+        if places.targets[2:]:
+            kept = [f"{words_of(each.quantity)} = {show(float(each.value), each.shown_in(plan))}" for each in places.targets[2:]]
+            found.append(said("kept: {words}", words=", ".join(kept)))
         if self.many.spare:
-            names = ", ".join(self.many.places.free[self.many.solved :])
-            found.append(said("{names} where most is carried", names=names))
+            found.append(said("{names} where most is carried", names=", ".join(places.free[self.many.solved :])))
         if self.rule.tipping < 1.0 and TIPPING not in self.names:
             found.append(said("tipping is not judged: the machine has no supports"))
         found += [said("{rule} fails in {n} of the cells", rule=heading_of(name), n=count) for name, count in failing.items()]
@@ -582,11 +575,9 @@ class FieldSearch:
     def reasons(self, reached: Mask) -> NDArray[Any]:
         """Return why each cell is out of reach, "" for those that are not."""
         words = np.full(reached.size, "", object)
-        flat = np.zeros(reached.size, bool)
-        order = np.argsort(self.y, kind="stable")[:, None] * self.x.size + np.argsort(self.x, kind="stable")  # by place ascending
-        flat[:] = reached.ravel()[order.ravel()]
+        lost = ~reached[np.argsort(self.y, kind="stable")][:, np.argsort(self.x, kind="stable")].ravel()  # by place ascending
         with unwarned(), np.errstate(all="ignore"):
-            for place, text in self._beyond(~flat).items():
+            for place, text in self._beyond(lost).items():
                 words[place] = text
         return read_only(self.ordered(words))
 

@@ -6,7 +6,8 @@ import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import product
-from typing import Any, TypeAlias, final
+from types import MappingProxyType
+from typing import Any, NamedTuple, TypeAlias, final
 
 import numpy as np
 
@@ -84,21 +85,16 @@ def zone(machine: Mechanism, quantity: QuantityLike, vary: Any = None, *, over: 
 
     tasks = int(np.prod(shape, dtype=int))
     found = extremes(f, tasks, len(box.ranges), len(box.choices))
-    check_not_endless(machine, quantity, found)
+    seen = np.abs(found.seen[np.isfinite(found.seen)])
+    if seen.size and bool(np.any(np.abs(found.value) > FAR * max(float(np.median(seen)), TINY))):  # as large as next to a pole
+        divisors, named = () if callable(quantity) else divisors_of(machine.plan, quantity), f"{machine.plan.title}: {words_of(quantity)}"
+        raise boundless_error(named, divisors[0] if len(divisors) == 1 else None, "look at other strokes")
     ends = [{name: shaped(value, shape) for name, value in box.settings(found.unit[row], found.choice[row]).items()} for row in (0, 1)]
     share = np.mean(np.isfinite(found.seen), axis=1)
     return Zone(
         words_of(quantity), poses, found.value[0].reshape(shape), found.value[1].reshape(shape), ends[0], ends[1],
         share.reshape(shape), found.seen.shape[1], tuple(remarks(machine, quantity, box, flat, found.seen)),
     )  # fmt: skip
-
-
-def check_not_endless(machine: Mechanism, quantity: QuantityLike, found: Extremes) -> None:
-    """Raise StudyError where extremes are as large as next to a pole: what the quantity is divided by comes to zero in the box."""
-    seen = np.abs(found.seen[np.isfinite(found.seen)])
-    if seen.size and bool(np.any(np.abs(found.value) > FAR * max(float(np.median(seen)), TINY))):
-        divisors, named = () if callable(quantity) else divisors_of(machine.plan, quantity), f"{machine.plan.title}: {words_of(quantity)}"
-        raise boundless_error(named, divisors[0] if len(divisors) == 1 else None, "look at other strokes")
 
 
 def shaped(value: Any, shape: tuple[int, ...]) -> Any:
@@ -119,7 +115,11 @@ def remarks(machine: Mechanism, quantity: QuantityLike, box: Box, strokes: Mappi
     empty = np.isnan(seen.T) & motion.reached
     if empty.any():
         said.append(f"{settings_counted(empty, motion, settings)} have no value of {words_of(quantity)} and are left out of the zone.")
-    return said + near_dead_points(motion, quantity)
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", SingularWarning)
+        if callable(quantity):
+            function_value(quantity, motion)
+    return said + list(dict.fromkeys(str(each.message) for each in heard if issubclass(each.category, SingularWarning)))
 
 
 def settings_counted(mask: Mask, motion: Motion, settings: Mapping[str, object]) -> str:
@@ -130,24 +130,13 @@ def settings_counted(mask: Mask, motion: Motion, settings: Mapping[str, object])
     return f"{int(some.sum())} of {some.size} settings looked at ({spans}), such as {example},"
 
 
-def near_dead_points(motion: Motion, quantity: QuantityLike) -> list[str]:
-    """Return the warnings that the quantity gives on the settings looked at."""
-    with warnings.catch_warnings(record=True) as heard:
-        warnings.simplefilter("always", SingularWarning)
-        if callable(quantity):
-            function_value(quantity, motion)
-    return list(dict.fromkeys(str(each.message) for each in heard if issubclass(each.category, SingularWarning)))
-
-
 # The least and the greatest value of functions over boxes, all of them at once: as strokes are searched, from a coarser grid.
 
 Function: TypeAlias = Callable[[Index, FloatArray, Index], FloatArray]
 """`f(task, unit, choice)`: the value of task (m,) at unit coordinates (m, k), choice (m,)."""
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Extremes:
+class Extremes(NamedTuple):
     """Of every task the least and the greatest value, shape (2, t), where: unit (2, t, k) and choice (2, t); NaN where it has none.
 
     `seen` are the values on the grid, shape (t, grid points).
@@ -159,16 +148,13 @@ class Extremes:
     seen: FloatArray
 
 
-def points_a_side(k: int) -> int:
-    """Return how many points a side of the grid has, for a box of k dimensions."""
-    return {0: 1, 1: 33, 2: 13, 3: 7, 4: 5}.get(k, 3)
+SIDE: Mapping[int, int] = MappingProxyType({0: 1, 1: 33, 2: 13, 3: 7, 4: 5, 5: 3, 6: 3, 7: 3, 8: 3})
+"""How many points a side of the grid has, for a box of so many dimensions."""
 
 
 def grid_of(k: int) -> FloatArray:
     """Return the grid of a box of k dimensions, shape (points, k): corners, edges, faces and inside."""
-    side = points_a_side(k)
-    axis = np.linspace(0.0, 1.0, side)
-    return np.array(list(product(axis, repeat=k))).reshape(side**k, k)
+    return np.array(list(product(np.linspace(0.0, 1.0, SIDE[k]), repeat=k))).reshape(SIDE[k] ** k, k)
 
 
 @final
@@ -176,7 +162,7 @@ class SettingsBox:
     """A function of settings in the unit box, as a search in boxes asks: less the function and the function, of each task and choice."""
 
     def __init__(self, f: Function, tasks: int, k: int, choices: int) -> None:
-        self.f, self.k, self.side, self.choices, self.count = f, k, points_a_side(k), choices, 0
+        self.f, self.k, self.side, self.choices, self.count = f, k, SIDE[k], choices, 0
         every, grid = np.arange(tasks * choices), grid_of(k)
         self.seen, self.kept = self.at(every, np.broadcast_to(grid, (len(every), *grid.shape)))
 

@@ -136,13 +136,12 @@ def synthesise(
     check_executor(executor)
     task = task_named_in(machine, task_of(title, wanted))
     timed = timed_as(title, task, timed)
-    fitted = fitted_rows(machine, vary)
-    machine = fitted.machine
-    rows, space = task.rows(machine), Space.of(machine, fitted.vary, regions)
+    machine, vary, travels = fitted_rows(machine, vary)
+    rows, space = task.rows(machine), Space.of(machine, vary, regions)
     if rank is not None:
         require_type(f"{title}: rank", rank, Measure, 'one number of a design is expected, such as -least(transmission("B"))')
     over, occurring = where_searched(machine, over)
-    over = {**fitted.travels, **(over or {})} or over
+    over = {**travels, **(over or {})} or over
     cases, shares = cases_searched(machine, case, occurring)
     asked = [*conditions_of(subject_to, machine), *space.conditions]
     ranks = () if rank is None else (mean_in_cases(rank, shares),) if shares else each_in_cases([rank], cases, machine, in_case)
@@ -151,7 +150,7 @@ def synthesise(
     problem = Problem(machine, [Given(0.0)], constraints, space, 1.0, over)
     problem.count.limit = limit
     timing = Timing.of(problem, searched_stroke(problem, rows), timed, rows.count)
-    if timing.stroke not in fitted.travels and timed is True and task.at is not None:  # rows of cylinders have ranges of their own
+    if timing.stroke not in travels and timed is True and task.at is not None:  # rows of cylinders have ranges of their own
         check_timed(problem, timing, task.at)
     catalogue = catalogue_for(problem, task, timing, timed, starts, executor, progress) if catalogued else None
     many = starts if isinstance(starts, int) else STARTS

@@ -367,6 +367,15 @@ class Constraint(Condition):
         swapped = self.symbol == "<="
         return CombinedMeasure("-", *((self.right, self.left) if swapped else (self.left, self.right)))
 
+    @property
+    def compared(self) -> tuple[Measure, Measure]:
+        """Its two sides."""
+        return self.left, self.right
+
+    def short(self, left: Any, right: Any) -> Any:
+        """Return how much is missing of it by the numbers of its sides [SI]: zero or below where it is kept, an equation's either way."""
+        return left - right if self.symbol == "<=" else right - left if self.symbol == ">=" else abs(left - right)
+
     def constraints(self, machine: Any) -> tuple[Constraint, ...]:
         return (self,)
 

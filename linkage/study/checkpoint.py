@@ -47,8 +47,7 @@ class Checkpoint:
     @classmethod
     def of(cls, folder: str | os.PathLike[str], facts: Facts) -> Checkpoint:
         """Return the checkpoint of a study; DefinitionError where the folder holds another one, with what differs."""
-        require(isinstance(folder, (str, os.PathLike)) and folder != "", "folder", folder, "the path of a folder is expected")
-        place = Path(folder)
+        place = folder_given(folder)
         note = place / NOTE
         there = read_note(note)
         if there is None:
@@ -105,6 +104,19 @@ class Checkpoint:
             if self.check(start, stop, content) == match[3]:
                 table = np.load(BytesIO(content), allow_pickle=False)
                 yield Batch(start, stop, kept=True, values={name: table[name] for name in table.dtype.names})
+
+
+def folder_given(folder: str | os.PathLike[str]) -> Path:
+    """Return a folder; DefinitionError for what is no path."""
+    require(isinstance(folder, (str, os.PathLike)) and folder != "", "folder", folder, "the path of a folder is expected")
+    return Path(folder)
+
+
+def how_far(done: int, total: int, what: str, place: Path | None) -> str:
+    """Return how far some work is, and what becomes of it, which is kept at a place if anywhere."""
+    if place is None:
+        return f"{done} of {total} {what} are done and lost with this call; a folder= would have kept them."
+    return f"{done} of {total} {what} are done and kept in {place}; the same call goes on from there."
 
 
 def read_note(note: Path) -> dict[str, object] | None:

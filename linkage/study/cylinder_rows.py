@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
-from ..errors import DefinitionError, cited
+from ..checks import require
+from ..errors import DefinitionError
 from ..loads import TwoPoint
 from ..mechanism import Mechanism, declared
 from ..plan import Plan, Reading
@@ -78,9 +79,8 @@ def fields_of(plan: Plan, name: str, rows: object) -> tuple[str, ...]:
     fields = {getattr(type(row), "_fields", ()) for row in listed}
     known = plan.of_kind(TwoPoint)[name].parameters
     (own,) = fields if len(fields) == 1 else ((),)
-    if not own or not set(own) <= set(known):
-        example = f'vary={{"{name}": hydraulics.catalogue(dead=120 * mm)}}, or a tuple of its dimensions, ("{name}.bore", ...)'
-        raise DefinitionError(f"{plan.title}: {name}={cited(rows)}: rows of a catalogue are expected, {example}.")
+    example = f'vary={{"{name}": hydraulics.catalogue(dead=120 * mm)}}, or a tuple of its dimensions, ("{name}.bore", ...)'
+    require(own and set(own) <= set(known), f"{plan.title}: {name}", rows, f"rows of a catalogue are expected, {example}")
     return tuple(own)
 
 

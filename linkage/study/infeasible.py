@@ -117,9 +117,7 @@ class GivenWay:
     pulling: tuple[Constraint, ...]
 
 
-def given_way(
-    problem: Problem, combination: Sequence[int], start: SearchEnd, elastic: Sequence[Constraint], rounds: int = ROUNDS
-) -> GivenWay | None:
+def given_way(problem: Problem, combination: Sequence[int], start: SearchEnd, elastic: Sequence[Constraint]) -> GivenWay | None:
     """Return the design near a start of which the conditions that are `elastic` give way least; None where there is none.
 
     Over a box of several strokes it is judged by its samples: to look between them for each takes longer than all the rest.
@@ -128,7 +126,7 @@ def given_way(
     try:
         local = Local(problem, combination, start.unit, elastic=elastic)
         with problem.count.without_limit(int(DESIGNS / (1.0 + problem.poses / POSES_AS_ONE))):
-            found = local.judged(start.unit) if not problem.space.variables else local.run(rounds=rounds) if is_line else local.least()
+            found = local.judged(start.unit) if not problem.space.variables else local.run(rounds=ROUNDS) if is_line else local.least()
         if found is None:
             return None
         machine = problem.machine_of(found.unit, combination)
@@ -140,8 +138,8 @@ def given_way(
     relaxations, pulling, total = [], [], 0.0
     scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
     for each, price, scale in zip(problem.constraints, prices, scales, strict=True):
-        left, right = (float(side.of(lambda leaf: values[leaf])) for side in (each.left, each.right))
-        short = abs(left - right) if each.symbol == "==" else (left - right if each.symbol == "<=" else right - left)
+        left, right = (float(side.of(lambda leaf: values[leaf])) for side in each.compared)
+        short = each.short(left, right)
         if values.lost.intersection(each.margin.leaves):
             return None
         units = unit_of_constraint(problem.plan, each)

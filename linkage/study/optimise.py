@@ -16,7 +16,7 @@ import numpy as np
 
 from ..checks import require, require_number, require_whole
 from ..disk import check_name, in_words, replacing_text
-from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited, known_name, one_word
+from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, known_name, one_word
 from ..loads import PLAIN_CASE, Case, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Judge, Over, Request
@@ -35,12 +35,14 @@ from ..motion.measures import (
     strokes_behind,
     words_of,
 )
+from ..numeric.line import Index
+from ..plan import Mask
 from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, ref
 from ..statics.applied import case_of
 from ..units import show
 from .box import unit_points
-from .checkpoint import digest, measure_text
+from .checkpoint import digest, folder_given, how_far, measure_text
 from .checks import check_one_design
 from .cylinder_rows import fitted_rows
 from .infeasible import infeasible_error
@@ -114,12 +116,12 @@ def optimise(
 def optimise(
     machine: Mechanism,
     *,
-    minimise: Any = None,
-    maximise: Any = None,
-    vary: Mapping[Any, Any],
-    subject_to: Any = (),
-    regions: Mapping[str, Any] | None = None,
-    case: Any = None,
+    minimise: object = None,
+    maximise: object = None,
+    vary: Mapping[Any, object],
+    subject_to: object = (),
+    regions: Mapping[str, object] | None = None,
+    case: object = None,
     over: Mapping[str, Any] | None = None,
     robust: Mapping[str, Any] | None = None,
     sigmas: float = 3.0,
@@ -234,7 +236,7 @@ def where_searched(machine: Mechanism, over: object) -> tuple[Any, list[Any]]:
     return dict(over.strokes), occurring
 
 
-def cases_searched(machine: Mechanism, case: Any, occurring: Sequence[Any]) -> tuple[list[Any], dict[str, float]]:
+def cases_searched(machine: Mechanism, case: object, occurring: Sequence[Any]) -> tuple[list[Any], dict[str, float]]:
     """Return the load cases that a search looks at, None for the plain loads, and their shares where they are given with their hours.
 
     DefinitionError for one that is unknown, and for none.
@@ -242,9 +244,7 @@ def cases_searched(machine: Mechanism, case: Any, occurring: Sequence[Any]) -> t
     shares = shares_of(case, f"{machine.plan.title}: case") if isinstance(case, Mapping) else {}
     given = [*shares] if shares else list(case) if isinstance(case, (list, tuple)) else occurring if case is None else [case]
     cases = [None if isinstance(each, str) and each == PLAIN_CASE else each for each in given]
-    if not cases:
-        what = f"{machine.plan.title}: case={cited(case)}"
-        raise DefinitionError(f"{what}: a load case or several are expected; leave it out for the own loads.")
+    require(cases, f"{machine.plan.title}: case", case, "a load case or several are expected; leave it out for the own loads")
     for each in cases:
         case_of(machine.plan, each)
     return cases, shares
@@ -285,7 +285,7 @@ def objectives_of(machine: Mechanism, minimise: object, maximise: object) -> tup
     return [*least, *(-each for each in most)], 1.0
 
 
-def check_counts(title: str, starts: Any, seed: Any, limit: Any) -> None:
+def check_counts(title: str, starts: object, seed: object, limit: object) -> None:
     """Raise DefinitionError for numbers that are none."""
     for name, value, least in (("starts", starts, 1), ("seed", seed, 0), ("limit", limit, 1)):
         if value is not None:
@@ -401,8 +401,7 @@ class Journal:
         """Return the journal of a search; DefinitionError where the folder holds that of another one."""
         if folder is None:
             return cls(None, {})
-        require(isinstance(folder, (str, os.PathLike)) and folder != "", "folder", folder, "the path of a folder is expected")
-        path = Path(folder) / "search.jsonl"
+        path = folder_given(folder) / "search.jsonl"
         check_name(path)
         try:
             functions = [measure_text(each) for each in problem.functions]
@@ -424,13 +423,6 @@ class Journal:
             with replacing_text(path) as file:
                 file.writelines(json.dumps(entry) + "\n" for entry in (entries or [facts]))
         return cls(path, {str(entry["task"]): entry for entry in entries if "task" in entry})
-
-    def state(self, done: int, total: int) -> str:
-        """Return how far a search is, and what becomes of it."""
-        said = f"{done} of {total} local searches are done"
-        if self.path is None:
-            return f"{said} and lost with this call; a folder= would have kept them."
-        return f"{said} and kept in {self.path}; the same call goes on from there."
 
     def result(self, task: str, problem: Problem) -> SearchEnd | None:
         """Return what a local search came to, as it is kept, with the designs that it looked at."""
@@ -488,12 +480,12 @@ class Screened:
     reached: FloatArray
 
     @property
-    def begins(self) -> Any:
+    def begins(self) -> Mask:
         """At which of them a local search may begin: they are reached, and the objective has a value."""
         return (self.reached == 1.0) & np.isfinite(self.value)
 
     @property
-    def order(self) -> Any:
+    def order(self) -> Index:
         """The designs, the best first: those that keep all, by the objective; then by what is missing."""
         worth = np.where(np.isfinite(self.value), self.value, np.inf)
         short = np.where(np.isfinite(self.missing), self.missing, 1e9) + 1e9 * (1.0 - self.reached)
@@ -553,7 +545,7 @@ class DesignSearch:
             except LimitReachedError:
                 break
             except KeyboardInterrupt as stopped:
-                stopped.add_note(self.journal.state(done, len(tasks)))
+                stopped.add_note(how_far(done, len(tasks), "local searches", self.journal.path))
                 raise
             self.tell(done + 1, len(tasks))
         return ended

@@ -332,8 +332,8 @@ def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float],
 
     `scale` is the size of what is compared [SI].
     """
-    left, right = (float(side.of(lambda leaf: now[leaf])) for side in (constraint.left, constraint.right))
-    spare = -abs(right - left) if constraint.symbol == "==" else right - left if constraint.symbol == "<=" else left - right
+    left, right = (float(side.of(lambda leaf: now[leaf])) for side in constraint.compared)
+    spare = -constraint.short(left, right)
     size = scale_of(constraint, lambda leaf: now[leaf])
     by = 0.01 * (size if size > 1e-6 * scale else scale)
     return Kept(constraint, left, right, spare, by, price * by if price * by > SHOWN else 0.0, unit_of_constraint(problem.plan, constraint))
@@ -643,7 +643,7 @@ def unit_of_measure(plan: Plan, measure: Measure) -> str:
 
 def unit_of_constraint(plan: Plan, constraint: Constraint) -> str:
     """Return the unit that a constraint's sides are shown in."""
-    sides = [side for side in (constraint.left, constraint.right) if side.leaves]
+    sides = [side for side in constraint.compared if side.leaves]
     units = {unit_of_measure(plan, side) for side in sides}
     return units.pop() if len(units) == 1 else measure_unit(plan, constraint)
 
@@ -660,5 +660,5 @@ def unit_of_leaf(plan: Plan, leaf: Leaf) -> str:
 
 def in_units(constraint: Constraint, units: str) -> str:
     """Return a constraint as text, its number in a unit."""
-    sides = [show(side.value, units) if isinstance(side, Given) else str(side) for side in (constraint.left, constraint.right)]
+    sides = [show(side.value, units) if isinstance(side, Given) else str(side) for side in constraint.compared]
     return f"{sides[0]} {constraint.symbol} {sides[1]}"

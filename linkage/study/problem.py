@@ -126,7 +126,7 @@ class PoseSet:
     singles: list[Mapping[str, float]] = field(default_factory=list)
     weights: FloatArray | None = None
     inner: str = ""
-    quantities: list[Any] = field(default_factory=list)
+    quantities: list[object] = field(default_factory=list)
     alone: bool = False
     """Whether its single pose is kept apart from others."""
 
@@ -160,7 +160,7 @@ class Rows:
     """A leaf at its poses: values (m, n), of one design derivatives (p, n), and of which designs (m,) it is lost: without a value."""
 
     values: FloatArray
-    slopes: FloatArray | None
+    slopes: FloatArray
     lost: Mask
 
 
@@ -171,7 +171,7 @@ class Evaluated:
 
     rows: Mapping[Leaf, Rows]
     margins: FloatArray
-    margin_slopes: FloatArray | None
+    margin_slopes: FloatArray
     whole: Mask
     reached: FloatArray
 
@@ -346,7 +346,7 @@ class Problem:
             known = self._branches[machine.plan.key] = self.changed(machine=machine)
         return known
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         """Return what pickle is to make the problem of: what follows from it does not go."""
         return Problem, tuple(getattr(self, name) for name in ARGUMENTS[:-1])
 
@@ -461,8 +461,8 @@ class Problem:
         rows = {}
         for leaf in self.leaves:
             values, lost = (np.concatenate([getattr(each.rows[leaf], name) for each in parts]) for name in ("values", "lost"))
-            rows[leaf] = Rows(values, None, lost)
-        return Evaluated(rows, margins, None, whole, reached)
+            rows[leaf] = Rows(values, np.zeros((0, values.shape[1])), lost)
+        return Evaluated(rows, margins, np.zeros((0, 0)), whole, reached)
 
     @cached_property
     def _can_be_asked(self) -> bool:
@@ -475,18 +475,18 @@ class Problem:
 
     def _nothing(self, *, slopes: bool) -> Evaluated:
         """Return what is seen of a design that is refused."""
-        n = len(self.space.variables)
+        n = len(self.space.variables) if slopes else 0
         rows = {}
         for leaf in self.leaves:
             poses, *_ = self._of_leaf[leaf]
             count = 1 if isinstance(leaf, Integral) else prod(len(poses.axes[name]) for name in poses.outer)
-            rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)) if slopes else None, np.zeros(1, bool))
-        return Evaluated(rows, np.zeros((1, 0)), np.zeros((n, 0)) if slopes else None, np.zeros(1, bool), np.zeros(1))
+            rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)), np.zeros(1, bool))
+        return Evaluated(rows, np.zeros((1, 0)), np.zeros((n, 0)), np.zeros(1, bool), np.zeros(1))
 
     def _look(self, designs: Mapping[str, Numbers], m: int, *, slopes: bool) -> Evaluated:
         """Return what is seen of m designs; DefinitionError where one of them is refused."""
         ends = self._ends(designs, slopes=slopes)
-        whole, reached, margins, margin_slopes = np.ones(m, bool), np.ones(m), np.zeros((m, 0)), None
+        whole, reached, margins, margin_slopes = np.ones(m, bool), np.ones(m), np.zeros((m, 0)), np.zeros((0, 0))
         found: dict[PoseSet, Samples] = {}
         for poses in self.sets:
             judged = slopes and poses is self.whole
@@ -511,7 +511,7 @@ class Problem:
         ends = dict.fromkeys(end for one in self.ranges.values() for end in one.follows)
         return {end: Sampling(self.plan, [end], self.owners) for end in ends}
 
-    def _ends(self, designs: Mapping[str, Numbers], *, slopes: bool) -> Ends:
+    def _ends(self, designs: Mapping[str, Numbers], *, slopes: bool = False) -> Ends:
         """Return the two ends of each stroke's range."""
         known: dict[object, End] = {}
         strokes = {name: np.asarray(stroke.start, float) for name, stroke in self.plan.strokes.items()}
@@ -576,13 +576,14 @@ class Problem:
         """Return the rows of a leaf."""
         poses, place, single = self._of_leaf[leaf]
         samples = found[poses]
-        values, slopes = samples.values[place], None
+        values = samples.values[place]
+        slopes = np.zeros((0, values.shape[1]))
         if samples.value_slopes is not None:
             slopes = self._by_unit(samples.value_slopes[[place]], poses, ends)[0]
         if isinstance(leaf.quantity, Worst):
             values, slopes = worst_along(values, slopes, len(poses.axes[poses.inner]), leaf.quantity.sense)
         if single >= 0:
-            values, slopes = values[:, [single]], None if slopes is None else slopes[:, [single]]
+            values, slopes = values[:, [single]], slopes[:, [single]]
         lost = samples.lost[place]
         if single >= 0 and len(poses.singles) > 1:
             lost = np.isnan(samples.values[place][:, single])
@@ -591,8 +592,6 @@ class Problem:
         (low, low_moved), (high, high_moved) = ends[poses.outer[0]]  # of an integral's stroke, which may follow the design
         span = np.reshape(high - low, (-1, 1))
         mean = (values * poses.weights).sum(axis=-1, keepdims=True)
-        if slopes is None:
-            return Rows(mean * span, None, lost)
         grown = np.zeros((len(slopes), 1))
         for moved, sign in ((low_moved, -1.0), (high_moved, 1.0)):
             if moved is not None:
@@ -713,7 +712,7 @@ class Problem:
                 between.setdefault(tuple(poses.axes), []).append(leaf)
             elif isinstance(leaf, At) and not poses.inner and not quick:
                 alone = PoseSet({}, [poses.singles[single]])
-                here = motion_of(self._grid(alone, design, self._ends(design, slopes=False)))
+                here = motion_of(self._grid(alone, design, self._ends(design)))
                 value = float(np.ravel(eager(here, leaf.quantity))[0])
                 free = nothing_limits(here, leaf.quantity) if np.isnan(value) else None
                 found.enter(leaf, value, lost=np.isnan(value) and (free is None or not free.all()))
@@ -738,7 +737,7 @@ class Problem:
     ) -> None:
         """Enter the extremes of one design over some strokes, all looked for together."""
         poses = PoseSet({name: np.linspace(0.0, 1.0, 33 if len(names) == 1 else 5) for name in names})
-        motion = motion_of(self._grid(poses, design, self._ends(design, slopes=False)))
+        motion = motion_of(self._grid(poses, design, self._ends(design)))
         senses = [leaf.sense for leaf in leaves]
         watched = WatchedValues(self.plan, [leaf.quantity for leaf in leaves], senses, quick=quick)
         tops = greatest(motion, watched)
@@ -760,7 +759,7 @@ class Problem:
         if len(poses.axes) != 1 or poses.inner:
             return []
         ((name, axis),) = poses.axes.items()
-        sampling, ends = self._sampling(poses), self._ends(design, slopes=False)
+        sampling, ends = self._sampling(poses), self._ends(design)
 
         def values(at: FloatArray) -> FloatArray:
             found = sampling.at(self._grid(PoseSet({name: at}), design, ends)).values[place, 0]
@@ -783,13 +782,13 @@ class Problem:
         """Return an integral of one design over the parts (0 to 1) of its stroke, and the panels that it takes."""
         poses, place, _ = self._of_leaf[leaf]
         (name,) = poses.outer
-        sampling, ends = self._sampling(poses), self._ends(design, slopes=False)
+        sampling, ends = self._sampling(poses), self._ends(design)
 
         def values(places: FloatArray) -> FloatArray:
             axes = {name: places} | ({poses.inner: poses.axes[poses.inner]} if poses.inner else {})
             found = sampling.at(self._grid(PoseSet(axes, weights=None, inner=poses.inner), design, ends)).values[place]
             if isinstance(leaf.quantity, Worst):
-                found, _ = worst_along(found, None, len(poses.axes[poses.inner]), leaf.quantity.sense)
+                found, _ = worst_along(found, np.zeros((0, found.shape[1])), len(poses.axes[poses.inner]), leaf.quantity.sense)
             return np.asarray(found[0])
 
         return quadrature(values)
@@ -818,7 +817,7 @@ class Problem:
 
     def ends(self, design: Mapping[str, Numbers]) -> dict[str, tuple[float, float]]:
         """Return from where to where [SI] each stroke of one design is looked at."""
-        found = self._ends(design, slopes=False)
+        found = self._ends(design)
         return {name: (float(np.ravel(low)[0]), float(np.ravel(high)[0])) for name, ((low, _), (high, _)) in found.items()}
 
 
@@ -843,9 +842,9 @@ def scale_among(constraint: Constraint, sizes: Mapping[Leaf, float], values: Map
 
     `sizes` are those of the leaves over the stroke; terms whose margin has a `change` over the box are at least as large.
     """
-    terms = [terms_size(side, sizes, values) for side in (constraint.left, constraint.right)]
+    terms = [terms_size(side, sizes, values) for side in constraint.compared]
     size = max([each for each in terms if np.isfinite(each)] + [change])
-    given = max((abs(side.value) for side in (constraint.left, constraint.right) if isinstance(side, Given)), default=0.0)
+    given = max((abs(side.value) for side in constraint.compared if isinstance(side, Given)), default=0.0)
     return (max(given, EXACT * size) if given > 0.0 else size) or 1.0
 
 
@@ -854,16 +853,15 @@ def missed(constraint: Constraint, numbers: Mapping[Leaf, Any], size: float | No
 
     Without a size it is the larger of the two sides, of each design.
     """
-    left, right = (np.asarray(side.of(lambda leaf: numbers[leaf]), float) for side in (constraint.left, constraint.right))
+    left, right = (np.asarray(side.of(lambda leaf: numbers[leaf]), float) for side in constraint.compared)
     measured = np.maximum(np.maximum(np.abs(left), np.abs(right)), 1e-300) if size is None else size
-    margin = (right - left if constraint.symbol == "<=" else left - right) / measured
-    short = np.abs(margin) if constraint.symbol == "==" else -margin
+    short = constraint.short(left, right) / measured
     says_nothing = np.any([np.isnan(numbers[leaf]) for leaf in constraint.margin.leaves], axis=0)
-    unlimited = np.isnan(margin) & (constraint.symbol != "==") & says_nothing
+    unlimited = np.isnan(short) & (constraint.symbol != "==") & says_nothing
     return np.where(unlimited, 0.0, np.where(np.isnan(short), np.inf, short))
 
 
-def worst_along(values: FloatArray, slopes: FloatArray | None, count: int, sense: float) -> tuple[FloatArray, FloatArray | None]:
+def worst_along(values: FloatArray, slopes: FloatArray, count: int, sense: float) -> tuple[FloatArray, FloatArray]:
     """Return the worst values along a last axis of so many samples, (m, n) from (m, n * count), and the derivatives there.
 
     A peak between samples is that of the parabola through three of them.
@@ -879,9 +877,7 @@ def worst_along(values: FloatArray, slopes: FloatArray | None, count: int, sense
     weights = np.stack([0.5 * shift * (shift - 1.0), 1.0 - shift**2, 0.5 * shift * (shift + 1.0)])
     best = sense * (weights[0] * a + weights[1] * b + weights[2] * c)
     best = np.where(np.isnan(cube).any(axis=-1), np.nan, best)
-    if slopes is None:
-        return best, None
-    bunch = slopes.reshape(len(slopes), -1, count)
+    bunch = slopes.reshape(len(slopes), cube.shape[1], count)
     parts = [np.take_along_axis(bunch, np.broadcast_to(top[0] + each, (*bunch.shape[:2], 1)), axis=-1)[..., 0] for each in (-1, 0, 1)]
     return best, np.asarray(sum(weight[0] * part for weight, part in zip(weights, parts, strict=True)))
 

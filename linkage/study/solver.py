@@ -18,7 +18,7 @@ from ..errors import DefinitionError, StudyError
 from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Measure
 from ..program import FloatArray
 from .constrained_step import constrained_step
-from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, missed, scale_among
+from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Rows, missed, scale_among
 from .sampling import no_value
 
 FAR = 10.0
@@ -56,19 +56,14 @@ class Graded(NamedTuple):
     slope: FloatArray
 
 
+@np.errstate(all="ignore")
 def graded(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
     """Return what a measure makes of its leaves' numbers, with its derivatives by the chain rule."""
-    with np.errstate(all="ignore"):
-        return chained(measure, of_leaf)
-
-
-def chained(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
-    """Return the same as `graded`, which takes care of NumPy's warnings."""
     if isinstance(measure, Leaf):
         return of_leaf(measure)
     if not isinstance(measure, CombinedMeasure):
         return Graded(float(measure.of(of_leaf)), np.zeros(1))
-    (a, by_a), (b, by_b) = chained(measure.left, of_leaf), chained(measure.right, of_leaf)
+    (a, by_a), (b, by_b) = graded(measure.left, of_leaf), graded(measure.right, of_leaf)
     match measure.symbol:
         case "+":
             return Graded(a + b, by_a + by_b)
@@ -316,13 +311,11 @@ class Local:
 
     def _margins(self, look: Evaluated, way: FloatArray, loss: float, here: Evaluated) -> Row:
         """Return the lines of the links, which are assembled: of what is known `here` itself, of the rest from the look."""
-        assert look.margin_slopes is not None
         slopes = np.zeros((look.margins.shape[1], self.width))
         slopes[:, : self.n] = look.margin_slopes.T
         values, slopes = without_gaps(look.margins[0] - self.clear, slopes)
         values = values + slopes[:, : self.n] @ way - loss
         if here is not look and here.margins.shape == look.margins.shape:  # of a design that is refused nothing is known
-            assert here.margin_slopes is not None
             told = np.isfinite(told_margins(here))
             values = np.where(told, here.margins[0] - self.clear, values)
             slopes[told, : self.n] = here.margin_slopes.T[told]
@@ -333,11 +326,7 @@ class Local:
         equation, found = each.symbol == "==", single_extreme(each)
         if found is not None and not equation:
             leaf, sign, bound = found
-            rows = look.rows[leaf]
-            assert rows.slopes is not None
-            values = sign * (rows.values[0] - bound) / scale
-            slopes = np.zeros((values.size, self.width))
-            slopes[:, : self.n] = sign * rows.slopes.T / scale
+            values, slopes = sign * (look.rows[leaf].values[0] - bound) / scale, self._slopes_of(look.rows[leaf], sign, scale)
             values, slopes = without_gaps(values, slopes)
         else:
             value, slope = self.graded(each, look, z)
@@ -358,16 +347,18 @@ class Local:
             values = values + slack
         return Row(each, values, slopes, equation)
 
+    def _slopes_of(self, rows: Rows, sign: float, scale: float) -> FloatArray:
+        """Return the derivatives of a leaf's rows (n, width) by the solver's variables."""
+        slopes = np.zeros((rows.values.shape[1], self.width))
+        slopes[:, : self.n] = sign * rows.slopes.T / scale
+        return slopes
+
     def _bound(
         self, place: int, owner: Constraint | Measure, leaf: Leaf, look: Evaluated, way: FloatArray, loss: float, z: FloatArray
     ) -> Row:
         """Return the lines that hold a leaf's variable below or above each of its rows."""
-        rows, scale = look.rows[leaf], self.leaf_scales[leaf]
-        assert rows.slopes is not None
-        sign = -leaf.sense
-        values = sign * (rows.values[0] / scale - z[self.n + place])
-        slopes = np.zeros((values.size, self.width))
-        slopes[:, : self.n] = sign * rows.slopes.T / scale
+        rows, scale, sign = look.rows[leaf], self.leaf_scales[leaf], -leaf.sense
+        values, slopes = sign * (rows.values[0] / scale - z[self.n + place]), self._slopes_of(rows, sign, scale)
         slopes[:, self.n + place] = -sign
         values, slopes = without_gaps(values, slopes)
         return Row(owner if isinstance(owner, Constraint) else None, values + slopes[:, : self.n] @ way - loss, slopes)
@@ -659,7 +650,6 @@ class Watch:
 def graded_leaf(leaf: Leaf, look: Evaluated) -> Graded:
     """Return a leaf's number at the samples with its derivatives by the unit coordinates; NaN where it has no value."""
     rows = look.rows[leaf]
-    assert rows.slopes is not None
     place = 0
     if leaf.sense and bool(np.isfinite(rows.values[0]).any()):
         place = int((np.nanargmin if leaf.sense < 0.0 else np.nanargmax)(rows.values[0]))
@@ -673,7 +663,6 @@ def grows(expression: Measure, leaf: Leaf, values: Mapping[Leaf, float]) -> floa
 
 def told_margins(look: Evaluated) -> FloatArray:
     """Return the margins (r,) of a look at one design, NaN where they or their derivatives are not known."""
-    assert look.margin_slopes is not None
     return np.where(np.isfinite(look.margin_slopes).all(axis=0), look.margins[0], np.nan)
 
 
@@ -701,7 +690,7 @@ def single_extreme(constraint: Constraint) -> tuple[Leaf, float, float] | None:
 
 def scale_of(constraint: Constraint, value: Callable[[Leaf], Any]) -> float:
     """Return the larger of a constraint's two sides, in size."""
-    sides = [abs(float(side.of(value))) for side in (constraint.left, constraint.right)]
+    sides = [abs(float(side.of(value))) for side in constraint.compared]
     return max((side for side in sides if np.isfinite(side)), default=0.0)
 
 

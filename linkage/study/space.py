@@ -12,7 +12,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..checks import require
+from ..checks import require, require_type
 from ..errors import DefinitionError, cited, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism
@@ -257,12 +257,12 @@ def size_of_machine(machine: Mechanism) -> float:
 
 def rows_of(title: str, names: Sequence[str], given: object, owners: Sequence[tuple[str, float]]) -> tuple[tuple[float, ...], ...]:
     """Return the rows of choices, a side as its number; DefinitionError for anything else."""
-    width = len(owners)
+    width, what = len(owners), f"{title}: {', '.join(names)}"
     said = "write a range (low, high), a list of choices such as [0.28, 0.30], or for several names at once a list of rows"
-    if not isinstance(given, (list, tuple, range, np.ndarray)) or len(given) == 0:
-        raise DefinitionError(f"{title}: {', '.join(names)}={cited(given)}: {said}.")
+    listed = require_type(what, given, (list, tuple, range, np.ndarray), said)
+    require(len(listed), what, given, said)
     rows = []
-    for each in given:
+    for each in listed:
         row = list(each) if isinstance(each, (list, tuple, np.ndarray)) else [each]
         for place, (owner, _) in enumerate(owners if len(row) == width else ()):
             if is_side(owner):
@@ -272,6 +272,6 @@ def rows_of(title: str, names: Sequence[str], given: object, owners: Sequence[tu
                 row[place] = side
         if len(row) != width or not all(is_number(value) for value in row):
             many = f"{width} numbers are" if width > 1 else "a number is"
-            raise DefinitionError(f"{title}: {', '.join(names)}: {cited(each)} is no choice; {many} expected.")
+            raise DefinitionError(f"{what}: {cited(each)} is no choice; {many} expected.")
         rows.append(tuple(row))
     return tuple(rows)

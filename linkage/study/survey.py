@@ -26,7 +26,7 @@ from ..frozen import FrozenDict, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..quantities import is_whole
 from ..shown import Shown
-from .checkpoint import Checkpoint, facts_of
+from .checkpoint import Checkpoint, facts_of, how_far
 from .checks import check_one_design, check_vary
 from .designs import Array, Batch, Dealt, Designs, StudyWork, Task, check_same_results, measure_batch
 
@@ -101,10 +101,7 @@ class SurveyRun:
     @property
     def state(self) -> str:
         """How far the study is, and what becomes of it."""
-        said = f"{self.done} of {self.designs.count} designs are done"
-        if self.checkpoint is None:
-            return f"{said} and lost with this call; a folder= would have kept them."
-        return f"{said} and kept in {self.checkpoint.folder}; the same call goes on from there."
+        return how_far(self.done, self.designs.count, "designs", self.checkpoint.folder if self.checkpoint else None)
 
     def _send(self) -> None:
         """Send the next batch."""

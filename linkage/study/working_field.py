@@ -99,7 +99,7 @@ class WorkingField:
         return tuple(each for each in (*self.of, NOT_LIMITED, OUT_OF_REACH) if each in found)
 
     @cached_property
-    def why(self) -> NDArray[Any]:
+    def why(self) -> NDArray[np.object_]:
         """Why a cell is out of reach: which stroke would be past which end, by how much, or how far off the nearest pose is; else ""."""
         return self.search.reasons(self.reached)
 
@@ -305,15 +305,15 @@ class FieldSearch:
     rule: LoadRule
     limits: Mapping[str, FurtherLimit]
     case: str
-    asked: tuple[Any, ...]
+    asked: tuple[object, ...]
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         return FieldSearch.of, self.asked
 
     @classmethod
     def of(
-        cls, machine: Mechanism, point: Any, x_given: Any, y_given: Any, along: Any, hold: Any, over: Any, keep: Any, lifts: Any,
-        rule: LoadRule, case: Case, without: Any, limits: Any,
+        cls, machine: Mechanism, point: Reference, x_given: object, y_given: object, along: Any, hold: Any, over: object, keep: Any,
+        lifts: Any, rule: LoadRule, case: Case, without: object, limits: Any,
     ) -> FieldSearch:  # fmt: skip
         asked = machine, point, x_given, y_given, along, hold, over, keep, lifts, rule, case, without, limits
         plan, title = machine.plan, f"{machine.plan.title}: working_field"
@@ -384,13 +384,13 @@ class FieldSearch:
     # -- the poses -----------------------------------------------------------------------------------------
 
     @cached_property
-    def turns(self) -> list[tuple[ManyPlaces, Any, list[FloatArray] | None]]:
+    def turns(self) -> list[tuple[ManyPlaces, Index, list[FloatArray] | None]]:
         """What is looked at: the spare strokes at values over their ranges, and others at their ends in the place of them.
 
         PlacePoses on which the strokes to spare run form curves, which end where another stroke does: with these no short one is missed.
         """
         many, count = self.many, len(self.many.places.free)
-        found: list[tuple[ManyPlaces, Any, list[FloatArray] | None]] = [(many, np.arange(count), None)]
+        found: list[tuple[ManyPlaces, Index, list[FloatArray] | None]] = [(many, np.arange(count), None)]
         for loose in combinations(range(count), many.spare) if many.spare else ():
             if loose != tuple(range(many.solved, count)):
                 order = np.array([*(at for at in range(count) if at not in loose), *loose])
@@ -572,7 +572,7 @@ class FieldSearch:
 
     # -- what is out of reach ------------------------------------------------------------------------------
 
-    def reasons(self, reached: Mask) -> NDArray[Any]:
+    def reasons(self, reached: Mask) -> NDArray[np.object_]:
         """Return why each cell is out of reach, "" for those that are not."""
         words = np.full(reached.size, "", object)
         lost = ~reached[np.argsort(self.y, kind="stable")][:, np.argsort(self.x, kind="stable")].ravel()  # by place ascending

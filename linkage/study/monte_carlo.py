@@ -369,7 +369,11 @@ def worst_case(
     for _ in range(ROUNDS):
         known = ~np.isnan(values)
         ends = {*np.argmin(np.where(known, values, np.inf), axis=0), *np.argmax(np.where(known, values, -np.inf), axis=0)}
-        near = np.unique(np.concatenate([neighbours(levels[row]) for row in ends]), axis=0) if k else levels
+        others = [(row, place, level) for row in ends for place in range(k) for level in (-1.0, 0.0, 1.0) if level != levels[row, place]]
+        near = levels[[row for row, *_ in others]] if k else levels
+        for number, (_, place, level) in enumerate(others):  # another value of one deviation
+            near[number, place] = level
+        near = np.unique(near, axis=0)
         found = at(near)
         better = (least_by_column(found) < least_by_column(values)) | (-least_by_column(-found) > -least_by_column(-values))
         if not better.any():
@@ -382,12 +386,3 @@ def least_by_column(values: FloatArray) -> FloatArray:
     """Return the least value of each column that has one, else NaN."""
     least = np.min(np.where(np.isnan(values), np.inf, values), axis=0)
     return np.where(np.isinf(least), np.nan, least)
-
-
-def neighbours(level: FloatArray) -> FloatArray:
-    """Return levels, shape (2 k, k), each with another value, of -1, 0 and 1, of one deviation."""
-    k = level.size
-    found = np.tile(level, (2 * k, 1))
-    for place in range(k):
-        found[2 * place : 2 * place + 2, place] = [each for each in (-1.0, 0.0, 1.0) if each != level[place]][:2]
-    return found

@@ -46,7 +46,7 @@ from .checkpoint import digest, folder_given, how_far, measure_text
 from .checks import check_one_design
 from .cylinder_rows import fitted_rows
 from .infeasible import infeasible_error
-from .optimum import Optimum, in_units, polished, unit_of_constraint, unit_of_measure
+from .optimum import Optimum, described, in_units, on_steps, unit_of_constraint, unit_of_measure
 from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of
 from .result_tables import EvaluatedDesigns
 from .solver import Local, SearchEnd, grows, local_search
@@ -442,10 +442,7 @@ class Journal:
         """Write down what a local search came to, and how many designs it looked at."""
         if self.path is None:
             return
-        entry = {
-            "task": task, "unit": list(found.unit), "value": found.value, "missing": found.missing, "whole": found.whole,
-            "looked_at": looked_at,
-        }  # fmt: skip
+        entry = {"task": task, **vars(found), "unit": found.unit.tolist(), "looked_at": looked_at}
         with in_words(self.path), self.path.open("a", encoding="utf-8") as file:
             file.write(json.dumps(entry) + "\n")
             file.flush()
@@ -530,8 +527,7 @@ class DesignSearch:
         screened = sorted((each for each in screened if np.any(each.begins)), key=lambda each: each.best)[:SEARCHED]
         hopeless = self.hopeless(screened)
         if hopeless:
-            with self.problem.count.without_limit():
-                raise infeasible_error(self.problem, hopeless, self.spread())
+            raise self.infeasible(hopeless)
         tasks = [(each.combination, number, unit) for each in screened for number, unit in enumerate(self.starts(each, len(screened)))]
         return self.chosen([*self.ends(tasks), *self.best_looked_at(screened)], searched=len(screened))
 
@@ -589,9 +585,10 @@ class DesignSearch:
                 found.append((each.combination, least))
         return found
 
-    def spread(self) -> dict[tuple[int, ...], FloatArray]:
-        """Return the designs that were looked at first, by their combination."""
-        return {each.combination: each.unit for each in reversed(self.looked)}
+    def infeasible(self, ended: Sequence[Ended]) -> StudyError:
+        """Return the error of a search that came to designs none of which keeps everything."""
+        with self.problem.count.without_limit():
+            return infeasible_error(self.problem, ended, {each.combination: each.unit for each in reversed(self.looked)})
 
     def is_cut(self, combination: tuple[int, ...]) -> bool:
         """Return whether a combination cannot keep some condition of the design alone, whatever the variables; noted in words."""
@@ -671,18 +668,19 @@ class DesignSearch:
 
     def chosen(self, ended: Sequence[Ended], searched: int) -> Optimum:
         """Return the best design that is assembled over the whole stroke and keeps everything; StudyError where there is none."""
-        sense, lost = self.problem.sense, []
+        sense, count, lost = self.problem.sense, self.problem.count, []
         for combination, found in sorted((one for one in ended if one[1].feasible), key=lambda one: sense * one[1].value):
             try:
                 everyone = [end for other, end in ended if other == combination]
-                best = polished(self.problem, combination, found, everyone, searched, self.cut)
-                return replace(best, tried=self.tried(ended))
+                best = on_steps(self.problem, combination, found)
+                limit = count.limit if count.is_spent else None
+                with count.without_limit():
+                    return replace(described(*best, everyone, searched, self.cut), limit=limit, tried=self.tried(ended))
             except AssemblyError as error:
                 lost.append(str(error))
         if lost:
             raise StudyError(f"{self.problem.plan.title}: no design that was found can be kept. {lost[0]}")
-        with self.problem.count.without_limit():
-            raise infeasible_error(self.problem, ended, self.spread())
+        raise self.infeasible(ended)
 
     def tried(self, ended: Sequence[Ended]) -> tuple[EvaluatedDesigns, ...]:
         """Return the designs that were looked at, then what the local searches came to."""

@@ -6,7 +6,7 @@ import csv
 import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice, product
 from math import prod
 from types import MappingProxyType
@@ -161,7 +161,8 @@ class Optimum(Shown):
         problem, units = self.problem, unit_of_measure(self.machine.plan, self.problem.objectives[0])
         word = "least" if problem.sense > 0.0 else "greatest"
         lines = [f"{problem.plan.title}: the {word} {problem.objectives[0]} found is {show(self.value, units)}{self._gained(units)}."]
-        lines += [f"  {name} = {text}" for name, text in self._settings()]
+        lines += [f"  {each.name} = {each.show(self.variables[each.name])}" for each in problem.space.variables]
+        lines += [f"  {each}" for each in problem.space.words(self.combination, problem.plan).split(", ") if each]
         lines += [f"  {each}." for each in (*self.conditions, *self.bounds, *self.edges)]
         tries = f"{self.agreed} of {self.tries} searches came to it" if self.tries > 1 else "one search"
         rows = f" over {self.searched} of {problem.space.count} combinations" if problem.space.count > 1 else ""
@@ -181,11 +182,6 @@ class Optimum(Shown):
         if abs(self.gain) < SAME:
             return ", as to begin with"
         return f", {100.0 * self.gain:.3g} % better than {show(self.start_value, units)} to begin with"
-
-    def _settings(self) -> list[tuple[str, str]]:
-        found = [(each.name, each.show(self.variables[each.name])) for each in self.problem.space.variables]
-        words = self.problem.space.words(self.combination, self.problem.plan)
-        return [*found, *(tuple(part.split(" = ", 1)) for part in words.split(", ") if part)]  # type: ignore[list-item]
 
     def rounded(self, to: float = 1.0 * mm, angle: float = 0.1 * deg) -> Rounded:
         """Return the design with its lengths on steps of `to` [m] and its angles on steps of `angle` [rad], as a drawing gives them.
@@ -271,25 +267,8 @@ class Optimum(Shown):
 # The winner, on its steps and judged.
 
 
-def polished(
-    problem: Problem, combination: Sequence[int], found: SearchEnd, ended: Sequence[SearchEnd], searched: int, cut: Sequence[str]
-) -> Optimum:
-    """Return an optimum; AssemblyError where it cannot be assembled over the whole stroke."""
-    if any(each.step is not None for each in problem.space.variables):
-        problem, combination, found = on_steps(problem, combination, found)
-    limit = problem.count.limit if problem.count.is_spent else None
-    with problem.count.without_limit():
-        return described(problem, combination, found, ended, searched, cut, limit)
-
-
 def described(
-    problem: Problem,
-    combination: Sequence[int],
-    found: SearchEnd,
-    ended: Sequence[SearchEnd],
-    searched: int,
-    cut: Sequence[str],
-    limit: int | None,
+    problem: Problem, combination: Sequence[int], found: SearchEnd, ended: Sequence[SearchEnd], searched: int, cut: Sequence[str]
 ) -> Optimum:
     """Return an optimum with all that is said of it; AssemblyError where it cannot be assembled over the whole stroke."""
     machine = problem.machine_of(found.unit, combination)
@@ -319,12 +298,12 @@ def described(
     start_value, start_missing = worth_of(problem, problem.machine)
     good = [each for each in ended if each.feasible]
     agreed = sum(abs(each.value - found.value) <= SAME * max(abs(found.value), 1e-300) for each in good)
-    return Optimum(
-        machine, problem.machine, value, start_value, start_missing, conditions, tuple(bounds),
-        {each.name: float(at) for each, at in zip(problem.space.variables, values, strict=True)},
-        max(agreed, 1), len(ended), searched, tuple(cut), problem.count.designs, problem, found.unit, tuple(combination), limit=limit,
-        edges=tuple(edges(problem, combination, found.unit, prices, part)),
+    variables = {each.name: float(at) for each, at in zip(problem.space.variables, values, strict=True)}
+    best = Optimum(
+        machine, problem.machine, value, start_value, start_missing, conditions, tuple(bounds), variables, max(agreed, 1), len(ended),
+        searched, tuple(cut), problem.count.designs, problem, found.unit, tuple(combination),
     )  # fmt: skip
+    return replace(best, edges=tuple(edges(problem, combination, found.unit, prices, part)))
 
 
 def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float], price: float, scale: float) -> Kept:
@@ -458,11 +437,15 @@ def what_of(message: str) -> str:
 def on_steps(problem: Problem, combination: Sequence[int], found: SearchEnd) -> tuple[Problem, tuple[int, ...], SearchEnd]:
     """Return the problem with its stepped variables held on steps, and the best design there; AssemblyError where none is assembled.
 
+    Without such variables it is what was given.
+
     Where everything goes in steps and there are not too many, it is the best of all of them, by few poses. Else the steps about each value
     are looked at, and the most promising of others. From the best of these on it goes a step up or down at a time, as long as that is
     better. The variables that are left are searched from each.
     """
     search, count = StepSearch(problem, combination, found), problem.count
+    if not search.stepped:
+        return problem, tuple(combination), found
     if count.is_spent:
         search.look(search.about())
     else:

@@ -663,19 +663,16 @@ class Problem:
 
     def assembled(self, machine: Mechanism) -> Motion:
         """Return a machine's motion over the strokes' ranges; AssemblyError where it cannot be assembled, between the poses too."""
-        count = 101 if len(self.ranges) == 1 else 25
-        axes = [np.array(low) if low == high else np.linspace(low, high, count) for low, high in self.ends(machine.dimensions).values()]
-        arrays = iter(np.meshgrid(*[axis for axis in axes if axis.ndim], indexing="ij")) if any(axis.ndim for axis in axes) else iter(())
-        at: dict[str, Any] = {name: next(arrays) if axis.ndim else float(axis) for name, axis in zip(self.ranges, axes, strict=True)}
-        return machine.at(**at)
+        ends, count = self.ends(machine.dimensions), 101 if len(self.ranges) == 1 else 25
+        axes = {name: np.linspace(low, high, count) for name, (low, high) in ends.items() if low != high}
+        grids = dict(zip(axes, np.meshgrid(*axes.values(), indexing="ij"), strict=True))
+        return machine.at(**{name: grids.get(name, low) for name, (low, _) in ends.items()})
 
     def along(self, machine: Mechanism, name: str, count: int) -> Motion:
         """Return a machine's motion along one stroke's range, the others in the middle of theirs, NaN where it is not reached."""
-        ends = self.ends(machine.dimensions).items()
-        at: dict[str, Any] = {
-            stroke: np.linspace(low, high, count) if stroke == name else 0.5 * (low + high) for stroke, (low, high) in ends
-        }
-        return machine.at(unreachable="nan", **at)
+        ends = self.ends(machine.dimensions)
+        middle = {stroke: 0.5 * (low + high) for stroke, (low, high) in ends.items()}
+        return machine.at(unreachable="nan", **{**middle, name: np.linspace(*ends[name], count)})
 
     def over_stroke(self, leaf: Leaf, design: Mapping[str, Numbers], count: int) -> tuple[str, FloatArray, FloatArray] | None:
         """Return a stroke that a leaf's quantity depends on, its values (n,) and the quantity's (n,) of a design [SI]; None for a constant.

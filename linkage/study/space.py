@@ -89,9 +89,9 @@ class Space:
                     known_dimension(machine, part)
             about += coordinates(machine.plan, parts) if isinstance(given, Around) else []
             for part in parts if isinstance(given, Around) and given.is_round else ():
+                expected = f"{part} is no fixed point that varies; write around(60 * mm) of a dimension"
                 if f"{part}.x" not in spellings:
-                    what = f"{part}=around(radius=...): {part} is no fixed point that varies"
-                    raise DefinitionError(f"{title}: {what}; write around(60 * mm) of a dimension.")
+                    raise DefinitionError(f"{title}: {part}=around(radius=...): {expected}.")
                 circles[part] = given.by
             if not any(sided) and (isinstance(given, Around) or (isinstance(given, tuple) and len(parts) == 1 and len(given) in (2, 3))):
                 variables += ranged(machine, parts, given)
@@ -138,21 +138,19 @@ class Space:
         """Yield every combination of choices, by the numbers of their rows."""
         return product(*(range(len(rows)) for _, rows in self.choices))
 
+    def _set_by(self, combination: Sequence[int]) -> Iterator[tuple[str, float]]:
+        """Yield what a combination sets, dimensions [SI] by their owners and sides by their names."""
+        for (owners, rows), row in zip(self.choices, combination, strict=True):
+            for (owner, sign), value in zip(owners, rows[row], strict=True):
+                yield owner, sign * value
+
     def chosen(self, combination: Sequence[int]) -> dict[str, float]:
         """Return the dimensions [SI] of a combination, by their owners."""
-        found: dict[str, float] = {}
-        for (owners, rows), row in zip(self.choices, combination, strict=True):
-            found |= {owner: sign * value for (owner, sign), value in zip(owners, rows[row], strict=True) if not is_side(owner)}
-        return found
+        return {owner: value for owner, value in self._set_by(combination) if not is_side(owner)}
 
     def sides(self, combination: Sequence[int]) -> dict[str, Side]:
         """Return the sides of steps in a combination, by the steps' names."""
-        return {
-            owner.removesuffix(ENDING): Side(int(value))
-            for (owners, rows), row in zip(self.choices, combination, strict=True)
-            for (owner, _), value in zip(owners, rows[row], strict=True)
-            if is_side(owner)
-        }
+        return {owner.removesuffix(ENDING): Side(int(value)) for owner, value in self._set_by(combination) if is_side(owner)}
 
     def words(self, combination: Sequence[int], plan: Plan) -> str:
         """Return a combination in words."""

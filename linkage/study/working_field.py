@@ -341,10 +341,10 @@ class FieldSearch:
         lifting = None if lifts is None else frozenset(names_among(lifts, "lifts", elements, title, '"boom"'))
         loads = LoadAt(plan, many.places.designs, name, way, case, left, lifting, rule.pressure)
         label = case_of(plan, case).label if case is not None else ""
-        if lifting is not None and not lifting <= set(loads.bounded):
-            odd = next(each for each in (lifts or ()) if name_of(each) not in loads.bounded)
-            what = f"{title}: lifts: {name_of(odd)} has no pressure to lift with"
-            raise DefinitionError(f"{what}; name cylinders that hold and have a circuit: {', '.join(loads.bounded) or 'there are none'}.")
+        odd = [name_of(each) for each in lifts or () if name_of(each) not in loads.bounded]
+        if odd:
+            remedy = f"name cylinders that hold and have a circuit: {', '.join(loads.bounded) or 'there are none'}"
+            raise DefinitionError(f"{title}: lifts: {odd[0]} has no pressure to lift with; {remedy}.")
         if limits is not None:
             require_type(f"{title}: limits", limits, Mapping, 'limits by name are expected, limits={"rated load": 20 * kN}')
         further = {str(each): FurtherLimit.of(str(each), value, plan, title) for each, value in (limits or {}).items()}
@@ -458,7 +458,10 @@ class FieldSearch:
 
     def climbed(self, base: PlacePoses, load: FloatArray, looks: int, room: float) -> tuple[PlacePoses, FloatArray]:
         """Return poses whose spare strokes went to where more is carried, and their loads [N]."""
-        order = np.array([each for _, each, _ in self.turns])[self.spared(base.unit)]
+        _, slopes = self.many.seen(base.unit)
+        size = np.array([np.abs(np.linalg.det(slopes[:, :, order[: many.solved]])) for many, order, _ in self.turns])
+        usual = size[0] > USUAL[self.many.spare] * size.max(axis=0)  # the first turn's, but where its others are near a dead point
+        order = np.array([each for _, each, _ in self.turns])[np.where(usual, 0, np.argmax(size, axis=0))]
         start = PlacePoses(base.place, np.take_along_axis(base.unit, order, axis=1))
         climb = Climb(self.moved, self.many.solved, start, order, load, start.unit, load, np.full(len(load), room))
         for _ in range(looks):
@@ -468,12 +471,6 @@ class FieldSearch:
         unit = np.empty_like(base.unit)
         np.put_along_axis(unit, order, climb.base.unit, axis=1)
         return PlacePoses(base.place, unit), climb.load
-
-    def spared(self, unit: FloatArray) -> Index:
-        """Return which of the `turns` has the strokes to spare at each pose (n,): the first, but where its others are near a dead point."""
-        _, slopes = self.many.seen(unit)
-        size = np.array([np.abs(np.linalg.det(slopes[:, :, order[: many.solved]])) for many, order, _ in self.turns])
-        return np.where(size[0] > USUAL[self.many.spare] * size.max(axis=0), 0, np.argmax(size, axis=0))
 
     def apart(self, found: LoadsFound, count: int) -> Index:
         """Return up to `count` rows of each place, those at which most is carried, whose spare strokes stand apart from each other's."""

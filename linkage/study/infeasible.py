@@ -71,8 +71,12 @@ def infeasible_error(
     title = problem.plan.title
     if not reached:
         return StudyError(f"{title}: no search came to a design that can be assembled over the whole stroke; widen vary=.")
-    looks = [problem.evaluated(problem.dimensions_at(end.unit, combination)) for combination, end in reached]
-    nowhere = [each for each in problem.constraints if all(look.lost(each.margin)[0] for look in looks)]
+    nowhere = list(problem.constraints)  # those that have no value of any
+    for combination, end in reached:
+        if not nowhere:
+            break
+        look = problem.evaluated(problem.dimensions_at(end.unit, combination))
+        nowhere = [each for each in nowhere if look.lost(each.margin)[0]]
     if nowhere:
         why = " and ".join(no_value(problem.plan, leaf) for leaf in nowhere[0].margin.leaves)
         what = f"{shown(problem, nowhere[0])} is kept by no design that was found, for {why}"

@@ -130,6 +130,10 @@ class PoseSet:
     alone: bool = False
     """Whether its single pose is kept apart from others."""
 
+    def __post_init__(self) -> None:
+        if self.inner:
+            self.axes[self.inner] = np.linspace(0.0, 1.0, INNER)
+
     def place(self, quantity: object) -> int:
         """Return the number of a quantity, entered where it is new."""
         for place, known in enumerate(self.quantities):
@@ -204,14 +208,12 @@ class LimitReachedError(StudyError):
 
 
 @final
+@dataclass(eq=False)
 class Count:
     """How many designs a search and its parts have looked at, each look at one counted, and how many they may, None for any number."""
 
-    def __init__(self) -> None:
-        self.designs, self.limit = 0, None
-
-    designs: int
-    limit: int | None
+    designs: int = 0
+    limit: int | None = None
 
     @property
     def is_spent(self) -> bool:
@@ -373,9 +375,9 @@ class Problem:
 
     def _poses(self, leaf: Leaf, moving: Sequence[str]) -> tuple[PoseSet, int]:
         """Return the poses of a leaf, shared with others that are looked at at the same, and which single one it is, -1 for all."""
-        title, quantity, inner = self.plan.title, leaf.quantity, leaf.over
+        title, inner, strokes = self.plan.title, leaf.over, ", ".join(self.plan.strokes)
         if inner and inner not in self.plan.strokes:
-            raise DefinitionError(f"{title}: {quantity}: there is no stroke {inner!r}; its strokes are {', '.join(self.plan.strokes)}.")
+            raise DefinitionError(f"{title}: {leaf.quantity}: there is no stroke {inner!r}; its strokes are {strokes}.")
         depends = strokes_behind(self.plan, leaf.inner)
         axes = tuple(name for name in moving if name in depends and name != inner)
         if isinstance(leaf, At):
@@ -383,13 +385,13 @@ class Problem:
         if isinstance(leaf, Integral):
             by = leaf.by or (axes[0] if len(axes) == 1 else "")
             if by not in self.plan.strokes:
-                raise DefinitionError(f"{title}: {leaf}: say by which stroke, by= one of {', '.join(self.plan.strokes)}.")
+                raise DefinitionError(f"{title}: {leaf}: say by which stroke, by= one of {strokes}.")
             others = [name for name in axes if name != by]
             if others:
                 raise DefinitionError(f"{title}: {leaf} depends on {', '.join(others)} too: hold it by over={{...}}, or take worst(...).")
             return self._set((by,), inner, integral=True), -1
         if not axes and not inner:
-            return self._single(At(quantity, {}), (), inner)
+            return self._single(At(leaf.quantity, {}), (), inner)
         return self._set(axes, inner), -1
 
     def _single(self, leaf: At, depends: Sequence[str], inner: str) -> tuple[PoseSet, int]:
@@ -398,11 +400,10 @@ class Problem:
         Quantities of the program are looked at together at all single poses. A function of a motion has its pose for itself: it may do
         with several what it will.
         """
-        unknown = [name for name in leaf.strokes if name not in self.plan.strokes]
-        if unknown:
-            known = ", ".join(self.plan.strokes) or "none"
-            raise DefinitionError(f"{self.plan.title}: {leaf}: there is no stroke {unknown[0]!r}; its strokes are {known}.")
         for name, value in leaf.strokes.items():
+            if name not in self.plan.strokes:
+                known = ", ".join(self.plan.strokes) or "none"
+                raise DefinitionError(f"{self.plan.title}: {leaf}: there is no stroke {name!r}; its strokes are {known}.")
             check_magnitude(name, (float(value), float(value)), self.plan)
         held = {name: float(one.low) for name, one in self.ranges.items() if is_still(one)}
         missing = [name for name in depends if name not in leaf.strokes and name not in held and name != inner]
@@ -415,8 +416,7 @@ class Problem:
                 if fixed not in each.singles:
                     each.singles.append(fixed)
                 return each, -1 if inner else each.singles.index(fixed)
-        axes = {inner: np.linspace(0.0, 1.0, INNER)} if inner else {}
-        self.sets.append(PoseSet(axes, [fixed], inner=inner, alone=alone))
+        self.sets.append(PoseSet({}, [fixed], inner=inner, alone=alone))
         return self.sets[-1], -1 if inner else 0
 
     def _set(self, names: Sequence[str], inner: str = "", *, integral: bool = False) -> PoseSet:
@@ -427,8 +427,7 @@ class Problem:
                 return each
         count = self.counts.get(len(names), 3)
         places, weights = gauss(np.linspace(0.0, 1.0, PANELS + 1)) if integral else (np.linspace(0.0, 1.0, count), None)
-        axes = {name: places for name in names} | ({inner: np.linspace(0.0, 1.0, INNER)} if inner else {})
-        self.sets.append(PoseSet(axes, weights=weights, inner=inner))
+        self.sets.append(PoseSet(dict.fromkeys(names, places), weights=weights, inner=inner))
         return self.sets[-1]
 
     # -- looking -----------------------------------------------------------------------------------------
@@ -782,8 +781,7 @@ class Problem:
         sampling, ends = self._sampling(poses), self._ends(design)
 
         def values(places: FloatArray) -> FloatArray:
-            axes = {name: places} | ({poses.inner: poses.axes[poses.inner]} if poses.inner else {})
-            found = sampling.at(self._grid(PoseSet(axes, weights=None, inner=poses.inner), design, ends)).values[place]
+            found = sampling.at(self._grid(PoseSet({name: places}, inner=poses.inner), design, ends)).values[place]
             if isinstance(leaf.quantity, Worst):
                 found, _ = worst_along(found, np.zeros((0, found.shape[1])), len(poses.axes[poses.inner]), leaf.quantity.sense)
             return np.asarray(found[0])

@@ -272,9 +272,15 @@ def test_choices_alone_are_all_looked_at():
     assert_allclose(best.value, max(every), rtol=1e-6)
 
 
-def test_steps_are_kept_and_no_design_on_steps_beats_it():
+def test_steps_are_kept_and_no_design_on_steps_beats_it(tmp_path):
     vary = {"OB": (0.25, 0.35, 0.01), "A.y": (-0.06, 0.06)}
     best = optimise(Boom(), minimise=most(pressure("lift")), vary=vary, subject_to=[TRAVEL <= 0.64])
+    best.designs_csv(tmp_path / "designs.csv")
+    best.designs_jsonl(tmp_path / "designs.jsonl")
+    lines = (tmp_path / "designs.csv").read_text().splitlines()
+    assert lines[0].split(",")[0] == "stage" and len(lines) == 1 + sum(len(each.unit) for each in best.tried)
+    looked = [json.loads(line) for line in (tmp_path / "designs.jsonl").read_text().splitlines()]
+    assert {"OB", "A.y", "value"} <= looked[0].keys() and all(0.25 <= each["OB"] <= 0.35 for each in looked)
     steps = best.machine["OB"] / 0.01
     assert steps == pytest.approx(round(steps), abs=1e-9)
     every = [

@@ -106,13 +106,12 @@ def tornado(
     k = len(named)
     levels = np.concatenate([np.zeros((1, k)), -np.eye(k), np.eye(k)])
     values = poses.values(machine.replaced(**shifted_designs(machine, named, levels)), quantity, RunOptions())
+    title, nominal = measured_title(plan, quantity), float(values[0, 0])
     if values.shape[1] != 1:
-        said = "say one pose, or give a measure such as most(...)"
-        raise DefinitionError(f"{plan.title}: {measured_title(plan, quantity)} at {poses.pose_count} poses; {said}.")
-    nominal = float(values[0, 0])
+        remedy = "say one pose, or give a measure such as most(...)"
+        raise DefinitionError(f"{plan.title}: {title} at {poses.pose_count} poses; {remedy}.")
     if not np.isfinite(nominal):
-        what = f"{plan.title}: {measured_title(plan, quantity)} has no value at {poses.words()}"
-        raise DefinitionError(f"{what}; ask where it has one.")
+        raise DefinitionError(f"{plan.title}: {title} has no value at {poses.words()}; ask where it has one.")
     low, high = values[1 : 1 + k, 0] - nominal, values[1 + k :, 0] - nominal
     slopes = gradient_at(machine, poses, quantity, named)
     with np.errstate(all="ignore"):
@@ -123,7 +122,7 @@ def tornado(
     bars = [Effect(name, each, *row) for (name, each), row in zip(named.items(), rows, strict=True)]
     ordered = tuple(sorted(bars, key=lambda bar: -bar.length))
     shown = unit or display_unit(measure_of(plan, quantity), "mm")
-    return Tornado(plan, measured_title(plan, quantity), shown, poses.words(), nominal, float(np.sqrt(total)), ordered)
+    return Tornado(plan, title, shown, poses.words(), nominal, float(np.sqrt(total)), ordered)
 
 
 STEP = 1e-3

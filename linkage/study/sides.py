@@ -30,17 +30,17 @@ def sided_step(machine: Mechanism, name: object) -> str:
     step = name.removesuffix(ENDING)
     having = [each for each, member in plan.members.items() if isinstance(member, Step) and member.modes()]
     member = plan.members.get(step)
+    behind = [group.pins for group in plan.groups.values() if step in having and step in plan.reaches(*group.pins)]
     if isinstance(member, Point) and member.companions:
         text = f"{step} is found together with {' '.join(member.companions)}, whose mode is that of their places in the sketch"
-        raise DefinitionError(f"{plan.title}: vary={{{name!r}: ...}}: {text}, near=(x, y); write a class for each mode.")
-    if step not in having:
-        known = ", ".join(f"{each}{ENDING}" for each in having) or "none"
-        raise DefinitionError(f"{plan.title}: vary={{{name!r}: ...}}: {step} has no side to choose; its sides are {known}.")
-    behind = [name for name, group in plan.groups.items() if step in plan.reaches(*group.pins)]
-    if behind:
-        text = f"the pins {' '.join(plan.groups[behind[0]].pins)} stand on {step} and are followed from the sketch"
-        raise DefinitionError(f"{plan.title}: vary={{{name!r}: ...}}: {text}; write a class for each side.")
-    return step
+        wrong = f"{text}, near=(x, y); write a class for each mode"
+    elif step not in having:
+        wrong = f"{step} has no side to choose; its sides are {', '.join(f'{each}{ENDING}' for each in having) or 'none'}"
+    elif behind:
+        wrong = f"the pins {' '.join(behind[0])} stand on {step} and are followed from the sketch; write a class for each side"
+    else:
+        return step
+    raise DefinitionError(f"{plan.title}: vary={{{name!r}: ...}}: {wrong}.")
 
 
 def on_sides(machine: Mechanism, sides: Mapping[str, Side]) -> Mechanism:

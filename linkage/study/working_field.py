@@ -321,13 +321,11 @@ class FieldSearch:
         if name not in plan.moving:
             raise DefinitionError(f"{title}: {name} stands still, so that nothing is lifted there; name a point that moves.")
         axes = [axis_values(each, axis, title) for axis, each in (("x", x_given), ("y", y_given))]
-        count = axes[0].size * axes[1].size
-        if count > MOST_CELLS:
-            what = f"{title}: {axes[0].size} by {axes[1].size} are {count} cells"
-            raise DefinitionError(f"{what}, up to {MOST_CELLS} are looked at; give fewer.")
-        expected = 'a list of targets is expected, such as keep=[Target("tilt", 0.0)]'
-        require_type(f"{title}: keep", keep, (list, tuple), expected, of=Target)
-        require(not any(each.is_path for each in keep), f"{title}: keep", keep, expected)
+        across, up = axes[0].size, axes[1].size
+        if across * up > MOST_CELLS:
+            raise DefinitionError(f"{title}: {across} by {up} are {across * up} cells, up to {MOST_CELLS} are looked at; give fewer.")
+        fits = isinstance(keep, (list, tuple)) and all(isinstance(each, Target) and not each.is_path for each in keep)
+        require(fits, f"{title}: keep", keep, 'a list of targets is expected, such as keep=[Target("tilt", 0.0)]')
         targets = [Target(x_of(name), float(axes[0][0])), Target(y_of(name), float(axes[1][0])), *keep]
         ranges = ranges_over(machine, over, title)
         still = {name: low for name, (low, high) in ranges.items() if low == high}

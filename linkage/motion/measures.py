@@ -177,12 +177,12 @@ class Leaf(Measure):
     sense: ClassVar[float] = 0.0
 
     @property
-    def inner(self) -> str | Quantity | Request | Callable[[Motion], FloatArray]:
+    def bare_quantity(self) -> str | Quantity | Request | Callable[[Motion], FloatArray]:
         """The quantity, that of `worst(...)` at each pose of its stroke too."""
         return self.quantity.quantity if isinstance(self.quantity, Worst) else self.quantity
 
     @property
-    def over(self) -> str:
+    def worst_over(self) -> str:
         """The further stroke over which the worst of the quantity is taken, "" for none."""
         return self.quantity.over if isinstance(self.quantity, Worst) else ""
 

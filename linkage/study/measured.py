@@ -104,7 +104,7 @@ class StudyPoses:
 
     def of_requests(self, machine: Mechanism, requests: Sequence[Any], way: RunOptions, poses: slice = slice(None)) -> list[FloatArray]:
         """Return requests of m designs at n of the poses, an array (m, n) each, NaN where they have no value."""
-        found = evaluate_grid(self.grid(machine, poses), requests, None, way, "nan")
+        found = evaluate_grid(self.grid_at(machine, poses), requests, None, way, "nan")
         return [each.reshape(-1, each.shape[-1]) for each in found]
 
     def of_all(self, machine: Mechanism) -> Motion:
@@ -202,7 +202,7 @@ class StudyPoses:
         """Return values (..., n) in the shape of the strokes; numbers for each design, (..., 1), without it."""
         return values.reshape((*values.shape[:-1], *(self.base.shape if values.shape[-1] == self.pose_count else ())))
 
-    def grid(self, machine: Mechanism, poses: slice = slice(None)) -> Grid:
+    def grid_at(self, machine: Mechanism, poses: slice = slice(None)) -> Grid:
         """Return m designs at n of the poses."""
         places = np.arange(self.pose_count)[poses]
         strokes = {name: value[poses] for name, value in self.stroke_values.items()}
@@ -285,7 +285,7 @@ def nothing_limits(motion: Motion, quantity: Any) -> Mask | None:
 
 def check_no_worst(leaf: Leaf) -> None:
     """Raise DefinitionError for a leaf that is over another stroke."""
-    if leaf.over:
+    if leaf.worst_over:
         raise DefinitionError(
             f"{leaf}: a study of tolerances looks at the strokes it is given; take most(...) over a grid of both strokes."
         )

@@ -452,7 +452,7 @@ def on_steps(problem: Problem, combination: Sequence[int], found: SearchEnd) -> 
         search.look(search.all_steps() if search.is_small else [*search.about(), *search.promising()])
     while not search.is_small and search.best is not None and not count.is_spent:
         before = search.best
-        search.look(search.beside())
+        search.look(search.neighbours())
         if search.best == before:
             break
     if search.best is None:
@@ -517,7 +517,7 @@ class StepSearch:
         self._starts = {each: unit for each, unit in found.items() if each not in self.seen}
         return [*found]
 
-    def beside(self) -> list[tuple[int, ...]]:
+    def neighbours(self) -> list[tuple[int, ...]]:
         """Return the steps beside the best, one variable a step up or down."""
         assert self.best is not None
         found = []
@@ -633,7 +633,7 @@ def unit_of_constraint(plan: Plan, constraint: Constraint) -> str:
 
 def unit_of_leaf(plan: Plan, leaf: Leaf) -> str:
     """Return the unit that a leaf is shown in."""
-    quantity: Any = leaf.inner
+    quantity: Any = leaf.bare_quantity
     if isinstance(leaf, Integral):
         return ""
     if isinstance(quantity, str) and quantity not in plan.members and quantity in plan.table.spellings:

@@ -33,7 +33,7 @@ def check_bounded(problem: Problem, now: LeafNumbers, combination: Sequence[int]
     asked, named = divisors(problem.objectives), f"{problem.plan.title}: {', '.join(map(str, problem.objectives))}"
     n = len(problem.space.variables)
     parts = (0.1, 0.5, 0.9) if asked else ()
-    looks = [problem.evaluated(problem.dimensions_at(np.full(n, part), combination)).sizes for part in parts]
+    looks = [problem.evaluated(problem.dimensions_at(np.full(n, part), combination)).leaf_sizes for part in parts]
     sizes = {leaf: max(look[leaf] for look in looks) for leaf in problem.leaves} if asked else {}
     for each in asked:
         small = abs(float(each.of(lambda leaf: now[leaf])))

@@ -190,7 +190,7 @@ class Evaluated:
         return {leaf: float(values[0]) for leaf, values in self.numbers.items()}
 
     @property
-    def sizes(self) -> dict[Leaf, float]:
+    def leaf_sizes(self) -> dict[Leaf, float]:
         """The size of the largest of each leaf's values; zero where none has one."""
         known = {leaf: rows.values[np.isfinite(rows.values)] for leaf, rows in self.rows.items()}
         return {leaf: float(np.abs(values).max(initial=0.0)) for leaf, values in known.items()}
@@ -248,8 +248,8 @@ class LeafNumbers(dict[Leaf, float]):
         self.lost: set[Leaf] = set()
         self.parts: dict[Leaf, Mapping[str, float]] = {}
 
-    def enter(self, leaf: Leaf, value: float, *, lost: object, parts: Mapping[str, float] = NO_PARTS) -> None:
-        """Enter the number of a leaf, and whether it is lost."""
+    def note(self, leaf: Leaf, value: float, *, lost: object, parts: Mapping[str, float] = NO_PARTS) -> None:
+        """Note the number of a leaf, and whether it is lost."""
         self[leaf], self.parts[leaf] = value, parts
         if lost:
             self.lost.add(leaf)
@@ -319,7 +319,7 @@ class Problem:
         moving = tuple(name for name, one in self.ranges.items() if not is_still(one))
         for leaf in self.leaves:
             poses, single = self._poses(leaf, moving)
-            self._of_leaf[leaf] = poses, poses.place(leaf.inner), single
+            self._of_leaf[leaf] = poses, poses.place(leaf.bare_quantity), single
         self.whole = self._set(moving)
         self.owners = tuple(dict.fromkeys(each.owner for each in space.variables))
         self._samplings: dict[PoseSet, Sampling] = {}
@@ -363,7 +363,7 @@ class Problem:
     @property
     def functions(self) -> list[Callable[..., Any]]:
         """The functions of a motion among what is asked."""
-        asked = [leaf.inner for leaf in self.leaves]
+        asked = [leaf.bare_quantity for leaf in self.leaves]
         return [each for each in asked if callable(each) and not isinstance(each, (Quantity, Request))]
 
     def value(self, numbers: Callable[[Leaf], Any]) -> Any:
@@ -375,10 +375,10 @@ class Problem:
 
     def _poses(self, leaf: Leaf, moving: Sequence[str]) -> tuple[PoseSet, int]:
         """Return the poses of a leaf, shared with others that are looked at at the same, and which single one it is, -1 for all."""
-        title, inner, strokes = self.plan.title, leaf.over, ", ".join(self.plan.strokes)
+        title, inner, strokes = self.plan.title, leaf.worst_over, ", ".join(self.plan.strokes)
         if inner and inner not in self.plan.strokes:
             raise DefinitionError(f"{title}: {leaf.quantity}: there is no stroke {inner!r}; its strokes are {strokes}.")
-        depends = strokes_behind(self.plan, leaf.inner)
+        depends = strokes_behind(self.plan, leaf.bare_quantity)
         axes = tuple(name for name in moving if name in depends and name != inner)
         if isinstance(leaf, At):
             return self._single(leaf, depends, inner)
@@ -625,7 +625,7 @@ class Problem:
         if self._sizes is None:
             known = {leaf: each[np.isfinite(each)] for leaf, each in look.numbers.items() if each.size}
             middle = {leaf: float(np.median(each)) if each.size else float("nan") for leaf, each in known.items()}
-            self._sizes = [scale_among(each, look.sizes, middle) for each in self.constraints]
+            self._sizes = [scale_among(each, look.leaf_sizes, middle) for each in self.constraints]
         found = np.zeros((len(self.constraints), *look.reached.shape))
         with np.errstate(all="ignore"):
             for row, (each, size) in enumerate(zip(self.constraints, self._sizes, strict=True)):
@@ -636,8 +636,8 @@ class Problem:
         """Return between which values a measure lies whatever the variables; None where a leaf of it is taken over the stroke."""
         nodes: list[Node] = []
         for leaf in measure.leaves:
-            is_taken = leaf.over or strokes_behind(self.plan, leaf.inner)
-            request = None if is_taken else traced(self.plan, leaf.inner)
+            is_taken = leaf.worst_over or strokes_behind(self.plan, leaf.bare_quantity)
+            request = None if is_taken else traced(self.plan, leaf.bare_quantity)
             if request is None:
                 return None
             nodes += request.nodes(self.plan)
@@ -711,7 +711,7 @@ class Problem:
                 here = motion_of(self._grid(alone, design, self._ends(design)))
                 value = float(np.ravel(eager(here, leaf.quantity))[0])
                 free = nothing_limits(here, leaf.quantity) if np.isnan(value) else None
-                found.enter(leaf, value, lost=np.isnan(value) and (free is None or not free.all()))
+                found.note(leaf, value, lost=np.isnan(value) and (free is None or not free.all()))
             else:
                 sampled.append(leaf)
         if sampled:
@@ -723,15 +723,15 @@ class Problem:
                     value = float(self.panels(leaf, design).value) * (high - low)
                 else:
                     value = float(reduced(leaf, rows[leaf].values)[0])
-                found.enter(leaf, value, lost=rows[leaf].lost[0])
+                found.note(leaf, value, lost=rows[leaf].lost[0])
         for names, leaves in between.items():
-            self._enter_extremes(found, leaves, design, names, quick=quick)
+            self._note_extremes(found, leaves, design, names, quick=quick)
         return found
 
-    def _enter_extremes(
+    def _note_extremes(
         self, found: LeafNumbers, leaves: Sequence[Leaf], design: Mapping[str, Numbers], names: Sequence[str], *, quick: bool
     ) -> None:
-        """Enter the extremes of one design over some strokes, all looked for together."""
+        """Note the extremes of one design over some strokes, all looked for together."""
         poses = PoseSet({name: np.linspace(0.0, 1.0, 33 if len(names) == 1 else 5) for name in names})
         motion = motion_of(self._grid(poses, design, self._ends(design)))
         senses = [leaf.sense for leaf in leaves]
@@ -747,7 +747,7 @@ class Problem:
                 own[name] = 1.0 - part if turned else part
         values = np.ravel(tops.value) * senses
         for leaf, value, own, lost in zip(leaves, values, parts, watched.without_value, strict=True):
-            found.enter(leaf, float(value), lost=lost, parts=own)
+            found.note(leaf, float(value), lost=lost, parts=own)
 
     def tops(self, leaf: Leaf, design: Mapping[str, Numbers]) -> list[dict[str, float]]:
         """Return where between its samples a leaf of one design has tops that come near its worst value: the part of its stroke's range."""

@@ -39,7 +39,7 @@ class PointRegion:
     fixed: tuple[float, float]
 
     @property
-    def condition(self) -> Constraint:
+    def as_condition(self) -> Constraint:
         """The condition that it is."""
         return least(inside_region(self.point, self.region)) >= 0.0
 

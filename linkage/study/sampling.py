@@ -232,7 +232,7 @@ def zero_factors(plan: Plan, divisor: object) -> list[Any]:
 
 def no_value(plan: Plan, leaf: Leaf) -> str:
     """Return in words that a leaf has no value of some design, and why."""
-    divisors = () if leaf.over else divisors_of(plan, leaf.quantity)
+    divisors = () if leaf.worst_over else divisors_of(plan, leaf.quantity)
     if not divisors:
         return f"{leaf} has no value at some poses"
     why = f"it is divided by {', '.join(map(words_of, divisors))}, and where it passes zero within the stroke, it grows without bounds"

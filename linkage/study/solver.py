@@ -187,7 +187,7 @@ class Local:
             value, slope = graded(objective, lambda leaf: graded_leaf(leaf, look))
             change = float(np.abs(slope[np.isfinite(slope)]).max(initial=0.0))
             sizes.append(max(abs(value) if np.isfinite(value) else 0.0, SMALL * change) or 1.0)
-        return {leaf: size or 1.0 for leaf, size in look.sizes.items()}, scales_of(self.problem, look), max(sizes)
+        return {leaf: size or 1.0 for leaf, size in look.leaf_sizes.items()}, scales_of(self.problem, look), max(sizes)
 
     def _auxiliaries(self, look: Evaluated) -> list[tuple[Constraint | Measure, Leaf]]:
         """Return the leaves that become variables, each with the constraint or objective in which it does."""
@@ -520,7 +520,7 @@ class Local:
         """Return the leaves' numbers at the samples of unit coordinates."""
         look, found = self.evaluated_at(unit), LeafNumbers()
         for leaf, value in look.of_one.items():
-            found.enter(leaf, value, lost=look.rows[leaf].lost[0])
+            found.note(leaf, value, lost=look.rows[leaf].lost[0])
         return found
 
     def _nearest_good(self, unit: FloatArray) -> FloatArray:
@@ -700,7 +700,7 @@ def scales_of(problem: Problem, look: Evaluated) -> list[float]:
     `look` is that of one design with derivatives. The number that a constraint is compared with comes first; where that is zero,
     `least(q) >= 0`, it has a size too.
     """
-    sizes, values, found = look.sizes, look.of_one, []
+    sizes, values, found = look.leaf_sizes, look.of_one, []
     for each in problem.constraints:
         slope = np.abs(graded(each.margin, lambda leaf: graded_leaf(leaf, look)).slope)
         found.append(scale_among(each, sizes, values, float(slope[np.isfinite(slope)].sum())))

@@ -119,7 +119,7 @@ class Space:
     @property
     def conditions(self) -> list[Constraint]:
         """What the regions are as conditions."""
-        return [each.condition for each in self.regions]
+        return [each.as_condition for each in self.regions]
 
     def drawn(self, unit: FloatArray, title: str, seed: int) -> FloatArray:
         """Return unit coordinates (m, n) of designs whose points stand in their regions: those outside are drawn anew."""

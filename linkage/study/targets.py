@@ -125,7 +125,7 @@ class Aim:
         """Return the derivatives of the misses of m designs by dimensions, shape (m, targets, dimensions)."""
         plan, dimensions = machine.plan, dimensions_of(machine.plan, names)
         owners, signs = tuple(owner for owner, _ in dimensions), np.array([float(sign) for _, sign in dimensions])
-        grid = self.poses.grid(machine)
+        grid = self.poses.grid_at(machine)
         found: dict[Hashable, FloatArray] = {}
         for request in self.bound:
             if request.key not in found:

@@ -119,7 +119,7 @@ class Table:
         if name in self.spellings:
             return [(name, value)]
         if f"{name}.x" in self.spellings or f"{name}.y" in self.spellings:
-            pair = list(cast(Iterable[npt.ArrayLike], value)) if np.ndim(value) or isinstance(value, (list, tuple)) else []
+            pair = list(cast(Iterable[npt.ArrayLike], value)) if isinstance(value, (list, tuple)) or np.ndim(value) else []
             require(len(pair) == 2, f"{self.title}({name}", value, f"a point takes two coordinates, {name}=(x, y) in m")
             return [part for axis, each in zip("xy", pair, strict=True) for part in self._pairs(f"{name}.{axis}", each)]
         if name in self.following:

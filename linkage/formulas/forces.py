@@ -133,7 +133,7 @@ class ForceLines:
             self._thrusts[thrust.name] = cast(Term, self.given(f"T_{thrust.name}", value, "N"))
             self._members[thrust.name] = thrust.member
         for place, load in enumerate(acting.loads):
-            point = load.load.point
+            point = load.point
             symbol = self.listing.names.force_vector(f"F_{name}" if len(acting.loads) == 1 else f"F_{name}_{point}")
             self.givens.append(GivenNumber(symbol, given_load(name, place), unit_named("N")))
             yield Pulled(point, symbol, 0)

@@ -78,11 +78,12 @@ class LoadCase(Member):
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         """Raise DefinitionError for a name that is no load of the class."""
         loads = [name for name, member in members.items() if isinstance(member, ForceElement)]
+        where = f"{title}.{self.name}"
         for name in self.mentioned:
-            known_name("Load", name, loads, where=f"{title}.{self.name}")
+            known_name("Load", name, loads, where=where)
         for name in self.scale:
-            check_factor(self, name, members[name], f"{title}.{self.name}")
-        shut_members(self, members, f"{title}.{self.name}")
+            check_factor(self, name, members[name], where)
+        shut_members(self, members, where)
         for name, other in members.items():
             if isinstance(other, LoadCase) and other is not self and self.label in (other.label, name):
                 what = f"{self.name} and {name} are both called {self.label!r}, so that it does not tell which one is meant"
@@ -119,33 +120,28 @@ def check_factor(case: LoadCase, name: str, element: object, where: str) -> None
 
 def shut_members(case: LoadCase, members: Mapping[str, Member], where: str) -> dict[str, Member]:
     """Return what a case shuts, as it is then, by name; DefinitionError for what cannot be shut, with what can."""
-    found, elements = dict[str, Member](), {name: each for name, each in members.items() if isinstance(each, ForceElement)}
+    elements = {name: each for name, each in members.items() if isinstance(each, ForceElement)} if case.shut else {}
+    shut = {name: each.when_shut() for name, each in elements.items()}
+    able = {name: each for name, each in shut.items() if each is not None}
     for name in case.shut_names:
-        closed = elements[name].when_shut() if name in elements else None
-        if closed is None:
-            able = [each for each, element in elements.items() if element.when_shut() is not None]
-            if name not in elements:
-                raise unknown("Line", name, able, where=f"{where}, shut")
+        if name not in elements:
+            raise unknown("Line", name, able, where=f"{where}, shut")
+        if name not in able:
             can = f"what can be shut is {', '.join(able)}" if able else "no line is declared, such as line = OilLine(lift.rod_side, Tank())"
             raise DefinitionError(f"{where}: shut=[{name!r}]: {name} is a {type(elements[name]).__name__} and cannot be shut; {can}.")
-        found[name] = closed
-    return found
+    return {name: able[name] for name in case.shut_names}
 
 
 def check_words(title: object, scale: object, only: object, shut: object) -> None:
     """Raise DefinitionError for a title that is no text, and for anything but a choice of loads."""
     if not isinstance(title, str):
-        example = 'LoadCase("transport", scale={"load": 2.0})'
-        raise DefinitionError(f"LoadCase({cited(title)}): its title is expected first, {example}.")
-    opening = f"LoadCase({title!r})"
+        raise DefinitionError(f'LoadCase({cited(title)}): its title is expected first, LoadCase("transport", scale={{"load": 2.0}}).')
+    opening, remedy = f"LoadCase({title!r})", f"[{only!r}]" if isinstance(only, str) else 'their names, only=["load"]'
     if not isinstance(scale, Mapping):
         said = f"scale={cited(scale)} does not say what is scaled"
         raise DefinitionError(f'{opening}: {said}; write a factor for each load by name, scale={{"load": 2.0}}.')
-    if isinstance(only, str):
-        raise DefinitionError(f"{opening}: only={only!r} is not a list of loads; write [{only!r}].")
-    if only is not None and not isinstance(only, (list, tuple)):
-        raise DefinitionError(f'{opening}: only={cited(only)} is not a list of loads; write their names, only=["load"].')
+    loads = require_type(f"{opening}: only", () if only is None else only, (list, tuple), f"is not a list of loads; write {remedy}")
     lines = require_type(f"{opening}: shut", shut, (list, tuple), 'is not a list of lines; write their names, shut=["line"]')
-    for each in (*scale, *(only or ()), *lines):
+    for each in (*scale, *loads, *lines):
         if not isinstance(each, (str, Member)):
             raise DefinitionError(f"{opening}: {cited(each)} is neither a load nor the name of one.")

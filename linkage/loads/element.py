@@ -38,6 +38,8 @@ class Load:
     point: str
     force: Array
     on: tuple[str, ...] = ()
+    element: str = ""
+    """The element that puts it there, where it acts."""
 
 
 @final
@@ -76,10 +78,14 @@ class TwoPinned(Protocol):
 @final
 @dataclass(frozen=True, eq=False)
 class Push:
-    """The thrust [N] of a straight two-point member, positive where it pushes its ends apart; it broadcasts against the motion."""
+    """The thrust [N] of a straight two-point member, positive where it pushes its ends apart; it broadcasts against the motion.
+
+    `name` is that of the member as a body, where it acts.
+    """
 
     member: TwoPinned
     thrust: Array
+    name: str = ""
 
 
 @final
@@ -408,20 +414,20 @@ class ForceElement(Jointed):
         """Raise DefinitionError where something else is given for a point, or one point is given twice."""
         names = [name_of(getattr(self, place)) for place in self.places]
         for name in names:
-            if not isinstance(members[name], Point):
-                raise DefinitionError(f"{title}: {self.name} = {self}: {name} is not a point.")
-            if names.count(name) > 1:
-                raise DefinitionError(f"{title}: {self.name} = {self} begins and ends at {name}; name two different points.")
+            wrong = "" if names.count(name) < 2 else f" begins and ends at {name}; name two different points"
+            wrong = wrong if isinstance(members[name], Point) else f": {name} is not a point"
+            if wrong:
+                raise DefinitionError(f"{title}: {self.name} = {self}{wrong}.")
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         """Return the design variables this element brings: name, default, kind and unit."""
-        given = {name: quantity(self.given(name)) for name in self.numbers}
-        kinds = {name: "not negative" if name in self.not_negative else "number" for name in given}
-        return tuple(
-            (f"{self.name}.{name}", float(value.number) if name in self.stroke_values else value.number, kinds[name], self.parameters[name])
-            for name, value in given.items()
-            if isinstance(value, Number)
-        )
+        found = []
+        for name in self.numbers:
+            value, kind = quantity(self.given(name)), "not negative" if name in self.not_negative else "number"
+            if isinstance(value, Number):
+                number = float(value.number) if name in self.stroke_values else value.number
+                found.append((f"{self.name}.{name}", number, kind, self.parameters[name]))
+        return tuple(found)
 
     def number(self, motion: Poses, name: str) -> Array:
         """Return a parameter over the motion [SI]: as the machine has it set, or as it is written here."""
@@ -430,17 +436,19 @@ class ForceElement(Jointed):
         member = motion.plan.members.get(self.name)
         if key in motion.inputs and type(member) is type(self) and member.given(name) is given:
             return motion.inputs[key]
-        if isinstance(given, (str, Quantity)):
-            untracked = motion.plan.untracked(quantity(given))
-            if untracked:
-                what = f"{self.name or self}: {name} = {value_text(given)} depends on the whole turns of {untracked[0]}, which are followed"
-                raise DefinitionError(f"{what} for the loads of a class only; declare it in the class, or use sines and cosines.")
-            at_poses = motion.value(quantity(given))
-            if name in self.not_negative and np.any(at_poses < 0.0):
-                what = f"{self.name or self}: {name} = {value_text(given)} is negative, {np.nanmin(at_poses):.6g}"
-                raise DefinitionError(f"{what}; let it follow what stays at or above zero.")
-            return at_poses
-        return np.asarray(given, float)
+        if not isinstance(given, (str, Quantity)):
+            return np.asarray(given, float)
+        follows, wrong = quantity(given), ""
+        untracked = motion.plan.untracked(follows)
+        found = None if untracked else motion.value(follows)
+        if found is None:
+            what = f"depends on the whole turns of {untracked[0]}, which are followed for the loads of a class only"
+            wrong = f"{what}; declare it in the class, or use sines and cosines"
+        elif name in self.not_negative and np.any(found < 0.0):
+            wrong = f"is negative, {np.nanmin(found):.6g}; let it follow what stays at or above zero"
+        if found is None or wrong:
+            raise DefinitionError(f"{self.name or self}: {name} = {value_text(given)} {wrong}.")
+        return found
 
     def position(self, motion: Poses, place: str) -> Array:
         """Return the position of one of its points, shape (2, ...) [m]."""
@@ -453,18 +461,20 @@ class ForceElement(Jointed):
             self._check_number(name)
 
     def _check_number(self, name: str) -> None:
-        given = self.given(name)
+        given, wrong = self.given(name), ""
         if isinstance(given, (str, Quantity)):
             quantity(given)
             return
         try:
             value = real(given)
+            if not value.size or not np.all(np.isfinite(value)):
+                wrong = "not a finite number; give it in SI"
+            elif name in self.not_negative and np.any(value < 0.0):
+                wrong = "negative; give zero or more"
         except ValueError:
-            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a number; give it in SI.") from None
-        if not value.size or not np.all(np.isfinite(value)):
-            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a finite number; give it in SI.")
-        if name in self.not_negative and np.any(value < 0.0):
-            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is negative; give zero or more.")
+            wrong = "not a number; give it in SI"
+        if wrong:
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is {wrong}.")
 
     def _opening(self) -> str:
         """Return the element as it is written; its kind alone where its points have no names yet, as in a class."""
@@ -498,20 +508,20 @@ def check_together(elements: Mapping[str, object] | Sequence[tuple[str, object]]
 
     `elements` are the loads with their names, `members` those of the class.
     """
-    found = list(elements.items()) if isinstance(elements, Mapping) else list(elements)
-    owners: dict[Hashable, str] = {}
+    found, owners, wrong = list(elements.items() if isinstance(elements, Mapping) else elements), dict[Hashable, str](), list[str]()
     for place, (name, element) in enumerate(found):
         for other, earlier in found[:place]:
             if element is earlier:
                 what = f"{name} stands twice among the loads" if name == other else f"{other} and {name} are one and the same load"
                 remedy = f'give it once, and scale it by a load case, LoadCase(scale={{"{other}": 2.0}})'
-                raise DefinitionError(f"{title}: {what} and would count double; {remedy}.")
-            if name == other and isinstance(element, Member) and element.name:
-                raise DefinitionError(f"{title}: two of these loads are called {name}, {earlier} and {element}; give one another name.")
-        for key, words in element.claims(members).items() if isinstance(element, ForceElement) else ():
-            first = owners.setdefault(key, name)
-            if first != name:
-                raise DefinitionError(f"{title}: {first} and {name} both {words}")
+                wrong.append(f"{what} and would count double; {remedy}.")
+            elif name == other and isinstance(element, Member) and element.name:
+                wrong.append(f"two of these loads are called {name}, {earlier} and {element}; give one another name.")
+        claims = element.claims(members) if isinstance(element, ForceElement) else {}
+        firsts = {key: owners.setdefault(key, name) for key in claims}
+        wrong += [f"{firsts[key]} and {name} both {words}" for key, words in claims.items() if firsts[key] != name]
+        if wrong:
+            raise DefinitionError(f"{title}: {wrong[0]}")
 
 
 def value_text(value: object) -> str:

@@ -6,18 +6,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import cos, sin
 from types import MappingProxyType
-from typing import ClassVar, TypeAlias, final
+from typing import ClassVar, Self, TypeAlias, final
 
 import numpy as np
 
 from ..checks import require
-from ..errors import DefinitionError, cited, unknown
+from ..errors import DefinitionError, cited, known_name
 from ..frozen import refuses_changes, unmasked
 from ..quantities import Axes, Member, Reference, is_number, label, name_of, real
 from ..quantities.quantity import plain
 from ..steps import Link, Point
 from ..units import g0, require_measure
-from .element import Array, Declared, ForceElement, Glyph, Load, Parameter, Poses, couple, value_text
+from .element import Array, ForceElement, Glyph, Load, Parameter, Poses, couple, value_text
 
 DOWN = (0.0, -g0)  # gravity, m/s2
 
@@ -67,10 +67,38 @@ def on_slope(gravity: tuple[float, float], slope: float) -> tuple[float, float]:
     return x * cos(slope) + y * sin(slope), y * cos(slope) - x * sin(slope)
 
 
+class Directed(ForceElement):
+    """The base of what acts along a direction that is given in the frame's axes, or in those of a part."""
+
+    axes: ClassVar[Axes | None] = None
+
+    def in_axes(self, axes: Axes) -> Self:
+        return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
+
+    def parts(self) -> tuple[Reference, ...]:
+        return super().parts() if self.axes is None else (*super().parts(), *self.axes.parts())
+
+    def in_the_whole(self, motion: Poses, x: Array | float, y: Array | float) -> Array:
+        """Return a vector that is given in the axes of a part in those of the frame, shape (2, ...)."""
+        axes = self.axes
+        if axes is None:
+            return vector(1.0, (x, y))
+        x = -np.asarray(x) if axes.mirrored else x
+        if not axes.is_level:
+            way = motion.value(axes.angle)
+            cos, sin = np.cos(way), np.sin(way)
+            x, y = x * cos - y * sin, x * sin + y * cos
+        if axes.carrier:
+            P, Q = axes.carrier
+            along = (motion[Q] - motion[P]) / motion.distance(P, Q)
+            x, y = x * along[0] - y * along[1], x * along[1] + y * along[0]
+        return vector(1.0, (x, y))
+
+
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Force(ForceElement):
+class Force(Directed):
     """A force (x, y) [N] at a point, its direction fixed to the frame: `pull = Force(F, (-5 * kN, 0))`.
 
     Its parts are design variables: `pull.x`, `pull.y`, or `pull=(x, y)` at once.
@@ -78,7 +106,6 @@ class Force(ForceElement):
 
     point: Reference
     vector: tuple[Parameter, Parameter]
-    axes: ClassVar[Axes | None] = None
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"x": "N", "y": "N"})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"vector": "force vector"})
 
@@ -96,12 +123,6 @@ class Force(ForceElement):
         """The force's part upwards [N]."""
         return two_parts(self.vector, "Force")[1]
 
-    def in_axes(self, axes: Axes) -> Force:
-        return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
-
-    def parts(self) -> tuple[Reference, ...]:
-        return super().parts() if self.axes is None else (*super().parts(), *self.axes.parts())
-
     def having(self, values: Mapping[str, float]) -> Force:
         return self.renewed(vector=(values.get(f"{self.name}.x", self.x), values.get(f"{self.name}.y", self.y)))
 
@@ -109,7 +130,7 @@ class Force(ForceElement):
         return (Glyph("force", (name_of(self.point),)),)
 
     def loads(self, motion: Poses) -> list[Load]:
-        return [Load(name_of(self.point), in_the_whole(motion, self.axes, (self.number(motion, "x"), self.number(motion, "y"))))]
+        return [Load(name_of(self.point), self.in_the_whole(motion, self.number(motion, "x"), self.number(motion, "y")))]
 
     def __str__(self) -> str:
         return f"Force({label(self.point)}, ({value_text(self.x)}, {value_text(self.y)}))"
@@ -118,7 +139,7 @@ class Force(ForceElement):
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Support(ForceElement):
+class Support(Directed):
     """A support that pushes a point along a direction (x, y), such as the ground under a shoe: `shoe = Support(R, (0, 1))`.
 
     Its reaction is what `reaction(motion, loads, support)` finds. `force` [N] is the one it is taken to have elsewhere:
@@ -133,7 +154,6 @@ class Support(ForceElement):
     force: Parameter = 0.0
     stiffness: Parameter | None = None
     friction: Parameter | None = None
-    axes: ClassVar[Axes | None] = None
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"force": "N", "stiffness": "N/m", "friction": ""})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"direction": "pair"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"stiffness", "friction"})
@@ -147,11 +167,13 @@ class Support(ForceElement):
             size = np.hypot(real(x), real(y))
         except ValueError:
             size = np.zeros(())
+        wrong = ""
         if not (np.all(np.isfinite(size)) and np.all(size > 0.0)):
-            said = f"the direction {cited(self.direction)} has no finite length above zero"
-            raise DefinitionError(f"Support: {said}; write one such as (0, 1).")
-        if is_number(self.stiffness) and not plain(self.stiffness) > 0.0:
-            raise DefinitionError("Support: stiffness=0 carries nothing; give one above zero in N/m, or leave it out.")
+            wrong = f"the direction {cited(self.direction)} has no finite length above zero; write one such as (0, 1)"
+        elif is_number(self.stiffness) and not plain(self.stiffness) > 0.0:
+            wrong = "stiffness=0 carries nothing; give one above zero in N/m, or leave it out"
+        if wrong:
+            raise DefinitionError(f"Support: {wrong}.")
 
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
         return (Glyph("support", (name_of(self.point),), way=float(np.arctan2(self.unit[1], self.unit[0]))),)
@@ -164,7 +186,7 @@ class Support(ForceElement):
 
     def way(self, motion: Poses) -> Array:
         """Return the direction in the axes of the frame, of length one, shape (2, ...) to broadcast against the motion."""
-        return in_the_whole(motion, self.axes, (self.unit[0], self.unit[1]))
+        return self.in_the_whole(motion, self.unit[0], self.unit[1])
 
     def bounds(self, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return what its reaction can be [N]: it pushes, and never pulls."""
@@ -174,32 +196,9 @@ class Support(ForceElement):
         way = self.way(motion)
         return [Load(name_of(self.point), vector(self.number(motion, "force"), (way[0], way[1])))]
 
-    def in_axes(self, axes: Axes) -> Support:
-        return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
-
-    def parts(self) -> tuple[Reference, ...]:
-        return super().parts() if self.axes is None else (*super().parts(), *self.axes.parts())
-
     def __str__(self) -> str:
         x, y = two_parts(self.direction, "Support")
         return f"Support({label(self.point)}, ({value_text(x)}, {value_text(y)}), {', '.join(self.words())})"
-
-
-def in_the_whole(motion: Poses, axes: Axes | None, given: tuple[Array | float, Array | float]) -> Array:
-    """Return a vector that is given in the axes of a part in those of the frame, shape (2, ...)."""
-    if axes is None:
-        return vector(1.0, given)
-    x, y = given
-    x = -np.asarray(x) if axes.mirrored else x
-    if not axes.is_level:
-        way = motion.value(axes.angle)
-        cos, sin = np.cos(way), np.sin(way)
-        x, y = x * cos - y * sin, x * sin + y * cos
-    if axes.carrier:
-        P, Q = axes.carrier
-        along = (motion[Q] - motion[P]) / motion.distance(P, Q)
-        x, y = x * along[0] - y * along[1], x * along[1] + y * along[0]
-    return vector(1.0, (x, y))
 
 
 def vector(size: Array | float, direction: tuple[Array | float, Array | float]) -> Array:
@@ -243,9 +242,9 @@ class OnBody(ForceElement):
     def points(self, members: Mapping[str, Member], title: str) -> tuple[str, ...]:
         """Return the body's points; DefinitionError for what names no body."""
         names = tuple(name_of(each) for each in self.named())
-        for name in names:
-            if name not in members:
-                raise unknown("Link or point", name, (each for each, m in members.items() if isinstance(m, (Link, Point))), where=title)
+        if not all(name in members for name in names):
+            known = [each for each, member in members.items() if isinstance(member, (Link, Point))]
+            known_name("Link or point", next(name for name in names if name not in members), known, where=title)
         found = tuple(members[name] for name in names)
         if len(found) == 1 and isinstance(found[0], Link):
             return found[0].point_names
@@ -254,25 +253,24 @@ class OnBody(ForceElement):
         return names
 
     def axis(self, motion: Poses) -> tuple[str, str, Array]:
-        """Return two points P and Q of the body and Q - P, shape (2, ...) [m]: the body's own x axis."""
-        points = self.points(motion.plan.members, motion.plan.title)
-        self.check_rigid(motion.plan, points)
+        """Return two points P and Q of the body and Q - P, shape (2, ...) [m]: the body's own x axis.
+
+        DefinitionError for points of different bodies; those of no declared body, and of what follows a stroke, may stand.
+        """
+        plan = motion.plan
+        points = self.points(plan.members, plan.title)
+        bodies = [set(body.points) for body in plan.links]
+        rams = [{bar.P, bar.Q} for bar in plan.cylinders]
+        rams += [{joint.point for joint in element.joints()} for element in plan.of_kind(ForceElement).values()]
+        free = set(plan.telescopes) | (set(points) - set().union(*bodies))
+        if not free and not any(set(points) <= body for body in (*bodies, *rams)):
+            what = f"{self.name} = {self}" if self.name else str(self)
+            raise DefinitionError(f"{plan.title}: {what}: {', '.join(points)} are not points of one body; name those of one.")
         P, Q, *_ = points
         arm = motion[Q] - motion[P]
         if np.any((arm[0] == 0.0) & (arm[1] == 0.0)):
             raise DefinitionError(f"{self.name} = {self}: {P} and {Q} coincide and give no direction; name two other points of the body.")
         return P, Q, arm
-
-    def check_rigid(self, plan: Declared, points: tuple[str, ...]) -> None:
-        """Raise DefinitionError for points of different bodies; those of no declared body, and of what follows a stroke, may stand."""
-        bodies = [set(body.points) for body in plan.links]
-        rams = [{bar.P, bar.Q} for bar in plan.cylinders]
-        rams += [{joint.point for joint in element.joints()} for element in plan.of_kind(ForceElement).values()]
-        free = set(plan.telescopes) | (set(points) - set().union(*bodies))
-        if free or any(set(points) <= body for body in (*bodies, *rams)):
-            return
-        what = f"{self.name} = {self}" if self.name else str(self)
-        raise DefinitionError(f"{plan.title}: {what}: {', '.join(points)} are not points of one body; name those of one.")
 
     def __str__(self) -> str:
         return f"{type(self).__name__}({', '.join([repr(' '.join(map(label, self.named()))), *self.words()])})"

@@ -10,14 +10,14 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, TypeAlias, final, get_args
+from typing import Any, ClassVar, Literal, TypeAlias, cast, final, get_args
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, told
 from ..frozen import refuses_changes
 from ..quantities import Distance, Joint, Member, Reference, name_of, pinned
-from .element import AT_REST, Array, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Push, Rate, Rates, TwoPinned
+from .element import AT_REST, Array, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Push, Rate, Rates
 
 DrawnAs: TypeAlias = Literal["strut", "spring", "damper", "cylinder"]
 
@@ -101,11 +101,20 @@ class TwoPoint(ForceElement):
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         length = motion.distance(self.A, self.B)
         rate = self.growth(motion, rates if rates.is_timed else AT_REST)
-        with told(f"{self.name or type(self).__name__}: its law of length and rate"):
-            thrust = self.push(motion, length, rate)
-        check_fits(self, thrust, motion)
-        refuse_coincidence(self, length, thrust)
-        return [Push(self, thrust)]
+        opening = self.name or type(self).__name__
+        with told(f"{opening}: its law of length and rate"):
+            thrust: object = self.push(motion, length, rate)
+        if isinstance(thrust, (np.ndarray, float, int)):
+            axes = zip(np.shape(thrust)[::-1], motion.shape[::-1], strict=False)
+            fits = np.ndim(thrust) <= len(motion.shape) and all(own in (1, poses) for own, poses in axes)
+        else:  # a number of the program, while the law is traced
+            fits = hasattr(thrust, "__array_ufunc__")
+        if not fits:
+            what = f"its law gives {cited(thrust)}; a thrust [N] for each pose is expected, of the shape {motion.shape}"
+            raise DefinitionError(f"{opening}: {what}.")
+        found = Push(self, cast(Array, thrust))
+        refuse_coincidence(found, length)
+        return [found]
 
     def loads(self, motion: Poses) -> list[Load]:
         return self.moving(motion, AT_REST)
@@ -114,32 +123,19 @@ class TwoPoint(ForceElement):
         return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
 
 
-def check_fits(member: TwoPoint, thrust: object, motion: Poses) -> None:
-    """Raise DefinitionError for a thrust that is no number, or does not fit the poses."""
-    if isinstance(thrust, (np.ndarray, float, int)):
-        axes = zip(np.shape(thrust)[::-1], motion.shape[::-1], strict=False)
-        fits = np.ndim(thrust) <= len(motion.shape) and all(own in (1, poses) for own, poses in axes)
-    else:  # a number of the program, while the law is traced
-        fits = hasattr(thrust, "__array_ufunc__")
-    if not fits:
-        what = f"{member.name or type(member).__name__}: its law gives {cited(thrust)}"
-        raise DefinitionError(f"{what}; a thrust [N] for each pose is expected, of the shape {motion.shape}.")
-
-
 def end_forces(push: Push, motion: Poses) -> list[Load]:
     """Return the forces of a two-point member on the points at its ends [N]; DefinitionError where they coincide while it pushes."""
-    member = push.member
-    A, B = member.ends
+    A, B = push.member.ends
     arm, length = motion[B] - motion[A], motion.distance(A, B)
-    refuse_coincidence(member, length, push.thrust)
+    refuse_coincidence(push, length)
     force = arm / np.where(length == 0.0, 1.0, length) * push.thrust
     return [Load(A, -force), Load(B, force)]
 
 
-def refuse_coincidence(member: TwoPinned, length: Array, thrust: Array) -> None:
+def refuse_coincidence(push: Push, length: Array) -> None:
     """Raise DefinitionError where the ends of a two-point member coincide while it pushes or pulls."""
-    if np.any((length == 0.0) & (thrust != 0.0)):
-        what = f"{member.name} = {member}" if member.name else str(member)
+    if np.any((length == 0.0) & (push.thrust != 0.0)):
+        what = f"{push.member.name} = {push.member}" if push.member.name else str(push.member)
         raise DefinitionError(f"{what}: its ends coincide at some poses and give no direction; move one of them.")
 
 

@@ -40,7 +40,7 @@ class HasVerdicts(Member):
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return what its verdicts ask of every machine, so that all members' questions are looked at in one pass."""
-        return []
+        return list(self.conditions(judge).values())
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         """Return those of its rules that are plain conditions, by the rules' names: what a page asks of a design that is changed."""

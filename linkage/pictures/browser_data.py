@@ -162,7 +162,7 @@ class PageRequests:
             for k, each in enumerate(acting):
                 keys = ((kind, k, axis) for axis in (0, 1))
                 x, y = (LawRequest(formula=partial(force_part, *key), text=f"{kind} {k}", known=key) for key in keys)
-                found.append((each.load.point, x, y, kind == "load"))
+                found.append((each.point, x, y, kind == "load"))
         return found
 
 

@@ -190,8 +190,8 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
     ropes = {name for name, each in elements if any(glyph.drawn_as == "rope" for glyph in each.glyphs(plan.members))}
     ground = {each.element for each in forces.found._ground}
     for body, acting in forces.found._loads:
-        key = acting.element.partition("(")[0], body, acting.load.point if acting.element in ropes else ""
-        groups.setdefault(key, []).append((forces.place(acting.load.point), forces.one(acting.force)))
+        key = acting.element.partition("(")[0], body, acting.point if acting.element in ropes else ""
+        groups.setdefault(key, []).append((forces.place(acting.point), forces.one(acting.force)))
     for (element, body, _), parts in groups.items():
         colour = GROUND if element in ground else LOAD
         places, each_of = np.array([place for place, _ in parts]), np.array([force for _, force in parts])

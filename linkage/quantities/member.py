@@ -145,6 +145,12 @@ class Member:
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         """Raise DefinitionError for what only the whole class tells to be wrong: its members by name, its title."""
+        for fault in self.faults(members):
+            raise DefinitionError(f"{title}: {self.name} = {self}: {fault}.")
+
+    def faults(self, members: Mapping[str, Member]) -> Iterator[str]:
+        """Yield what of it does not fit the members of its class, by name, with the remedy."""
+        yield from ()
 
     def among(self, members: Mapping[str, Member]) -> Self:
         """Return this member as it is among those of its class; itself, where none of them says something of it."""

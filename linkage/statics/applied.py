@@ -6,31 +6,15 @@ from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Protocol, TypeAlias, TypeVar, final
+from typing import TypeAlias, TypeVar, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
-from ..loads import (
-    AT_REST,
-    PLAIN_CASE,
-    SENSES,
-    Acting,
-    Case,
-    Damper,
-    ForceElement,
-    Friction,
-    Load,
-    LoadCase,
-    Loads,
-    Poses,
-    Rate,
-    Rates,
-    TwoPinned,
-    check_together,
-)  # fmt: skip
+from ..loads import PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
 from ..loads.case import check_factor, shut_members
+from ..loads.element import AT_REST, SENSES, ForceElement, Friction, Load, Poses, Push, Rate, Rates, TwoPinned, check_together
 from ..motion import Motion, rates_of, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Plan
@@ -43,33 +27,8 @@ Anywhere = TypeVar("Anywhere", bound=AnyMotion)
 
 @final
 @dataclass(frozen=True)
-class AppliedLoad:
-    """A load at the poses, as it acts: point, force (2, ...) [N] in the motion's shape, the body it is on, its element."""
-
-    load: Load
-    force: FloatArray
-    element: str
-
-
-@final
-@dataclass(frozen=True)
-class AppliedThrust:
-    """What a two-point member carries by a law: its name, the member, its thrust at the poses [N] in the motion's shape."""
-
-    name: str
-    member: TwoPinned
-    thrust: FloatArray
-
-    @property
-    def ends(self) -> tuple[str, str]:
-        """The points at its ends."""
-        return self.member.ends
-
-
-@final
-@dataclass(frozen=True)
 class AppliedLoads:
-    """All that acts on a motion in a situation: loads, members with a thrust of their own, friction.
+    """All that acts on a motion in a situation: loads, members with a thrust of their own, friction; forces in the motion's shape.
 
     `rates` are those at which strokes move, `elements` those that act, `case` what the load case is called, `at_rest` the names of the
     dampers that give nothing because no speed is known.
@@ -79,15 +38,15 @@ class AppliedLoads:
     rates: Rates
     case: str
     elements: tuple[ForceElement, ...]
-    loads: tuple[AppliedLoad, ...]
-    thrusts: tuple[AppliedThrust, ...]
+    loads: tuple[Load, ...]
+    thrusts: tuple[Push, ...]
     frictions: tuple[Friction, ...]
     at_rest: tuple[str, ...] = ()
 
     @property
     def points(self) -> set[str]:
         """The points that carry loads."""
-        return {each.load.point for each in self.loads} | {end for each in self.thrusts for end in each.ends}
+        return {each.point for each in self.loads} | {end for each in self.thrusts for end in each.member.ends}
 
 
 @final
@@ -101,7 +60,7 @@ class AppliedElement:
     factor: float
 
 
-Parts: TypeAlias = tuple[list[AppliedLoad], list[AppliedThrust]]
+Parts: TypeAlias = tuple[list[Load], list[Push]]
 PartsOf: TypeAlias = Callable[[AppliedElement, AnyMotion, Rates], Parts]
 
 
@@ -112,12 +71,15 @@ def applied_loads(motion: AnyMotion, acting: Acting, rates: Rates, without: str 
     element, where that is not read on arrays.
     """
     motion = motion_in_case(motion, acting)
-    plan, read = motion.plan, parts_of or array_parts
-    elements = applied_elements(plan, acting, without)
-    each_of = [read(each, motion, rates) for each in elements]
+    plan, elements = motion.plan, applied_elements(motion.plan, acting, without)
+    if parts_of is None:
+        fit = partial(over_poses, require_motion(motion))
+        each_of = [element_parts(each, motion, rates, fit) for each in elements]
+    else:
+        each_of = [parts_of(each, motion, rates) for each in elements]
     loads = tuple(load for found, _ in each_of for load in found)
     for each in loads:
-        check_points(each.load, plan, each.element)
+        check_points(each, plan, each.element)
     frictions = [(each.factor, friction) for each in elements if rates.has_friction for friction in each.element.frictions(motion)]
     return AppliedLoads(
         acting, rates, "given loads" if acting.case is None and acting.loads is not None else case_of(plan, acting.case).label,
@@ -127,46 +89,41 @@ def applied_loads(motion: AnyMotion, acting: Acting, rates: Rates, without: str 
     )  # fmt: skip
 
 
-def array_parts(each: AppliedElement, motion: AnyMotion, rates: Rates) -> Parts:
-    """Return the loads and the thrusts of one element over the poses of a motion."""
-    return element_parts(each, motion, rates, partial(over_poses, require_motion(motion)))
-
-
 def element_parts(each: AppliedElement, motion: Poses, rates: Rates, fit: Callable[[ArrayLike, int, str, str], FloatArray]) -> Parts:
     """Return the loads and the thrusts of one element as they act; `fit` brings forces into the motion's shape."""
-    element, name = each.in_case, each.name
-    pushes = element.pushes(motion, rates)
-    thrusts = [
-        AppliedThrust(thrust_name(push.member, name), push.member, fit(push.thrust, 0, name, "thrust") * each.factor) for push in pushes
-    ]
-    if pushes:
+    element, name, thrusts = each.in_case, each.name, []
+    for push in element.pushes(motion, rates):  # one without a name goes by that of the element which gives its thrust
+        title = member_title(push.member) if push.member.name or not name.isidentifier() else name
+        thrusts.append(Push(push.member, fit(push.thrust, 0, name, "thrust") * each.factor, title))
+    if thrusts:
         return [], thrusts
     with told(f"{motion.plan.title}: loads(motion) of {name}"):
         found = element.moving(motion, rates) if rates else element.loads(motion)
     if not isinstance(found, (list, tuple)) or not all(isinstance(load, Load) for load in found):
         raise DefinitionError(f"{motion.plan.title}: {name}: loads(motion) gives {found!r}; a list of Load(point, force) is expected.")
-    return [AppliedLoad(load, fit(load.force, 1, name, f"force at {load.point}") * each.factor, name) for load in found], thrusts
+    forces = [fit(load.force, 1, name, f"force at {load.point}") * each.factor for load in found]
+    return [replace(load, force=force, element=name) for load, force in zip(found, forces, strict=True)], []
 
 
 def over_poses(motion: Motion, values: ArrayLike, vector: int, name: str, what: str) -> FloatArray:
     """Return forces over the poses in the motion's shape, of a `vector` (2, ...); DefinitionError where they do not fit or are none."""
-    opening, lead = f"{motion.plan.title}: {name}", (2,) * vector
+    opening, lead = f"{motion.plan.title}: {name}: its {what}", (2,) * vector
     expected, shape = "; (2, ...) in N is expected" if vector else "", (*lead, *motion.shape)
     try:
         array = np.asarray(values)
     except ValueError:
-        raise DefinitionError(f"{opening}: its {what} is {cited(values)}{expected}.") from None
+        raise DefinitionError(f"{opening} is {cited(values)}{expected}.") from None
     if array.dtype.kind not in "fiu":
-        raise DefinitionError(f"{opening}: its {what} holds {array.dtype.name}, no real numbers{expected}.")
+        raise DefinitionError(f"{opening} holds {array.dtype.name}, no real numbers{expected}.")
     if array.shape[:vector] != lead:
-        raise DefinitionError(f"{opening}: its {what} has the shape {array.shape}{expected}.")
+        raise DefinitionError(f"{opening} has the shape {array.shape}{expected}.")
     try:
         full = np.broadcast_to(array.reshape((*lead, *(1,) * (len(shape) - array.ndim), *array.shape[vector:])), shape)
     except ValueError:
-        raise DefinitionError(f"{opening}: its {what}, shape {array.shape}, does not fit the poses {shape}.") from None
+        raise DefinitionError(f"{opening}, shape {array.shape}, does not fit the poses {shape}.") from None
     missing = ~np.isfinite(full).all(axis=tuple(range(vector))) & motion.reached
     if missing.any() and motion.unreachable == "raise":
-        text = f"{opening} gives no finite {what} at {int(missing.sum())} of {missing.size} poses."
+        text = f"{motion.plan.title}: {name} gives no finite {what} at {int(missing.sum())} of {missing.size} poses."
         raise SingularError(text, mask=missing, motion=motion)
     return np.asarray(full, float)
 
@@ -180,11 +137,6 @@ def check_points(load: Load, plan: Plan, name: str) -> None:
     for point in (load.point, *(on if len(on) > 1 else ())):
         if name_of(point) not in plan.points:
             raise unknown("Point", point, plan.points, where=f"{plan.title}: {name}")
-
-
-def thrust_name(member: TwoPinned, owner: str) -> str:
-    """Return the name under which a two-point member is a body: its own, or that of the element which gives its thrust."""
-    return member_title(member) if member.name or not owner.isidentifier() else owner
 
 
 def member_title(member: TwoPinned) -> str:
@@ -204,9 +156,8 @@ def applied_elements(plan: Plan, acting: Acting, without: str = "") -> list[Appl
     found = []
     for name, element in present:
         check_factor(load_case, name, element, f"{plan.title}, {load_case.label}")
-    shut = set(load_case.shut_names)
-    present = [(name, (element.when_shut() if element.name in shut else None) or element) for name, element in present]
-    for name, element in present:  # one without a name, which is given to count, is not left out by `only`
+    for name, each in present:  # one without a name, which is given to count, is not left out by `only`
+        element = (each.when_shut() if each.name in load_case.shut_names else None) or each
         factor = load_case.factor(name) if element.name else float(load_case.scale.get(name, 1.0))
         if name != without and factor != 0.0:
             found.append(AppliedElement(name, element, load_case.on(element), factor))
@@ -227,9 +178,7 @@ def case_of(plan: Plan, case: Case) -> LoadCase:
 def plan_in_case(plan: Plan, acting: Acting | None) -> Plan:
     """Return a plan as it is in a load case that shuts lines: the same places, of a machine whose lines are shut; else itself."""
     case = case_of(plan, acting.case) if acting is not None and acting.case is not None else None
-    if case is None or not case.shut:
-        return plan
-    shut = shut_members(case, plan.members, f"{plan.title}, {case.label}")
+    shut = {} if case is None or not case.shut else shut_members(case, plan.members, f"{plan.title}, {case.label}")
     if all(plan.members[name] is each for name, each in shut.items()):
         return plan
     return plan.made(("shut", *sorted(shut)), lambda fork: fork.exchanged(shut))
@@ -254,24 +203,15 @@ def elements_of(plan: Plan, loads: Loads) -> list[tuple[str, ForceElement]]:
     own = plan.of_kind(ForceElement)
     if loads is None:
         return list(own.items())
-    each_of = [loads] if isinstance(loads, (str, ForceElement)) or not isinstance(loads, Sequence) else loads
-    found = [named_element(each, own, plan.title) for each in each_of]
-    given = [own[each] if isinstance(each, str) else each for each in each_of]
-    check_together([(name, each) for (name, _), each in zip(found, given, strict=True)], plan.members, plan.title)
-    return found
-
-
-def named_element(element: object, own: Mapping[str, ForceElement], title: str) -> tuple[str, ForceElement]:
-    """Return a force element with its name, or with its own words where it has none."""
-    if isinstance(element, str):
-        known_name("Load", element, own, where=title)
-        return element, own[element]
-    if isinstance(element, ForceElement):
-        return element.name or str(element), element
-    loads = getattr(element, "loads", None)
-    if isinstance(element, type) or not callable(loads):
-        raise DefinitionError(f"{title}: {element!r} is not a force element; give a Weight, a Force, ... or anything with loads(motion).")
-    return str(element), LoadsAlone(element, loads)
+    listed = [loads] if isinstance(loads, (str, ForceElement)) or not isinstance(loads, Sequence) else loads
+    given = [own[known_name("Load", each, own, where=plan.title)] if isinstance(each, str) else each for each in listed]
+    names = [each if isinstance(each, str) else str((isinstance(each, ForceElement) and each.name) or each) for each in listed]
+    for each in given:
+        if isinstance(each, type) or not callable(getattr(each, "loads", None)):
+            what = f"{each!r} is not a force element; give a Weight, a Force, ... or anything with loads(motion)"
+            raise DefinitionError(f"{plan.title}: {what}.")
+    check_together(list(zip(names, given, strict=True)), plan.members, plan.title)
+    return [(name, each if isinstance(each, ForceElement) else LoadsAlone(each)) for name, each in zip(names, given, strict=True)]
 
 
 @final
@@ -280,15 +220,15 @@ class LoadsAlone(ForceElement):
 
     places = ()
 
-    def __init__(self, element: object, loads: Callable[[Poses], list[Load]]) -> None:
-        self.element, self.own_loads = element, loads
+    def __init__(self, element: HasLoads) -> None:
+        self.element = element
 
     def loads(self, motion: Poses) -> list[Load]:
-        return self.own_loads(motion)
+        return self.element.loads(motion)
 
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         moving: Callable[[Poses, Rates], list[Load]] | None = getattr(self.element, "moving", None)
-        return self.own_loads(motion) if moving is None else moving(motion, rates)
+        return self.loads(motion) if moving is None else moving(motion, rates)
 
     def __str__(self) -> str:
         return str(self.element)
@@ -318,13 +258,6 @@ def rates_in(motion: Motion, acting: Acting, drive: str | None = None) -> Rates:
     return Rates({name: sense * rate for name, rate in tangent.items()}, direction=direction)
 
 
-class OnPath(Protocol):
-    """What tells how its strokes go on along a path."""
-
-    @property
-    def tangent(self) -> Mapping[str, FloatArray] | None: ...
-
-
-def path_tangent(motion: OnPath) -> dict[str, FloatArray]:
+def path_tangent(motion: AnyMotion) -> dict[str, FloatArray]:
     """Return how the strokes that move change along a path, shaped as the poses; empty where it is none."""
     return {name: rate for name, rate in (motion.tangent or {}).items() if np.any(rate != 0.0)}

@@ -11,12 +11,12 @@ from typing import TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..loads import ForceElement, Halves, PinFriction, TwoPoint
+from ..loads import ForceElement, Halves, PinFriction, Push, TwoPoint
 from ..plan import Plan, arm_joint, arm_points, carrying_pairs, holds_an_arm, member_sides
 from ..quantities import Quantity, Where, body_name, joined_names, name_of
 from ..steps import Link
 from ..vectors import Line
-from .applied import AppliedThrust, member_title
+from .applied import member_title
 from .holding import Holders, PressureLine, same, sampled
 
 
@@ -77,7 +77,7 @@ class Strut:
     far: frozenset[str] = frozenset()
     host: str = ""
     line: PressureLine | None = None
-    known: AppliedThrust | None = None
+    known: Push | None = None
     pair: SlidingPair | None = None
 
     @property
@@ -96,18 +96,18 @@ Bodies: TypeAlias = tuple[tuple[FreeBody, ...], tuple[Strut, ...], tuple[Sliding
 """The bodies, the two-point members, and the pairs of bodies that some of them are."""
 
 
-def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[AppliedThrust]) -> Bodies:
+def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[Push]) -> Bodies:
     """Return the bodies and the two-point members: sliders first, then links, then those members that are bodies of their own."""
     fixed = frame_points(plan)
     sides = [side for _, joint in plan.joints for side in (joint.on, joint.by) if side.role == "slider"]
     sliders = [slider(point) for point in dict.fromkeys(side.points[0] for side in sides) if point not in fixed]
     arms = [telescope(plan, name) for name in plan.telescopes]
     inner = {frozenset(arm.points) for arm in arms}
-    links = [
-        FreeBody(body.name, body.points, (body.points[0], body.points[1]), label=link_name(plan, body.points))
-        for body in plan.links[1:]
-        if frozenset(body.points) not in inner and not holds_an_arm(plan, body.points)
-    ]
+    links, declared = [], [(name, set(link.point_names)) for name, link in plan.of_kind(Link).items()]
+    for body in plan.links[1:]:
+        if frozenset(body.points) not in inner and not holds_an_arm(plan, body.points):
+            label = next((name for name, points in declared if points <= set(body.points)), "")
+            links.append(FreeBody(body.name, body.points, (body.points[0], body.points[1]), label=label))
     pairs = sliding_pairs(plan, links)
     links = [link for link in links if not any(set(link.points) == pair.points for pair in pairs)]
     struts, hosts = two_point_members(plan, holders, thrusts, links)
@@ -115,8 +115,8 @@ def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[AppliedThrust]) 
     renamed = [each for each in struts if each.host == each.name]
     links = [link for link in links if link not in [hosts[each.name] for each in renamed]]
     carrying = [replace(hosts[each.name], name=each.name, axis=each.ends) for each in renamed]
-    alone = [(strut.name, (strut.P, strut.Q)) for strut in struts if not strut.host and strut.pair is None]
-    own = [FreeBody(name, ends, ends, label=joined_names(*ends)) for name, ends in alone]
+    alone = [each for each in struts if not each.host and each.pair is None]
+    own = [FreeBody(each.name, each.ends, each.ends, label=joined_names(*each.ends)) for each in alone]
     return (*sliders, *arms, *links, *carrying, *own, *(body for pair in pairs for body in pair.bodies)), struts, pairs
 
 
@@ -140,16 +140,11 @@ def sliding_blocks(
     return tuple(slider(point) for point in pins if joined[point] == 1 and guides[point] == 1 and point not in fixed)
 
 
-def link_name(plan: Plan, points: tuple[str, ...]) -> str:
-    """Return the name of the link that declares a body; empty where none does."""
-    return next((name for name, link in plan.of_kind(Link).items() if set(link.point_names) <= set(points)), "")
-
-
 # Straight members: driven lengths, cylinders that hold, members with a law of their own.
 
 
 def two_point_members(
-    plan: Plan, holders: Holders, thrusts: Sequence[AppliedThrust], links: Sequence[FreeBody]
+    plan: Plan, holders: Holders, thrusts: Sequence[Push], links: Sequence[FreeBody]
 ) -> tuple[tuple[Strut, ...], dict[str, FreeBody]]:
     """Return the two-point members, and by their names the declared bodies that they are together with the points along them."""
     cylinders = [Strut(member_title(each), *each.ends, line=holders.line_of(each)) for each in holders.cylinders]
@@ -159,38 +154,22 @@ def two_point_members(
         strokes = {name for name in plan.strokes if name == bar.length.name or name in plan.reaches(bar.length)}
         if strokes - holders.taken and not holders.given & plan.reaches(bar.length):
             found.append(Strut(joined_names(bar.P, bar.Q), bar.P, bar.Q, bar.length))
-    struts = [*found, *cylinders, *known_struts(added_up(given))]
+    struts = [*found, *cylinders, *known_struts(given)]
     twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
     if twice:
         raise DefinitionError(f"{plan.title}: two elements are called {twice}; give each a name of its own in the class.")
-    hosts = with_points(plan, struts, links)
-    return tuple(placed(plan, strut, hosts.get(strut.name)) for strut in struts), hosts
-
-
-def with_points(plan: Plan, struts: Sequence[Strut], links: Sequence[FreeBody]) -> dict[str, FreeBody]:
-    """Return the declared bodies that are two-point members with the points measured along them, by the members' names.
-
-    One member a body: of several between the same points the cylinder, then the driven length, then the first of the others.
-    """
+    # The declared bodies that are members with the points measured along them. One member a body: of several between the same points
+    # the cylinder, then the driven length, then the first of the others. A body that a stroke drives keeps its own name.
     inside = [(strut, link) for strut in struts for link in links if {strut.P, strut.Q} <= set(link.points)]
-    if not inside:
-        return {}
-    carrying = carrying_pairs(plan, (each.ends for each, _ in inside))
-    found: dict[str, FreeBody] = {}
+    carrying, hosts = carrying_pairs(plan, (each.ends for each, _ in inside)) if inside else set(), dict[str, FreeBody]()
     for strut, link in sorted(inside, key=lambda each: (not each[0].is_cylinder, each[0].quantity is None)):
-        if link not in found.values() and (strut.quantity is not None or frozenset(strut.ends) in carrying):
-            found.setdefault(strut.name, link)
-    return found
-
-
-def placed(plan: Plan, strut: Strut, host: FreeBody | None) -> Strut:
-    """Return a two-point member with the points on its far side and the name of the body it is, if it carries points.
-
-    A body that a stroke drives keeps its own name, one with an element has the element's.
-    """
-    if host is None:
-        return replace(strut, far=frozenset({strut.Q}))
-    return replace(strut, far=far_points(plan, strut, host), host=strut.name if strut.quantity is None else host.name)
+        if link not in hosts.values() and (strut.quantity is not None or frozenset(strut.ends) in carrying):
+            hosts.setdefault(strut.name, link)
+    for place, strut in enumerate(struts):
+        host = hosts.get(strut.name)
+        name = "" if host is None else strut.name if strut.quantity is None else host.name
+        struts[place] = replace(strut, far=frozenset({strut.Q}) if host is None else far_points(plan, strut, host), host=name)
+    return tuple(struts), hosts
 
 
 def far_points(plan: Plan, strut: Strut, host: FreeBody) -> frozenset[str]:
@@ -198,11 +177,24 @@ def far_points(plan: Plan, strut: Strut, host: FreeBody) -> frozenset[str]:
 
     DefinitionError for a point that keeps its place on neither side, as on a triangle whose third side is the member.
     """
+
+    def moves(_: Plan) -> dict[tuple[str, str], float]:
+        """Return how far points move along and across it beside one of its ends, over the strokes and relative to their distance."""
+        motion, found = sampled(plan), {}
+        along = motion[strut.Q] - motion[strut.P]
+        along = along / np.hypot(along[0], along[1])
+        for point, end in product(host.points, strut.ends):
+            arm = motion[point] - motion[end]
+            parts = np.stack([arm[0] * along[0] + arm[1] * along[1], along[0] * arm[1] - along[1] * arm[0]])[:, motion.reached]
+            size = float(np.max(np.hypot(parts[0], parts[1]), initial=0.0)) or 1.0
+            found[point, end] = float(np.max(np.ptp(parts, axis=1), initial=0.0)) / size if parts.size else 0.0
+        return found
+
     near, far = member_sides(plan, strut.ends, host.points)
-    places = plan.made(("places", strut.P, strut.Q, host.points), lambda _: places_on(plan, strut, host.points))
+    moved = plan.made(("places", strut.P, strut.Q, host.points), moves)
     for point in host.points:
         kept = [end for end, side in ((strut.P, near), (strut.Q, far)) if point in side]
-        if len(kept) != 1 or not places[point, kept[0]] <= RIGID:
+        if len(kept) != 1 or not moved[point, kept[0]] <= RIGID:
             given = plan.points[point]
             raise NotHeldError(
                 f"{plan.title}: {point} = {given} is measured along {strut.name}, whose length {strut.P}{strut.Q} changes, and keeps its "
@@ -237,41 +229,20 @@ RIGID = 1e-7
 """A point that moves by less than this part of its distance keeps its place."""
 
 
-def places_on(plan: Plan, strut: Strut, points: Iterable[str]) -> dict[tuple[str, str], float]:
-    """Return how far points move along and across a member beside one of its ends, over the strokes and relative to their distance."""
-    motion, found = sampled(plan), {}
-    along = motion[strut.Q] - motion[strut.P]
-    along = along / np.hypot(along[0], along[1])
-    for point, end in product(points, strut.ends):
-        arm = motion[point] - motion[end]
-        parts = np.stack([arm[0] * along[0] + arm[1] * along[1], along[0] * arm[1] - along[1] * arm[0]])[:, motion.reached]
-        size = float(np.max(np.hypot(parts[0], parts[1]), initial=0.0)) or 1.0
-        found[point, end] = float(np.max(np.ptp(parts, axis=1), initial=0.0)) / size if parts.size else 0.0
-    return found
-
-
-def added_up(thrusts: Sequence[AppliedThrust]) -> list[AppliedThrust]:
-    """Return what members of the class carry, each once: what several laws put on one counts together."""
-    found: list[AppliedThrust] = []
+def known_struts(thrusts: Sequence[Push]) -> list[Strut]:
+    """Return the members whose thrust is known, each once: what several laws put on one adds up; those without names are counted."""
+    found: list[Push] = []
     for each in thrusts:
-        place = next((k for k, other in enumerate(found) if each.member.name and same(each.member, other.member)), None)
-        if place is None:
-            found.append(each)
-        else:
-            found[place] = replace(found[place], thrust=found[place].thrust + each.thrust)
-    return found
-
-
-def known_struts(thrusts: Sequence[AppliedThrust]) -> list[Strut]:
-    """Return the members whose thrust is known; those without names of their own are counted."""
-    unnamed = Counter(each.name for each in thrusts if not each.name.isidentifier())
-    counts: Counter[str] = Counter()
-    found = []
-    for each in thrusts:
+        place = next((k for k, other in enumerate(found) if each.member.name and same(each.member, other.member)), len(found))
+        found[place : place + 1] = [replace(one, thrust=one.thrust + each.thrust) for one in found[place : place + 1]] or [each]
+    unnamed = Counter(each.name for each in found if not each.name.isidentifier())
+    counts = Counter[str]()
+    struts = []
+    for each in found:
         counts[each.name] += 1
         name = f"{each.name} {counts[each.name]}" if unnamed[each.name] > 1 else each.name
-        found.append(Strut(name, *each.ends, known=each))
-    return found
+        struts.append(Strut(name, *each.member.ends, known=each))
+    return struts
 
 
 # Telescopes: an arm that a driven joint moves along or about its body.

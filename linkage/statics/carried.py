@@ -27,7 +27,7 @@ from ..quantities import name_of
 from ..vectors import Numbers
 from .applied import case_of
 from .holding import holders_of
-from .member_limits import PROBE, SAME, MemberLimit, bent_among, greatest_load, member_limits
+from .member_limits import PROBE, SAME, MemberLimit, greatest_load, member_limits
 from .poses import AnyMotion
 from .pull import Direction, pulling
 from .traced_loads import TracedMotion
@@ -68,11 +68,11 @@ class LoadAt:
             return Acting(case=self.case)
         loads = [name for name in self.plan.of_kind(ForceElement) if name not in self.without]
         case = case_of(self.plan, self.case)
-        if case.only is not None or any(name in self.without for name in case.scale):  # a case may name what is left out
-            kept = None if case.only is None else [name_of(each) for each in case.only if name_of(each) not in self.without]
-            case = replace(case, only=kept, scale={name: value for name, value in case.scale.items() if name not in self.without})
-            return Acting(loads, case)
-        return Acting(loads, self.case)
+        if case.only is None and not any(name in self.without for name in case.scale):
+            return Acting(loads, self.case)
+        kept = None if case.only is None else [name_of(each) for each in case.only if name_of(each) not in self.without]
+        scale = {name: value for name, value in case.scale.items() if name not in self.without}
+        return Acting(loads, replace(case, only=kept, scale=scale))  # a case may name what is left out
 
     @cached_property
     def limits(self) -> tuple[MemberLimit, ...]:
@@ -85,7 +85,7 @@ class LoadAt:
         motion = Domain(self.plan, self.designs, Over()).motion
         ends, rows = {name: (np.min(each), np.max(each)) for name, each in motion.strokes.items()}, np.random.default_rng(1)
         some = self.motion({name: rows.uniform(low, high, TRIED) for name, (low, high) in ends.items()})
-        return bent_among(self.limits, some, partial(self.beside, motion=some))
+        return [each for each in self.limits if each.is_bent(some, partial(self.beside, motion=some))]
 
     def failing(self, motion: Motion, load: FloatArray) -> dict[str, Mask]:
         """Return at which poses conditions that limit no load fail under one [N], each by its name."""
@@ -109,7 +109,7 @@ class LoadAt:
     @cached_property
     def bounded(self) -> Mapping[str, TwoPoint]:
         """The cylinders that hold and say bounds, by name."""
-        found, held = {}, holders_of(self.plan, ()).lines
+        found, held = {}, holders_of(self.plan).lines
         for name, element in self.plan.of_kind(TwoPoint).items():
             if element.holds and any(line.has(element) for line in held):
                 low, high = element.bounds(self.some, self.lifting(name), share=self.share)
@@ -131,8 +131,7 @@ class LoadAt:
         """The two supports between which the resultant has to lie: beyond one of them it tips."""
         if len(self.supports) < 3:
             return self.supports
-        ends = standing_of(self.some, self.own, self.supports).outermost
-        return {name: self.supports[name] for name in ends}
+        return {name: self.supports[name] for name in standing_of(self.some, self.own, self.supports).outermost}
 
     @property
     def may_slip(self) -> bool:
@@ -187,9 +186,8 @@ class LoadAt:
     def is_affine(self) -> bool:
         """Whether forces are affine in the load."""
         elements = [element for name, element in self.plan.of_kind(ForceElement).items() if name not in self.without]
-        return not any(each.frictions(self.some) for each in elements) and not any(
-            line.changes_shares for line in holders_of(self.plan, ()).lines
-        )
+        rubs, changes = (each.frictions(self.some) for each in elements), (line.changes_shares for line in holders_of(self.plan).lines)
+        return not any(rubs) and not any(changes)
 
     # -- the forces ----------------------------------------------------------------------------------------
 
@@ -199,15 +197,16 @@ class LoadAt:
         case = self.case if self.case is None or isinstance(self.case, str) else id(self.case)
         way = tuple(each if isinstance(each, float) else each.identity for each in self.along)
         key = ("carried", self.point, way, case, self.without, self.kinds)
+
+        def made(fork: Plan) -> Kernel:
+            motion = TracedMotion(fork, fork.trace)
+            found = [each for one in self.own_and_share(motion) for each in one]
+            return Kernel([motion.node(np.asarray(each, object).item()) for each in found], [*motion.notes.assumed])
+
         try:
-            return self.plan.made(key, self._traced)
+            return self.plan.made(key, made)
         except DefinitionError:
             return None
-
-    def _traced(self, fork: Plan) -> Kernel:
-        motion = TracedMotion(fork, fork.trace)
-        found = [each for one in self.own_and_share(motion) for each in one]
-        return Kernel([motion.node(np.asarray(each, object).item()) for each in found], [*motion.notes.assumed])
 
     @cached_property
     def fixed(self) -> tuple[FloatArray, FloatArray] | None:
@@ -236,30 +235,26 @@ class LoadAt:
         found = kernel(inputs, way=way_of(count), size=(1, count))
         return found.values[:, 0].reshape(2, -1, count) if np.all(found.guards > 0.0) else None
 
-    def forces(self, motion: Motion) -> FloatArray:
-        """Return what each bounded element carries of the own loads, and of one newton of the load [N], shape (2, elements, n)."""
-        if self.is_affine and self.program is not None:
-            found = self._run(self.program, motion._grid.flat, motion.shape[0])
-            if found is not None:
-                return found
-        with unwarned():
-            each = [np.broadcast_to(one, motion.shape) for part in self.own_and_share(motion) for one in part]
-        return np.array(each, float).reshape(2, len(self.kinds), motion.shape[0])
-
     def most(self, motion: Motion) -> FloatArray:
         """Return the same at the poses of a motion, shape (elements, n)."""
         if not self.kinds:
             return np.empty((0, *motion.shape))
-        bounds = self.bounds(motion)
+        bounds, forces = self.bounds(motion), None
         low, high = (np.stack([np.broadcast_to(each[at], motion.shape) for each in bounds]) for at in (0, 1))
-        own, share = self.forces(motion)
+        if self.is_affine and self.program is not None:
+            forces = self._run(self.program, motion._grid.flat, motion.shape[0])
+        if forces is None:
+            with unwarned():
+                each = [np.broadcast_to(one, motion.shape) for part in self.own_and_share(motion) for one in part]
+            forces = np.array(each, float).reshape(2, len(self.kinds), motion.shape[0])
+        own, share = forces
         found = greatest_load(own, share, low, high)
         for at, name in enumerate(self.bounded if not self.is_affine else ()):
             found[at] = self._found(motion, name, share[at], low[at], high[at])
         first = len(self.kinds) - len(self.limits)
-        for at, each in enumerate(self.limits):
-            if each in self.bent:
-                found[first + at] = each.greatest_load(motion, partial(self.beside, motion=motion))
+        for at, limit in enumerate(self.limits, first):
+            if limit in self.bent:
+                found[at] = limit.greatest_load(motion, partial(self.beside, motion=motion))
         return found
 
     def _found(self, motion: Motion, name: str, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
@@ -279,9 +274,7 @@ class LoadAt:
             known = np.isfinite(found) & (found > 0.0)
             guess = np.where(known, found, 1.0)
             slope = (force(guess) - alone) / guess
-            new = np.where(known, greatest_load(alone, slope, low, high), found)
-            is_settled = bool(np.all(np.abs(new - found)[known] <= SAME * np.abs(new)[known]))
-            found = new
-            if is_settled:
+            before, found = found, np.where(known, greatest_load(alone, slope, low, high), found)
+            if np.all(np.abs(found - before)[known] <= SAME * np.abs(found)[known]):
                 break
         return found

@@ -17,7 +17,7 @@ from ..loads import Load, TwoPoint
 from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import Distance, Quantity, name_of
-from .applied import AppliedLoad, member_title
+from .applied import member_title
 from .bodies import FRAME, Strut
 from .holding import areas, same, share_of, solution_of_few, tie_pivots
 from .joints import Contact, Structure, Wrench, follows_points, force_direction, wrenches
@@ -65,7 +65,7 @@ class System:
 
     structure: Structure
     poses: FlatPoses
-    loads: tuple[AppliedLoad, ...]
+    loads: tuple[Load, ...]
     frictions: Sequence[UnitWrench] = ()
     length: float = 0.0
     pushed: Mapping[str, Mask] = field(default_factory=dict)
@@ -146,11 +146,11 @@ class System:
         return rows
 
     @cached_property
-    def borne(self) -> tuple[tuple[int, AppliedLoad, Wrench], ...]:
+    def borne(self) -> tuple[tuple[int, Load, Wrench], ...]:
         """The loads as wrenches, with the body each acts on."""
         poses, none = self.poses, np.zeros(self.poses.count)
         return tuple(
-            (self.structure.bearer(each.load), each, Wrench(poses.at(each.load.point), poses.flattened(each.force), none))
+            (self.structure.bearer(each), each, Wrench(poses.at(each.point), poses.flattened(each.force), none))
             for each in self.loads
         )
 
@@ -263,7 +263,7 @@ class System:
             for bearer, load, wrench in run:
                 if bearer == body and load.point in strut.far:
                     row[:, index] += -(wrench.force * along).sum(axis=0)
-        pushes = [wrench.force for bearer, each, wrench in self.borne if bearer == body and each.load.point in strut.far]
+        pushes = [wrench.force for bearer, each, wrench in self.borne if bearer == body and each.point in strut.far]
         return LinearForm(row, friction, -sum(((force * along).sum(axis=0) for force in pushes), self.poses.zeros()))
 
     def known(self, way: int = 1) -> list[tuple[LinearForm, FloatArray]]:

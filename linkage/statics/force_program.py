@@ -73,7 +73,7 @@ def program_of(structure: Structure, applied: AppliedLoads, places: Sequence[int
 
     What acts is its input: it is the same for all load cases, directions and rates in which the same points are loaded.
     """
-    loads = tuple((each.load.point, *each.load.on) for each in applied.loads)
+    loads = tuple((each.point, *each.on) for each in applied.loads)
     struts = tuple((each.name, each.P, each.Q, each.known is None) for each in structure.struts)
     lines = tuple((line.stroke, line.cylinders, line.tie) for line in structure.holders.all)
     blocks = tuple(body.name for body in structure.blocks)

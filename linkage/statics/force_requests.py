@@ -165,8 +165,8 @@ def structure_in_plan(motion: TracedMotion, acting: Acting) -> tuple[Structure, 
     motion = held_in_case(motion, acting)
     applied = traced_loads(motion, acting, AT_REST)
     structure = Structure(motion.plan, applied.elements, applied.thrusts)
-    loads = ((each.load.point, each.load.on, *(motion.node(part).number for part in each.force)) for each in applied.loads)
-    thrusts = ((each.name, each.ends, motion.node(each.thrust).number) for each in applied.thrusts)
+    loads = ((each.point, each.on, *(motion.node(part).number for part in each.force)) for each in applied.loads)
+    thrusts = ((each.name, each.member.ends, motion.node(each.thrust).number) for each in applied.thrusts)
     struts = ((strut.name, strut.P, strut.Q) for strut in structure.struts)
     found = structure, (motion._reading.graph, *loads, *thrusts, *motion.notes.assumed, None, *motion.notes.switches, *struts)
     if acting.loads is None and situation_identity(acting) is not None:

@@ -164,8 +164,9 @@ def joint_frictions(structure: Structure, poses: FlatPoses, frictions: tuple[Fri
     found: list[JointFriction] = []
     for friction in frictions:
         at_point = [each for each in structure.contacts if each.point == friction.point]
-        joints = [each for each in at_point if (each.slides if friction.radius is None else each.kind == "pin")]
-        joints = [each for each in joints if not friction.guide or friction.guide in each.line_names]
+        joints = [each for each in at_point if (each.track if friction.radius is None else each.kind == "pin")]
+        names = {each: (each.owner, *each.track, *each.joint.track) for each in joints}  # what its line goes by
+        joints = [each for each in joints if not friction.guide or friction.guide in names[each]]
         if not joints:
             what = "no pin joint" if friction.radius is not None else f"nothing that slides on {friction.guide or 'a guide'}"
             remedy = "name another point"
@@ -189,8 +190,9 @@ def friction_in(contact: Contact, friction: Friction, speeds: Speeds) -> JointFr
         wrench = Wrench(place, none, -sign * radius)
         return JointFriction(UnitWrench(contact, wrench), coefficient, radius * np.abs(rate), wrench.couple)
     t = force_direction(contact, "t", poses)
-    point, by = speeds.point(contact.point), speeds.material(contact.on if contact.has_slot else contact.by, place, contact)
-    if contact.has_slot:
+    has_slot = contact.joint.on.role == "slider" and contact.point not in contact.joint.on.points  # of the body `on`, as a cross slot
+    point, by = speeds.point(contact.point), speeds.material(contact.on if has_slot else contact.by, place, contact)
+    if has_slot:
         point, by = by, point
     rate = ((point - by) * t).sum(axis=0)
     size = np.abs(point).max(axis=0) + np.abs(by).max(axis=0)

@@ -12,11 +12,11 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError, unwarned
-from ..loads import PLAIN_CASE, Acting, ForceElement, TwoPoint
+from ..loads import PLAIN_CASE, Acting, ForceElement, Push, TwoPoint
 from ..motion import Motion
 from ..plan import Plan
 from ..program import FloatArray
-from .applied import Anywhere, AppliedThrust, member_title, motion_in_case
+from .applied import Anywhere, member_title, motion_in_case
 from .bodies import NotHeldError
 from .equilibrium import System
 from .holding import check_kept, closed_ties, holders_of, sampled
@@ -56,7 +56,7 @@ def locked_equations(motion: Motion) -> Equilibrium | None:
     holders_of(motion.plan)
     fed = [ram for each in elements for ram in each.feeds(motion.plan.members) if isinstance(ram, TwoPoint)]
     fed += [each for each in elements if isinstance(each, TwoPoint) and not each.holds]
-    laws = [AppliedThrust(member_title(each), each, np.zeros(motion.shape)) for each in fed]
+    laws = [Push(each, np.zeros(motion.shape), member_title(each)) for each in fed]
     try:
         return Equilibrium(System(Structure(motion.plan, elements, laws), poses, ()))
     except NotHeldError:

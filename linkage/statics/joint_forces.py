@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import DefinitionError, SingularError, known_name, unknown
 from ..language import said
-from ..loads import PLAIN_CASE, Acting, ActingKeywords, Loads, situation_of, takes_situation
+from ..loads import PLAIN_CASE, Acting, ActingKeywords, Load, Loads, situation_of, takes_situation
 from ..motion import Motion, require_motion, stroke_unit
 from ..motion.limits import where_words
 from ..motion.requests import stroke_of
@@ -21,7 +21,7 @@ from ..quantities import Reference, name_of
 from ..shown import Shown
 from ..units import kN, show
 from .agreement import check_joints
-from .applied import AppliedLoad, applied_loads, rates_in
+from .applied import applied_loads, rates_in
 from .bodies import FRAME, FRAME_NAME
 from .force_program import forces_at
 from .held import held_in_case
@@ -125,16 +125,16 @@ class PinForces(Shown):
         return {} if found is None else found.reactions
 
     @cached_property
-    def _ground(self) -> tuple[AppliedLoad, ...]:
+    def _ground(self) -> tuple[Load, ...]:
         """What the ground puts on a vehicle's frame; nothing for a machine that stands on no supports."""
         return ground_loads(self.motion, self._found.applied.acting)
 
     @cached_property
-    def _loads(self) -> tuple[tuple[str, AppliedLoad], ...]:
+    def _loads(self) -> tuple[tuple[str, Load], ...]:
         """The loads with the names of the bodies that they act on, the reactions of a vehicle's supports among them."""
         name, bearer, axles = self._structure.name, self._structure.bearer, {each.element for each in self._ground}
         loads = [each for each in self._found.applied.loads if each.element not in axles]
-        return tuple((name(bearer(each.load)), each) for each in (*loads, *self._found.run_loads(), *self._ground))
+        return tuple((name(bearer(each)), each) for each in (*loads, *self._found.run_loads(), *self._ground))
 
     def at(self, point: str) -> tuple[JointForce, ...]:
         """Return the joints at a point."""
@@ -186,7 +186,7 @@ class PinForces(Shown):
         names = [each.point if each.place is None else f"{each.point} ({each.kind})" for each in self.joints]
         pairs = list(zip(names, self.joints, strict=True))
         sides = [side for name, each in pairs for side in ((each.on, name, each.force), (each.by, name, -each.force))]
-        for body, point, force in (*sides, *((body, each.load.point, each.force) for body, each in self._loads)):
+        for body, point, force in (*sides, *((body, each.point, each.force) for body, each in self._loads)):
             there = found.setdefault(body, {})
             there[point] = there[point] + force if point in there else force
         return found
@@ -202,7 +202,7 @@ class PinForces(Shown):
         acts = [(each, places[each.point] if each.place is None else each.place) for each in self.joints]
         forces = [(each.on, place, each.force, each.couple) for each, place in acts]
         forces += [(each.by, place, -each.force, -each.couple) for each, place in acts]
-        forces += [(body, places[load.load.point], load.force, np.zeros(())) for body, load in self._loads]
+        forces += [(body, places[load.point], load.force, np.zeros(())) for body, load in self._loads]
         for body, place, force, couple in forces:
             moment = (place[0] * force[1] - place[1] * force[0] + couple) / extent
             row = np.stack(np.broadcast_arrays(*force, moment))
@@ -353,7 +353,7 @@ def lift_off_words(found: PoseForces) -> Iterator[str]:
     """Yield the words for contacts that would have to pull to hold their bodies together: there these come apart."""
     poses, structure = found.poses, found.structure
     for contact, (force, _) in zip(structure.contacts, found.contacts, strict=True):
-        if contact.joint is None or not contact.joint.pushes:
+        if not contact.joint.pushes:
             continue
         push = (poses.flattened(force) * force_direction(contact, "n", poses)).sum(axis=0)
         mask = poses.mask(push < 0.0)

@@ -13,12 +13,11 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError, known_name, unknown
-from ..loads import ForceElement, Load
+from ..loads import ForceElement, Load, Push
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import FRAME_SIDE, Angle, Joint, JointSide, Quantity, body_name, joined_names, name_of, signed_terms
+from ..quantities import FRAME_SIDE, Angle, Joint, JointSide, Quantity, body_name, joined_names, name_of, pinned, signed_terms
 from ..steps import Link, Point
-from .applied import AppliedThrust
 from .bodies import FRAME, FRAME_NAME, SlidingPair, Strut, frame_points, free_bodies, refuse_driven, sliding_blocks
 from .holding import Holders, holders_of
 from .poses import FlatPoses, quarter_turned
@@ -37,9 +36,9 @@ class Contact:
     point: str
     on: int
     by: int
-    holds: str = "xy"
+    holds: str
+    joint: Joint
     owner: str = ""
-    joint: Joint | None = None
     track: tuple[str, ...] = ()
 
     @property
@@ -53,27 +52,12 @@ class Contact:
         return self.holds != "c"
 
     @property
-    def slides(self) -> bool:
-        """Whether its point slides along its line."""
-        return bool(self.track)
-
-    @property
-    def has_slot(self) -> bool:
-        """Whether the line it slides on belongs to the body `on`, as a cross slot does; else it is that of the body `by`."""
-        return self.joint is not None and self.joint.on.role == "slider" and self.point not in self.joint.on.points
-
-    @property
     def is_curve(self) -> bool:
         """Whether its point is driven along a line of the frame that is no guide's: its way follows from the point itself.
 
         An arm's joint stands where its length is counted from, and that point stays.
         """
-        return self.by == FRAME and not self.track and not (self.joint is not None and self.joint.arm)
-
-    @property
-    def line_names(self) -> tuple[str, ...]:
-        """What its line goes by: the names of a guide or a step, and of points on it."""
-        return (self.owner, *self.track, *(self.joint.track if self.joint is not None else ()))
+        return self.by == FRAME and not self.track and not self.joint.arm
 
 
 LETTERS = frozenset("xyntc")
@@ -86,7 +70,7 @@ ORDER = {kind: place for place, kind in enumerate(("guide", "slider", "slot", "d
 class Structure:
     """Bodies, lone pins and contacts of a plan. An index -1 is the frame; lone pins come after the bodies."""
 
-    def __init__(self, plan: Plan, elements: Iterable[ForceElement] = (), thrusts: Sequence[AppliedThrust] = ()) -> None:
+    def __init__(self, plan: Plan, elements: Iterable[ForceElement] = (), thrusts: Sequence[Push] = ()) -> None:
         self.plan, self.thrusts, elements = plan, tuple(thrusts), tuple(elements)
         self.fixed = frame_points(plan)
         self.holders: Holders = holders_of(plan, elements)
@@ -104,7 +88,7 @@ class Structure:
         """Yield the pins: of k bodies at a point, k - 1 turn on the first."""
         for point in self.plan.points:
             first, *others = self.owners(point) or [FRAME]
-            yield from (Contact("pin", point, other, first) for other in others)
+            yield from (Contact("pin", point, other, first, "xy", pinned(point)) for other in others)
 
     def joints(self) -> Iterator[Contact]:
         """Yield what the steps, guides and slides hold: equal slides once, of drives that a cylinder replaces what is left."""
@@ -113,12 +97,10 @@ class Structure:
             self.check(name, joint)
             track, runs = self.plan.track(joint), joint.on.role == "runner"
             holds, kind = self.left(name, joint), joint.kind
-            if joint.on.role == "slider" and joint.on.points[0] in self.fixed:
+            stands = joint.on.role == "slider" and joint.on.points[0] in self.fixed
+            if stands or (track and runs and (joint.point, track) in seen):
                 continue
-            if track and runs:
-                if (joint.point, track) in seen:
-                    continue
-                seen.add((joint.point, track))
+            seen |= {(joint.point, track)} if track and runs else set()
             if not holds:
                 continue
             refuse_driven(self.plan, joint.still)
@@ -129,7 +111,7 @@ class Structure:
                 kind, holds = "slider", holds + "c"
             if joint.by == FRAME_SIDE and (base := measured_from(self.plan, joint, name)) is not None:
                 by = self.carrier(*base, name)
-            yield Contact(kind, joint.point, on, by, holds, name, joint, track)
+            yield Contact(kind, joint.point, on, by, holds, joint, name, track)
 
     def sliding_joints(self) -> Iterator[Contact]:
         """Yield what members of two bodies hold between these: across and against turning, and along where such a member acts."""
@@ -139,52 +121,50 @@ class Structure:
             barrel, rod = (JointSide((end,)) for end in pair.member.ends)
             for kind, point, holds in zip(pair.halves.kinds, pair.halves.points, ("nc", "t"), strict=True):
                 if holds == "nc" or pair in acting:
-                    yield Contact(kind, point, on, by, holds, joint=Joint(kind, point, rod, barrel, holds, pair.line(point)))
+                    yield Contact(kind, point, on, by, holds, Joint(kind, point, rod, barrel, holds, pair.line(point)))
 
     def sliding_joint(self, pair: SlidingPair, letter: str) -> Contact:
         """Return the joint of a member of two bodies that holds n, c or t between them."""
         points = pair.halves.points
-        return next(each for each in self.contacts if letter in each.holds and each.point in points and not each.owner and each.joint)
+        return next(each for each in self.contacts if letter in each.holds and each.point in points and not each.owner)
 
     def check(self, owner: str, joint: Joint) -> None:
         """Raise DefinitionError for a joint, of a step of one's own, that does not say enough to write its forces."""
         opening = f"{self.plan.title}: {owner}.joints(): the joint {joint.kind!r} at {joint.point}"
         letters, drives = set(joint.holds), {drive.along for drive in joint.drives if drive.along}
+        wrong = ""
         if not letters <= LETTERS or len(letters) < len(joint.holds):
-            raise DefinitionError(f"{opening} holds {joint.holds!r}; letters of x, y, n, t, c are expected, each once.")
-        if letters & {"n", "t"} and joint.line is None:
-            raise DefinitionError(f"{opening} holds {joint.holds!r}, across (n) or along (t) a line, but says none; give line=.")
-        if drives - letters:
-            raise DefinitionError(f"{opening} drives {', '.join(sorted(drives - letters))}, which it does not hold ({joint.holds!r}).")
+            wrong = f"holds {joint.holds!r}; letters of x, y, n, t, c are expected, each once"
+        elif letters & {"n", "t"} and joint.line is None:
+            wrong = f"holds {joint.holds!r}, across (n) or along (t) a line, but says none; give line="
+        elif drives - letters:
+            wrong = f"drives {', '.join(sorted(drives - letters))}, which it does not hold ({joint.holds!r})"
+        if wrong:
+            raise DefinitionError(f"{opening} {wrong}.")
         known_name("Point", joint.point, self.plan.points, where=opening)
 
     def left(self, owner: str, joint: Joint) -> str:
         """Return what a joint still holds when cylinders have taken over strokes."""
-        strokes: dict[str, set[str]] = {letter: set() for letter in joint.holds}
+        carrier = joint.by.points if joint.kind == "crank" else ()  # a part's own angle does not follow what moves the body it is on
+        strokes, given = {letter: set[str]() for letter in joint.holds}, set[str]()
         for drive in joint.drives:
+            follows = self.plan.reaches(drive.quantity.name or drive.quantity, within=carrier)
+            given |= {drive.along} if self.holders.given & follows else set()
             if drive.along:
-                strokes[drive.along] |= self.driving(joint, drive.quantity) & set(self.plan.strokes)
-        given = {drive.along for drive in joint.drives if self.holders.given & self.driving(joint, drive.quantity)}
-        strokes = {letter: names for letter, names in strokes.items() if letter not in given}
-        gone = {letter: names for letter, names in strokes.items() if names and names <= self.holders.taken}
+                strokes[drive.along] |= follows & set(self.plan.strokes)
+        gone = {letter: names for letter, names in strokes.items() if letter not in given and names and names <= self.holders.taken}
         taken = sorted(set().union(*gone.values()))
         if len(gone) > len(taken):
             what = f"{owner}.joints(): {' and '.join(gone)} are driven by {', '.join(taken)}, which a cylinder takes over"
             raise DefinitionError(f"{self.plan.title}: {what}; let one letter follow it, such as t along a line=, so that the other holds.")
         return "".join(letter for letter in joint.holds if letter not in gone and letter not in given)
 
-    def driving(self, joint: Joint, quantity: Quantity) -> set[str]:
-        """Return what a drive follows. A part's own angle does not follow what moves the body that carries the part."""
-        carrier = joint.by.points if joint.kind == "crank" else ()
-        return self.plan.reaches(quantity.name or quantity, within=carrier)
-
     def drives(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:
         """Yield what a contact drives: the quantity, the letter of the force that is conjugate to it, and its sign."""
-        joint = contact.joint
-        for drive in joint.drives if joint is not None else ():
+        for drive in contact.joint.drives:
             if drive.along in contact.holds and drive.along:
                 parts = [(1.0, drive.quantity)]
-                if drive.along == "c" and contact.joint is not None and contact.joint.by == FRAME_SIDE:
+                if drive.along == "c" and contact.joint.by == FRAME_SIDE:
                     terms = signed_terms(drive.quantity, self.plan.members)
                     parts = [(sign, term) for sign, term in terms if not follows_points(self.plan, term)]
                 yield from ((term, drive.along, drive.sign * sign) for sign, term in parts)
@@ -234,7 +214,7 @@ class Structure:
 
     def seat(self, contact: Contact, body: int) -> str:
         """Return the point of a body that a contact goes with: its own where it is one, else that from which its line is measured."""
-        if contact.point in self.bodies[body].points or contact.joint is None:
+        if contact.point in self.bodies[body].points:
             return contact.point
         side = contact.joint.on if contact.on == body else contact.joint.by
         guide = self.plan.guide_of(side)
@@ -243,27 +223,24 @@ class Structure:
     def side(self, side: JointSide, joint: Joint, owner: str) -> int:
         """Return the body that one side of a joint names."""
         guide = self.plan.guide_of(side)
+        sliders = {body.points[0]: index for index, body in reversed(list(enumerate(self.bodies))) if body.slides}
         if guide is not None:
             if guide.angle is not None:
                 refuse_driven(self.plan, ((guide.angle, f"{guide.name} = {guide}: its angle"),))
             if len(guide.points) == 2:
                 return self.carrier(guide.points[0], guide.points[1], f"{guide.name} = {guide}")
-            moving = [point for point in guide.points if point not in self.fixed]
-            return self.slider(moving[0]) if moving else FRAME
-        if side.role == "slider":
-            return self.slider(side.points[0])
-        if side.role == "runner":
-            return self.runner(side.points[0], self.plan.track(joint))
+            return next((sliders[point] for point in guide.points if point not in self.fixed), FRAME)
         if not side.points:
             return FRAME
+        if side.role == "slider":
+            return sliders[side.points[0]]
         if joint.arm and side is joint.on:
             return next(index for index, body in enumerate(self.bodies) if owner in body.points)
-        return self.holder(side.points[0]) if len(side.points) == 1 else self.carrier(side.points[0], side.points[1], owner)
-
-    def runner(self, point: str, line: tuple[str, ...]) -> int:
-        """Return the body that a guide or slot holds at a point: one that runs on it with two points, else the carrier of the pin."""
-        others = {other for other, its in self.running if its == line} - {point}
-        owners = self.owners(point)
+        if len(side.points) > 1:
+            return self.carrier(side.points[0], side.points[1], owner)
+        (point,), line = side.points, self.plan.track(joint)
+        others = {other for other, its in self.running if its == line} - {point} if side.role == "runner" else set()
+        owners = self.owners(point)  # of a runner one that runs on the line with two points, else the carrier of the pin
         both = [index for index in owners if index != FRAME and others & set(self.bodies[index].points)]
         return both[0] if both and FRAME not in owners else self.holder(point)
 
@@ -271,10 +248,6 @@ class Structure:
     def running(self) -> set[tuple[str, tuple[str, ...]]]:
         """The points that run on guides and slots, the driven ones too, each with its line."""
         return {(joint.point, self.plan.track(joint)) for _, joint in self.plan.joints if joint.track and joint.on.role == "runner"}
-
-    def slider(self, point: str) -> int:
-        """Return the body at a point that moves without turning."""
-        return next(index for index, body in enumerate(self.bodies) if body.points == (point,) and body.slides)
 
     # -- names ---------------------------------------------------------------------------------------------
 
@@ -378,7 +351,7 @@ def acting_place(contact: Contact, poses: FlatPoses) -> FloatArray:
     An origin that is the point to rounding is the point, as the motion has it.
     """
     joint, point = contact.joint, poses.at(contact.point)
-    if joint is None or joint.line is None or joint.track or "runner" in (joint.on.role, joint.by.role):
+    if joint.line is None or joint.track or "runner" in (joint.on.role, joint.by.role):
         return point
     with np.errstate(all="ignore"):
         origin = joint.line(poses.reading).origin
@@ -390,12 +363,10 @@ def acting_place(contact: Contact, poses: FlatPoses) -> FloatArray:
 
 def force_direction(contact: Contact, letter: str, poses: FlatPoses) -> FloatArray:
     """Return the direction of one of a contact's forces, x, y, n or t, of length one, shape (2, n)."""
-    line = contact.joint.line if contact.joint is not None else None
-    if letter in "xy" or line is None:
-        along = np.stack([np.ones(poses.count), np.zeros(poses.count)])
-    else:
+    along = np.stack([np.ones(poses.count), np.zeros(poses.count)])
+    if letter not in "xy" and contact.joint.line is not None:
         with np.errstate(all="ignore"):
-            way = line(poses.reading).direction
+            way = contact.joint.line(poses.reading).direction
         vector = poses.stacked(way.x, way.y)
         along = np.asarray(vector / np.hypot(vector[0], vector[1]))
     return quarter_turned(along) if letter in "yn" else along

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import final
@@ -87,6 +87,9 @@ class LawRequest(Request):
     column: str = ""
     in_plan: LawInPlan | None = None
     """What it is in the plan that it is bound to."""
+    of_laws = True
+    may_fail = True
+    follows_angles = True
 
     def law(self, motion: AnyMotion) -> FloatArray:
         """Return the values over a motion's poses [SI], shape (...); one number of a program where the motion is traced."""
@@ -122,9 +125,7 @@ class LawRequest(Request):
         return self.acting is not None and self.mover is None
 
     def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
-        if self.acting is None:
-            return ()
-        own = None if self.directions is None else self.directions(plan)
+        own = () if self.acting is None else None if self.directions is None else self.directions(plan)
         return own if own is not None else DIRECTIONS if rubs else DIRECTIONS[:1]
 
     def occurs_in(self, plan: Plan, case: str) -> bool:
@@ -137,10 +138,6 @@ class LawRequest(Request):
         return super().pieces(plan) if self.pieces_in is None else self.pieces_in(self, plan)
 
     @property
-    def of_laws(self) -> bool:
-        return True
-
-    @property
     def may_be_unlimited(self) -> bool:
         return self.unlimited_in is not None
 
@@ -150,16 +147,16 @@ class LawRequest(Request):
     # -- bound to a plan ---------------------------------------------------------------------------------
 
     def bound(self, plan: Plan) -> LawRequest:
-        identity = identity_of(plan, self) if self.situation.loads is None else None  # what is kept must not keep loads alive
-        return self._bound(plan) if identity is None else plan.made(("bound", identity), lambda _: self._bound(plan))
+        def made(_: Plan) -> LawRequest:
+            if self.examine is not None:
+                self.examine(plan)
+            if self.acting is not None:
+                refuse_loose(plan_in_case(plan, self.acting))
+            look_up = partial(law_in_plan, trace=self.traced_law) if self.look_up is None else partial(self.look_up, self)
+            return replace(self, in_plan=traced_apart(plan, look_up))
 
-    def _bound(self, plan: Plan) -> LawRequest:
-        if self.examine is not None:
-            self.examine(plan)
-        if self.acting is not None:
-            refuse_loose(plan_in_case(plan, self.acting))
-        look_up = partial(law_in_plan, trace=self.traced_law) if self.look_up is None else partial(self.look_up, self)
-        return replace(self, in_plan=traced_apart(plan, look_up))
+        identity = identity_of(plan, self) if self.situation.loads is None else None  # what is kept must not keep loads alive
+        return made(plan) if identity is None else plan.made(("bound", identity), made)
 
     def traced_law(self, motion: TracedMotion) -> TracedLaw:
         """Return the formula on the nodes of a program; UntracedError where it has none."""
@@ -221,14 +218,6 @@ class LawRequest(Request):
     def order(self) -> int:
         return 1 if self.in_plan is not None and self.in_plan.through else 0
 
-    @property
-    def may_fail(self) -> bool:
-        return True
-
-    @property
-    def follows_angles(self) -> bool:
-        return True
-
     def refuse(self, motion: MotionLike) -> None:
         self.of(motion)
 
@@ -260,3 +249,8 @@ def is_unchanging(thing: object) -> bool:
 def case_words(case: Case) -> list[str]:
     """Return a load case as an argument in words; nothing of none."""
     return [] if case is None else [f"case={case if isinstance(case, str) else case.name or case.label}"]
+
+
+def request_text(word: str, arguments: Sequence[str], acting: Acting) -> str:
+    """Return how a request is written that hangs on the load case of a situation: as a function of that name with some arguments."""
+    return f"{word}({', '.join([*arguments, *case_words(acting.case)])})"

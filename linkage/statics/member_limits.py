@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, cast, final
+from typing import cast, final
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from ..errors import unwarned
 from ..loads import Acting, Case, Force
 from ..motion import HasVerdicts, Judge, Motion, Over
 from ..motion.measures import Least, Measure, Most
+from ..motion.requests import RequestLike
 from ..motion.table import speakers
 from ..plan import Plan
 from ..program import FloatArray
@@ -41,13 +42,12 @@ class MemberLimit:
 
     def value(self, motion: AnyMotion, acting: Acting) -> FloatArray:
         """Return what is compared, shape (...)."""
-        if isinstance(self.request, LawRequest):
-            return self.request.under(acting, keep=True).law(motion)
-        return motion.value(self.request)
+        request = self.request
+        return request.under(acting, keep=True).law(motion) if isinstance(request, LawRequest) else motion.value(request)
 
     def bounds(self, motion: Motion) -> tuple[FloatArray, FloatArray]:
         """Return between which two values it is kept, to rounding."""
-        right: FloatArray = np.asarray(self.right.of(lambda leaf: motion[cast(Any, leaf.quantity)]), np.float64)
+        right: FloatArray = np.asarray(self.right.of(lambda leaf: motion[cast(RequestLike, leaf.quantity)]), np.float64)
         return (right - KEPT, np.asarray(np.inf)) if self.is_least else (np.asarray(-np.inf), right + KEPT)
 
     def spare(self, motion: Motion, acting: Acting) -> FloatArray:
@@ -56,6 +56,11 @@ class MemberLimit:
         with unwarned(), np.errstate(all="ignore"):
             value = self.value(motion, acting) + np.zeros(motion.shape)
             return np.minimum(value - low, high - value)
+
+    def is_bent(self, motion: Motion, beside: Callable[[float], Acting]) -> bool:
+        """Return whether it is not affine in a load, as seen at some poses, up to one that nothing carries."""
+        back, own, out = (self.spare(motion, beside(load)) for load in (-MOST, 0.0, MOST))
+        return bool(np.any(np.abs(back + out - 2.0 * own) > 1e2 * STRAIGHT * (np.abs(back) + np.abs(out))))
 
     def greatest_load(self, motion: Motion, beside: Callable[[FloatArray | float], Acting]) -> FloatArray:
         """Return the greatest load that keeps it [N], shape (...), where `beside(load)` is what acts with one; see `greatest_load`."""
@@ -78,29 +83,21 @@ def member_limits(plan: Plan, case: Case, *, are_remarks: bool = False) -> tuple
     """
 
     def made(plan: Plan) -> tuple[MemberLimit, ...]:
-        pose, load = [Over(**cast(Any, plan.sketch_strokes))], Force(plan.moving[-1], (0.0, -1.0))
+        pose, load = [Over(**cast(dict[str, float], plan.sketch_strokes))], Force(plan.moving[-1], (0.0, -1.0))
         judge, loaded = (Judge(plan, plan.defaults, pose, Acting(loads, case)) for loads in (None, [load]))
         found = []
         for name, member in speakers(plan, HasVerdicts).items():
             for rule, condition in (member.load_remarks(loaded) if are_remarks else member.load_limits(loaded)).items():
                 for each in condition.constraints(None):
-                    if isinstance(each.left, (Least, Most)) and each.symbol == (">=" if isinstance(each.left, Least) else "<="):
-                        rows = judge.sought(each.left, judge.places[0])
-                        requests = [row.piece.below if row.stays_at_zero else row.piece.request for row in rows]
-                        found += [MemberLimit(f"{rule} {name}", one, each.right, each.symbol == ">=") for one in requests]
-        return tuple(each for each in found if isinstance(each.request, (LawRequest, Quantity)))
+                    is_least = isinstance(each.left, Least)
+                    if isinstance(each.left, (Least, Most)) and each.symbol == (">=" if is_least else "<="):
+                        for row in judge.sought(each.left, judge.places[0]):
+                            request = row.piece.below if row.stays_at_zero else row.piece.request
+                            if isinstance(request, (LawRequest, Quantity)):
+                                found.append(MemberLimit(f"{rule} {name}", request, each.right, is_least))
+        return tuple(found)
 
     return plan.made(("load limits", case, are_remarks), made) if case is None or isinstance(case, str) else made(plan)
-
-
-def bent_among(limits: Sequence[MemberLimit], motion: Motion, beside: Callable[[float], Acting]) -> list[MemberLimit]:
-    """Return those that are not affine in a load, as seen at some poses, up to one that nothing carries."""
-    found = []
-    for each in limits:
-        back, own, out = (each.spare(motion, beside(load)) for load in (-MOST, 0.0, MOST))
-        if np.any(np.abs(back + out - 2.0 * own) > 1e2 * STRAIGHT * (np.abs(back) + np.abs(out))):
-            found.append(each)
-    return found
 
 
 def greatest_kept(spare: Callable[[FloatArray], FloatArray], alone: FloatArray, guess: FloatArray) -> FloatArray:

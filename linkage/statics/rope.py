@@ -11,46 +11,19 @@ from typing import ClassVar, Unpack, cast, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, known_name, unknown
+from ..errors import DefinitionError, cited, known_name
 from ..language import noted, said
-from ..loads import (
-    Acting,
-    ActingKeywords,
-    Case,
-    Declared,
-    ForceElement,
-    Glyph,
-    Load,
-    Loads,
-    Parameter,
-    Poses,
-    Pulley,
-    RopePath,
-    Tie,
-    situation_of,
-    takes_situation,
-)
-from ..loads.element import Formulas, Reeving, value_text
-from ..loads.rope import Station, pulls, stations_of, wraps
-from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Question, Tabled, least, require_motion
+from ..loads import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
+from ..loads.element import Declared, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Reeving, Tie, value_text
+from ..loads.rope import Pulley, RopePath, Station, pulls, stations_of, wraps
+from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Tabled, least, require_motion
 from ..plan import Plan, strokes_alone
 from ..program import FloatArray
-from ..quantities import (
-    InnerQuantity,
-    Member,
-    Number,
-    Quantity,
-    Reference,
-    Variable,
-    is_number,
-    label,
-    name_of,
-    quantity,
-)
+from ..quantities import InnerQuantity, Member, Number, Quantity, Reference, Variable, is_number, label, name_of, quantity
 from ..steps import Point
 from ..units import show
 from ..verdict import Verdict
-from .law_requests import LawRequest, case_words
+from .law_requests import LawRequest, request_text
 from .poses import AnyMotion, plan_of
 from .work import closed_force
 
@@ -85,25 +58,26 @@ class Rope(ForceElement, Tabled, HasVerdicts):
     ) -> None:  # fmt: skip
         self.run, self.length, self.force, self.stretch, self.against = tuple(run), length, force, stretch, against
         self.weights = None if weights is None else tuple(weights)
-        self._check()
+        wrong = next(self._misgiven(), "")
+        if wrong:
+            raise DefinitionError(f"{wrong}.")
+        self.weights = None if self.weights is None else tuple(map(float, self.weights))
+        self._check_numbers()
 
-    def _check(self) -> None:
+    def _misgiven(self) -> Iterator[str]:
+        """Yield what of it cannot be as it is given, with the remedy."""
         for each in self.run:
             if not isinstance(each, (str, Point, Pulley)):
-                raise DefinitionError(f'Rope({cited(each)}): neither a point nor a Pulley; write Rope(A, sheave, "D", length=2.4).')
-        if len(self.run) < 2:
-            raise DefinitionError(f"Rope: {len(self.run)} point{'s' * (not self.run)}; it runs from one to another one at least.")
+                yield f'Rope({cited(each)}): neither a point nor a Pulley; write Rope(A, sheave, "D", length=2.4)'
+        count, takes = len(self.run) - 1, self.length is not None or self.force is not None
+        if count < 1:
+            yield f"Rope: {count + 1} point{'s' * (count < 0)}; it runs from one to another one at least"
         if self.length is not None and self.force is not None:
-            raise DefinitionError(f"{self}: its length is held or its force is given; leave one out.")
-        if self.weights is not None:
-            count = len(self.run) - 1
-            if len(self.weights) != count or not all(is_number(each) and each > 0.0 for each in self.weights):
-                raise DefinitionError(f"{self}: weights={cited(self.weights)}: {count} numbers above zero are expected, one a part.")
-            self.weights = tuple(map(float, self.weights))
-        if self.against is not None and (self.length is not None or self.force is not None):
-            what = f"{self}: it draws back against {label(self.against)}, which gives it its length"
-            raise DefinitionError(f"{what}; leave length= and force= out.")
-        self._check_numbers()
+            yield f"{self}: its length is held or its force is given; leave one out"
+        if self.weights is not None and not (len(self.weights) == count and all(is_number(each) and each > 0.0 for each in self.weights)):
+            yield f"{self}: weights={cited(self.weights)}: {count} numbers above zero are expected, one a part"
+        if self.against is not None and takes:
+            yield f"{self}: it draws back against {label(self.against)}, which gives it its length; leave length= and force= out"
 
     @property
     def numbers(self) -> Mapping[str, str]:
@@ -132,29 +106,27 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return stations_of(self.run, members)
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
-        opening = f"{title}: {self.name} = {self}"
+        known = [name for name, member in members.items() if isinstance(member, (Point, Pulley))]
         for each in self.run:
-            if not isinstance(members.get(name_of(each)), (Point, Pulley)):
-                known = [name for name, member in members.items() if isinstance(member, (Point, Pulley))]
-                raise unknown("Point or pulley", name_of(each), known, where=f"{title}.{self.name}")
-        if self.against is not None:
-            found = members.get(name_of(self.against))
-            if not isinstance(found, Rope) or found.against is not None:
-                what = f"{opening}: {label(self.against)} is no Rope that gives a length"
-                raise DefinitionError(f"{what}; name the one that it draws back against.")
+            known_name("Point or pulley", name_of(each), known, where=f"{title}.{self.name}")
+        Member.examine(self, members, title)
+
+    def faults(self, members: Mapping[str, Member]) -> Iterator[str]:
         stations, falls = self.stations(members), self.falls
-        for one, other in pairwise(stations):
-            if one.point == other.point:
-                raise DefinitionError(f"{opening}: it runs from {one.point} to {one.point}; name two different points.")
+        other = None if self.against is None else members.get(name_of(self.against))
+        if self.against is not None and not (isinstance(other, Rope) and other.against is None):
+            yield f"{label(self.against)} is no Rope that gives a length; name the one that it draws back against"
+        for one, following in pairwise(stations):
+            if one.point == following.point:
+                yield f"it runs from {one.point} to {one.point}; name two different points"
         for end in (stations[0], stations[-1]):
             if end.pulley is not None:
-                what = f"{opening}: it ends on the pulley {end.pulley.name}, on which it would wind up as on a drum"
-                raise DefinitionError(f"{what}; end it at a point, and let its length follow a Stroke, length=L0 + W.")
-        uneven = next((k for k in range(1, len(falls)) if stations[k].pulley is not None and falls[k] != falls[k - 1]), None)
-        if uneven is not None:
-            pulley = cast(Pulley, stations[uneven].pulley).name
-            what = f"{opening}: {falls[uneven - 1]:g} falls come to the pulley {pulley} and {falls[uneven]:g} leave it"
-            raise DefinitionError(f"{what}; give both straight parts one weight, or let it run over the pin.")
+                remedy = "end it at a point, and let its length follow a Stroke, length=L0 + W"
+                yield f"it ends on the pulley {end.pulley.name}, on which it would wind up as on a drum; {remedy}"
+        for before, after, place in zip(falls[:-1], falls[1:], stations[1:-1], strict=True):
+            if place.pulley is not None and before != after:
+                what = f"{before:g} falls come to the pulley {place.pulley.name} and {after:g} leave it"
+                yield f"{what}; give both straight parts one weight, or let it run over the pin"
 
     # -- the length that it gives ----------------------------------------------------------------------------
 
@@ -182,20 +154,20 @@ class Rope(ForceElement, Tabled, HasVerdicts):
     def inner(self, name: str, members: Mapping[str, Member]) -> Member | None:
         if name not in self.inside:
             return None
-        opening = f"{self.name} = {self}"
-        if self.force is not None:
-            raise DefinitionError(f"{opening}: its force is given, so that it gives no length; say its length= instead.")
-        if self.length is None:
-            raise DefinitionError(f"{opening}: {self.name}.{name} is asked for, and nothing says how long it is; add length=... in m.")
-        if self.gives(members):
-            what = f"{opening}: one rope gives one length, and {self.gives(members)} and {self.name}.{name} are asked for"
-            raise DefinitionError(f"{what}; declare another rope.")
-        stations, falls = self.stations(members), self.falls
+        wanted, stations, falls, wrong = f"{self.name}.{name}", self.stations(members), self.falls, ""
         beside, rest = (1, slice(1, None)) if name == "first" else (-2, slice(None, -1))
         pulley = stations[beside].pulley if len(stations) > 2 else None
-        if pulley is not None:
-            what = f"{opening}: how far it lies on {pulley.name} hangs on where {self.name}.{name} ends"
-            raise DefinitionError(f"{what}; let it run over the pin {stations[beside].point} there, or give the other end's length.")
+        if self.force is not None:
+            wrong = "its force is given, so that it gives no length; say its length= instead"
+        elif self.length is None:
+            wrong = f"{wanted} is asked for, and nothing says how long it is; add length=... in m"
+        elif self.gives(members):
+            wrong = f"one rope gives one length, and {self.gives(members)} and {wanted} are asked for; declare another rope"
+        elif pulley is not None:
+            remedy = f"let it run over the pin {stations[beside].point} there, or give the other end's length"
+            wrong = f"how far it lies on {pulley.name} hangs on where {wanted} ends; {remedy}"
+        if wrong:
+            raise DefinitionError(f"{self.name} = {self}: {wrong}.")
         left = self.written("length")
         left = left + self.written("stretch") if "stretch" in self.numbers else left
         kept = stations[rest]
@@ -205,11 +177,6 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         own = falls[0 if name == "first" else -1]
         return left if own == 1.0 and not isinstance(left, Variable) else left / own
 
-    @property
-    def length_given(self) -> Quantity:
-        """Its length as it is given [m]."""
-        return quantity(cast("float | Quantity | str", self.length))
-
     def written(self, name: str) -> Quantity:
         """Return a number of it as a quantity of its class."""
         given = quantity(self.given(name))
@@ -218,11 +185,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
     @property
     def cut(self) -> str:
         """The input by which its length changes: itself, or how much longer it is than what it follows."""
-        return f"{self.name}.{'length' if isinstance(self.length_given, Number) else 'stretch'}"
-
-    def winding(self, members: Mapping[str, Member]) -> tuple[str, ...]:
-        """Return the strokes that its length follows by itself, not through points: those of winches."""
-        return strokes_alone(self.length_given, members)
+        return f"{self.name}.{'length' if isinstance(quantity(self.given('length')), Number) else 'stretch'}"
 
     def cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
         return (self.cut,) if self.length is not None and self.gives(members) else ()
@@ -249,8 +212,12 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         gives = self.gives(members)
         if not gives:
             return Tie(self.name, (), held=False, run=Reeving(self._pushes))
-        back, strokes = self.drawn_back_by(members), self.winding(members)
-        run = Reeving(self._pushes, strokes, self._rate)
+        back, length = self.drawn_back_by(members), quantity(self.given("length"))
+
+        def rate(motion: Poses, stroke: str) -> FloatArray:
+            return np.asarray(motion.ratio(length, wrt=stroke))
+
+        run = Reeving(self._pushes, strokes_alone(length, members), rate)  # strokes that it follows by itself are those of winches
         if back is not None:
             run = replace(run, back=back.name, back_loads=back.back_pushes, back_share=back.share_against)
         return Tie(self.name, (), held=False, cut=self.cut, gives=gives, run=run)
@@ -273,10 +240,6 @@ class Rope(ForceElement, Tabled, HasVerdicts):
 
     def _pushes(self, motion: Poses) -> list[Load]:
         return [Load(each.point, -1.0 * each.force) for each in self.pulls(motion)]
-
-    def _rate(self, motion: Poses, stroke: str) -> FloatArray:
-        """Return how its length follows a stroke."""
-        return np.asarray(motion.ratio(self.length_given, wrt=stroke))
 
     @takes_situation
     def tension(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> FloatArray:
@@ -333,65 +296,46 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         request = tension(self.name)
         return [Column(noted("tension"), request.of(motion), "kN", 3, request)]
 
-    @property
-    def is_held(self) -> bool:
-        """Whether its length is held, so that its tension follows."""
-        return self.force is None
-
-    def questions(self, judge: Judge) -> list[Question]:
-        return list(self.conditions(judge).values())
-
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
-        found: dict[str, Condition] = {}
-        if self.is_held and self.gives(judge.plan.members) and self.drawn_back_by(judge.plan.members) is None:
+        """Return that it stays taut, and on each of its pulleys: that the angle over which it lies there is not below zero."""
+        found, stations = dict[str, Condition](), self.stations(judge.plan.members)
+        if self.force is None and self.gives(judge.plan.members) and self.drawn_back_by(judge.plan.members) is None:
             found["tension"] = least(tension(self.name)) >= 0.0
-        pulleys = [each.pulley for each in self.stations(judge.plan.members) if each.pulley is not None]
-        return found | {f"wrap {each.name}": least(self.wrap_request(each.name)) >= 0.0 for each in pulleys}
+        for place, each in enumerate(stations):
+            if each.pulley is not None:
+                text, known = f"{self.name} on {each.pulley.name}", ("wrap", self.name, each.pulley.name)
+                angle = LawRequest(formula=partial(self._wrap, place), text=text, known=known, measures="angle")
+                found.setdefault(f"wrap {each.pulley.name}", least(angle) >= 0.0)
+        return found
 
-    def wrap_request(self, pulley: str) -> LawRequest:
-        """Return the request for the angle over which it lies on a pulley [rad]; below zero it is off it."""
-        return LawRequest(
-            formula=partial(self._wrap, pulley), text=f"{self.name} on {pulley}", known=("wrap", self.name, pulley), measures="angle"
-        )
-
-    def _wrap(self, pulley: str, motion: AnyMotion) -> FloatArray:
-        stations = self.stations(motion.plan.members)
-        place = next(k for k, each in enumerate(stations) if each.pulley is not None and each.pulley.name == pulley)
-        return np.asarray(wraps(stations, motion)[place] + np.zeros(motion.shape))[()]
+    def _wrap(self, place: int, motion: AnyMotion) -> FloatArray:
+        return np.asarray(wraps(self.stations(motion.plan.members), motion)[place] + np.zeros(motion.shape))[()]
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it stays taut, and on its pulleys."""
         try:
-            return list(self._verdicts(judge))
+            conditions, found = self.conditions(judge), []
+            for rule, answer in zip(conditions, judge.answers(list(conditions.values())), strict=True):
+                value, is_lost = float(answer.value), bool(np.isnan(answer.value))
+                words = f"{answer}." if is_lost else rope_sentence(rule, value, answer.place)
+                found.append(Verdict(rule, answer.ok if is_lost else value >= 0.0, words, answer=answer))
+            return found
         except DefinitionError as error:
             return [Verdict("tension", False, " ".join(str(error).split()))]
 
-    def _verdicts(self, judge: Judge) -> Iterator[Verdict]:
-        conditions = self.conditions(judge)
-        for rule, answer in zip(conditions, judge.answers(list(conditions.values())), strict=True):
-            if np.isnan(answer.value):
-                yield Verdict(rule, answer.ok, f"{answer}.", answer=answer)
-            elif rule == "tension":
-                yield Verdict(rule, float(answer.value) >= 0.0, slack_sentence(float(answer.value), answer.place), answer=answer)
-            else:
-                yield Verdict(rule, float(answer.value) >= 0.0, wrap_sentence(float(answer.value), answer.place), answer=answer)
 
-
-def slack_sentence(value: float, place: str) -> str:
-    """Return whether a rope stays taut, in words, by its least tension [N]."""
+def rope_sentence(rule: str, value: float, place: str) -> str:
+    """Return in words whether a rope stays taut, by its least tension [N], or on a pulley, by the least angle where it lies there [rad]."""
+    if rule != "tension":
+        if value >= 0.0:
+            return said("the rope lies on it over at least {angle}, {place}.", angle=show(value, "deg", 4), place=place)
+        return said("it leaves the pulley {place}; move the pulley, or let it turn the other way around it.", place=place)
     if value >= 0.0:
         return said("it stays taut, least {place}: {force}.", force=show(value, "kN", 4), place=place)
     return said(
         "goes slack {place}: it would have to push with {force}; there the constraint is not kept. Hang more weight on it, or take a rod.",
         place=place, force=show(-value, "kN", 4),
     )  # fmt: skip
-
-
-def wrap_sentence(value: float, place: str) -> str:
-    """Return whether a rope stays on a pulley, in words, by the least angle over which it lies there [rad]."""
-    if value >= 0.0:
-        return said("the rope lies on it over at least {angle}, {place}.", angle=show(value, "deg", 4), place=place)
-    return said("it leaves the pulley {place}; move the pulley, or let it turn the other way around it.", place=place)
 
 
 # What is asked of a rope.
@@ -402,14 +346,9 @@ def tension(rope: Rope | str, *, case: Case = None, acting: Acting | None = None
     name = name_of(rope)
     given = situation_of("tension", acting, case=case)
     return LawRequest(
-        formula=partial(tension_over, name), text=partial(tension_text, name), known=("tension", name), acting=given, measures="force",
-        examine=partial(rope_in, name),
+        formula=partial(tension_over, name), text=partial(request_text, "tension", (name,)), known=("tension", name), acting=given,
+        measures="force", examine=partial(rope_in, name),
     )  # fmt: skip
-
-
-def tension_text(name: str, acting: Acting) -> str:
-    """Return how the request of a tension is written in a situation."""
-    return f"tension({', '.join([name, *case_words(acting.case)])})"
 
 
 def rope_in(name: str, plan: Plan | Declared) -> Rope:

@@ -10,11 +10,12 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, one_word
+from ..loads import Load
 from ..motion.limits import where_words
 from ..plan import Mask
 from ..program import FloatArray
 from .agreement import check_joints
-from .applied import AppliedLoad, AppliedLoads
+from .applied import AppliedLoads
 from .bodies import NotHeldError
 from .equilibrium import LinearForm, System
 from .friction import JointFriction, PressingForces, consistent_frictions, joint_frictions
@@ -58,16 +59,17 @@ class PoseForces:
                 found[run.back] = np.maximum(force, 0.0) * run.back_share(self.poses.motion)
         return found
 
-    def run_loads(self) -> Iterator[AppliedLoad]:
+    def run_loads(self) -> Iterator[Load]:
         """Yield what ropes put on the points that they run over."""
         motion = self.poses.motion
         for name, run in self.structure.holders.reeved.items():
             force = self.runs[name]
             own = np.minimum(force, 0.0) if run.back else force
-            yield from (AppliedLoad(load, np.asarray(load.force * own), name) for load in run.loads(motion))
+            yield from (replace(load, force=np.asarray(load.force * own), element=name) for load in run.loads(motion))
             if run.back:
                 back = np.maximum(force, 0.0)
-                yield from (AppliedLoad(load, np.asarray(load.force * back), run.back) for load in run.back_loads(motion))
+                backs = run.back_loads(motion)
+                yield from (replace(load, force=np.asarray(load.force * back), element=run.back) for load in backs)
 
 
 def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseForces:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, LawError, UntracedError, unwarned
-from ..loads import Acting, Rates
+from ..loads import Acting, Load, Push, Rates
 from ..motion import Motion, OnePose, Request
 from ..motion.requests import stroke_of
 from ..motion.strokes import checked_name, order_of
@@ -20,7 +20,7 @@ from ..program import FloatArray, Level, Node, Notes, SparseSystem, Traced, inte
 from ..quantities import Angle, Distance, Member, Quantity, Reference
 from ..steps import Arrow, Point
 from ..vectors import Scalar
-from .applied import AppliedElement, AppliedLoad, AppliedLoads, AppliedThrust, Parts, applied_loads, element_parts
+from .applied import AppliedElement, AppliedLoads, Parts, applied_loads, element_parts
 from .equilibrium import System, UnitWrench
 from .holding import Levers
 from .joints import Structure
@@ -131,7 +131,7 @@ class TracedMotion(OnePose):
             return self._array(made) if made.dtype == object else made
         if isinstance(made, (tuple, list)):
             return type(made)(map(self._own, made))
-        if isinstance(made, Levers | AppliedLoads | AppliedLoad | AppliedThrust):
+        if isinstance(made, Levers | AppliedLoads | Load | Push):
             own: dict[str, Any] = {each.name: self._own(getattr(made, each.name)) for each in fields(made)}
             return replace(made, **own)
         return made

@@ -7,7 +7,7 @@ its own, along the ground is a quarter turn to the right of it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Unpack, final
@@ -16,35 +16,21 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..language import noted, said
-from ..loads import (
-    AT_REST,
-    FRICTIONLESS,
-    PLAIN,
-    Acting,
-    ActingKeywords,
-    Case,
-    ForceElement,
-    LinkMass,
-    Load,
-    Loads,
-    Support,
-    Weight,
-    situation_of,
-    takes_situation,
-)
-from ..loads.case import LoadCase
-from ..motion import Answer, Column, Condition, HasVerdicts, Judge, Motion, Question, Tabled, least, most, require_motion
+from ..loads import FRICTIONLESS, PLAIN, Acting, ActingKeywords, Case, LoadCase, Loads, situation_of, takes_situation
+from ..loads.element import AT_REST, ForceElement, Load
+from ..loads.point import LinkMass, Support, Weight
+from ..motion import Answer, Column, Condition, HasVerdicts, Judge, Motion, Tabled, least, most, require_motion
 from ..motion.limits import where_words
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import name_of
 from ..units import show
 from ..verdict import Verdict
-from .applied import AppliedLoad, AppliedLoads, applied_loads, elements_of, rates_in
+from .applied import applied_loads, elements_of, rates_in
 from .bodies import frame_points
 from .held import held_in_case
 from .holding import where_negative
-from .law_requests import LawRequest, case_words, situation_identity
+from .law_requests import LawRequest, request_text, situation_identity
 from .poses import AnyMotion, FlatPoses, cross
 from .traced_loads import TracedMotion, traced_loads
 
@@ -99,33 +85,34 @@ def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Suppor
     """Return how a vehicle stands on some supports over a motion's poses, as numbers of a program where it is traced."""
     motion = held_in_case(motion, acting)
     poses = FlatPoses(motion, "The axle loads", set())
-    applied = traced_loads(motion, acting, AT_REST) if isinstance(motion, TracedMotion) else loads_over(motion, acting)
-    first = next(iter(supports.values()))
+    if isinstance(motion, TracedMotion):
+        applied = traced_loads(motion, acting, AT_REST)
+    else:
+        rests = acting.movement == FRICTIONLESS and acting.rates is None
+        applied = applied_loads(motion, acting, AT_REST if rests else rates_in(require_motion(motion), acting))
+    first, right = next(iter(supports.values())), to_the_right(poses, supports)
     start, force, moment = poses.at(name_of(first.point)), poses.zeros(2).T, poses.zeros()
     for load in applied.loads:
         if load.element not in supports:
             own = poses.flattened(load.force)
-            force, moment = force + own, moment + cross(poses.at(name_of(load.load.point)) - start, own)
-    outside = Outside(part_along(push_of(poses, first), force), part_along(to_the_right(poses, supports), force), np.asarray(moment))
+            force, moment = force + own, moment + cross(poses.at(name_of(load.point)) - start, own)
     ways = {name: push_of(poses, each) for name, each in supports.items()}
-    across, levers = directions(poses, supports, ways)
+    balance = balance_of(poses, supports, ways, part_along(ways[next(iter(supports))], force), np.asarray(moment))
     ends: list[FloatArray | None]
     if len(supports) == 2:
-        ends = [*carried_by_two(across, levers, outside, 0, 1)]
+        ends = [*balance.by_two(0, 1)]
         found = np.stack([each for each in ends if each is not None])
     else:
-        found, ends = by_stiffness(poses, supports, across, levers, outside)
-    names = list(supports)
-    right = to_the_right(poses, supports)
-    slants = [part_along(way, right) for way in ways.values()]
-    along = 0.0 - outside.along - sum((one * force for one, force in zip(slants, found, strict=True)), poses.zeros())
-    rough = [(each.number(motion, "friction"), force) for each, force in zip(supports.values(), found, strict=True) if is_rough(each)]
-    friction = sum((poses.flattened(number) * force for number, force in rough), poses.zeros()) if rough else None
+        found, ends = by_stiffness(poses, supports, balance)
+    carried = dict(zip(supports, found, strict=True))
+    slants = [part_along(way, right) * carried[name] for name, way in ways.items()]
+    along = 0.0 - part_along(right, force) - sum(slants, poses.zeros())
+    rough = [poses.flattened(each.number(motion, "friction")) * carried[name] for name, each in supports.items() if is_rough(each)]
     return Standing(
-        {name: poses.full(force) for name, force in zip(names, found, strict=True)},
-        {name: poses.full(force) for name, force in zip(names, ends, strict=True) if force is not None},
-        poses.full(np.asarray(along)), None if friction is None else poses.full(np.asarray(friction)),
-        {name: poses.full(way * force) for (name, way), force in zip(ways.items(), found, strict=True)}, poses.full(right * along),
+        {name: poses.full(force) for name, force in carried.items()},
+        {name: poses.full(force) for name, force in zip(supports, ends, strict=True) if force is not None},
+        poses.full(np.asarray(along)), poses.full(np.asarray(sum(rough, poses.zeros()))) if rough else None,
+        {name: poses.full(way * carried[name]) for name, way in ways.items()}, poses.full(right * along),
     )  # fmt: skip
 
 
@@ -142,15 +129,15 @@ def standing_if_any(motion: AnyMotion, acting: Acting) -> Standing | None:
         return None
 
 
-def ground_loads(motion: AnyMotion, acting: Acting) -> tuple[AppliedLoad, ...]:
+def ground_loads(motion: AnyMotion, acting: Acting) -> tuple[Load, ...]:
     """Return what the ground puts on a vehicle, by its supports: the axle loads, and at the first one what holds it along the ground."""
     found = standing_if_any(motion, acting)
     if found is None:
         return ()
     points = {name: name_of(each.point) for name, each in vehicle_of(motion.plan, acting).items()}
     first = next(iter(points))
-    axles = [AppliedLoad(Load(points[name], force), force, name) for name, force in found.forces.items()]
-    return (*axles, AppliedLoad(Load(points[first], found.brakes), found.brakes, said("{support} along the ground", support=first)))
+    axles = [Load(points[name], force, element=name) for name, force in found.forces.items()]
+    return (*axles, Load(points[first], found.brakes, element=said("{support} along the ground", support=first)))
 
 
 def tipping_words(motion: Motion, acting: Acting) -> list[str]:
@@ -162,13 +149,6 @@ def tipping_words(motion: Motion, acting: Acting) -> list[str]:
             where, size = where_words(motion.plan, down, motion.strokes), show(-float(np.nanmin(force)), "kN", 4)
             words.append(said("tipping {where}: {support} would have to be held down with {force}.", where=where, support=name, force=size))
     return words
-
-
-def loads_over(motion: AnyMotion, acting: Acting) -> AppliedLoads:
-    """Return what acts over the poses of a motion in a situation."""
-    found = require_motion(motion)
-    resting = acting.movement == FRICTIONLESS and acting.rates is None
-    return applied_loads(found, acting, AT_REST if resting else rates_in(found, acting))
 
 
 # Which supports a vehicle stands on.
@@ -231,12 +211,37 @@ def is_rough(support: Support) -> bool:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Outside:
-    """What acts on a vehicle from outside, without its supports, at the first of them: across and along the ground [N], about it [Nm]."""
+class Balance:
+    """What acts on a vehicle from outside, without its supports, at the first of them: across the ground [N], about it [Nm], (n,) each.
 
-    across: FloatArray
-    along: FloatArray
+    `across` is what each support's newton gives across the ground, `levers` its lever about the first support, (n,) each [m].
+    """
+
+    force: FloatArray
     moment: FloatArray
+    across: list[FloatArray]
+    levers: list[FloatArray]
+
+    def by_two(self, i: int, j: int) -> tuple[FloatArray, FloatArray]:
+        """Return the reactions of two supports that carry alone, (n,) each."""
+        across, levers = self.across, self.levers
+        span = across[i] * levers[j] - across[j] * levers[i]
+        if span.dtype != object and np.any(np.abs(span) <= SAME_PLACE):
+            raise DefinitionError("Two supports of a vehicle stand at one place and do not hold it upright; set them apart.")
+        return (
+            np.asarray((across[j] * self.moment - levers[j] * self.force) / span),
+            np.asarray((levers[i] * self.force - across[i] * self.moment) / span),
+        )
+
+    def outer(self, order: FloatArray) -> list[FloatArray | None]:
+        """Return what the two outermost supports carry alone, at their places among all, None at others; NaN where they are others."""
+        found: list[FloatArray | None] = [None] * len(self.across)
+        for i, j in {(int(i), int(j)) for i, j in zip(order[0], order[-1], strict=True)}:
+            here = (order[0] == i) & (order[-1] == j)
+            for place, force in zip((i, j), self.by_two(i, j), strict=True):
+                before = found[place]
+                found[place] = np.where(here, force, np.nan if before is None else before)
+        return found
 
 
 def push_of(poses: FlatPoses, support: Support) -> FloatArray:
@@ -256,10 +261,10 @@ def part_along(a: FloatArray, b: FloatArray) -> FloatArray:
     return np.asarray(a[0] * b[0] + a[1] * b[1])
 
 
-def directions(
-    poses: FlatPoses, supports: Mapping[str, Support], ways: Mapping[str, FloatArray]
-) -> tuple[list[FloatArray], list[FloatArray]]:
-    """Return what each support's newton gives across the ground, and its lever about the first support, shape (n,) [m]."""
+def balance_of(
+    poses: FlatPoses, supports: Mapping[str, Support], ways: Mapping[str, FloatArray], force: FloatArray, moment: FloatArray
+) -> Balance:
+    """Return what a force and a moment at the first support, and the supports in their directions, do to the frame."""
     first = next(iter(supports))
     start = poses.at(name_of(supports[first].point))
     across = {name: part_along(way, ways[first]) for name, way in ways.items()}
@@ -267,30 +272,20 @@ def directions(
         if part.dtype != object and not np.all(part > 0.0):
             what = f"{poses.plan.title}: {name} pushes {supports[name].direction}, not to the side of {first}, {supports[first].direction}"
             raise DefinitionError(f"{what}; supports of a vehicle push to one side, such as (0, 1).", member=name)
-    return [*across.values()], [cross(poses.at(name_of(each.point)) - start, ways[name]) for name, each in supports.items()]
-
-
-def carried_by_two(across: list[FloatArray], levers: list[FloatArray], outside: Outside, i: int, j: int) -> tuple[FloatArray, FloatArray]:
-    """Return the reactions of two supports that carry alone, (n,) each."""
-    span = across[i] * levers[j] - across[j] * levers[i]
-    if span.dtype != object and np.any(np.abs(span) <= SAME_PLACE):
-        raise DefinitionError("Two supports of a vehicle stand at one place and do not hold it upright; set them apart.")
-    return (
-        np.asarray((across[j] * outside.moment - levers[j] * outside.across) / span),
-        np.asarray((levers[i] * outside.across - across[i] * outside.moment) / span),
-    )
+    levers = [cross(poses.at(name_of(each.point)) - start, ways[name]) for name, each in supports.items()]
+    return Balance(force, moment, [*across.values()], levers)
 
 
 def by_stiffness(
-    poses: FlatPoses, supports: Mapping[str, Support], across: list[FloatArray], levers: list[FloatArray], outside: Outside
+    poses: FlatPoses, supports: Mapping[str, Support], balance: Balance
 ) -> tuple[FloatArray, list[FloatArray | None]]:
     """Return the reactions of three or more supports that give way, (supports, n), and those of the two outermost, were they alone.
 
     A rigid frame sinks and turns; one by one the last support of the side that rises lifts off, and the others are asked again.
     """
-    motion, many = poses.motion, len(supports)
-    stiffnesses = [poses.flattened(each.number(motion, "stiffness")) for each in supports.values()]
-    a, b, k, order = by_place(across, levers, stiffnesses, [poses.zeros() + number for number in range(many)])
+    many = len(supports)
+    stiffnesses = [poses.flattened(each.number(poses.motion, "stiffness")) for each in supports.values()]
+    a, b, k, order = by_place(balance.across, balance.levers, stiffnesses, [poses.zeros() + number for number in range(many)])
 
     def carried(low: int, high: int) -> FloatArray:
         """Return the reactions where the supports from low to before high carry, (supports, n)."""
@@ -302,7 +297,7 @@ def by_stiffness(
         arms = b - a * centre
         resists = (w * arms * arms).sum(axis=0)
         resists = where_below(SMALLEST - resists, resists, 0.0 * resists + 1.0)  # those at one place, which do not carry alone
-        sinks, turns = outside.across / stiff, (outside.moment - centre * outside.across) / resists
+        sinks, turns = balance.force / stiff, (balance.moment - centre * balance.force) / resists
         return np.asarray(0.0 - w * (a * sinks + arms * turns))
 
     def lifted(found: FloatArray, left: bool) -> FloatArray:
@@ -317,7 +312,7 @@ def by_stiffness(
     whole = carried(0, many)
     found = where_below(whole[-1], lifted(whole, False), where_below(whole[0], lifted(whole, True), whole))
     own = [where_below((order - number) ** 2 - 0.25, found, 0.0 * found).sum(axis=0) for number in range(many)]
-    return np.stack(own), outer(order, across, levers, outside) if order.dtype != object else [None] * many
+    return np.stack(own), balance.outer(order) if order.dtype != object else [None] * many
 
 
 def by_place(*given: list[FloatArray]) -> tuple[FloatArray, ...]:
@@ -335,17 +330,6 @@ def by_place(*given: list[FloatArray]) -> tuple[FloatArray, ...]:
 def where_below(values: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
     """Return x where values are below zero, else y; of numbers of a program too."""
     return where_negative(values, x, y) if values.dtype == object else np.where(values < 0.0, x, y)
-
-
-def outer(order: FloatArray, across: list[FloatArray], levers: list[FloatArray], outside: Outside) -> list[FloatArray | None]:
-    """Return what the two outermost supports carry alone, at their places among all, None at others; NaN where they are others."""
-    found: list[FloatArray | None] = [None] * len(across)
-    for i, j in {(int(i), int(j)) for i, j in zip(order[0], order[-1], strict=True)}:
-        here = (order[0] == i) & (order[-1] == j)
-        for place, force in zip((i, j), carried_by_two(across, levers, outside, i, j), strict=True):
-            before = found[place]
-            found[place] = np.where(here, force, np.nan if before is None else before)
-    return found
 
 
 # Before any load: what the vehicle's own weight puts on its supports.
@@ -389,7 +373,7 @@ def axle_load(support: str | Support, *, case: Case = None, acting: Acting | Non
     name = name_of(support)
     given = situation_of("axle_load", acting, case=case)
     return LawRequest(
-        formula=partial(load_over, name), text=partial(vehicle_text, "axle_load", (name,)), known=("axle load", name), acting=given,
+        formula=partial(load_over, name), text=partial(request_text, "axle_load", (name,)), known=("axle load", name), acting=given,
         measures="force", directions=at_rest_alone, examine=partial(support_in, name),
     )  # fmt: skip
 
@@ -397,15 +381,8 @@ def axle_load(support: str | Support, *, case: Case = None, acting: Acting | Non
 def slipping(*, case: Case = None, acting: Acting | None = None) -> LawRequest:
     """Return the request for how much of its friction with the ground a vehicle uses along it; at 1 it slips."""
     given = situation_of("slipping", acting, case=case)
-    return LawRequest(
-        formula=used_over, text=partial(vehicle_text, "slipping", ()), known=("slipping",), acting=given, directions=at_rest_alone,
-        examine=rough_in,
-    )  # fmt: skip
-
-
-def vehicle_text(word: str, arguments: tuple[str, ...], acting: Acting) -> str:
-    """Return how a request is written in a situation."""
-    return f"{word}({', '.join([*arguments, *case_words(acting.case)])})"
+    text = partial(request_text, "slipping", ())
+    return LawRequest(formula=used_over, text=text, known=("slipping",), acting=given, directions=at_rest_alone, examine=rough_in)
 
 
 def at_rest_alone(plan: Plan) -> tuple[str, ...]:
@@ -476,20 +453,14 @@ class AxleLoad(Tabled, HasVerdicts):
         request, name = axle_load(self.support.name, case=case), noted("axle load")
         return [Column(name, request.of(motion), "kN", 3, request if direction is None else None)]
 
-    def judges_slipping(self, judge: Judge) -> bool:
-        """Return whether the verdict on slipping is its own: of the first support, where one says how rough the ground is."""
-        return self.is_first and any(is_rough(each) for each in frame_supports(judge.plan).values())
-
-    def questions(self, judge: Judge) -> list[Question]:
-        return list(self.conditions(judge).values())
-
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return that on its load; of the first support that on slipping, too, where one says how rough the ground is."""
         try:
-            vehicle_of(judge.plan)
+            supports = vehicle_of(judge.plan)
         except DefinitionError:
             return {}
         found: dict[str, Condition] = {"axle load": least(axle_load(self.support.name)) >= 0.0}
-        return found | ({"slipping": most(slipping()) <= 1.0} if self.judges_slipping(judge) else {})
+        return found | ({"slipping": most(slipping()) <= 1.0} if self.is_first and any(map(is_rough, supports.values())) else {})
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
         return {}
@@ -497,43 +468,36 @@ class AxleLoad(Tabled, HasVerdicts):
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return how much of its load the support keeps, and whether the vehicle slips."""
         try:
-            supports = vehicle_of(judge.plan)
-            bare = bare_loads(judge.motion, supports)
-            return list(self._verdicts(judge, bare.get(self.support.name, 0.0)))
+            bare, found = bare_loads(judge.motion, vehicle_of(judge.plan)).get(self.support.name, 0.0), []
+            for rule, condition in self.conditions(judge).items():
+                answer = judge.answer(condition)
+                words = load_sentence(answer, bare) if rule == "axle load" else slipping_sentence(answer)
+                found.append(Verdict(rule, answer.ok, f"{answer}." if np.isnan(answer.value) else words, answer=answer))
+            return found
         except DefinitionError as error:
             return [Verdict("axle load", False, " ".join(str(error).split()))] if self.is_first else []
 
-    def _verdicts(self, judge: Judge, bare: float) -> Iterator[Verdict]:
-        found = judge.answer(least(axle_load(self.support.name)) >= 0.0)
-        yield Verdict("axle load", found.ok, self.sentence(found, bare), answer=found)
-        if self.judges_slipping(judge):
-            worst = judge.answer(most(slipping()) <= 1.0)
-            yield Verdict("slipping", worst.ok, slipping_sentence(worst), answer=worst)
 
-    def sentence(self, found: Answer, bare: float) -> str:
-        """Return what becomes of the axle's load, in words; `bare` is that of the vehicle alone [N]."""
-        if np.isnan(found.value):
-            return f"{found}."
-        load, place = float(found.value), found.place
-        if load < 0.0:
-            return said(
-                "tipping {place}: it would have to be held down with {force}. Add weight on its side, or set the supports wider.",
-                place=place, force=show(-load, "kN", 4),
-            )  # fmt: skip
-        if load == 0.0:
-            return said("it lifts off, such as {place}; the others carry.", place=place)
-        if not bare > 0.0:
-            return said("it carries at least {force} {place}, without a load nothing.", force=show(load, "kN", 4), place=place)
+def load_sentence(found: Answer, bare: float) -> str:
+    """Return what becomes of an axle's load, in words; `bare` is that of the vehicle alone [N]."""
+    load, place = float(found.value), found.place
+    if load < 0.0:
         return said(
-            "it keeps {share} % of its load, least {place}: {force} of the {bare} that the vehicle alone puts on it.",
-            share=f"{100.0 * load / bare:.3g}", place=place, force=show(load, "kN", 4), bare=show(bare, "kN", 4),
+            "tipping {place}: it would have to be held down with {force}. Add weight on its side, or set the supports wider.",
+            place=place, force=show(-load, "kN", 4),
         )  # fmt: skip
+    if load == 0.0:
+        return said("it lifts off, such as {place}; the others carry.", place=place)
+    if not bare > 0.0:
+        return said("it carries at least {force} {place}, without a load nothing.", force=show(load, "kN", 4), place=place)
+    return said(
+        "it keeps {share} % of its load, least {place}: {force} of the {bare} that the vehicle alone puts on it.",
+        share=f"{100.0 * load / bare:.3g}", place=place, force=show(load, "kN", 4), bare=show(bare, "kN", 4),
+    )  # fmt: skip
 
 
 def slipping_sentence(worst: Answer) -> str:
     """Return how much of its friction with the ground a vehicle uses, in words."""
-    if np.isnan(worst.value):
-        return f"{worst}."
     if np.isinf(worst.value):
         return said("slipping {place}: nothing presses it to the ground there.", place=worst.place)
     share = f"{100.0 * float(worst.value):.3g}"

@@ -80,10 +80,10 @@ def by_work(poses: FlatPoses, applied: AppliedLoads, drive: str) -> FloatArray:
     """Return the force of a drive that balances the loads [N or Nm], shape (n,): minus their work on a unit of its stroke."""
     moving, work = poses.plan.moving, np.zeros(poses.count)
     for load in applied.loads:
-        if load.load.point in moving:
-            work = work + (poses.flattened(load.force) * poses.rate(load.load.point, drive)).sum(axis=0)
+        if load.point in moving:
+            work = work + (poses.flattened(load.force) * poses.rate(load.point, drive)).sum(axis=0)
     for push in applied.thrusts:
-        P, Q = push.ends
+        P, Q = push.member.ends
         if {P, Q} & set(moving):
             work = work + poses.flattened(push.thrust) * poses.growth(P, Q, drive)
     return np.asarray(0.0 - work)
@@ -111,8 +111,8 @@ def work_misses(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, Fl
     A load's power counts as force times way, whatever the angle between them: where loads balance each other, as counterweights do, or
     do no work, the drive's own force is nearly nothing.
     """
-    sizes = [(each.load.point, np.hypot(*poses.flattened(each.force))) for each in applied.loads]
-    sizes += [(end, np.abs(poses.flattened(push.thrust))) for push in applied.thrusts for end in push.ends]
+    sizes = [(each.point, np.hypot(*poses.flattened(each.force))) for each in applied.loads]
+    sizes += [(end, np.abs(poses.flattened(push.thrust))) for push in applied.thrusts for end in push.member.ends]
     for name, force in drives.items():
         powers = sum((size * np.hypot(*poses.rate(point, name)) for point, size in sizes), np.zeros(poses.count))
         yield name, np.abs(poses.flattened(force) - by_work(poses, applied, name)), float(np.max(powers, initial=0.0))

@@ -7,7 +7,7 @@ second; on one point, `on="T"`, the axes keep the frame's directions; on nothing
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
@@ -18,23 +18,9 @@ import numpy.typing as npt
 
 from ..checks import require_number, require_type
 from ..errors import DefinitionError, FileError, cited, is_yes
-from ..quantities import (
-    Axes,
-    Member,
-    Number,
-    Operand,
-    Quantity,
-    Reference,
-    Stroke,
-    is_number,
-    label,
-    name_of,
-    needs,
-    quantity,
-    spelled,
-)
+from ..quantities import Axes, Member, Number, Operand, Reference, Stroke, is_number, label, name_of, needs, spelled
 from ..quantities.axes import NOTHING, plus
-from ..quantities.quantity import plain
+from ..quantities.quantity import Quantity, plain, quantity
 from ..steps import Link
 from ..units import require_measure
 from .dxf import dxf_lines
@@ -44,6 +30,10 @@ Value: TypeAlias = Callable[[Quantity], float]
 """What gives a quantity's number [SI] for the design that is drawn."""
 Corner: TypeAlias = "Sequence[Operand]"
 """Two coordinates [m]: numbers, dimensions, expressions of them."""
+Carrier: TypeAlias = "Reference | Sequence[Reference] | None"
+"""What carries an outline: two points of a body, one point, a link; None for the frame."""
+Moved: TypeAlias = Callable[[Quantity, Quantity], tuple[Quantity, Quantity]]
+"""What gives a place as a part's axes have it."""
 
 ROUND = 72  # the corners of a circle
 
@@ -62,50 +52,23 @@ class Outline(Member):
     argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType(
         {"points": "corners", "at": "corner", "on": "carrier", "angle": "direction"}
     )
+    circle: ClassVar[type[CircleOutline]]
+    dxf: ClassVar[type[DxfOutline]]
+    image: ClassVar[type[ImageOutline]]
+    closed, filled, hatched = True, False, False
 
     def __init__(
-        self, points: Sequence[Corner], *, on: Reference | Sequence[Reference] | None = None,
-        closed: bool = True, filled: bool = True, hatched: bool = False,
-    ) -> None:  # fmt: skip
-        self.points = outline_corners(points, "Outline", least=2)
+        self, points: Sequence[Corner], *, on: Carrier = None, closed: bool = True, filled: bool = True, hatched: bool = False
+    ) -> None:
+        self.points = outline_corners(points, "Outline")
         self.on = carrying_points(on, "Outline")
         self.closed = is_yes("Outline: closed", closed)
         self.filled, self.hatched = is_yes("Outline: filled", filled) and self.closed, is_yes("Outline: hatched", hatched)
 
-    # -- the other forms -------------------------------------------------------------------------------
-
     @staticmethod
-    def circle(
-        at: Corner | Reference, radius: Operand, *, on: Reference | Sequence[Reference] | None = None, filled: bool = True
-    ) -> CircleOutline:
-        """Return a circle [m] about a place, or about a point by its name: `wheel = Outline.circle(at=(0, 0.8), radius=R)`."""
-        return CircleOutline(at, radius=radius, on=on, filled=filled)
-
-    @staticmethod
-    def line(*points: Corner, on: Reference | Sequence[Reference] | None = None, hatched: bool = True) -> LineOutline:
+    def line(*points: Corner, on: Carrier = None, hatched: bool = True) -> LineOutline:
         """Return an open line, hatched on the right of its way: `ground = Outline.line((-1, 0), (3, 0))`."""
         return LineOutline(points, on=on, hatched=hatched)
-
-    @staticmethod
-    def dxf(
-        path: str | Path, *, on: Reference | Sequence[Reference] | None = None, at: Corner = (0.0, 0.0), angle: Operand = 0.0,
-        scale: float = 1e-3, layers: Sequence[str] = (), filled: bool = False,
-    ) -> DxfOutline:  # fmt: skip
-        """Return the lines of a DXF drawing (extra `cad`): its origin stands `at` [m], turned by `angle` [rad].
-
-        `scale` is metres per unit of the drawing, 1e-3 for millimetres; `layers` names those that are taken, none for all.
-        """
-        return DxfOutline(str(path), on=on, at=at, angle=angle, scale=scale, layers=layers, filled=filled)
-
-    @staticmethod
-    def image(
-        path: str | Path, *, width: Operand, on: Reference | Sequence[Reference] | None = None, at: Corner = (0.0, 0.0),
-        angle: Operand = 0.0, opacity: float = 0.5,
-    ) -> ImageOutline:  # fmt: skip
-        """Return a picture to lie under the mechanism: its lower left corner `at` [m], as wide as `width` [m], turned by `angle` [rad]."""
-        return ImageOutline(str(path), width=width, on=on, at=at, angle=angle, opacity=opacity)
-
-    # -- as a member -----------------------------------------------------------------------------------
 
     @property
     def _on(self) -> tuple[Reference, ...]:
@@ -123,18 +86,17 @@ class Outline(Member):
     def parts(self) -> tuple[Reference, ...]:
         return (*self._on, *(each for each in self.numbers() if not each.is_constant))
 
-    def examine(self, members: Mapping[str, Member], title: str) -> None:
-        """Raise DefinitionError where something else than points carries it, or where its form follows a stroke."""
-        what = f"{title}: {self.name} = {self}"
+    def faults(self, members: Mapping[str, Member]) -> Iterator[str]:
+        """Yield that something else than points carries it, or that its form follows a stroke."""
         if len(set(self.carriers)) < len(self.carriers):
-            raise DefinitionError(f"{what}: {self.carriers[0]} carries it twice; name two points of the body.")
+            yield f"{self.carriers[0]} carries it twice; name two points of the body"
         for name in self.carriers:
             if members[name].kind != "point":
-                raise DefinitionError(f"{what}: {name} is not a point; name two points of the body that carries it.")
+                yield f"{name} is not a point; name two points of the body that carries it"
         for each in self.numbers():
             stroke = stroke_behind(each, members)
             if stroke:
-                raise DefinitionError(f"{what}: {spelled(each)} follows the stroke {stroke}; give a fixed size, and carry it with on=.")
+                yield f"{spelled(each)} follows the stroke {stroke}; give a fixed size, and carry it with on="
 
     def in_axes(self, axes: Axes) -> Self:
         if len(self.carriers) == 2:  # the axes of a body go with its points, which are mirrored
@@ -147,7 +109,7 @@ class Outline(Member):
             return self if axes.are_upright else self.moved(replace(axes, at=(NOTHING, NOTHING)).corner, axes)
         return self.moved(axes.corner, axes).renewed(on=axes.carrier)
 
-    def moved(self, corner: Callable[[Quantity, Quantity], tuple[Quantity, Quantity]], axes: Axes) -> Self:
+    def moved(self, corner: Moved, axes: Axes) -> Self:
         """Return the outline with its places where a part's axes take them."""
         points = tuple(corner(x, y) for x, y in self.points)
         return self.renewed(points=points[::-1] if axes.mirrored and self.hatched else points)
@@ -171,20 +133,18 @@ class Outline(Member):
 
 @final
 class CircleOutline(Outline):
-    """A circle about a place or a point; `Outline.circle` makes it."""
+    """A circle [m] about a place, or about a point by its name: `wheel = Outline.circle(at=(0, 0.8), radius=R)`."""
 
     argument_kinds = MappingProxyType({"at": "centre", "radius": "quantity"})
 
-    def __init__(
-        self, at: Corner | Reference, radius: Operand, *, on: Reference | Sequence[Reference] | None = None, filled: bool = True
-    ) -> None:
+    def __init__(self, at: Corner | Reference, radius: Operand, *, on: Carrier = None, filled: bool = True) -> None:
         centre = at if isinstance(at, (str, Member)) else None
         if centre is not None and on is not None:
             raise DefinitionError(f"Outline.circle: it stands about {label(centre)} and on={cited(on)} as well; leave on= out.")
-        self.at: Any = centre if centre is not None else corner_of(at, "Outline.circle(at=...)")
+        self.at: tuple[Quantity, ...] | Reference = centre if centre is not None else corner_of(at, "Outline.circle(at=...)")
         self.radius = length_above_zero(radius, "Outline.circle(radius=...)")
         self.on = carrying_points(on, "Outline.circle")
-        self.closed, self.filled, self.hatched = True, is_yes("Outline.circle: filled", filled), False
+        self.filled = is_yes("Outline.circle: filled", filled)
 
     @property
     def _on(self) -> tuple[Reference, ...]:
@@ -193,7 +153,7 @@ class CircleOutline(Outline):
     def in_axes(self, axes: Axes) -> Self:
         return super().in_axes(axes) if self.centre else self
 
-    def moved(self, corner: Callable[[Quantity, Quantity], tuple[Quantity, Quantity]], axes: Axes) -> Self:
+    def moved(self, corner: Moved, axes: Axes) -> Self:
         x, y = self.centre
         return self.renewed(at=corner(x, y))
 
@@ -220,9 +180,11 @@ class CircleOutline(Outline):
 class LineOutline(Outline):
     """An open line; `Outline.line` makes it."""
 
-    def __init__(self, points: Sequence[Corner], *, on: Reference | Sequence[Reference] | None = None, hatched: bool = True) -> None:
-        self.points, self.on = outline_corners(points, "Outline.line", least=2), carrying_points(on, "Outline.line")
-        self.closed, self.filled, self.hatched = False, False, is_yes("Outline.line: hatched", hatched)
+    closed = False
+
+    def __init__(self, points: Sequence[Corner], *, on: Carrier = None, hatched: bool = True) -> None:
+        self.points, self.on = outline_corners(points, "Outline.line"), carrying_points(on, "Outline.line")
+        self.hatched = is_yes("Outline.line: hatched", hatched)
 
     def __str__(self) -> str:
         return outline_text("Outline.line", list(map(corner_text, self.points)), self.on, {} if self.hatched else {"hatched": "False"})
@@ -231,18 +193,15 @@ class LineOutline(Outline):
 class PlacedFile(Outline):
     """The base of what is read from a file as it is drawn: where its origin stands, and how it is turned."""
 
-    path: str
-    at: tuple[Quantity, ...]
-    angle: Quantity
     form: ClassVar[str] = ""
 
-    def _place(self, path: str, on: object, at: Corner, angle: Operand) -> None:
-        if not path.strip():
+    def __init__(self, path: str | Path, on: Carrier, at: Corner, angle: Operand) -> None:
+        if not str(path).strip():
             raise DefinitionError(f"{self.form}: the path of the file is missing.")
-        self.path, self.on = path, carrying_points(on, self.form)
+        self.path, self.on = str(path), carrying_points(on, self.form)
         self.at, self.angle = corner_of(at, f"{self.form}(at=...)"), quantity(angle)
 
-    def moved(self, corner: Callable[[Quantity, Quantity], tuple[Quantity, Quantity]], axes: Axes) -> Self:
+    def moved(self, corner: Moved, axes: Axes) -> Self:
         if axes.mirrored:
             what = f"{self.name} = {self}: what a file holds is not mirrored"
             raise DefinitionError(f"{what}; give a drawing of the other hand, or leave it out.")
@@ -279,20 +238,23 @@ class PlacedFile(Outline):
 
 @final
 class DxfOutline(PlacedFile):
-    """The lines of a DXF drawing; `Outline.dxf` makes it."""
+    """The lines of a DXF drawing (extra `cad`), as `Outline.dxf` makes it: its origin stands `at` [m], turned by `angle` [rad].
+
+    `scale` is metres per unit of the drawing, 1e-3 for millimetres; `layers` names those that are taken, none for all.
+    """
 
     form = "Outline.dxf"
     argument_kinds = MappingProxyType({"path": "path", "layers": "words"})
+    closed = False
 
     def __init__(
-        self, path: str, *, on: Reference | Sequence[Reference] | None = None, at: Corner = (0.0, 0.0), angle: Operand = 0.0,
-        scale: float = 1e-3, layers: Sequence[str] = (), filled: bool = False,
+        self, path: str | Path, *, on: Carrier = None, at: Corner = (0.0, 0.0), angle: Operand = 0.0, scale: float = 1e-3,
+        layers: Sequence[str] = (), filled: bool = False,
     ) -> None:  # fmt: skip
-        self._place(path, on, at, angle)
+        super().__init__(path, on, at, angle)
         require_number("Outline.dxf: scale", scale, "is no size; give metres per unit of the drawing, 1e-3 for mm", above=0.0)
         require_type("Outline.dxf: layers", layers, (list, tuple), 'is no list of layers; write layers=["0"]', of=str)
-        self.scale, self.layers = float(scale), tuple(layers)
-        self.closed, self.filled, self.hatched = False, is_yes("Outline.dxf: filled", filled), False
+        self.scale, self.layers, self.filled = float(scale), tuple(layers), is_yes("Outline.dxf: filled", filled)
 
     def lines(self, value: Value) -> tuple[Array, ...]:
         """Return its lines; FileError where the file cannot be read, DefinitionError where there are no lines in it."""
@@ -307,20 +269,20 @@ class DxfOutline(PlacedFile):
 
 @final
 class ImageOutline(PlacedFile):
-    """A picture under the mechanism; `Outline.image` makes it."""
+    """A picture to lie under the mechanism, as `Outline.image` makes it: its lower left corner stands `at` [m].
+
+    It is as wide as `width` [m], and turned by `angle` [rad].
+    """
 
     form = "Outline.image"
     argument_kinds = MappingProxyType({"path": "path", "width": "quantity"})
 
     def __init__(
-        self, path: str, *, width: Operand, on: Reference | Sequence[Reference] | None = None, at: Corner = (0.0, 0.0),
-        angle: Operand = 0.0, opacity: float = 0.5,
-    ) -> None:  # fmt: skip
-        self._place(path, on, at, angle)
+        self, path: str | Path, *, width: Operand, on: Carrier = None, at: Corner = (0.0, 0.0), angle: Operand = 0.0, opacity: float = 0.5
+    ) -> None:
+        super().__init__(path, on, at, angle)
         self.width = length_above_zero(width, "Outline.image(width=...)")
-        require_number("Outline.image: opacity", opacity, "is not above 0 and at most 1", above=0.0, most=1.0)
-        self.opacity = float(opacity)
-        self.closed, self.filled, self.hatched = True, False, False
+        self.opacity = float(require_number("Outline.image: opacity", opacity, "is not above 0 and at most 1", above=0.0, most=1.0))
 
     def numbers(self) -> tuple[Quantity, ...]:
         return (*super().numbers(), self.width)
@@ -338,16 +300,19 @@ class ImageOutline(PlacedFile):
         return outline_text("Outline.image", [repr(self.path), f"width={spelled(self.width)}", *self._placing()], self.on, opacity)
 
 
+Outline.circle, Outline.dxf, Outline.image = CircleOutline, DxfOutline, ImageOutline
+
+
 # What it is given, and how that is written.
 
 
-def outline_corners(given: object, what: str, least: int) -> tuple[tuple[Quantity, ...], ...]:
-    """Return corners as pairs of quantities; DefinitionError for anything else, or for too few."""
+def outline_corners(given: object, what: str) -> tuple[tuple[Quantity, ...], ...]:
+    """Return corners as pairs of quantities; DefinitionError for anything else, or for less than two."""
     if isinstance(given, (str, Mapping, Member)) or not isinstance(given, (Sequence, np.ndarray)):
         raise DefinitionError(f"{what}: {cited(given)} is no list of corners; write [(0, 0), (0.4, 0), (0.4, 0.3)] in m.")
     found = tuple(corner_of(each, what) for each in given)
-    if len(found) < least:
-        raise DefinitionError(f"{what}: a line has {least} corners at least, here are {len(found)}.")
+    if len(found) < 2:
+        raise DefinitionError(f"{what}: a line has 2 corners at least, here are {len(found)}.")
     return found
 
 
@@ -385,9 +350,9 @@ def stroke_behind(given: Quantity, members: Mapping[str, Member]) -> str:
     stack, seen = list(needs(given)) if not given.name else [given.name], set[str]()
     while stack:
         name = stack.pop()
+        if isinstance(members.get(name), Stroke):
+            return name
         if name not in seen and name in members:
-            if isinstance(members[name], Stroke):
-                return name
             seen.add(name)
             stack += needs(members[name])
     return ""

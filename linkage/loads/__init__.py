@@ -6,8 +6,7 @@ a moment turns its link counter-clockwise; a support pushes its point along its 
 """
 
 from ..star import declare_public
-from .acting import PLAIN, Acting, ActingKeywords, Case, HasLoads, Loads, situation_of, takes_situation
-from .case import PLAIN_CASE, LoadCase
+from .acting import PLAIN, PLAIN_CASE, Acting, ActingKeywords, Case, HasLoads, LoadCase, Loads, situation_of, takes_situation
 from .element import (
     AT_REST,
     DIRECTIONS,
@@ -31,8 +30,7 @@ from .element import (
     couple,
     require_poses,
 )  # fmt: skip
-from .friction import GuideFriction, PinFriction
-from .point import Force, LinkMass, Moment, Support, Weight
+from .point import Force, GuideFriction, LinkMass, Moment, PinFriction, Support, Weight
 from .rope import Pulley, RopePath
 from .two_point import Actuator, Between, Damper, DrawnAs, Halves, Spring, TwoPoint
 

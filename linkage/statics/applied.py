@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
 from ..loads import PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
-from ..loads.case import check_factor, shut_members
+from ..loads.acting import check_factor, shut_members
 from ..loads.element import AT_REST, SENSES, ForceElement, Friction, Load, Poses, Push, Rate, Rates, TwoPinned, check_together
 from ..motion import Motion, rates_of, require_motion
 from ..motion.requests import stroke_of

@@ -18,9 +18,8 @@ from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import Distance, Quantity, name_of
 from .applied import member_title
-from .bodies import FRAME, Strut
 from .holding import areas, same, share_of, solution_of_few, tie_pivots
-from .joints import Contact, Structure, Wrench, follows_points, force_direction, wrenches
+from .joints import FRAME, Contact, Structure, Strut, Wrench, follows_points, force_direction, wrenches
 from .poses import FlatPoses, cross
 
 

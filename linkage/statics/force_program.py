@@ -21,13 +21,12 @@ from ..motion import Motion
 from ..motion.evaluation import grid_blocks, part_of_input
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
-from .agreement import assumed_joints
 from .applied import AppliedLoads
 from .equilibrium import System
 from .friction import CONTRACTS, JointFriction, PressingForces, consistent_frictions, iterated, joint_frictions, unit_friction
 from .joints import Contact, Structure
 from .poses import FlatPoses
-from .solution import PoseForces, Solution, by_equations
+from .solution import PoseForces, Solution, assumed_joints, by_equations
 from .traced_loads import TracedMotion, eliminated_forces
 
 PIECE = 1 << 13

@@ -19,9 +19,8 @@ from ..errors import DefinitionError
 from ..loads import Friction, Rates
 from ..plan import Mask
 from ..program import FloatArray
-from .bodies import FRAME
 from .equilibrium import UnitWrench
-from .joints import Contact, Structure, Wrench, force_direction
+from .joints import FRAME, Contact, Structure, Wrench, force_direction
 from .poses import FlatPoses, cross, quarter_turned
 
 STEPS = 16

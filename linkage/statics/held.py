@@ -17,10 +17,9 @@ from ..motion import Motion
 from ..plan import Plan
 from ..program import FloatArray
 from .applied import Anywhere, member_title, motion_in_case
-from .bodies import NotHeldError
 from .equilibrium import System
 from .holding import check_kept, closed_ties, holders_of, sampled
-from .joints import Structure
+from .joints import NotHeldError, Structure
 from .poses import FlatPoses, quarter_turned
 from .solution import Equilibrium
 

@@ -37,9 +37,7 @@ from ..quantities import PoseCondition, Quantity, Reference, is_number, name_of,
 from ..quantities import x as x_of
 from ..quantities import y as y_of
 from ..statics.applied import case_of
-from ..statics.carried import SLIPPING, TIPPING, LoadAt
-from ..statics.member_limits import PROBE, greatest_load
-from ..statics.pull import Direction, direction_words, pull_direction
+from ..statics.carried import PROBE, SLIPPING, TIPPING, Direction, LoadAt, direction_words, greatest_load, pull_direction
 from ..units import show
 from .checks import check_one_design
 from .climb import Climb

@@ -115,8 +115,8 @@ class System:
             if pushed is not None:
                 forces = [(load, np.where(pushed, 0.0, force)) for load, force in forces]
                 forces += [(load, np.where(pushed, poses.flattened(load.force), 0.0)) for load in run.back_loads(poses.motion)]
-            wrenches = [(load, Wrench(poses.at(load.point), force, none)) for load, force in forces]
-            found.append(tuple((self.structure.bearer(load), load, wrench) for load, wrench in wrenches))
+            bearer = self.structure.bearer
+            found.append(tuple((bearer(load), load, Wrench(poses.at(load.point), force, none)) for load, force in forces))
         return tuple(found)
 
     def run_entries(self) -> Iterator[tuple[int, int, FloatArray]]:
@@ -147,11 +147,8 @@ class System:
     @cached_property
     def borne(self) -> tuple[tuple[int, Load, Wrench], ...]:
         """The loads as wrenches, with the body each acts on."""
-        poses, none = self.poses, np.zeros(self.poses.count)
-        return tuple(
-            (self.structure.bearer(each), each, Wrench(poses.at(each.point), poses.flattened(each.force), none))
-            for each in self.loads
-        )
+        poses, bearer, none = self.poses, self.structure.bearer, np.zeros(self.poses.count)
+        return tuple((bearer(each), each, Wrench(poses.at(each.point), poses.flattened(each.force), none)) for each in self.loads)
 
     def rows_of(self, columns: Sequence[UnitWrench], width: int) -> FloatArray:
         """Return the rows of some unit wrenches, shape (n, rows, width), the columns first."""
@@ -186,11 +183,8 @@ class System:
             if stroke in run.strokes:
                 forms.append(self.run(place).multiplied(self.poses.flattened(run.rate(self.poses.motion, stroke))))
         if not forms:
-            raise DefinitionError(
-                f"{self.structure.plan.title}: the joints know no drive of {stroke}; "
-                f"declare it by Dyad(..., AB=... + {stroke}), Crank, OnGuide or OnLink, "
-                "or by the drives in the joints() of a step of one's own."
-            )
+            remedy = f"declare it by Dyad(..., AB=... + {stroke}), Crank, OnGuide or OnLink, or by the drives in the joints() of a step"
+            raise DefinitionError(f"{self.structure.plan.title}: the joints know no drive of {stroke}; {remedy} of one's own.")
         return reduce(LinearForm.plus, forms)
 
     def drives(self, stroke: str) -> Iterator[tuple[FloatArray, LinearForm]]:

@@ -86,14 +86,16 @@ def program_of(structure: Structure, applied: AppliedLoads, places: Sequence[int
 def traced_program(plan: Plan, applied: AppliedLoads, places: tuple[int, ...]) -> ForceProgram:
     """Return the program traced on a plan of its own."""
     motion = TracedMotion(plan, plan.trace)
-    loads = tuple(
-        replace(each, force=motion._array([motion.node(motion.input(input_name("load", place, axis))) for axis in "xy"]))
-        for place, each in enumerate(applied.loads)
-    )
+
+    def given(*name: object) -> Node:
+        return motion.node(motion.input(input_name(*name)))
+
+    parts = [motion._array([given("load", place, axis) for axis in "xy"]) for place in range(len(applied.loads))]
+    loads = tuple(replace(each, force=force) for each, force in zip(applied.loads, parts, strict=True))
     thrusts = tuple(replace(each, thrust=motion.input(input_name("thrust", place))) for place, each in enumerate(applied.thrusts))
     acts = replace(applied, loads=loads, thrusts=thrusts)
     structure, poses = Structure(plan, acts.elements, acts.thrusts), FlatPoses(motion, "")
-    inputs = [motion.node(motion.input(input_name("friction", place))) for place in range(len(places))]
+    inputs = [given("friction", place) for place in range(len(places))]
     contacts = [structure.contacts[index] for index in places]
     units = tuple(unit_friction(contact, poses) for contact in contacts)
     system, u = eliminated_forces(structure, motion, acts, units, inputs)

@@ -145,8 +145,13 @@ class JointPart:
     def traced_part(self, acting: Acting, shared: Hashable, motion: TracedMotion) -> TracedLaw:
         """Return it on a program, on which all joint forces are traced once for all that are asked for: they are kept as `shared`."""
         kept = motion.plan.trace.kept
-        if shared not in kept:
-            kept[shared] = traced_equilibrium(motion, acting)
+        if shared not in kept:  # at rest; the notes say that the joints hold what they are said to
+            motion = held_in_case(motion, acting)
+            applied = traced_loads(motion, acting, AT_REST)
+            system, u = eliminated_forces(Structure(motion.plan, applied.elements, applied.thrusts), motion, applied)
+            for each in assumed_joints(system.structure, system.poses):
+                motion.notes.assumed.setdefault(motion.node(each[0]), "its joints")
+            kept[shared] = motion, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), [])
         motion, solution = cast(tuple[TracedMotion, Solution], kept[shared])
         contact, _, sign = self.contact(solution.system.structure)
         force, _ = solution.transmitted(contact)
@@ -191,16 +196,6 @@ def pin_force(
     given, joint = situation_of("pin_force", acting, loads=loads, case=case), JointPart(point, on, by, component)
     shown = [each for each in (on, by and f"by={by}", "" if component == "size" else f"component={component}") if each]
     return force_request("pin_force", [point, *shown], joint, given, joint.force_over, joint.in_plan)
-
-
-def traced_equilibrium(motion: TracedMotion, acting: Acting) -> tuple[TracedMotion, Solution]:
-    """Return a traced motion with all joint forces at rest; its notes say that the joints hold what they are said to."""
-    motion = held_in_case(motion, acting)
-    applied = traced_loads(motion, acting, AT_REST)
-    system, u = eliminated_forces(Structure(motion.plan, applied.elements, applied.thrusts), motion, applied)
-    for each in assumed_joints(system.structure, system.poses):
-        motion.notes.assumed.setdefault(motion.node(each[0]), "its joints")
-    return motion, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), [])
 
 
 def pin_forces_under(motion: Motion, acting: Acting) -> PinForces:

@@ -145,34 +145,27 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
     follows[:, [name in cuts for name in strokes]] = 0.0  # the oil that is put in is driven by the closed line itself
     for line, row in zip(lines, follows, strict=True):
         if not row.any():
-            raise DefinitionError(
-                f"{plan.title}: {line_names(line)} holds nothing here: no stroke changes the distance {joined_names(*line[0].ends)}. "
-                "Put it between two points that move against each other, or take it out."
-            )
+            what = f"{line_names(line)} holds nothing here: no stroke changes the distance {joined_names(*line[0].ends)}"
+            raise DefinitionError(f"{plan.title}: {what}. Put it between two points that move against each other, or take it out.")
     best = matched(follows)
     if best is None:
-        names = [line_names(line) for line in lines]
+        names = ", ".join(map(line_names, lines))
         many = f"{len(strokes)} stroke{'s' if len(strokes) != 1 else ''} ({', '.join(strokes) or 'none'})"
-        raise DefinitionError(
-            f"{plan.title}: {', '.join(names)} are more cylinders than there are strokes to hold, {many}: how they share the load is not "
-            f"settled. Put those of one pressure on one line, LiftCircuit([{', '.join(names)}], pressure=...), or give one its own force "
-            "by a FloatCircuit or an Actuator."
-        )
+        what = f"{names} are more cylinders than there are strokes to hold, {many}: how they share the load is not settled"
+        remedy = f"Put those of one pressure on one line, LiftCircuit([{names}], pressure=...), or give one its own force by a FloatCircuit"
+        raise DefinitionError(f"{plan.title}: {what}. {remedy} or an Actuator.")
     pairs = [(line, strokes[place]) for line, place in zip(lines, best, strict=True)]
     taken = {stroke for _, stroke in pairs}
     for (line, stroke), own in zip(pairs, tied, strict=True):
         is_shared = own is not None and {name for name in strokes if any(followed_way(motion, each, name) > 0.0 for each in line)} <= taken
         apart = [] if is_shared else [each for each in line if not followed_way(motion, each, stroke) > 0.0]
         if apart:
-            raise DefinitionError(
-                f"{plan.title}: {line_names(line)} are on one line, but {line_names(apart)} does not move with {stroke}: one pressure "
-                f"cannot hold several strokes. Give each a circuit of its own, LiftCircuit({line_names(apart[:1])}, pressure=...)."
-            )
-    taking = [
-        PressureLine(line, stroke, tie, steady_rate(plan, line, stroke, tie is not None))
-        for (line, stroke), tie in zip(pairs, tied, strict=True)
-    ]
-    return Holders(tuple(taking), closed)
+            what = f"{line_names(line)} are on one line, but {line_names(apart)} does not move with {stroke}"
+            remedy = f"Give each a circuit of its own, LiftCircuit({line_names(apart[:1])}, pressure=...)"
+            raise DefinitionError(f"{plan.title}: {what}: one pressure cannot hold several strokes. {remedy}.")
+    steady = [steady_rate(plan, line, stroke, tie is not None) for (line, stroke), tie in zip(pairs, tied, strict=True)]
+    taking = ((line, stroke, tie, rate) for (line, stroke), tie, rate in zip(pairs, tied, steady, strict=True))
+    return Holders(tuple(PressureLine(*each) for each in taking), closed)
 
 
 def on_tie(tie: Tie) -> tuple[TwoPoint, ...]:
@@ -184,13 +177,12 @@ def independent(motion: Motion, ties: Sequence[Tie]) -> list[Tie]:
     """Return the ties whose sums follow the strokes each in a way of its own: both sides of one cylinder take over one stroke."""
     if len(ties) < 2:
         return [*ties]
+    rows = []
     with unwarned():
-        ways = [
-            [sum(np.asarray(each.of(motion)) * each.member.growth(motion, {stroke: 1.0}) for each in tie.shares) for tie in ties]
-            for stroke in motion.plan.strokes
-        ]  # fmt: skip
-    matrix = np.concatenate([np.stack([np.nan_to_num(np.broadcast_to(way, motion.shape)) for way in row], axis=-1) for row in ways])
-    kept = sorted(column for _, column in pivots_of(matrix))
+        for stroke in motion.plan.strokes:
+            ways = [sum(np.asarray(one.of(motion)) * one.member.growth(motion, {stroke: 1.0}) for one in each.shares) for each in ties]
+            rows.append(np.stack([np.nan_to_num(np.broadcast_to(way, motion.shape)) for way in ways], axis=-1))
+    kept = sorted(column for _, column in pivots_of(np.concatenate(rows)))
     return [tie for place, tie in enumerate(ties) if place in kept]
 
 
@@ -227,10 +219,8 @@ def check_kept(motion: AnyMotion) -> None:
                 pair = " to ".join(each.name for each in members)
                 own, its = (np.ravel(np.divide(*(share_in(one, each, motion) for each in members)))[0] for one in (tie, other))
                 what += f"; {pair} is {its:.4g} on {other.name} and {own:.4g} on {tie.name}"
-            raise DefinitionError(
-                f"{plan.title}: {what}. Let a step follow it, such as Dyad(U, P, UW={tie.shares[-1].member.name}.length), make the ratios "
-                "of its areas those of the other line, or open it by a Tank."
-            )
+            remedy = f"Let a step follow it, such as Dyad(U, P, UW={tie.shares[-1].member.name}.length), make the ratios of its areas those"
+            raise DefinitionError(f"{plan.title}: {what}. {remedy} of the other line, or open it by a Tank.")
 
 
 def check_run(motion: AnyMotion, tie: Tie, run: Reeving, stroke: str) -> None:
@@ -241,9 +231,8 @@ def check_run(motion: AnyMotion, tie: Tie, run: Reeving, stroke: str) -> None:
     if np.any(way > KEPT * sum(sizes)):
         most = float(np.max(np.nan_to_num(way)))
         what = f"{tie.name} locks the machine: its length is held, and a unit of {stroke} would change its path by up to {most:.4g} m"
-        raise DefinitionError(
-            f"{motion.plan.title}: {what}. Let a step follow it, such as Dyad(U, P, UW={tie.name}.last), or give its force, force=12 * kN."
-        )
+        remedy = f"Let a step follow it, such as Dyad(U, P, UW={tie.name}.last), or give its force, force=12 * kN"
+        raise DefinitionError(f"{motion.plan.title}: {what}. {remedy}.")
 
 
 def joined_lines(plan: Plan, elements: Sequence[ForceElement], ties: Sequence[Tie]) -> list[tuple[TwoPoint, ...]]:
@@ -390,9 +379,7 @@ class Levers:
         return condition_of_sine(scaled[0][0]) if len(scaled) == 1 else inverse_size(scaled)
 
 
-def share_of(
-    member: TwoPoint, lines: Sequence[PressureLine], shares: Sequence[Sequence[FloatArray]]
-) -> list[FloatArray | None]:
+def share_of(member: TwoPoint, lines: Sequence[PressureLine], shares: Sequence[Sequence[FloatArray]]) -> list[FloatArray | None]:
     """Return the share of a cylinder in each line; None where it is not on it."""
     pairs = [zip(line.cylinders, own, strict=True) for line, own in zip(lines, shares, strict=True)]
     return [next((part for each, part in pair if same(each, member)), None) for pair in pairs]
@@ -432,9 +419,8 @@ def traced_levers(poses: FlatPoses, holders: Holders, ways: Sequence[int]) -> tu
     cond = reduce(np.maximum, [each.condition for each in found]) if holders.lines else np.zeros(())
     if not is_traced(cond):
         return found
-    return tuple(
-        replace(each, matrix=elementwise(lambda lever: np.where(cond <= REFUSE, lever, np.nan), (each.matrix,))) for each in found
-    )
+    kept = [elementwise(lambda lever: np.where(cond <= REFUSE, lever, np.nan), (each.matrix,)) for each in found]
+    return tuple(replace(each, matrix=matrix) for each, matrix in zip(found, kept, strict=True))
 
 
 def levers_of(poses: FlatPoses, holders: Holders, way: int) -> Levers:
@@ -450,14 +436,13 @@ def levers_of(poses: FlatPoses, holders: Holders, way: int) -> Levers:
                 lever, size = lever_of(poses, cylinder, other.stroke)
                 matrix[:, i, j] += part * lever
                 sizes[:, i, j] += np.abs(part) * size
-    cuts = tuple(
-        tuple(
-            reduce(np.add, (part * lever_of(poses, each, line.stroke)[0] for each, part in zip(other.cylinders, own, strict=True)))
-            for other, own in zip(lines, shares, strict=True)
-        )
-        for line in holders.closed
-    )
-    return Levers(matrix, sizes, tuple(shares), cuts, tuple(tuple(areas(line, poses, way)) for line in holders.closed))
+
+    def work(line: PressureLine, own: Sequence[FloatArray], stroke: str) -> FloatArray:
+        """Return the work of a line on a unit of a stroke, with its cylinders' own shares."""
+        return reduce(np.add, (part * lever_of(poses, each, stroke)[0] for each, part in zip(line.cylinders, own, strict=True)))
+
+    cuts = [tuple(work(other, own, each.stroke) for other, own in zip(lines, shares, strict=True)) for each in holders.closed]
+    return Levers(matrix, sizes, tuple(shares), tuple(cuts), tuple(tuple(areas(line, poses, way)) for line in holders.closed))
 
 
 def areas(line: PressureLine, poses: FlatPoses, way: int) -> list[FloatArray]:
@@ -467,10 +452,7 @@ def areas(line: PressureLine, poses: FlatPoses, way: int) -> list[FloatArray]:
     (`way` 1), the others drive the stroke the same way. Of a tie it is what its shares say.
     """
     if line.tie is not None:
-        return [
-            reduce(np.add, (poses.flattened(share.of(poses.motion)) for share in line.tie.shares if same(share.member, each)))
-            for each in line.cylinders
-        ]
+        return [poses.flattened(share_in(line.tie, each, poses.motion)) for each in line.cylinders]
     if len(line.cylinders) == 1:
         return [np.ones(poses.count)]
     if not any(each.works_both for each in line.cylinders):

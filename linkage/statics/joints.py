@@ -136,16 +136,6 @@ def slider(point: str) -> FreeBody:
     return FreeBody(f"{point} (slider)", (point,), slides=True)
 
 
-def sliding_blocks(
-    plan: Plan, elements: Iterable[ForceElement], bodies: Iterable[FreeBody], sliding: Iterable[str]
-) -> tuple[FreeBody, ...]:
-    """Return the sliding blocks that friction asks for: of pins with friction that run on one guide or slot and join one link only."""
-    pins = dict.fromkeys(name_of(each.point) for each in elements if isinstance(each, PinFriction))
-    joined, guides = Counter(point for body in bodies for point in body.points), Counter(sliding)
-    fixed = frame_points(plan)
-    return tuple(slider(point) for point in pins if joined[point] == 1 and guides[point] == 1 and point not in fixed)
-
-
 # Straight members: driven lengths, cylinders that hold, members with a law of their own.
 
 
@@ -201,13 +191,11 @@ def far_points(plan: Plan, strut: Strut, host: FreeBody) -> frozenset[str]:
     for point in host.points:
         kept = [end for end, side in ((strut.P, near), (strut.Q, far)) if point in side]
         if len(kept) != 1 or not moved[point, kept[0]] <= RIGID:
-            given = plan.points[point]
-            raise NotHeldError(
-                f"{plan.title}: {point} = {given} is measured along {strut.name}, whose length {strut.P}{strut.Q} changes, and keeps its "
-                f"place neither at {strut.P} nor at {strut.Q}, so that it is not held. Measure it from one of them, {point} = "
-                f"OnLink({strut.P}, {strut.Q}, {strut.P}{point}=...), with an angle where it lies aside; or let two links meet there, "
-                f"Dyad({strut.P}, {strut.Q}, ...)."
-            )
+            P, Q = strut.ends
+            what = f"{point} = {plan.points[point]} is measured along {strut.name}, whose length {P}{Q} changes, and keeps its place"
+            remedy = f"Measure it from one of them, {point} = OnLink({P}, {Q}, {P}{point}=...), with an angle where it lies aside; or let"
+            what += f" neither at {P} nor at {Q}, so that it is not held"
+            raise NotHeldError(f"{plan.title}: {what}. {remedy} two links meet there, Dyad({P}, {Q}, ...).")
     return frozenset(far)
 
 
@@ -326,7 +314,11 @@ class Structure:
         self.holders: Holders = holders_of(plan, elements)
         bodies, self.struts, self.pairs = free_bodies(plan, self.holders, thrusts)
         sliding = dict.fromkeys((joint.point, plan.track(joint)) for _, joint in plan.joints if joint.kind == "guide")
-        self.blocks = sliding_blocks(plan, elements, bodies, (point for point, _ in sliding))
+        guides, joined = Counter(point for point, _ in sliding), Counter(point for body in bodies for point in body.points)
+        # The sliding blocks that friction asks for: of pins with friction that run on one guide or slot and join one link only.
+        pins = dict.fromkeys(name_of(each.point) for each in elements if isinstance(each, PinFriction))
+        alone = [point for point in pins if joined[point] == 1 and guides[point] == 1 and point not in self.fixed]
+        self.blocks = tuple(map(slider, alone))
         self.bodies = (*self.blocks, *bodies)
         runners = [joint.point for _, joint in plan.joints if joint.on.role == "runner"]
         self.lone = tuple(dict.fromkeys(point for point in runners if not self.owners(point)))
@@ -557,10 +549,8 @@ def measured_from(plan: Plan, joint: Joint, owner: str) -> tuple[str, str] | Non
             continue
         (sign, term), *others = moving
         if others or sign < 0.0 or not isinstance(term, Angle):
-            raise DefinitionError(
-                f"{plan.title}: {owner} = {plan.members[owner]}: for forces its angle is counted from the frame or from one body, "
-                f"such as angle(A, B) + phi; {drive.quantity} is neither."
-            )
+            what = "for forces its angle is counted from the frame or from one body, such as angle(A, B) + phi"
+            raise DefinitionError(f"{plan.title}: {owner} = {plan.members[owner]}: {what}; {drive.quantity} is neither.")
         return name_of(term.P), name_of(term.Q)
     return None
 

@@ -166,10 +166,8 @@ class LawRequest(Request):
         except UntracedError as error:
             raise UntracedError(f"{self}: {error}") from error
         except Exception as error:
-            said = str(error).rstrip(".")
-            raise UntracedError(
-                f"{motion.plan.title}: {self} has values, and no program that gives derivatives: {said}. Take finite differences."
-            ) from error
+            what = f"{motion.plan.title}: {self} has values, and no program that gives derivatives: {str(error).rstrip('.')}"
+            raise UntracedError(f"{what}. Take finite differences.") from error
         if self.column:
             claimed = motion.notes.claims.get(self.column, ())
             motion.notes.gaps = {node: owner for node, owner in motion.notes.gaps.items() if node in claimed}

@@ -146,10 +146,9 @@ def locked_words(found: PoseForces | Solution, direction: str) -> list[str]:
         return []
     motion, mask = found.poses.motion, found.poses.mask(found.locked)
     points = ", ".join(dict.fromkeys(each.contact.point for each in found.frictions))
-    text = (
-        f"{motion.plan.title} locks itself while {direction} {where_words(motion.plan, mask, motion.strokes)}: "
-        f"with the friction at {points} no bounded drive force moves it. Lower the friction, or make the transmission angles larger."
-    )
+    what = f"{motion.plan.title} locks itself while {direction} {where_words(motion.plan, mask, motion.strokes)}"
+    remedy = "Lower the friction, or make the transmission angles larger"
+    text = f"{what}: with the friction at {points} no bounded drive force moves it. {remedy}."
     if motion.unreachable == "raise":
         raise SingularError(text, mask=mask, motion=motion)
     return [text]
@@ -272,11 +271,9 @@ class Equilibrium:
             if contact.kind == "guide":
                 left = np.delete(self.sample, system.first[contact], axis=2)
                 spare += [f"the guide of {contact.point}"] if rank_of(left) == left.shape[1] else []
-        many = "1 joint force too many" if count == 1 else f"{count} joint forces too many"
-        return (
-            f"{structure.plan.title} is overconstrained, {many}. Redundant is one of these, without which it is still held: "
-            f'{", ".join(spare) or "none alone"}. Take one out, or ask for split="least squares".'
-        )
+        what = f"{structure.plan.title} is overconstrained, {count} joint force{'s' * (count > 1)} too many"
+        found = f"Redundant is one of these, without which it is still held: {', '.join(spare) or 'none alone'}"
+        return f'{what}. {found}. Take one out, or ask for split="least squares".'
 
     def loose_words(self) -> str:
         """Return which bodies nothing holds, the lines of the class that place them, and what to do."""
@@ -376,15 +373,13 @@ def slips_in(contact: Contact, system: System, speeds: Speeds, stroke: str) -> I
     on, by = (speeds.material(body, place, contact) for body in (contact.on, contact.by))
     spins = speeds.spin(contact.on), speeds.spin(contact.by)
     for letter in contact.holds:
-        ratios = [
-            system.ratio(quantity, stroke) * sign
-            for quantity, along, sign in drives
-            if along == letter and not (contact.is_curve and letter != "c") and system.follows(quantity, stroke)
-        ]
+        own = [(quantity, sign) for quantity, along, sign in drives if along == letter]
+        follows = contact.is_curve and letter != "c"  # a drive along a curve of the frame follows its point
+        ratios = [system.ratio(each, stroke) * sign for each, sign in own if not follows and system.follows(each, stroke)]
         driven = sum(ratios, poses.zeros())
         if letter == "c":
             yield Slip(contact, letter, stroke, spins[0] - spins[1], driven, np.abs(spins[0]) + np.abs(spins[1]))
-        elif not (contact.is_curve and any(along == letter for _, along, _ in drives)):
+        elif not (follows and own):
             way = ((on - by) * force_direction(contact, letter, poses)).sum(axis=0)
             yield Slip(contact, letter, stroke, way, driven, np.hypot(on[0], on[1]) + np.hypot(by[0], by[1]))
 

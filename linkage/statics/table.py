@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import pi
-from typing import Any, Protocol, TypeAlias, final, overload, runtime_checkable
+from typing import Any, Protocol, TypeAlias, cast, final, overload, runtime_checkable
 
 import numpy as np
 
@@ -79,10 +79,9 @@ WORDS = {
 
 def max_headings() -> tuple[str, ...]:
     """Return the headings of the rows' cells, with units."""
+    who = said("pin"), said("kind"), said("on"), said("from")
     force, angle = f"{said('force')}, {unit_sign('kN')}", f"{said('angle')}, {unit_sign('deg')}"
-    return (
-        said("pin"), said("kind"), said("on"), said("from"), force, angle, said("from axis"), said("at"), said("load case"), said("motion")
-    )  # fmt: skip
+    return (*who, force, angle, said("from axis"), said("at"), said("load case"), said("motion"))
 
 
 OverLike: TypeAlias = Over | Mapping[str, Any] | Sequence[Over | Motion] | None
@@ -95,13 +94,14 @@ class Judged(Protocol):
     def judge(self, over: object = None, acting: Acting | None = None) -> Judge: ...
 
 
+Results: TypeAlias = Judged | PinForces | Iterable[PinForces]
+
+
 @overload
 def max_table(results: Judged, over: OverLike = ..., acting: Acting | None = ...) -> tuple[PinLoad, ...]: ...
 @overload
 def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]: ...
-def max_table(
-    results: Judged | PinForces | Iterable[PinForces], over: OverLike = None, acting: Acting | None = None
-) -> tuple[PinLoad, ...]:
+def max_table(results: Results, over: OverLike = None, acting: Acting | None = None) -> tuple[PinLoad, ...]:
     """Return, for every joint, its largest force with case, direction and place, in the order of the joints.
 
     Of a machine over all that it runs, its `overs` or those given, in all load cases and directions of motion that occur, unless
@@ -114,16 +114,15 @@ def max_table(
     if over is not None or acting is not None:
         raise DefinitionError("max_table: over= and acting= are for a machine; results of pin_forces say both themselves.")
     found: list[object] = list(results) if isinstance(results, (list, tuple, Iterator)) else [results]
-    wrong = next((each for each in found if not isinstance(each, PinForces)), None)
-    if wrong is not None or None in found:
-        raise DefinitionError(f"max_table: {cited(wrong)} is no result of pin_forces; give pin_forces(motion), or a list of such.")
-    each_of = [each for each in found if isinstance(each, PinForces)]
     best: dict[tuple[str, str, str, str], PinLoad] = {}
-    for one in each_of:
+    wrong = [each for each in found if not isinstance(each, PinForces)]
+    if wrong:
+        raise DefinitionError(f"max_table: {cited(wrong[0])} is no result of pin_forces; give pin_forces(motion), or a list of such.")
+    for one in cast("list[PinForces]", found):
         with unwarned():  # what comes of a dead point is said by the row
             rows = largest_loads(one)
         for row in rows:
-            key = (row.point, row.on, row.by, row.kind)
+            key = joint_key(row)
             if key not in best or row.force > best[key].force:
                 best[key] = row
     if not best:
@@ -160,7 +159,7 @@ def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer) -> 
     return replace(row, drive=drive, over=over, answer=one)
 
 
-def joint_key(joint: JointForce) -> tuple[str, str, str, str]:
+def joint_key(joint: JointForce | PinLoad) -> tuple[str, str, str, str]:
     """Return what tells a joint from others."""
     return joint.point, joint.on, joint.by, joint.kind
 
@@ -172,8 +171,14 @@ def largest_loads(result: PinForces) -> list[PinLoad]:
         return []
     try:
         found = greatest(result.motion, lambda at: np.stack([joint.size for joint in result.again(at).joints if joint.has_force]))
-    except DefinitionError:  # arrays over the poses
-        return [largest_at_poses(result, joint) for joint in joints if np.isfinite(joint.size).any()]
+    except DefinitionError:  # arrays over the poses, at which alone they are known
+        rows, designs = [], len(result.motion._design_shape)
+        for joint in joints:
+            if np.isfinite(joint.size).any():
+                where = np.unravel_index(int(np.nanargmax(joint.size)), joint.size.shape)
+                strokes = {name: float(value[where[designs:]]) for name, value in result.motion.strokes.items()}
+                rows.append(pin_load(result, joint, float(joint.size[where]), where, where[:designs], strokes))
+        return rows
     rows = []
     for place, joint in enumerate(joints):
         value = np.asarray(found.value)[place]
@@ -186,14 +191,6 @@ def largest_loads(result: PinForces) -> list[PinLoad]:
     return rows
 
 
-def largest_at_poses(result: PinForces, joint: JointForce) -> PinLoad:
-    """Return a joint's largest force over the poses of a result."""
-    size, designs = joint.size, len(result.motion._design_shape)
-    place = np.unravel_index(int(np.nanargmax(size)), size.shape)
-    strokes = {name: float(value[place[designs:]]) for name, value in result.motion.strokes.items()}
-    return pin_load(result, joint, float(size[place]), place, place[:designs], strokes)
-
-
 def pin_load(result: PinForces, joint: JointForce, force: float, place: Place, design: Place, strokes: Mapping[str, float]) -> PinLoad:
     """Return a joint's row for its largest force, at a place among the poses of a result; its direction in the body's own axes."""
     angle = float(np.arctan2(joint.force[1][place], joint.force[0][place]))
@@ -202,11 +199,9 @@ def pin_load(result: PinForces, joint: JointForce, force: float, place: Place, d
         angle -= float(np.arctan2((qy - py)[place], (qx - px)[place]))
     within = (angle + pi) % (2.0 * pi) - pi
     angle = within + 2.0 * pi if within < -pi + 1e-9 else within  # half a turn to within rounding is pi
-    return PinLoad(
-        joint.point, joint.on, joint.by, joint.kind, force, angle, body_name(joint.axis or ("x",)), strokes,
-        tuple(map(int, design)), result.case, result.direction,
-        {name: stroke_unit(result.motion.plan, name) for name in strokes},
-    )  # fmt: skip
+    axis, units = body_name(joint.axis or ("x",)), {name: stroke_unit(result.motion.plan, name) for name in strokes}
+    where = tuple(map(int, design))
+    return PinLoad(*joint_key(joint), force, angle, axis, strokes, where, result.case, result.direction, units)
 
 
 def table_text(rows: Iterable[PinLoad]) -> str:

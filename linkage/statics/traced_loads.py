@@ -50,20 +50,18 @@ def traced_parts(each: AppliedElement, motion: AnyMotion, rates: Rates) -> Parts
     try:
         return element_parts(each, motion, rates, motion.fit)
     except Exception as error:
-        raise LawError(
-            f"{motion.plan.title}: the law of {each.name} cannot be traced: {str(error).rstrip('.')}. "
-            "Write it in plain arithmetic of numbers at one pose, or take finite differences of driving_force and pin_forces."
-        ) from error
+        what = f"{motion.plan.title}: the law of {each.name} cannot be traced: {str(error).rstrip('.')}"
+        remedy = "Write it in plain arithmetic of numbers at one pose, or take finite differences of driving_force and pin_forces"
+        raise LawError(f"{what}. {remedy}.") from error
 
 
 def refuse_friction(motion: AnyMotion, applied: AppliedLoads) -> None:
     """Raise UntracedError where a program is asked for what dry friction has a part in: it follows from the forces that it changes."""
     if isinstance(motion, TracedMotion) and applied.frictions:
         rubbing = [each.name or str(each) for each in applied.elements if each.frictions(motion)]
-        raise UntracedError(
-            f"{motion.plan.title}: the friction of {', '.join(rubbing)} follows from the forces that it changes and has no program: there "
-            f"are values, and no derivatives. Ask while nothing rubs, direction=\"frictionless\", or leave {rubbing[0]} out by a LoadCase."
-        )
+        what = f"{motion.plan.title}: the friction of {', '.join(rubbing)} follows from the forces that it changes and has no program"
+        remedy = f'Ask while nothing rubs, direction="frictionless", or leave {rubbing[0]} out by a LoadCase'
+        raise UntracedError(f"{what}: there are values, and no derivatives. {remedy}.")
 
 
 Told: TypeAlias = tuple[set[str], set[str], dict[Node, str], dict[Node, str], dict[Node, str]]
@@ -163,10 +161,8 @@ class TracedMotion(OnePose):
         shape, array = (2,) * vector, np.asarray(values, object)
         if array.shape != shape:
             expected, owner = ("(2,)", "a load") if vector else ("one number", "an element")
-            raise DefinitionError(
-                f"its {what} has the shape {array.shape}, where {expected} is expected; what varies over poses or designs comes from a "
-                f"point, a quantity or a parameter of {owner} declared in the class."
-            )
+            remedy = f"what varies over poses or designs comes from a point, a quantity or a parameter of {owner} declared in the class"
+            raise DefinitionError(f"its {what} has the shape {array.shape}, where {expected} is expected; {remedy}.")
         return self._array(array) if vector else self.number(array[()])
 
     # -- what a motion tells ---------------------------------------------------------------------------------
@@ -186,9 +182,8 @@ class TracedMotion(OnePose):
 
     def _nodes(self, target: Reference) -> tuple[Scalar, ...]:
         """Return the nodes of a point, a vector or a quantity; the members behind it are noted."""
-        member: Member = (
-            self.plan.members[checked_name("Name", target, self.plan.named(), self.plan.title)] if isinstance(target, str) else target
-        )
+        named = checked_name("Name", target, self.plan.named(), self.plan.title) if isinstance(target, str) else ""
+        member: Member = self.plan.members[named] if isinstance(target, str) else target
         self.read |= self.plan.reaches(member.name or member)
         if isinstance(member, (Point, Arrow)):
             place = self._reading.at(member) if isinstance(member, Point) else self._reading.vector(member)

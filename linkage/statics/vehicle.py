@@ -515,13 +515,6 @@ def slipping_sentence(worst: Answer) -> str:
     )  # fmt: skip
 
 
-def reaction_under_frame(motion: Motion, name: str, support: Support, acting: Acting) -> FloatArray:
-    """Return the load of an axle over a motion, shape (...) [N]; of one that is given beside those of the class as well."""
-    supports = vehicle_of(motion.plan, acting, support)
-    bare_loads(motion, supports)
-    return standing_of(motion, acting, supports).reactions[name]
-
-
 # The force of a support when the drive's force is known.
 
 
@@ -547,74 +540,59 @@ def reaction(
     """
     acting = situation_of("reaction", loads=loads, **situation)
     motion = held_in_case(require_motion(motion), acting)
-    name, element = support_of(motion, support)
-    if is_under_frame(motion.plan, element):
-        held = motion._of_the_whole(element) if element.name else None
-        if held is not None:
-            return reaction(held[0], support=held[1], drive_force=drive_force, drive=drive, acting=acting)
-        return axle_load_of(motion, name, element, acting if drive is None else replace(acting, drive=drive), drive_force)
-    beside = [word for word in ("stiffness", "friction") if getattr(element, word) is not None]
-    if beside:
-        what = f"{motion.plan.title}: {name} says {beside[0]}=, but stands under {name_of(element.point)}, which moves"
-        raise DefinitionError(f"{what}; that counts under the frame alone. Leave it out; friction of joints is PinFriction, GuideFriction.")
-    stroke = stroke_of(motion.plan, drive, "drive")
-    applied = applied_loads(motion, acting, rates_in(motion, acting, stroke), without=name)
-    poses = FlatPoses(motion, f"The reaction of {name}")
-    known = poses.flattened(known_force(motion, drive_force))
-    lever = way_along(poses, element, stroke, name)
-    if not applied.frictions:
-        return poses.full((by_work(poses, applied, stroke) - known) / lever)
-    # with friction: the reaction at which it, the joint forces and the known drive force agree
-    system, frictions = system_with_friction(poses, applied)
-    column, point = np.zeros((poses.count, system.starts[-1], 1)), name_of(element.point)
-    push = Wrench(poses.at(point), push_of(poses, element), np.zeros(poses.count))
-    for row, value in system.parts(system.structure.holder(point), push):
-        column[:, row, 0] += value
-    found = Equilibrium(system, frictions, given=((system.drive(stroke), known),), supports=column).solution()
-    check_joints(system.structure, poses)
-    locked_words(found, acting.movement)
-    return poses.full(found.u[:, -1])
-
-
-def axle_load_of(motion: Motion, name: str, support: Support, acting: Acting, drive_force: ArrayLike) -> FloatArray:
-    """Return the reaction of a support under the frame, shape (...) [N]; DefinitionError for a drive's force."""
-    if np.any(known_force(motion, drive_force)):
-        what = f"{motion.plan.title}: {name} bears the frame, and a drive's force acts between the frame and what it drives"
-        raise DefinitionError(f"{what}: an axle load does not hang on it; leave drive_force= out.")
-    return reaction_under_frame(motion, name, support, acting)
-
-
-def support_of(motion: Motion, support: Support | str | None) -> tuple[str, Support]:
-    """Return the support that is meant, with its name."""
-    own = motion.plan.of_kind(Support)
+    own, title = motion.plan.of_kind(Support), motion.plan.title
+    if support is None and len(own) != 1:
+        raise DefinitionError(f"{title} has {len(own)} supports: say which one, such as Support('R', (0, 1)).")
     if isinstance(support, Support):
-        return support.name or str(support), support
-    if support is None and len(own) == 1:
-        return next(iter(own.items()))
-    if support is None:
-        raise DefinitionError(f"{motion.plan.title} has {len(own)} supports: say which one, such as Support('R', (0, 1)).")
-    name = known_name("Support", support, own, where=motion.plan.title)
-    return name, own[name]
-
-
-def known_force(motion: Motion, drive_force: ArrayLike) -> FloatArray:
-    """Return a known force of a drive in the motion's shape; DefinitionError where it does not fit or is not finite."""
+        name, element = support.name or str(support), support
+    else:
+        name = known_name("Support", next(iter(own)) if support is None else support, own, where=title)
+        element = own[name]
     try:
         known = np.asarray(np.broadcast_to(real(drive_force), motion.shape))
     except ValueError:
         what = f"a number or an array that fits the poses {motion.shape} is expected"
         raise DefinitionError(f"drive_force={drive_force!r}: {what}.") from None
     require(np.all(np.isfinite(known[motion.reached])), "drive_force", drive_force, "is not finite at every pose; give numbers in N or Nm")
-    return known
+    if not is_under_frame(motion.plan, element):
+        return balancing_reaction(motion, acting, name, element, stroke_of(motion.plan, drive, "drive"), known)
+    held = motion._of_the_whole(element) if element.name else None
+    if held is not None:
+        return reaction(held[0], support=held[1], drive_force=drive_force, drive=drive, acting=acting)
+    if np.any(known):
+        what = f"{title}: {name} bears the frame, and a drive's force acts between the frame and what it drives"
+        raise DefinitionError(f"{what}: an axle load does not hang on it; leave drive_force= out.")
+    acting = acting if drive is None else replace(acting, drive=drive)
+    supports = vehicle_of(motion.plan, acting, element)
+    bare_loads(motion, supports)
+    return standing_of(motion, acting, supports).reactions[name]
 
 
-def way_along(poses: FlatPoses, support: Support, drive: str, name: str) -> FloatArray:
-    """Return how far the support's point moves along its direction on a unit of the stroke, shape (n,); SingularError where it does not."""
-    point = name_of(support.point)
-    along = (poses.rate(point, drive) * push_of(poses, support)).sum(axis=0)
-    carrying = [each for each in poses.plan.moving if each in poses.plan.reaches(point)]
-    size = np.max([np.hypot(*poses.rate(each, drive)) for each in carrying], axis=0, initial=0.0)  # of the fastest point on the way to it
+def balancing_reaction(motion: Motion, acting: Acting, name: str, support: Support, stroke: str, known: FloatArray) -> FloatArray:
+    """Return the force, shape (...) [N], of a support under a point that moves, which balances the loads beside a known drive force."""
+    point, plan = name_of(support.point), motion.plan
+    beside = [word for word in ("stiffness", "friction") if getattr(support, word) is not None]
+    if beside:
+        what = f"{plan.title}: {name} says {beside[0]}=, but stands under {point}, which moves"
+        raise DefinitionError(f"{what}; that counts under the frame alone. Leave it out; friction of joints is PinFriction, GuideFriction.")
+    applied = applied_loads(motion, acting, rates_in(motion, acting, stroke), without=name)
+    poses = FlatPoses(motion, f"The reaction of {name}")
+    known, push = poses.flattened(known), push_of(poses, support)
+    along = (poses.rate(point, stroke) * push).sum(axis=0)
+    carrying = [each for each in plan.moving if each in plan.reaches(point)]
+    size = np.max([np.hypot(*poses.rate(each, stroke)) for each in carrying], axis=0, initial=0.0)  # of the fastest point on the way to it
     with np.errstate(divide="ignore", invalid="ignore"):
         cond = condition_of_sine(np.where(size > 0.0, along / np.where(size > 0.0, size, 1.0), 0.0))
-    why = f"its point {point} does not move along its direction with {drive}, so that no reaction balances the drive"
-    return refused_where(poses, along, cond, f"The reaction of {name}", why)
+    why = f"its point {point} does not move along its direction with {stroke}, so that no reaction balances the drive"
+    lever = refused_where(poses, along, cond, f"The reaction of {name}", why)
+    if not applied.frictions:
+        return poses.full((by_work(poses, applied, stroke) - known) / lever)
+    # with friction: the reaction at which it, the joint forces and the known drive force agree
+    system, frictions = system_with_friction(poses, applied)
+    column = np.zeros((poses.count, system.starts[-1], 1))
+    for row, value in system.parts(system.structure.holder(point), Wrench(poses.at(point), push, np.zeros(poses.count))):
+        column[:, row, 0] += value
+    found = Equilibrium(system, frictions, given=((system.drive(stroke), known),), supports=column).solution()
+    check_joints(system.structure, poses)
+    locked_words(found, acting.movement)
+    return poses.full(found.u[:, -1])

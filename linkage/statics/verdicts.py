@@ -7,7 +7,6 @@ import numpy as np
 from ..language import said
 from ..loads import Acting, TwoPoint
 from ..motion import Judge, most, stroke_unit
-from ..plan import Plan
 from ..units import show
 from ..verdict import Remark, Verdict
 from .applied import plan_in_case
@@ -38,7 +37,12 @@ def drive_remarks(judge: Judge) -> list[Remark]:
     plan = judge.plan
     if not any(each.holds for each in plan.of_kind(TwoPoint).values()) or any(map(np.ndim, judge.designs.values())):
         return []
-    held = {case: strokes_held(plan_in_case(plan, Acting(case=case))) for case in judge.cases}
+    held = {}
+    for case in judge.cases:
+        in_case = plan_in_case(plan, Acting(case=case))
+        held[case] = set(holders_of(in_case).taken)
+        for tie in closed_ties(in_case):
+            held[case].update(tie.run.strokes if tie.run is not None else (), in_case.reaches(tie.added) if tie.added is not None else ())
     loose = {name: [case for case, strokes in held.items() if name not in strokes] for name in plan.strokes}
     asked = [(name, case) for name, cases in loose.items() for case in (cases if len(cases) < len(held) else [""])]
     answers = judge.lost_allowed().answers([most(abs(drive_force(name, case=case or None))) for name, case in asked]) if asked else []
@@ -51,11 +55,3 @@ def drive_remarks(judge: Judge) -> list[Remark]:
             what = said("{stroke} is held by no cylinder: its drive gives up to {force}", stroke=name, force=force)
             found[name] = size, Remark(f"{what}, {said('in the case {case}', case=case) + ', ' if case else ''}{answer.place}.")
     return [remark for _, remark in found.values()]
-
-
-def strokes_held(plan: Plan) -> set[str]:
-    """Return the strokes that cylinders, closed lines and ropes hold."""
-    held = set(holders_of(plan).taken)
-    for tie in closed_ties(plan):
-        held |= set(tie.run.strokes if tie.run is not None else ()) | (plan.reaches(tie.added) if tie.added is not None else set())
-    return held

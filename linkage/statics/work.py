@@ -272,10 +272,8 @@ def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:
             parts = [*(part for each in some.loads for part in each.force), *(each.thrust for each in some.thrusts)]
             numbers.append([motion.node(each) for each in parts])
         if numbers[0] != numbers[1]:
-            raise UntracedError(
-                f"{motion.plan.title}: what rubs acts along the path of several strokes, so that no program gives it pose by pose; ask a "
-                "motion, or while nothing rubs."
-            )
+            what = f"{motion.plan.title}: what rubs acts along the path of several strokes, so that no program gives it pose by pose"
+            raise UntracedError(f"{what}; ask a motion, or while nothing rubs.")
     return applied
 
 

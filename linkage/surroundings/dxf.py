@@ -42,9 +42,9 @@ def dxf_lines(path: str, layers: Sequence[str] = ()) -> list[npt.NDArray[np.floa
     every = [each for each in every if each.dxftype() != "INSERT"]
     entities = [each for each in every if not layers or each.dxf.layer in layers]
     paths = list(drawable(entities, curves, path))
-    span = span_of(paths, path)
-    found = [polyline(each, 1e-3 * span) for each in paths]
-    found = [each for each in found if len(each) > 1]
+    distance = 1e-3 * span_of(paths, path)  # no farther from curves; up to one corner more than can be drawn
+    corners = ([(each.x, each.y) for each in islice(one.flattening(distance), MOST + 1)] for one in paths)
+    found = [np.array(each, float) for each in corners if len(each) > 1]
     if not found:
         on = f" on {', '.join(layers)}; its layers: {', '.join(sorted({each.dxf.layer for each in every}))}" if layers else ""
         raise DefinitionError(f"{path}: there is no line{on}.")
@@ -96,8 +96,3 @@ def span_of(paths: Sequence[Any], path: str) -> float:
         what = f"{path}: it is {span:.3g} wide and stands {largest:.3g} away from its origin, which leaves no digits"
         raise DefinitionError(f"{what}; move the drawing to its origin.")
     return span
-
-
-def polyline(path: Any, distance: float) -> npt.NDArray[np.float64]:
-    """Return a path's corners, shape (n, 2), no farther than a distance from its curves, up to one more than can be drawn."""
-    return np.array([(each.x, each.y) for each in islice(path.flattening(distance), MOST + 1)], float).reshape(-1, 2)

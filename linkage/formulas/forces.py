@@ -203,7 +203,7 @@ class ForceLines:
         (first, start), *others = supports.items()
         second = max(others, key=lambda each: float(np.hypot(*(motion[name_of(each[1].point)] - motion[name_of(start.point)]))))[0]
         across, moment = Term(sympy.S.Zero), Term(sympy.S.Zero)
-        pushes = {name: each.way(self) for name, each in supports.items()}
+        pushes = {name: each.pushes_along(self) for name, each in supports.items()}
         self.about, self.shared = first, tuple(name for name in supports if name not in (first, second))
         for name in self.shared:
             size = self.given(f"R_{name}", axle_load(name).of, "kN")
@@ -351,7 +351,7 @@ class Chain:
         names = listing.names
         self.symbol = names.quantity(stroke)
         held = [each for line in holders.lines for each in line.cylinders]
-        self._acting = [(each, thrust) for each, thrust in forces.acting if not any(same(each, one) for one in holders.cylinders)]
+        self._acting = [(each, thrust) for each, thrust in forces.acting if not any(same(each, one) for one in holders.every_cylinder)]
         lengths = {member.ends: listing.value(Distance(*member.ends)).expr for member in [*held, *(each for each, _ in self._acting)]}
         points = {each.point: listing.at(each.point).expr for each in pulled}
         together = {names.vector(pin) for pin in listing.unknowns}

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ..checks import require_number, require_type
 from ..errors import DefinitionError, cited, known_name, unknown
 from ..frozen import keep_own, refuses_changes
-from ..quantities import Member, Reference, in_degrees, is_number, name_of
+from ..quantities import Member, Reference, in_degrees, name_of
 from ..quantities.quantity import plain
 from ..units import deg, require_measure
 from .element import DIRECTIONS, FRICTIONLESS, ForceElement, Load, Poses
@@ -105,10 +105,10 @@ class LoadCase(Member):
         scale = {name: plain(value) for name, value in self.scale.items()}
         words = [repr(self.title)] if self.title else []
         words += [f"scale={scale!r}"] if scale else []
-        words += [f"only={[name_of(each) for each in self.only]!r}"] if self.only is not None and not isinstance(self.only, str) else []
-        words += [f"slope={in_degrees(float(self.slope))}"] if is_number(self.slope) and self.slope else []
+        words += [f"only={[name_of(each) for each in self.only]!r}"] if self.only is not None else []
+        words += [f"slope={in_degrees(float(self.slope))}"] if self.slope else []
         words += [f"gravity={self.gravity!r}"] if self.gravity is not None else []
-        words += [f"shut={[*self.shut_names]!r}"] if self.shut and not isinstance(self.shut, str) else []
+        words += [f"shut={[*self.shut_names]!r}"] if self.shut else []
         return f"LoadCase({', '.join(words)})"
 
 

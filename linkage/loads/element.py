@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import keep_own
-from ..quantities import Jointed, Member, Number, Quantity, Reference, label, name_of, quantity, real, spelled
+from ..quantities import Jointed, Member, Number, Quantity, Reference, Variable, label, name_of, quantity, real, spelled
 from ..quantities.quantity import plain
 from ..steps import Bar, Point
 from ..units import require_measure
@@ -329,6 +329,11 @@ class ForceElement(Jointed):
         """Return a parameter as it is written."""
         return getattr(self, name)
 
+    def written(self, name: str) -> Quantity:
+        """Return a parameter as a quantity of its class: a number as the design variable that it is."""
+        given = quantity(self.given(name))
+        return Variable(f"{self.name}.{name}") if isinstance(given, Number) else given
+
     # -- what a subclass says ------------------------------------------------------------------------------
 
     @abstractmethod
@@ -482,9 +487,9 @@ class ForceElement(Jointed):
         is_named = all(isinstance(each, str) or (isinstance(each, Member) and each.name) for each in places)
         return str(self) if is_named else type(self).__name__
 
-    def options(self) -> dict[str, Any]:
+    def options(self) -> dict[str, object]:
         """Return what it was given beside its places and parameters, where that is not the usual, by name."""
-        declared: tuple[Field[Any], ...] = fields(self) if is_dataclass(self) else ()
+        declared: tuple[Field[object], ...] = fields(self) if is_dataclass(self) else ()
         others = [each for each in declared if each.name not in (*self.places, *self.parameters) and each.default is not MISSING]
         return {each.name: getattr(self, each.name) for each in others if repr(getattr(self, each.name)) != repr(each.default)}
 

@@ -184,7 +184,7 @@ class Support(Directed):
         direction = np.asarray(self.direction, float)
         return np.asarray(direction / np.hypot(*direction))
 
-    def way(self, motion: Poses) -> Array:
+    def pushes_along(self, motion: Poses) -> Array:
         """Return the direction in the axes of the frame, of length one, shape (2, ...) to broadcast against the motion."""
         return self.in_the_whole(motion, self.unit[0], self.unit[1])
 
@@ -193,7 +193,7 @@ class Support(Directed):
         return np.zeros(()), np.asarray(np.inf)
 
     def loads(self, motion: Poses) -> list[Load]:
-        way = self.way(motion)
+        way = self.pushes_along(motion)
         return [Load(name_of(self.point), vector(self.number(motion, "force"), (way[0], way[1])))]
 
     def __str__(self) -> str:

@@ -20,7 +20,7 @@ import numpy as np
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..quantities import Axes, Member, Number, Quantity, Reference, Variable, Where, label, name_of, quantity
+from ..quantities import Axes, Member, Number, Quantity, Reference, Where, label, name_of
 from ..vectors import Scalar, Side, Vec
 from .element import Array, ForceElement, Glyph, Load, Parameter, Poses
 
@@ -88,10 +88,7 @@ class Station:
     @property
     def radius_written(self) -> Quantity:
         """The radius as a quantity of its class [m]."""
-        if self.pulley is None:
-            return Number(0.0)
-        given = quantity(self.pulley.given("radius"))
-        return Variable(f"{self.pulley.name}.radius") if isinstance(given, Number) else given
+        return Number(0.0) if self.pulley is None else self.pulley.written("radius")
 
     @property
     def sense(self) -> float:

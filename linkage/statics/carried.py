@@ -87,16 +87,16 @@ class LoadAt:
         motion = Domain(self.plan, self.designs, Over()).motion
         ends, rows = {name: (np.min(each), np.max(each)) for name, each in motion.strokes.items()}, np.random.default_rng(1)
         some = self.motion({name: rows.uniform(low, high, TRIED) for name, (low, high) in ends.items()})
-        return [each for each in self.limits if each.is_bent(some, partial(self.beside, motion=some))]
+        return [each for each in self.limits if each.is_bent(some, partial(self.with_load, motion=some))]
 
     def failing(self, motion: Motion, load: FloatArray) -> dict[str, Mask]:
         """Return at which poses conditions that limit no load fail under one [N], each by its name."""
         found: dict[str, Mask] = {}
         for each in member_limits(self.plan, self.case, are_remarks=True):
-            found[each.name] = found.get(each.name, False) | (each.spare(motion, self.beside(load, motion)) < 0.0)
+            found[each.name] = found.get(each.name, False) | (each.spare(motion, self.with_load(load, motion)) < 0.0)
         return found
 
-    def beside(self, load: FloatArray | float, motion: AnyMotion) -> Acting:
+    def with_load(self, load: FloatArray | float, motion: AnyMotion) -> Acting:
         """Return the machine's own loads with a load [N] at the poses of a motion, or shaped as these."""
         own = [*self.plan.of_kind(ForceElement)] if self.own.loads is None else [*self.own.loads]  # type: ignore[misc]
         return replace(self.own, loads=[*own, pulling(self.point, self.along, load, motion)])
@@ -135,16 +135,11 @@ class LoadAt:
             return self.supports
         return {name: self.supports[name] for name in standing_of(self.some, self.own, self.supports).outermost}
 
-    @property
-    def may_slip(self) -> bool:
-        """Whether a support says how rough the ground is."""
-        return any(map(is_rough, self.supports.values()))
-
     @cached_property
     def kinds(self) -> tuple[str, ...]:
         """What each bounded force is limited by, in their order: the name of a cylinder, "tipping", "slipping", a member's condition."""
-        ground = (*(TIPPING for _ in self.outermost), *((SLIPPING, SLIPPING) if self.may_slip else ()))
-        return (*self.bounded, *ground, *(each.name for each in self.limits))
+        slips = (SLIPPING, SLIPPING) if any(map(is_rough, self.supports.values())) else ()
+        return (*self.bounded, *(TIPPING for _ in self.outermost), *slips, *(each.name for each in self.limits))
 
     def carried(self, motion: AnyMotion, acting: Acting) -> list[FloatArray]:
         """Return the bounded forces in a situation: thrusts, axle loads, what is left of the ground's friction either way [N]."""
@@ -152,15 +147,14 @@ class LoadAt:
         if self.supports:
             ends = standing_of(motion, acting, self.outermost)
             found += [ends.reactions[name] for name in self.outermost]
-            if self.may_slip:
-                ground = ends if len(self.supports) == 2 else standing_of(motion, acting, self.supports)
-                assert ground.friction is not None
+            ground = ends if len(self.supports) == 2 or SLIPPING not in self.kinds else standing_of(motion, acting, self.supports)
+            if SLIPPING in self.kinds and ground.friction is not None:
                 found += [ground.friction - ground.along, ground.friction + ground.along]
         return found
 
     def own_and_share(self, motion: AnyMotion) -> tuple[list[FloatArray], list[FloatArray]]:
         """Return what each bounded force and each condition is by the own loads, and how it grows with the load."""
-        forces, loaded = self.carried(motion, self.own), self.beside(PROBE, motion)
+        forces, loaded = self.carried(motion, self.own), self.with_load(PROBE, motion)
         if any(each.closed_thrust(motion, self.own) is not None for each in self.bounded.values()):
             share = [(b - a) / PROBE for a, b in zip(forces, self.carried(motion, loaded), strict=True)]
         else:
@@ -230,14 +224,14 @@ class LoadAt:
             values = self._run(self.program, {**self.designs, **strokes}, count)
             if values is not None:
                 return greatest_load(values[0], values[1], *self.fixed)
-        return self.most(self.motion(strokes))
+        return self.greatest_loads(self.motion(strokes))
 
     def _run(self, kernel: Kernel, inputs: Mapping[str, Numbers], count: int) -> FloatArray | None:
         """Return the forces of the own loads and of one newton (2, elements, n); None where what is taken for granted does not hold."""
         found = kernel(inputs, way=way_of(count), size=(1, count))
         return found.values[:, 0].reshape(2, -1, count) if np.all(found.guards > 0.0) else None
 
-    def most(self, motion: Motion) -> FloatArray:
+    def greatest_loads(self, motion: Motion) -> FloatArray:
         """Return the same at the poses of a motion, shape (elements, n)."""
         if not self.kinds:
             return np.empty((0, *motion.shape))
@@ -256,7 +250,7 @@ class LoadAt:
         first = len(self.kinds) - len(self.limits)
         for at, limit in enumerate(self.limits, first):
             if limit in self.bent:
-                found[at] = limit.greatest_load(motion, partial(self.beside, motion=motion))
+                found[at] = limit.greatest_load(motion, partial(self.with_load, motion=motion))
         return found
 
     def _found(self, motion: Motion, name: str, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
@@ -266,8 +260,8 @@ class LoadAt:
         def force(load: FloatArray) -> FloatArray:
             with unwarned():
                 if not self.lifting(name):
-                    return pump_thrust(motion, element, self.beside(load, motion))
-                out, back = (pump_thrust(motion, element, replace(self.beside(load, motion), direction=way)) for way in ways.values())
+                    return pump_thrust(motion, element, self.with_load(load, motion))
+                out, back = (pump_thrust(motion, element, replace(self.with_load(load, motion), direction=way)) for way in ways.values())
             return np.where(share > 0.0, out, back)
 
         alone = force(np.zeros(motion.shape))

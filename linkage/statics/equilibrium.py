@@ -20,7 +20,7 @@ from ..quantities import Distance, Quantity, name_of
 from .applied import member_title
 from .holding import areas, same, share_of, solution_of_few, tie_pivots
 from .joints import FRAME, Contact, Structure, Strut, Wrench, follows_points, force_direction, wrenches
-from .poses import FlatPoses, cross
+from .poses import FlatPoses, cross, over_zero
 
 
 @final
@@ -212,13 +212,11 @@ class System:
 
     def follows(self, quantity: Quantity, stroke: str) -> bool:
         """Return whether a driven quantity follows a stroke; DefinitionError where it follows moving points as well."""
-        plan = self.structure.plan
-        if isinstance(quantity, Distance):
-            return True
-        if follows_points(plan, quantity):
+        plan, is_distance = self.structure.plan, isinstance(quantity, Distance)
+        if not is_distance and follows_points(plan, quantity):
             what = f"a drive follows {quantity.name or quantity}, which depends on moving points"
             raise DefinitionError(f"{plan.title}: {what}; its force is not provided.")
-        return stroke == quantity.name or stroke in plan.reaches(quantity)
+        return is_distance or stroke == quantity.name or stroke in plan.reaches(quantity)
 
     def ratio(self, quantity: Quantity, stroke: str) -> FloatArray:
         """Return how a driven quantity follows a stroke, shape (n,); for a distance it follows from its points."""
@@ -245,7 +243,8 @@ class System:
         """Return a two-point member's thrust [N]: what pushes its far end against all that acts there."""
         if strut.pair is not None:
             return self.unknown(self.structure.sliding_joint(strut.pair, "t"), "t", 1.0)
-        body, along = self.structure.body_of(strut), self.poses.along(strut.P, strut.Q)
+        body, arm = self.structure.body_of(strut), self.poses.at(strut.Q) - self.poses.at(strut.P)
+        along = np.asarray(arm / over_zero(np.hypot(arm[0], arm[1])))
         row, friction = self.poses.zeros(self.width), self.poses.zeros(len(self.frictions))
         for values, columns in ((row, self.unknowns), (friction, self.frictions)):
             for index, column in enumerate(columns):
@@ -276,10 +275,10 @@ class System:
 
     def tied(self) -> Iterator[tuple[LinearForm, FloatArray]]:
         """Yield what the thrusts of members on ties are bound to: there are less forces than members."""
-        ties = [line for line in self.structure.holders.all if line.tie is not None and line.tie.run is None]
+        ties = [line for line in self.structure.holders.every_line if line.tie is not None and line.tie.run is None]
         if not ties:
             return
-        members = [each for each in self.structure.holders.cylinders if any(line.has(each) for line in ties)]
+        members = [each for each in self.structure.holders.every_cylinder if any(line.has(each) for line in ties)]
         forms = [self.thrust(next(strut for strut in self.structure.struts if strut.name == member_title(each))) for each in members]
         given = [self.given(each) for each in members]
         shares = [share_of(each, ties, [areas(line, self.poses, 1) for line in ties]) for each in members]

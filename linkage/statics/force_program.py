@@ -74,7 +74,7 @@ def program_of(structure: Structure, applied: AppliedLoads, places: Sequence[int
     """
     loads = tuple((each.point, *each.on) for each in applied.loads)
     struts = tuple((each.name, each.P, each.Q, each.known is None) for each in structure.struts)
-    lines = tuple((line.stroke, line.cylinders, line.tie) for line in structure.holders.all)
+    lines = tuple((line.stroke, line.cylinders, line.tie) for line in structure.holders.every_line)
     blocks = tuple(body.name for body in structure.blocks)
     key = ("joint forces", loads, struts, lines, blocks, tuple(places))
     try:
@@ -88,11 +88,11 @@ def traced_program(plan: Plan, applied: AppliedLoads, places: tuple[int, ...]) -
     motion = TracedMotion(plan, plan.trace)
 
     def given(*name: object) -> Node:
-        return motion.node(motion.input(input_name(*name)))
+        return motion._reading.graph.input(input_name(*name), Level.POSE)
 
     parts = [motion._array([given("load", place, axis) for axis in "xy"]) for place in range(len(applied.loads))]
     loads = tuple(replace(each, force=force) for each, force in zip(applied.loads, parts, strict=True))
-    thrusts = tuple(replace(each, thrust=motion.input(input_name("thrust", place))) for place, each in enumerate(applied.thrusts))
+    thrusts = tuple(replace(each, thrust=motion.number(given("thrust", place))) for place, each in enumerate(applied.thrusts))
     acts = replace(applied, loads=loads, thrusts=thrusts)
     structure, poses = Structure(plan, acts.elements, acts.thrusts), FlatPoses(motion, "")
     inputs = [given("friction", place) for place in range(len(places))]

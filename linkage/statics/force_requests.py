@@ -88,7 +88,7 @@ def drive_force_in_plan(drive: str | None, request: LawRequest, motion: TracedMo
     require_rest(request, motion.plan)
 
     def trace(traced: TracedMotion) -> TracedLaw:
-        return TracedLaw(traced, traced.node(request.law(traced)))
+        return traced, traced.node(request.law(traced))
 
     return law_in_plan(motion, trace, f"the driving force of {stroke_of(motion.plan, drive, 'drive')}")
 
@@ -155,7 +155,7 @@ class JointPart:
         motion, solution = cast(tuple[TracedMotion, Solution], kept[shared])
         contact, _, sign = self.contact(solution.system.structure)
         force, _ = solution.transmitted(contact)
-        return TracedLaw(motion, motion.node(COMPONENTS[self.component](*(sign * force[:, 0]))))
+        return motion, motion.node(COMPONENTS[self.component](*(sign * force[:, 0])))
 
 
 def structure_in_plan(motion: TracedMotion, acting: Acting) -> tuple[Structure, tuple[Hashable, ...]]:

@@ -72,19 +72,19 @@ class Holders:
     closed: tuple[PressureLine, ...] = ()
 
     @property
-    def all(self) -> tuple[PressureLine, ...]:
+    def every_line(self) -> tuple[PressureLine, ...]:
         """The lines that hold, then the closed ones."""
         return (*self.lines, *self.closed)
 
     @property
-    def cylinders(self) -> tuple[TwoPoint, ...]:
+    def every_cylinder(self) -> tuple[TwoPoint, ...]:
         """The cylinders on any of the lines, each once."""
-        return each_once(cylinder for line in self.all for cylinder in line.cylinders)
+        return each_once(cylinder for line in self.every_line for cylinder in line.cylinders)
 
     @property
-    def taken(self) -> frozenset[str]:
+    def strokes_taken(self) -> frozenset[str]:
         """The strokes whose own drives carry nothing."""
-        return frozenset(line.stroke for line in self.all)
+        return frozenset(line.stroke for line in self.every_line)
 
     @property
     def reeved(self) -> Mapping[str, Reeving]:
@@ -103,7 +103,7 @@ class Holders:
 
     def line_of(self, cylinder: TwoPoint) -> PressureLine | None:
         """Return the line that a cylinder is on, one that holds where it can be; None where it does not hold."""
-        return next((line for line in self.all if line.has(cylinder)), None)
+        return next((line for line in self.every_line if line.has(cylinder)), None)
 
 
 def holders_of(plan: Plan, elements: Iterable[ForceElement] = ()) -> Holders:
@@ -370,7 +370,7 @@ class Levers:
         return cast(FloatArray, found)
 
     @cached_property
-    def condition(self) -> FloatArray:
+    def nearness(self) -> FloatArray:
         """How near the levers are to a singular pose, relative to their sizes (n,); infinite where they are at one."""
         matrix, sizes, count = numbers_of(self.matrix), numbers_of(self.sizes), range(self.matrix.shape[1])
         columns = [above_zero(reduce(np.maximum, [row[j] for row in sizes])) for j in count]
@@ -398,14 +398,14 @@ def with_levers(poses: FlatPoses, holders: Holders, what: str) -> tuple[FlatPose
         return poses, (Levers(matrix, np.abs(matrix), tuple((one,) for _ in lines)),)
     ways = (1, -1) if any(line.changes_shares for line in lines) else (1,)
     if not isinstance(poses.motion, Motion):
-        return poses, poses.motion._once(("levers", holders.all), partial(traced_levers, poses, holders, ways))
-    shared = "levers", holders.all, poses.good.tobytes()  # once for the same poses of a motion, for all loads and cylinders
+        return poses, poses.motion._once(("levers", holders.every_line), partial(traced_levers, poses, holders, ways))
+    shared = "levers", holders.every_line, poses.good.tobytes()  # once for the same poses of a motion, for all loads and cylinders
     found = tuple(poses.motion._once((*shared, way), partial(levers_of, poses, holders, way)) for way in ways)
     if not lines:
         return poses, found
     names = [each.name or str(each) for line in lines for each in line.cylinders]
     whose = f"the length of {names[0]} stands" if len(names) == 1 else f"the lengths of {', '.join(names)} stand"
-    cond = reduce(np.maximum, [each.condition for each in found])
+    cond = reduce(np.maximum, [each.nearness for each in found])
     lost = np.isnan(refused_where(poses, np.zeros(poses.count), cond, what, f"{whose} still against the drive there"))
     if not lost.any():
         return poses, found
@@ -416,7 +416,7 @@ def with_levers(poses: FlatPoses, holders: Holders, what: str) -> tuple[FlatPose
 def traced_levers(poses: FlatPoses, holders: Holders, ways: Sequence[int]) -> tuple[Levers, ...]:
     """Return the levers of lines as numbers of a program, without a value where the cylinders do not hold."""
     found = tuple(levers_of(poses, holders, way) for way in ways)
-    cond = reduce(np.maximum, [each.condition for each in found]) if holders.lines else np.zeros(())
+    cond = reduce(np.maximum, [each.nearness for each in found]) if holders.lines else np.zeros(())
     if not is_traced(cond):
         return found
     kept = [elementwise(lambda lever: np.where(cond <= REFUSE, lever, np.nan), (each.matrix,)) for each in found]

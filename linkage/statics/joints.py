@@ -143,12 +143,12 @@ def two_point_members(
     plan: Plan, holders: Holders, thrusts: Sequence[Push], links: Sequence[FreeBody]
 ) -> tuple[tuple[Strut, ...], dict[str, FreeBody]]:
     """Return the two-point members, and by their names the declared bodies that they are together with the points along them."""
-    cylinders = [Strut(member_title(each), *each.ends, line=holders.line_of(each)) for each in holders.cylinders]
-    given = [each for each in thrusts if not any(same(one, each.member) for one in holders.cylinders)]
+    cylinders = [Strut(member_title(each), *each.ends, line=holders.line_of(each)) for each in holders.every_cylinder]
+    given = [each for each in thrusts if not any(same(one, each.member) for one in holders.every_cylinder)]
     found = []
     for bar in plan.cylinders:
         strokes = {name for name in plan.strokes if name == bar.length.name or name in plan.reaches(bar.length)}
-        if strokes - holders.taken and not holders.given & plan.reaches(bar.length):
+        if strokes - holders.strokes_taken and not holders.given & plan.reaches(bar.length):
             found.append(Strut(joined_names(bar.P, bar.Q), bar.P, bar.Q, bar.length))
     struts = [*found, *cylinders, *known_struts(given)]
     twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
@@ -322,7 +322,7 @@ class Structure:
         self.bodies = (*self.blocks, *bodies)
         runners = [joint.point for _, joint in plan.joints if joint.on.role == "runner"]
         self.lone = tuple(dict.fromkeys(point for point in runners if not self.owners(point)))
-        self.contacts = (*self.pins(), *self.joints(), *self.sliding_joints())
+        self.contacts = (*self.pins(), *self.step_joints(), *self.sliding_joints())
 
     # -- contacts ------------------------------------------------------------------------------------------
 
@@ -332,7 +332,7 @@ class Structure:
             first, *others = self.owners(point) or [FRAME]
             yield from (Contact("pin", point, other, first, "xy", pinned(point)) for other in others)
 
-    def joints(self) -> Iterator[Contact]:
+    def step_joints(self) -> Iterator[Contact]:
         """Yield what the steps, guides and slides hold: equal slides once, of drives that a cylinder replaces what is left."""
         seen: set[tuple[str, tuple[str, ...]]] = set()
         for name, joint in sorted(self.plan.joints, key=lambda each: ORDER.get(each[1].kind, len(ORDER))):
@@ -394,7 +394,7 @@ class Structure:
             given |= {drive.along} if self.holders.given & follows else set()
             if drive.along:
                 strokes[drive.along] |= follows & set(self.plan.strokes)
-        gone = {letter: names for letter, names in strokes.items() if letter not in given and names and names <= self.holders.taken}
+        gone = {letter: names for letter, names in strokes.items() if letter not in given and names and names <= self.holders.strokes_taken}
         taken = sorted(set().union(*gone.values()))
         if len(gone) > len(taken):
             what = f"{owner}.joints(): {' and '.join(gone)} are driven by {', '.join(taken)}, which a cylinder takes over"
@@ -493,16 +493,14 @@ class Structure:
 
     # -- names ---------------------------------------------------------------------------------------------
 
-    @property
-    def indices(self) -> range:
-        """The frame, the bodies and the lone pins."""
-        return range(FRAME, len(self.bodies) + len(self.lone))
+    @cached_property
+    def own_names(self) -> tuple[str, ...]:
+        """The names of the bodies and the lone pins, and of the frame, which comes last as its index is -1."""
+        return (*(body.name for body in self.bodies), *(f"pin {point}" for point in self.lone), FRAME_NAME)
 
     def name(self, index: int) -> str:
         """Return a body's name."""
-        if index == FRAME:
-            return FRAME_NAME
-        return self.bodies[index].name if index < len(self.bodies) else f"pin {self.lone[index - len(self.bodies)]}"
+        return self.own_names[index]
 
     @cached_property
     def names(self) -> dict[str, str]:
@@ -516,7 +514,7 @@ class Structure:
             labels += [(link, each.name) for each in driven]
         known = [label for label, _ in labels]
         found = {label: name for label, name in labels if known.count(label) == 1}
-        return found | {self.name(index): self.name(index) for index in self.indices}
+        return found | {name: name for name in (FRAME_NAME, *self.own_names)}
 
     def full_name(self, name: str) -> str:
         """Return a body's name for what it goes by: its own, its link's, its points, or two or more of them (`O B`); else as given."""
@@ -530,8 +528,8 @@ class Structure:
 
     def index(self, name: str) -> int:
         """Return a body by its name, its link's or its points; DefinitionError for any other."""
-        known_name("Body", name, self.names, where=self.plan.title)
-        return {self.name(index): index for index in self.indices}[self.names[name]]
+        place = self.own_names.index(self.names[known_name("Body", name, self.names, where=self.plan.title)])
+        return place if place < len(self.own_names) - 1 else FRAME
 
 
 # What a turned joint's angle is measured from: the frame, or another body's direction.
@@ -594,7 +592,7 @@ def acting_place(contact: Contact, poses: FlatPoses) -> FloatArray:
     if joint.line is None or joint.track or "runner" in (joint.on.role, joint.by.role):
         return point
     with np.errstate(all="ignore"):
-        origin = joint.line(poses.reading).origin
+        origin = joint.line(poses.motion._reading).origin
     place = poses.stacked(origin.x, origin.y)
     if place.dtype == object:
         return place
@@ -606,7 +604,7 @@ def force_direction(contact: Contact, letter: str, poses: FlatPoses) -> FloatArr
     along = np.stack([np.ones(poses.count), np.zeros(poses.count)])
     if letter not in "xy" and contact.joint.line is not None:
         with np.errstate(all="ignore"):
-            way = contact.joint.line(poses.reading).direction
+            way = contact.joint.line(poses.motion._reading).direction
         vector = poses.stacked(way.x, way.y)
         along = np.asarray(vector / np.hypot(vector[0], vector[1]))
     return quarter_turned(along) if letter in "yn" else along

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import final
+from typing import TypeAlias, cast, final
 from weakref import ref
 
 from ..errors import UntracedError
@@ -20,14 +20,8 @@ from .held import held_in_case, refuse_loose
 from .poses import AnyMotion
 from .traced_loads import TracedMotion, traced_apart
 
-
-@final
-@dataclass(frozen=True, eq=False)
-class TracedLaw:
-    """A formula on a program: the traced motion that it asked, and its node."""
-
-    motion: TracedMotion
-    node: Node
+TracedLaw: TypeAlias = tuple[TracedMotion, Node]
+"""A formula on a program: the traced motion that it asked, and its node."""
 
 
 @final
@@ -49,9 +43,9 @@ class LawInPlan:
 
 def law_in_plan(motion: TracedMotion, trace: Callable[[TracedMotion], TracedLaw], sentence: str = "") -> LawInPlan:
     """Return what a formula is in the plan of a traced motion, from its nodes there; UntracedError where it has no program."""
-    traced = trace(motion)
-    notes = traced.motion.notes
-    key = "law", motion._reading.graph, traced.node.number, *notes.assumed, None, *notes.switches, None, *notes.gaps
+    traced, node = trace(motion)
+    notes = traced.notes
+    key = "law", motion._reading.graph, node.number, *notes.assumed, None, *notes.switches, None, *notes.gaps
     return LawInPlan(key, frozenset(motion.read), frozenset(motion.through), trace, sentence=sentence)
 
 
@@ -162,7 +156,7 @@ class LawRequest(Request):
         """Return the formula on the nodes of a program; UntracedError where it has none."""
         motion.notes.owner, motion.notes.tests = str(self), 0
         try:
-            found = TracedLaw(motion, motion.node(self.law(motion)))
+            found = motion, motion.node(self.law(motion))
         except UntracedError as error:
             raise UntracedError(f"{self}: {error}") from error
         except Exception as error:
@@ -185,32 +179,28 @@ class LawRequest(Request):
     def traced_with(self) -> Hashable:
         return self.key if self.in_plan is None else self.in_plan.traced_with
 
-    def _in(self, plan: Plan) -> LawInPlan:
-        """Return what it is in the plan that it is bound to."""
-        assert self.in_plan is not None, f"{self} is not bound to {plan.title}"
-        return self.in_plan
-
     def _traced(self, plan: Plan) -> TracedLaw:
         """Return the formula on a plan's program, traced there once."""
-        found = plan.trace.kept.get(self.key)
-        if not isinstance(found, TracedLaw):
-            found = plan.trace.kept[self.key] = self._in(plan).trace(TracedMotion(plan, plan.trace))
-        return found
+        assert self.in_plan is not None, f"{self} is not bound to {plan.title}"
+        kept = cast(dict[Hashable, TracedLaw], plan.trace.kept)
+        if self.key not in kept:
+            kept[self.key] = self.in_plan.trace(TracedMotion(plan, plan.trace))
+        return kept[self.key]
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        return (self._traced(plan).node,)
+        return (self._traced(plan)[1],)
 
     def notes(self, plan: Plan) -> Notes:
-        return self._traced(plan).motion.notes
+        return self._traced(plan)[0].notes
 
     def gaps(self, plan: Plan) -> tuple[Node, ...]:
         return tuple(self.notes(plan).gaps)
 
     def names(self, plan: Plan) -> set[str]:
-        return set(self._in(plan).read)
+        return set(() if self.in_plan is None else self.in_plan.read)
 
     def differentiated(self, plan: Plan) -> set[str]:
-        return set(self._in(plan).through)
+        return set(() if self.in_plan is None else self.in_plan.through)
 
     @property
     def order(self) -> int:

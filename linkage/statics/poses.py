@@ -34,9 +34,7 @@ class FlatPoses:
         behind = frozenset(self.plan.members if names is None else names)
         self.good: Mask = motion.reached & ~motion._refused(point_ratios(behind), what)
         self.count = int(self.good.sum())
-        self._at: dict[str, FloatArray] = {}
-        self._rates: dict[tuple[str, str], FloatArray] = {}
-        self._growths: dict[tuple[str, str, str], FloatArray] = {}
+        self._kept: dict[tuple[str, ...], FloatArray] = {}
 
     def without(self, lost: Mask) -> FlatPoses:
         """Return the poses that a mask (n,) leaves."""
@@ -44,18 +42,13 @@ class FlatPoses:
         left.good = np.array(self.good)  # of a single pose a number, which takes no item
         left.good[self.good] = ~lost
         left.count = int(left.good.sum())
-        left._at, left._rates, left._growths = {}, {}, {}
+        left._kept = {}
         return left
 
     @property
     def is_whole(self) -> bool:
         """Whether these are all poses of the motion, of which there are some."""
         return self.count == self.good.size > 0
-
-    @property
-    def reading(self) -> Reading:
-        """Every rule read at the motion's poses."""
-        return self.motion._reading
 
     def zeros(self, *shape: int) -> FloatArray:
         """Return zeros to write results into, shape (n, *shape)."""
@@ -82,10 +75,10 @@ class FlatPoses:
 
     def at(self, point: str) -> FloatArray:
         """Return a point's position, shape (2, n) [m]."""
-        if point not in self._at:
-            place = self.reading.at(self.plan.points[point]) if point in self.plan.ground else None
-            self._at[point] = self.flattened(self.motion[point]) if place is None else self.stacked(place.x, place.y)
-        return self._at[point]
+        if (point,) not in self._kept:
+            place = self.motion._reading.at(self.plan.points[point]) if point in self.plan.ground else None
+            self._kept[(point,)] = self.flattened(self.motion[point]) if place is None else self.stacked(place.x, place.y)
+        return self._kept[(point,)]
 
     def ratio(self, target: Reference, drive: str) -> FloatArray:
         """Return the ratio of a point (2, n) or a quantity (n,); what is near singular has been reported already."""
@@ -94,24 +87,17 @@ class FlatPoses:
 
     def rate(self, point: str, drive: str) -> FloatArray:
         """Return a point's transfer ratio, shape (2, n), worked out once."""
-        key = (point, drive)
-        if key not in self._rates:
-            self._rates[key] = self.ratio(point, drive)
-        return self._rates[key]
-
-    def along(self, P: str, Q: str) -> FloatArray:
-        """Return the direction from P to Q, of length one, shape (2, n)."""
-        arm = self.at(Q) - self.at(P)
-        return np.asarray(arm / over_zero(np.hypot(arm[0], arm[1])))
+        if (point, drive) not in self._kept:
+            self._kept[point, drive] = self.ratio(point, drive)
+        return self._kept[point, drive]
 
     def growth(self, P: str, Q: str, drive: str) -> FloatArray:
         """Return how the distance of two points grows with a stroke, shape (n,), worked out once; 0 where they coincide."""
-        key = (P, Q, drive)
-        if key not in self._growths:
+        if (P, Q, drive) not in self._kept:
             arm = self.at(Q) - self.at(P)
             rate = self.rate(Q, drive) - self.rate(P, drive)
-            self._growths[key] = np.asarray((arm * rate).sum(axis=0) / over_zero(np.hypot(arm[0], arm[1])))
-        return self._growths[key]
+            self._kept[P, Q, drive] = np.asarray((arm * rate).sum(axis=0) / over_zero(np.hypot(arm[0], arm[1])))
+        return self._kept[P, Q, drive]
 
     def stacked(self, x: Scalar, y: Scalar) -> FloatArray:
         """Return two parts of a vector as (2, n)."""

@@ -177,11 +177,6 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         own = falls[0 if name == "first" else -1]
         return left if own == 1.0 and not isinstance(left, Variable) else left / own
 
-    def written(self, name: str) -> Quantity:
-        """Return a number of it as a quantity of its class."""
-        given = quantity(self.given(name))
-        return Variable(f"{self.name}.{name}") if isinstance(given, Number) else given
-
     @property
     def cut(self) -> str:
         """The input by which its length changes: itself, or how much longer it is than what it follows."""

@@ -16,7 +16,7 @@ from ..motion import Motion, OnePose, Request
 from ..motion.requests import stroke_of
 from ..motion.strokes import checked_name, order_of
 from ..plan import TRACING, ArrayReading, Mask, Plan, Trace
-from ..program import FloatArray, Level, Node, Notes, SparseSystem, Traced, interpret, is_zero, node_of
+from ..program import FloatArray, Node, Notes, SparseSystem, Traced, interpret, is_zero, node_of
 from ..quantities import Angle, Distance, Member, Quantity, Reference
 from ..steps import Arrow, Point
 from ..vectors import Scalar
@@ -140,10 +140,6 @@ class TracedMotion(OnePose):
         """Return a number of the program as a traced one."""
         return cast(FloatArray, Traced(self._reading.graph.node(node_of(value)), self.notes))
 
-    def input(self, name: str) -> FloatArray:
-        """Return an input of the program at the poses, besides those of the plan, as a traced number."""
-        return self.number(self._reading.graph.input(name, Level.POSE))
-
     def _array(self, values: ArrayLike | Sequence[Node] | Sequence[Sequence[Node]]) -> FloatArray:
         """Return numbers of the program as an array of traced ones."""
         given = np.asarray(values, object)
@@ -182,9 +178,9 @@ class TracedMotion(OnePose):
 
     def _nodes(self, target: Reference) -> tuple[Scalar, ...]:
         """Return the nodes of a point, a vector or a quantity; the members behind it are noted."""
-        named = checked_name("Name", target, self.plan.named(), self.plan.title) if isinstance(target, str) else ""
-        member: Member = self.plan.members[named] if isinstance(target, str) else target
-        self.read |= self.plan.reaches(member.name or member)
+        plan = self.plan
+        member: Member = plan.members[checked_name("Name", target, plan.named(), plan.title)] if isinstance(target, str) else target
+        self.read |= plan.reaches(member.name or member)
         if isinstance(member, (Point, Arrow)):
             place = self._reading.at(member) if isinstance(member, Point) else self._reading.vector(member)
             return place.x, place.y

@@ -252,7 +252,7 @@ class Balance:
 
 def push_of(poses: FlatPoses, support: Support) -> FloatArray:
     """Return the direction of a support, of length one, shape (2, n)."""
-    way = support.way(poses.motion)
+    way = support.pushes_along(poses.motion)
     return poses.flattened(way.reshape((2, *(1,) * (len(poses.motion.shape) + 1 - way.ndim), *way.shape[1:])))
 
 

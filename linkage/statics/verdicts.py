@@ -40,7 +40,7 @@ def drive_remarks(judge: Judge) -> list[Remark]:
     held = {}
     for case in judge.cases:
         in_case = plan_in_case(plan, Acting(case=case))
-        held[case] = set(holders_of(in_case).taken)
+        held[case] = set(holders_of(in_case).strokes_taken)
         for tie in closed_ties(in_case):
             held[case].update(tie.run.strokes if tie.run is not None else (), in_case.reaches(tie.added) if tie.added is not None else ())
     loose = {name: [case for case, strokes in held.items() if name not in strokes] for name in plan.strokes}

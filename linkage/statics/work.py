@@ -101,7 +101,8 @@ def work_gap(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, Float
 
 def without_held(applied: AppliedLoads, holders: Holders) -> AppliedLoads:
     """Return what acts without what laws put on members that hold: what these carry in all follows from the strokes they hold."""
-    return replace(applied, thrusts=tuple(each for each in applied.thrusts if not any(same(each.member, one) for one in holders.cylinders)))
+    held = holders.every_cylinder
+    return replace(applied, thrusts=tuple(each for each in applied.thrusts if not any(same(each.member, one) for one in held)))
 
 
 def work_misses(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, FloatArray]) -> Iterator[tuple[str, FloatArray, float]]:
@@ -181,7 +182,7 @@ def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> Flo
     found = with_friction(motion, applied, acting, what)
     if found is not None:
         return found.thrusts[member_title(member)]
-    ends = (end for each in (holders.cylinders if holders.closed else line.cylinders) for end in each.ends)
+    ends = (end for each in (holders.every_cylinder if holders.closed else line.cylinders) for end in each.ends)
     poses, levers, (need, cuts) = frictionless(motion, applied, acting, rates, holders, ends, what)
     thrusts = [each.thrust(holders, member, need, cuts) for each in levers]
     if len(levers) > 1:  # another one where the first cylinders pull
@@ -216,7 +217,7 @@ def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> Fl
     found = with_friction(motion, applied, acting, what)
     if found is not None:
         return found.runs[element.name]
-    points = (*(end for each in holders.cylinders for end in each.ends), *needs(element))
+    points = (*(end for each in holders.every_cylinder for end in each.ends), *needs(element))
     poses, levers, (need, cuts) = frictionless(motion, applied, acting, rates, holders, points, what)
     units = [np.moveaxis(each.thrusts(need) if holders.lines else need, 1, 0) for each in levers]
     forces = [each.kept_force(holders.closed.index(line), list(unit), cuts) for each, unit in zip(levers, units, strict=True)]
@@ -252,7 +253,7 @@ def frictionless(
         need = np.stack(found, axis=-1) if found else np.zeros((poses.count, 0))
         return need, [by_work(poses, applied, line.stroke) for line in holders.closed]
 
-    return poses, levers, kept(motion, acting, rates, ("needs", holders.all, poses.good.tobytes()), needed)
+    return poses, levers, kept(motion, acting, rates, ("needs", holders.every_line, poses.good.tobytes()), needed)
 
 
 def kept(motion: AnyMotion, acting: Acting, rates: Rates, what: Hashable, make: Callable[[], Made]) -> Made:

@@ -257,7 +257,7 @@ class FurtherLimit:
         if self.most is not None:
             return np.broadcast_to(np.asarray(motion.value(self.most), float), motion.shape)
         own = self._margin(motion, loads.own)
-        share = (self._margin(motion, loads.beside(PROBE, motion)) - own) / PROBE
+        share = (self._margin(motion, loads.with_load(PROBE, motion)) - own) / PROBE
         return greatest_load(own, share, np.zeros(()), np.asarray(np.inf))
 
     def _margin(self, motion: Motion, acting: object) -> FloatArray:

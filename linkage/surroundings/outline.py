@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, ClassVar, Self, TypeAlias, final
+from typing import ClassVar, Self, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -49,7 +49,7 @@ class Outline(Member):
 
     kind = "outline"
     file_section = "surroundings"
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType(
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType(
         {"points": "corners", "at": "corner", "on": "carrier", "angle": "direction"}
     )
     circle: ClassVar[type[CircleOutline]]
@@ -171,7 +171,7 @@ class CircleOutline(Outline):
         return (centre + value(self.radius) * np.column_stack([np.cos(ways), np.sin(ways)]),)
 
     def __str__(self) -> str:
-        place = corner_text(self.at) if isinstance(self.at, tuple) else repr(name_of(self.at))
+        place = corner_text(self.centre) if self.centre else repr(*self.carriers)
         options = {} if self.filled else {"filled": "False"}
         return outline_text("Outline.circle", [f"at={place}", f"radius={spelled(self.radius)}"], self.on, options)
 
@@ -370,6 +370,5 @@ def corner_text(corner: Sequence[Quantity]) -> str:
 
 def outline_text(what: str, words: Sequence[str], on: Sequence[Reference], options: Mapping[str, str]) -> str:
     """Return an outline as it is written."""
-    names = [each if isinstance(each, str) else label(each) for each in on]
-    carried = [f"on={' '.join(names)!r}"] if names else []
+    carried = [f"on={' '.join(map(label, on))!r}"] if on else []
     return f"{what}({', '.join([*words, *carried, *(f'{name}={text}' for name, text in options.items())])})"

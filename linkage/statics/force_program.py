@@ -22,8 +22,7 @@ from ..motion.evaluation import grid_blocks, part_of_input
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
 from .applied import AppliedLoads
-from .equilibrium import System
-from .friction import CONTRACTS, JointFriction, PressingForces, consistent_frictions, iterated, joint_frictions, unit_friction
+from .equilibrium import CONTRACTS, JointFriction, PressingForces, System, consistent_frictions, iterated, joint_frictions, unit_friction
 from .joints import Contact, Structure
 from .poses import FlatPoses
 from .solution import PoseForces, Solution, assumed_joints, by_equations
@@ -49,19 +48,16 @@ def forces_at(poses: FlatPoses, applied: AppliedLoads, split: str = "refuse") ->
 @final
 @dataclass(frozen=True)
 class ForceProgram:
-    """The kernels of all joint forces: of the frictions in the contacts at some `places`, and of everything.
+    """The kernels of all joint forces: of the frictions in contacts, and of everything.
 
     `friction` are those of the forces that press joints with friction: the growth of their sums by all frictions, the forces, the forces
-    with their derivatives by each friction. `rows` tell where a contact's force and couple stand among the outputs; -1 for none.
+    with their derivatives by each friction. `rows` tell where a contact's force and couple stand among the outputs of the whole, -1 for
+    none; behind them come the drives' forces, the members' thrusts and the ropes' forces.
     """
 
-    places: tuple[int, ...]
     friction: tuple[Kernel, Kernel, Kernel] | None
     whole: Kernel
     rows: tuple[tuple[int, int], ...]
-    drives: tuple[str, ...]
-    struts: tuple[str, ...]
-    runs: tuple[str, ...]
 
 
 # Made once: traced, eliminated, as kernels.
@@ -115,8 +111,7 @@ def traced_program(plan: Plan, applied: AppliedLoads, places: tuple[int, ...]) -
     nodes += [motion.node(solution.value(system.run(k))[0]) for k in range(len(structure.holders.reeved))]
     guards = [*motion.notes.assumed, *(motion.node(each[0]) for each in assumed_joints(structure, poses))]
     kernels = friction_kernels(system, u, contacts, inputs, motion, guards) if places else None
-    names = tuple(strut.name for strut in structure.struts)
-    return ForceProgram(places, kernels, Kernel(nodes, guards), tuple(rows), tuple(plan.strokes), names, tuple(structure.holders.reeved))
+    return ForceProgram(kernels, Kernel(nodes, guards), tuple(rows))
 
 
 def input_name(*parts: object) -> str:
@@ -154,9 +149,9 @@ def run_at(
 ) -> PoseForces | None:
     """Return the forces by the kernels; None where an assumption of a law fails or a pose that should has no value."""
     size, q, locked = motion._grid.size, np.zeros((0, poses.count)), np.zeros(poses.count, bool)
-    loads = {input_name("load", place, axis): each.force[k] for place, each in enumerate(applied.loads) for k, axis in enumerate("xy")}
-    thrusts = {input_name("thrust", place): each.thrust for place, each in enumerate(applied.thrusts)}
-    inputs = motion._grid.flat | {name: np.broadcast_to(each, motion.shape).reshape(size) for name, each in (loads | thrusts).items()}
+    acts = {input_name("load", place, axis): each.force[k] for place, each in enumerate(applied.loads) for k, axis in enumerate("xy")}
+    acts |= {input_name("thrust", place): each.thrust for place, each in enumerate(applied.thrusts)}
+    inputs = motion._grid.flat | {name: np.broadcast_to(each, motion.shape).reshape(size) for name, each in acts.items()}
     if program.friction is not None:
         try:
             q, locked = frictions_at(motion, program, poses, frictions, inputs)
@@ -172,17 +167,12 @@ def run_at(
         return None
     if not whole:
         values = np.where(good, values, np.nan)
-    last = [len(program.runs)]
-    last += [last[0] + len(program.struts), last[0] + len(program.struts) + len(program.drives)]
-    runs, struts, drives = (values[len(values) - each :] for each in last)
+    names = [list(structure.plan.strokes), [each.name for each in structure.struts], list(structure.holders.reeved)]
+    behind = iter(values[len(values) - sum(map(len, names)) :])
+    drives, thrusts, runs = (dict(zip(some, behind, strict=False)) for some in names)
     none = np.broadcast_to(np.zeros(()), (2, *motion.shape))
-    return PoseForces(
-        structure, poses, applied, frictions, q, locked,
-        [(none if at < 0 else values[at : at + 2], none[0] if turn < 0 else values[turn]) for at, turn in program.rows],
-        dict(zip(program.drives, drives, strict=False)),
-        dict(zip(program.struts, struts, strict=False)),
-        dict(zip(program.runs, runs, strict=True)),
-    )  # fmt: skip
+    contacts = [(none if at < 0 else values[at : at + 2], none[0] if turn < 0 else values[turn]) for at, turn in program.rows]
+    return PoseForces(structure, poses, applied, frictions, q, locked, contacts, drives, thrusts, runs)
 
 
 def frictions_at(

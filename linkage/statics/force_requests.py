@@ -17,13 +17,12 @@ from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
 from ..vectors import Scalar
-from .held import held_in_case
 from .holding import holders_of
 from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
 from .law_requests import LawInPlan, LawRequest, TracedLaw, case_words, law_in_plan, situation_identity
 from .poses import AnyMotion, FlatPoses
-from .solution import Solution, assumed_joints
+from .solution import Solution, assumed_joints, held_in_case
 from .traced_loads import TracedMotion, eliminated_forces, traced_loads
 from .work import by_work, stroke_force, without_held
 

@@ -22,10 +22,9 @@ from ..shown import Shown
 from ..units import kN, show
 from .applied import applied_loads, rates_in
 from .force_program import forces_at
-from .held import held_in_case
 from .joints import FRAME, FRAME_NAME, Structure, acting_place, force_direction
 from .poses import FlatPoses
-from .solution import PoseForces, check_joints, locked_words
+from .solution import PoseForces, check_joints, held_in_case, locked_words
 from .vehicle import ground_loads, standing_if_any, tipping_words
 from .work import by_work, poses_held, without_held, without_work, work_gap
 

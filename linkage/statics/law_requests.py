@@ -16,8 +16,8 @@ from ..motion.requests import identity_of
 from ..plan import Mask, Plan
 from ..program import FloatArray, Node, Notes
 from .applied import motion_in_case, plan_in_case
-from .held import held_in_case, refuse_loose
 from .poses import AnyMotion
+from .solution import held_in_case, refuse_loose
 from .traced_loads import TracedMotion, traced_apart
 
 TracedLaw: TypeAlias = tuple[TracedMotion, Node]

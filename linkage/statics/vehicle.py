@@ -31,12 +31,11 @@ from ..quantities import name_of, real
 from ..units import show
 from ..verdict import Verdict
 from .applied import applied_loads, elements_of, rates_in
-from .held import held_in_case
 from .holding import refused_where, where_negative
 from .joints import Wrench, frame_points
 from .law_requests import LawRequest, request_text, situation_identity
 from .poses import AnyMotion, FlatPoses, cross
-from .solution import Equilibrium, check_joints, locked_words, system_with_friction
+from .solution import Equilibrium, check_joints, held_in_case, locked_words, system_with_friction
 from .traced_loads import TracedMotion, traced_loads
 from .work import by_work
 

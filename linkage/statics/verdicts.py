@@ -11,8 +11,8 @@ from ..units import show
 from ..verdict import Remark, Verdict
 from .applied import plan_in_case
 from .force_requests import drive_force
-from .held import held_fault
 from .holding import closed_ties, holders_of
+from .solution import held_fault
 
 
 def held_verdict(judge: Judge) -> Verdict | None:

@@ -20,11 +20,10 @@ from ..program import FloatArray, is_traced
 from ..quantities import needs
 from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
-from .held import held_in_case
 from .holding import Holders, Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
 from .law_requests import is_unchanging, situation_identity
 from .poses import AnyMotion, FlatPoses, plan_of
-from .solution import AGREES, LEAST, PoseForces, disagreeing, locked_words
+from .solution import AGREES, LEAST, PoseForces, disagreeing, held_in_case, locked_words
 from .traced_loads import TracedMotion, refuse_friction, traced_loads
 
 Made = TypeVar("Made")

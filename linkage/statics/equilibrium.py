@@ -57,7 +57,7 @@ class LinearForm:
 @final
 @dataclass(frozen=True)
 class System:
-    """The equations of one structure at its poses. `frictions` are unit wrenches of friction; `length` a scale [m], if given.
+    """The equations of one structure at its poses. `length` is a scale [m], if given.
 
     `pushed` says where ropes would have to push (n,), so that those which draw back pull, by their names.
     """
@@ -65,7 +65,7 @@ class System:
     structure: Structure
     poses: FlatPoses
     loads: tuple[Load, ...]
-    frictions: Sequence[UnitWrench] = ()
+    frictions: Sequence[JointFriction] = ()
     length: float = 0.0
     pushed: Mapping[str, Mask] = field(default_factory=dict)
 
@@ -133,7 +133,7 @@ class System:
     @cached_property
     def B(self) -> FloatArray:
         """The rows of the friction, shape (n, rows, frictions)."""
-        return self.rows_of(self.frictions, len(self.frictions))
+        return self.rows_of([each.unit for each in self.frictions], len(self.frictions))
 
     @cached_property
     def load_rows(self) -> FloatArray:
@@ -246,7 +246,7 @@ class System:
         body, arm = self.structure.body_of(strut), self.poses.at(strut.Q) - self.poses.at(strut.P)
         along = np.asarray(arm / over_zero(np.hypot(arm[0], arm[1])))
         row, friction = self.poses.zeros(self.width), self.poses.zeros(len(self.frictions))
-        for values, columns in ((row, self.unknowns), (friction, self.frictions)):
+        for values, columns in ((row, self.unknowns), (friction, [each.unit for each in self.frictions])):
             for index, column in enumerate(columns):
                 sign = float(column.contact.on == body) - float(column.contact.by == body)
                 if sign and self.structure.seat(column.contact, body) in strut.far:

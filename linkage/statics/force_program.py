@@ -93,10 +93,9 @@ def traced_program(plan: Plan, applied: AppliedLoads, places: tuple[int, ...]) -
     structure, poses = Structure(plan, acts.elements, acts.thrusts), FlatPoses(motion, "")
     inputs = [given("friction", place) for place in range(len(places))]
     contacts = [structure.contacts[index] for index in places]
-    units = tuple(unit_friction(contact, poses) for contact in contacts)
-    system, u = eliminated_forces(structure, motion, acts, units, inputs)
-    frictions = [JointFriction(unit, np.zeros(1), np.zeros(1), np.zeros(1)) for unit in units]
-    solution = Solution(system, u, motion._array([inputs]), np.zeros(1, bool), frictions)
+    frictions = [JointFriction(unit_friction(contact, poses), np.zeros(1), np.zeros(1), np.zeros(1)) for contact in contacts]
+    system, u = eliminated_forces(structure, motion, acts, frictions, inputs)
+    solution = Solution(system, u, motion._array([inputs]), np.zeros(1, bool))
     nodes: list[Node] = []
     rows = []
     for contact in structure.contacts:

@@ -150,7 +150,7 @@ class JointPart:
             system, u = eliminated_forces(Structure(motion.plan, applied.elements, applied.thrusts), motion, applied)
             for each in assumed_joints(system.structure, system.poses):
                 motion.notes.assumed.setdefault(motion.node(each[0]), "its joints")
-            kept[shared] = motion, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), [])
+            kept[shared] = motion, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool))
         motion, solution = cast(tuple[TracedMotion, Solution], kept[shared])
         contact, _, sign = self.contact(solution.system.structure)
         force, _ = solution.transmitted(contact)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import final
@@ -39,7 +39,7 @@ class PoseForces:
     structure: Structure
     poses: FlatPoses
     applied: AppliedLoads
-    frictions: list[JointFriction]
+    frictions: Sequence[JointFriction]
     q: FloatArray
     locked: Mask
     contacts: list[tuple[FloatArray, FloatArray]]
@@ -74,25 +74,25 @@ class PoseForces:
 
 def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseForces:
     """Return the forces by the equations solved on arrays."""
-    system, frictions = system_with_friction(poses, applied)
+    system = system_with_friction(poses, applied)
     structure, full = system.structure, poses.full
-    found = Equilibrium(system, frictions, split).solution()
+    found = Equilibrium(system, split).solution()
     pulls = np.zeros(poses.count, bool)
     for line in structure.holders.lines:
         if line.changes_shares:  # several cylinders, one of which works with both sides: solved again where the first pulls
             first = next(each for each in structure.struts if each.line is line)
             pulls |= found.value(system.thrust(first)) < 0.0
     if pulls.any():
-        other = Equilibrium(system, frictions, split, -1).solution()
+        other = Equilibrium(system, split, -1).solution()
         u, q = (np.where(pulls[:, None], a, b) for a, b in ((other.u, found.u), (other.q, found.q)))
-        found = Solution(system, u, q, np.where(pulls, other.locked, found.locked), frictions)
+        found = Solution(system, u, q, np.where(pulls, other.locked, found.locked))
     ropes = structure.holders.reeved
     pushed = {name: found.value(system.run(k)) > 0.0 for k, (name, run) in enumerate(ropes.items()) if run.back}
     if any(each.any() for each in pushed.values()):
         system = replace(system, pushed=pushed)
-        found = Equilibrium(system, frictions, split).solution()
+        found = Equilibrium(system, split).solution()
     result = PoseForces(
-        structure, poses, applied, frictions, found.q.T, found.locked,
+        structure, poses, applied, system.frictions, found.q.T, found.locked,
         [(full(force), full(couple)) for force, couple in map(found.transmitted, structure.contacts)],
         {name: full(found.value(system.drive(name))) for name in poses.motion.strokes},
         {each.name: full(found.value(system.thrust(each))) for each in structure.struts},
@@ -102,11 +102,11 @@ def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseFor
     return result
 
 
-def system_with_friction(poses: FlatPoses, applied: AppliedLoads) -> tuple[System, list[JointFriction]]:
-    """Return the equations' system and its joints with friction."""
+def system_with_friction(poses: FlatPoses, applied: AppliedLoads) -> System:
+    """Return the equations' system with its joints with friction."""
     structure = Structure(poses.plan, applied.elements, applied.thrusts)
     frictions = joint_frictions(structure, poses, applied.frictions, applied.rates) if applied.frictions else []
-    return System(structure, poses, applied.loads, tuple(each.unit for each in frictions)), frictions
+    return System(structure, poses, applied.loads, frictions)
 
 
 @final
@@ -118,12 +118,16 @@ class Solution:
     u: FloatArray
     q: FloatArray
     locked: Mask
-    frictions: list[JointFriction]
 
     @property
     def poses(self) -> FlatPoses:
         """The poses they are at."""
         return self.system.poses
+
+    @property
+    def frictions(self) -> Sequence[JointFriction]:
+        """The joints with friction."""
+        return self.system.frictions
 
     def value(self, form: LinearForm) -> FloatArray:
         """Return a linear form of the forces, shape (n,)."""
@@ -163,7 +167,6 @@ class Equilibrium:
     """
 
     system: System
-    frictions: list[JointFriction] = field(default_factory=list)
     split: str = "refuse"
     way: int = 1
     given: tuple[tuple[LinearForm, FloatArray], ...] = ()
@@ -192,17 +195,17 @@ class Equilibrium:
 
     def solution(self) -> Solution:
         """Return the forces at which friction and joint forces agree; errors as `solve`."""
-        system, frictions, poses = self.system, self.frictions, self.system.poses
+        system, frictions, poses = self.system, self.system.frictions, self.system.poses
         found = self.solve()
         start, spread = found[:, :, 0], found[:, :, 1:]  # u = start + spread q
         if not frictions:
-            return Solution(system, start, np.zeros((poses.count, 0)), np.zeros(poses.count, bool), [])
+            return Solution(system, start, np.zeros((poses.count, 0)), np.zeros(poses.count, bool))
         parts = tuple(each.contact.presses for each in frictions)
         rows = [system.first[each.contact] + k for each, count in zip(frictions, parts, strict=True) for k in range(count)]
         by_unit, lever = np.moveaxis(spread[:, rows], 0, -1), np.ones((len(frictions), poses.count))
         pressing = PressingForces(parts, start[:, rows].T, by_unit, lever)
         forces, locked = consistent_frictions(pressing, np.stack([each.coefficient for each in frictions]))
-        return Solution(system, start + (spread * forces.T[:, None]).sum(axis=2), forces.T, locked, frictions)
+        return Solution(system, start + (spread * forces.T[:, None]).sum(axis=2), forces.T, locked)
 
     def solve(self) -> FloatArray:
         """Return the joint forces without friction and by each friction of 1 N, shape (n, columns, 1 + frictions).

@@ -21,7 +21,7 @@ from ..quantities import Angle, Distance, Member, Quantity, Reference
 from ..steps import Arrow, Point
 from ..vectors import Scalar
 from .applied import AppliedElement, AppliedLoads, Parts, applied_loads, element_parts
-from .equilibrium import System, UnitWrench
+from .equilibrium import JointFriction, System
 from .holding import Levers
 from .joints import Structure
 from .poses import AnyMotion, FlatPoses
@@ -236,11 +236,11 @@ RANK = 1e-9
 
 
 def eliminated_forces(
-    structure: Structure, motion: TracedMotion, applied: AppliedLoads, units: Sequence[UnitWrench] = (), sizes: Sequence[Node] = ()
+    structure: Structure, motion: TracedMotion, applied: AppliedLoads, frictions: Sequence[JointFriction] = (), sizes: Sequence[Node] = ()
 ) -> tuple[System, FloatArray]:
     """Return the equations of a traced pose with the joint forces that solve them, shape (1, columns).
 
-    `units` are unit wrenches of friction, `sizes` how large each is. DefinitionError where a body hangs loose or a link is redundant.
+    `sizes` are those of the frictions. DefinitionError where a body hangs loose or a link is redundant.
     """
     plan = motion.plan
     for name, run in structure.holders.reeved.items():
@@ -249,7 +249,7 @@ def eliminated_forces(
             raise UntracedError(f"{plan.title}: {what}: there are values, and no program that gives derivatives.")
     sampled = sampled_poses(plan)
     places = [motion.node(part) for point in plan.points for part in motion._nodes(point)]
-    system = System(structure, FlatPoses(motion, ""), applied.loads, units, half_extent(over_sampled(places, sampled)))
+    system = System(structure, FlatPoses(motion, ""), applied.loads, frictions, half_extent(over_sampled(places, sampled)))
     found = elimination(system, motion, sizes)
     with np.errstate(invalid="ignore"):
         pivots = None if found is None else np.min(np.abs(over_sampled(found.pivots, sampled)), axis=0, initial=np.inf)
@@ -276,8 +276,8 @@ def elimination(system: System, motion: TracedMotion, sizes: Sequence[Node]) -> 
     for place, row, value in (*joints, *system.run_entries()):
         rows[row][place] = rows[row].get(place, zero) + motion.node(value[0])
     right = [-motion.node(each) for each in system.load_rows[0]]
-    for unit, size in zip(system.frictions, sizes, strict=True):
-        for row, value in system.entries(unit):
+    for friction, size in zip(system.frictions, sizes, strict=True):
+        for row, value in system.entries(friction.unit):
             right[row] = right[row] - motion.node(value[0]) * size
     for number, (form, value) in enumerate(bound, system.starts[-1]):
         rows[number] = {place: motion.node(each) for place, each in enumerate(form.row[0])}

@@ -587,11 +587,11 @@ def balancing_reaction(motion: Motion, acting: Acting, name: str, support: Suppo
     if not applied.frictions:
         return poses.full((by_work(poses, applied, stroke) - known) / lever)
     # with friction: the reaction at which it, the joint forces and the known drive force agree
-    system, frictions = system_with_friction(poses, applied)
+    system = system_with_friction(poses, applied)
     column = np.zeros((poses.count, system.starts[-1], 1))
     for row, value in system.parts(system.structure.holder(point), Wrench(poses.at(point), push, np.zeros(poses.count))):
         column[:, row, 0] += value
-    found = Equilibrium(system, frictions, given=((system.drive(stroke), known),), supports=column).solution()
+    found = Equilibrium(system, given=((system.drive(stroke), known),), supports=column).solution()
     check_joints(system.structure, poses)
     locked_words(found, acting.movement)
     return poses.full(found.u[:, -1])

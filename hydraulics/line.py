@@ -29,7 +29,7 @@ from linkage.plan import Mask
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference
 from linkage.statics import PROBE, AnyMotion, elements_of, held_in_case, member_limits, member_thrust, plan_of, pump_thrust, same
-from linkage.statics.pull import direction_at, is_steady, pull_direction, pulling
+from linkage.statics.carried import direction_at, is_steady, pull_direction, pulling
 from linkage.units import show
 
 from .cylinder import RamSize

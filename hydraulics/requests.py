@@ -21,7 +21,7 @@ from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most
 from linkage.plan import Mask, Plan
 from linkage.quantities import Reference, distance, name_of
 from linkage.statics import AnyMotion, LawRequest, member_limits, member_thrust, plan_in_case, same
-from linkage.statics.pull import Direction, direction_words, pull_direction
+from linkage.statics.carried import Direction, direction_words, pull_direction
 
 from .inputs import Array, only_where, proper_share
 from .line import LiftLine, WayBack, Work

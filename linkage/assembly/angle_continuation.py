@@ -19,9 +19,8 @@ import numpy.typing as npt
 
 from ..plan import Plan
 from ..program import FloatArray, Kernel, Node
-from ..vectors import Numbers
+from ..vectors import Mask, Numbers
 from .groups import GroupSolution, solve_groups
-from .newton import Mask
 
 Index = npt.NDArray[np.intp]
 PIECES = 128

@@ -16,10 +16,9 @@ from ..program import ARRAYS, FloatArray, Kernel, Level, Node, ancestors, compil
 from ..program.text import GUARDED, function_text
 from ..steps import Group, Pin
 from ..units import mm
-from ..vectors import Numbers
+from ..vectors import Mask, Numbers
 from .rules import newton_ended
 
-Mask = npt.NDArray[np.bool_]
 CONVERGED = 1e-10
 ITERATIONS = 9
 PIVOT, SURE_PIVOT = 1e-6, 1e-4
@@ -356,7 +355,7 @@ class Elimination:
         return graph.pick(determinant, 0.0, -near, near)
 
 
-def pivots(values: FloatArray, filled: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
+def pivots(values: FloatArray, filled: Mask) -> list[tuple[int, int]]:
     """Return rows and columns in the order of an elimination that fills few entries, with pivots that are large for these values.
 
     Source: H. M. Markowitz, Management Science 3 (1957), 255, with thresholds.

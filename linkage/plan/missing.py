@@ -5,17 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
-from ..program import FloatArray
 from ..quantities import joined_names, spelled
 from ..steps import Guide, Point, Step
 from ..units import mm
+from ..vectors import FloatArray, Mask
 from .members import Members
 from .reading import ArrayReading
-
-Mask = npt.NDArray[np.bool_]
-
 
 #: A side so many times longer than the others was given in another unit.
 MISTAKEN = 90.0

@@ -14,11 +14,9 @@ import numpy.typing as npt
 from ..checks import require, require_number
 from ..errors import DefinitionError
 from ..frozen import read_only, refuses_changes
-from ..vectors import Scalar, pick
+from ..vectors import FloatArray, Scalar, pick
 from .member import Pick, Reference, Where
 from .quantity import Quantity, quantity, real, spelled
-
-Floats = npt.NDArray[np.float64]
 
 ROUNDING = 1e-12
 """So far beyond its ends, as a share of its length, a table still has a value."""
@@ -40,8 +38,8 @@ class Curve:
     `name` is what equations call it. Source: de Boor, "A Practical Guide to Splines", chapter IV.
     """
 
-    xs: Floats
-    ys: Floats
+    xs: FloatArray
+    ys: FloatArray
     period: float | None
     name: str
 
@@ -106,7 +104,7 @@ class Curve:
         low, high = self.ends
         return pick(low, x, pick(x, high, total, np.nan), np.nan)
 
-    def _chosen(self, x: Scalar, row: Floats, pick: Pick) -> Scalar:
+    def _chosen(self, x: Scalar, row: FloatArray, pick: Pick) -> Scalar:
         """Return the entry of a row of coefficients that belongs to x, by halving."""
 
         def between(first: int, last: int) -> Scalar:
@@ -118,14 +116,14 @@ class Curve:
         return between(0, len(row))
 
     @cached_property
-    def _pieces(self) -> Floats:
+    def _pieces(self) -> FloatArray:
         """The polynomials between the rows, by powers of the distance from the row: shape (4, rows - 1)."""
         h, rise = np.diff(self.xs), np.diff(self.ys) / np.diff(self.xs)
         bend = self._bend(h, rise)
         slope = rise - h * (2.0 * bend[:-1] + bend[1:]) / 6.0
         return np.array([self.ys[:-1], slope, bend[:-1] / 2.0, np.diff(bend) / (6.0 * h)])
 
-    def _bend(self, h: Floats, rise: Floats) -> Floats:
+    def _bend(self, h: FloatArray, rise: FloatArray) -> FloatArray:
         """Return the second derivative at every row, so that the first one is continuous."""
         count = len(h) + 1
         A, b = np.eye(count), np.zeros(count)
@@ -152,7 +150,7 @@ class Curve:
     __repr__ = __str__
 
 
-def column(what: str, given: npt.ArrayLike) -> Floats:
+def column(what: str, given: npt.ArrayLike) -> FloatArray:
     """Return one column of a table, read-only; DefinitionError for anything but finite numbers."""
     try:
         found = read_only(real(given))

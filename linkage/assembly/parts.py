@@ -221,10 +221,10 @@ def placements(parts: Parts, pin: str) -> Iterator[Step]:
             if set(guide.points) == {P, pin} and held in parts.placed:
                 yield PinSlotDyad(P, held, near=near, **labelled((P + pin, length)))
     for guide_name in guides:  # RPP
-        yield from yokes(parts, pin, guide_name)
+        yield from yoke_dyads(parts, pin, guide_name)
 
 
-def yokes(parts: Parts, pin: str, guide: str) -> Iterator[YokeDyad]:
+def yoke_dyads(parts: Parts, pin: str, guide: str) -> Iterator[YokeDyad]:
     """Yield the RPP dyads of a body that slides on a placed guide with two points while its slot holds a placed pin."""
     for name, link in parts.links.items():
         partners = [each for each in parts.loose(link) if each != pin and guide in parts.guides_of(each)]

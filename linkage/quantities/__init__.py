@@ -18,9 +18,9 @@ from .member import (
     joined_names,
     keywords,
     name_of,
+    names_behind,
     needs,
     of_kind,
-    reached,
     unnamed,
 )
 from .outputs import Angle, AtPose, Coordinate, Distance, InnerQuantity, Length, angle, distance, label, x, y

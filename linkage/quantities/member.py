@@ -299,7 +299,7 @@ def of_kind(members: Mapping[str, Member], kind: type[Kind]) -> dict[str, Kind]:
     return {name: member for name, member in members.items() if isinstance(member, kind)}
 
 
-def reached(
+def names_behind(
     starts: Iterable[str], members: Mapping[str, Member], known: Iterable[str] = (), barred: type[Member] | tuple[()] = ()
 ) -> set[str]:
     """Return the names of all that some names are built from, themselves included, as far as they are members.

@@ -297,7 +297,7 @@ class Assembler:
             if name in self.parts.pins:
                 member.drawn_at = self.parts.pins[name].drawn_at
         if isinstance(member, Link) and name in self.parts.links:
-            member = self.parts.shapes[name].said(member)
+            member = self.parts.shapes[name].settled_link(member)
         self.settled[name] = member
         self.parts.placed.add(name)
 

@@ -50,7 +50,7 @@ class Shape:
                 return derived
         return self.measured(P, Q)
 
-    def said(self, link: Link) -> Link:
+    def settled_link(self, link: Link) -> Link:
         """Return the link with its labels as they are given, the drawn lengths of cylinders among them."""
         pairs = combinations(self.points, 2) if any(not each.is_constant for each in self.labels.values()) else ()
         found = {spelling: value for spelling, value in filter(None, starmap(self.given, pairs)) if spelling in link.labels}

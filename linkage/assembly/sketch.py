@@ -92,7 +92,7 @@ class Sketch:
             return given
         return drawn - self.plan.sketch_strokes[stroke.name] + found
 
-    def turned(self, angle: Quantity, x: float, y: float) -> Quantity:
+    def counted_from_drawing(self, angle: Quantity, x: float, y: float) -> Quantity:
         """Return an angle [rad] that is counted from where the drawing has a crank, whose vector is (x, y)."""
         beside = remainder(atan2(y, x) - float(self.reading.value(angle)), 2.0 * pi)
         return angle if abs(beside) <= SAME_TURN else beside + angle
@@ -150,7 +150,7 @@ def with_measured_labels(name: str, step: Step, sketch: Callable[[], Sketch]) ->
             found.labels[label] = drawing.extended(step.labels[label], float(np.hypot(*(X - drawing.at(parent)))))
     if type(step).from_drawing == "turn":
         driven: Any = found
-        driven.angle = drawing.turned(driven.angle, *(X - drawing.at(parents[0])))
+        driven.angle = drawing.counted_from_drawing(driven.angle, *(X - drawing.at(parents[0])))
     return found
 
 

@@ -67,7 +67,7 @@ class KinematicChain:
         """Return the sliding block of some points; "" where there is none yet."""
         return next((body.name for body in self.bodies if body.kind == "block" and body.points == points), "")
 
-    def holding(self, points: Sequence[str]) -> str:
+    def body_of(self, points: Sequence[str]) -> str:
         """Return the body of some points, or of the first of them; the frame where none has it."""
         both = [body for body in self.bodies if points and set(points) <= set(body.points)]
         return next((body.name for body in (*both, *(self.at(points[0]) if points else ()))), FRAME)
@@ -134,7 +134,7 @@ def chain_of(plan: Members) -> KinematicChain:
         chain.slides.append(Pair("slide", along, line, block, strokes, joint.drives[0].quantity if joint.drives else None))
     for _, joint in plan.joints:
         if joint.kind == "crank":
-            turned = chain.holding(joint.on.points)
+            turned = chain.body_of(joint.on.points)
             chain.turns[joint.point, turned] = tuple(each for drive in joint.drives for each in driven_by(plan, drive.quantity))
     return chain
 
@@ -163,7 +163,7 @@ def guided_by(chain: KinematicChain, plan: Members, side: JointSide) -> str:
     guide = plan.guide_of(side)
     if side.role == "slider":
         return chain.block(side.points)
-    return chain.holding(side.points if guide is None else guide.points)
+    return chain.body_of(side.points if guide is None else guide.points)
 
 
 # Arms: what a driven joint moves along or about its body.
@@ -195,7 +195,7 @@ def enter_arm(chain: KinematicChain, plan: Members, name: str, points: tuple[str
     if pushed is None:
         chain.turns[joint.point, chain.add(title, "arm", (joint.point, *points))] = turned
         return
-    on = chain.holding(joint.by.points)
+    on = chain.body_of(joint.by.points)
     if any(drive.along != "t" and plan.moves(drive.quantity) for drive in joint.drives):
         on = chain.add(f"{joint.point} (carriage)", "carriage", (joint.point,))
         chain.turns[joint.point, on] = turned

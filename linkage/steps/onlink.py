@@ -61,7 +61,7 @@ class OnLink(Step):
         sense = 1.0 if self.side is None else float(self.side)
         return -sense if self.is_mirrored else sense
 
-    def turn(self, where: Where, base: Scalar) -> Turning:
+    def corner(self, where: Where, base: Scalar) -> Turning:
         """Return the cosine and sine of the angle QPX; `base` is the length of PQ [m]."""
         sense = self.sense_of_turn
         if self.QX is not UNBOUND:
@@ -75,7 +75,7 @@ class OnLink(Step):
     def place(self, where: Where) -> Vec:
         P, Q = where.at(self.P), where.at(self.Q)
         base = where.link_length(self.P, self.Q)
-        cos, sin = self.turn(where, base)
+        cos, sin = self.corner(where, base)
         scale = where.value(self.PX) / base
         return P + (Q - P).turned(cos * scale, sin * scale)
 
@@ -88,7 +88,7 @@ class OnLink(Step):
 
         def line(where: Where) -> Line:
             base = where.link_length(P, Q)
-            return Line(where.at(P), (where.at(Q) - where.at(P)).turned(*self.turn(where, base)) * (1.0 / base))
+            return Line(where.at(P), (where.at(Q) - where.at(P)).turned(*self.corner(where, base)) * (1.0 / base))
 
         drives = [Driven(self.PX, "t")]
         if self.QPX is not UNBOUND:

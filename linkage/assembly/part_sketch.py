@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..plan import ArrayReading, Part, has_no_axes
-from ..quantities import FRAME_SIDE, Axes, Member, Reference, names_behind, needs, of_kind
+from ..quantities import FRAME_SIDE, Axes, Member, Reference, needed_behind, needs, of_kind
 from ..steps import Drawn, Group, Pin
 from ..vectors import Line, Vec
 from .sketch import Place, Sketch, inputs_at, places_at
@@ -124,5 +124,5 @@ def laid_on(
 
 def all_behind(members: Mapping[str, Member], names: Iterable[str]) -> dict[str, Member]:
     """Return some members with all that they are built from."""
-    found = names_behind(names, members)
+    found = needed_behind(names, members)
     return {name: member for name, member in members.items() if name in found}

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
-from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, joined_names, names_behind, needs, of_kind
+from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, joined_names, needed_behind, needs, of_kind
 from ..steps import Point
 from .bodies import FRAME, Body
 from .members import Members, carrying_pairs, member_sides
@@ -147,7 +147,7 @@ def driven_by(plan: Members, quantity: Quantity) -> tuple[str, ...]:
 
 def strokes_alone(quantity: Quantity, members: Mapping[str, Member]) -> tuple[str, ...]:
     """Return the strokes among the members of a class that a quantity follows by itself, not through points."""
-    found = names_behind([quantity.name] if quantity.name else needs(quantity), members, barred=Point)
+    found = needed_behind([quantity.name] if quantity.name else needs(quantity), members, barred=Point)
     return tuple(name for name in of_kind(members, Stroke) if name in found)
 
 

@@ -14,7 +14,7 @@ from ..errors import DefinitionError, about, unknown
 from ..frozen import FrozenDict
 from ..language import translated
 from ..quantities import Dimension, Distance, Joint, Jointed, JointSide, Length, Stroke, Variable
-from ..quantities.member import Member, name_of, names_behind, needs, of_kind, unnamed
+from ..quantities.member import Member, name_of, needed_behind, needs, of_kind, unnamed
 from ..quantities.quantity import Function, Negative, Number, Operation, Quantity, Sum, in_degrees, signed_terms
 from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, strokes_drawn, with_bodies
 from ..units import Amount, deg, require_measure
@@ -173,7 +173,7 @@ class Members:
         names = [name for each in starts for name in ([each] if isinstance(each, str) else needs(each))]
         for name in names:
             self.member(name)
-        found = names_behind(names, self.members, within)
+        found = needed_behind(names, self.members, within)
         if not within and len(starts) == 1 and isinstance(starts[0], str):
             self._behind[starts[0]] = frozenset(found)
         return found

@@ -13,7 +13,7 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError, unknown
-from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, Where, name_of, names_behind, needs, of_kind
+from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, Where, name_of, needed_behind, needs, of_kind
 from ..steps import Group, Point, strokes_drawn
 from ..vectors import Line, Scalar, Vec
 
@@ -106,7 +106,7 @@ class Reading(Where):
 
     def behind(self, quantity: Reference) -> set[str]:
         """Return the names of all that a quantity is built from."""
-        return names_behind([quantity] if isinstance(quantity, str) else needs(quantity), self.members)
+        return needed_behind([quantity] if isinstance(quantity, str) else needs(quantity), self.members)
 
     def line(self, guide: Reference) -> Line:
         """Return a guide's line."""

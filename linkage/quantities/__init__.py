@@ -18,7 +18,7 @@ from .member import (
     joined_names,
     keywords,
     name_of,
-    names_behind,
+    needed_behind,
     needs,
     of_kind,
     unnamed,

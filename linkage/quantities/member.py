@@ -94,8 +94,7 @@ class Member:
 
     def parts(self) -> tuple[Reference, ...]:
         """Return what this member is built from, names or members: those that `expects` lists, unless it says otherwise."""
-        found = (getattr(self, attribute) for attribute, _ in self.expects)
-        return tuple(part for part in found if part is not None)
+        return tuple(getattr(self, attribute) for attribute, _ in self.expects)
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         """Return the design variables this member brings: name, default [SI], what it measures, display unit or ""."""
@@ -299,7 +298,7 @@ def of_kind(members: Mapping[str, Member], kind: type[Kind]) -> dict[str, Kind]:
     return {name: member for name, member in members.items() if isinstance(member, kind)}
 
 
-def names_behind(
+def needed_behind(
     starts: Iterable[str], members: Mapping[str, Member], known: Iterable[str] = (), barred: type[Member] | tuple[()] = ()
 ) -> set[str]:
     """Return the names of all that some names are built from, themselves included, as far as they are members.

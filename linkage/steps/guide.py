@@ -39,7 +39,7 @@ class Guide(Jointed):
 
     def parts(self) -> tuple[Reference, ...]:
         angle = () if self.angle is None or self.angle.is_constant else (self.angle,)
-        return (*super().parts(), *angle, *self.axes.parts())
+        return (*(point for point in super().parts() if point is not None), *angle, *self.axes.parts())
 
     def in_axes(self, axes: Axes) -> Self:
         return self if self.Q is not None and self.P is not None else self.renewed(axes=axes.within(self.axes))

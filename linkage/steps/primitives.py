@@ -76,12 +76,15 @@ class Axis(Arrow):
 class Turn(Arrow):
     """A vector turned by an angle [rad], then scaled to a length [m]; the length is kept where none is given."""
 
-    expects = (("base", "vector"), ("angle", "quantity"), ("scaled_to", "quantity"))
+    expects = (("base", "vector"), ("angle", "quantity"))
     radians = handed = ("angle",)
 
     def __init__(self, vector: Reference, angle: Operand, length: Operand | None = None) -> None:
         self.base, self.angle = vector, angle_given(angle, "Turn")
         self.scaled_to = None if length is None else quantity(length)
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*super().parts(), *self.lengths())
 
     def lengths(self) -> tuple[Quantity, ...]:
         return () if self.scaled_to is None else (self.scaled_to,)
